@@ -280,7 +280,7 @@ void beam_station(const Instance *instance, Arena *arena, bool planar, Expr at,
     const Expr xi = expr_div(arena, at, beam.length);
 
     for (int k = 0; k < 3; k++)
-        out->position[k] = out->angle[k] = out->bend[k] = zero;
+        out->position[k] = out->angle[k] = out->bend[k] = out->twist[k] = zero;
     for (int i = 0; i < 3 * beam.count; i++)
         out->shift[i] = out->turn[i] = zero;
     out->position[0] = at;

@@ -67,6 +67,11 @@ const CoordinateRow *instance_coords(const Instance *instance, bool planar, int 
     return row->coords;
 }
 
+bool instance_bends(const Instance *instance)
+{
+    return instance->row->deforming != NULL && instance->row->deforming->section != NULL;
+}
+
 int instance_coord_count(const Instance *instance, bool planar)
 {
     const Deforming *deforming = instance->row->deforming;

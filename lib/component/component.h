@@ -138,8 +138,9 @@ typedef struct Station { /* a frame on it */
     Expr position[3];
     Expr angle[3]; /* of turns about z, then the new y, then the newest x */
     Expr bend[3];  /* what is left of position'' in the axes of the root at q'' = 0 */
+    Expr twist[3]; /* and of angle'' */
     Expr *shift;   /* d position/d q: shapes x 3 */
-    Expr *turn;    /* d angle/d q, likewise; constants */
+    Expr *turn;    /* d angle/d q, likewise */
 } Station;
 
 /* arrays of a ShapeInertia: ROW(name, entries where there are `count` shapes) */
@@ -149,7 +150,7 @@ typedef struct Station { /* a frame on it */
     ROW(with_shift, 3 * count)                                                                     \
     ROW(with_turn, 3 * count)                                                                      \
     ROW(block, count *count)                                                                       \
-    ROW(bias, count) ROW(push, count) ROW(stress, count)
+    ROW(bias, count) ROW(push, count) ROW(stress, count) ROW(drive, count)
 /* of a load that is a sum of `powers` powers of xi, the place along the part over its length */
 #define SHAPE_ARRAYS_OF_LOAD(ROW)                                                                  \
     ROW(extent, powers) ROW(spread, 3 * powers) ROW(spread_shift, 3 * powers * count)
@@ -169,6 +170,7 @@ typedef struct ShapeInertia {
     Expr *extent;       /* what each power comes to along the part, */
     Expr *spread;       /* its first moment, powers x 3, */
     Expr *spread_shift; /* and what moves it: powers x shapes x 3 */
+    Expr *drive;        /* what else pushes on q, over the user's variables */
 } ShapeInertia;
 
 typedef enum SectionForce {
@@ -189,7 +191,8 @@ typedef struct Deforming {
                     const ShapeState *state, Station *out);
     void (*inertia)(const Instance *instance, Arena *arena, bool planar, const ShapeState *state,
                     ShapeInertia *out);
-    /* forces and moments in a section, "bending"; the name ends at its bracket */
+    /* forces and moments in a section, "bending"; the name ends at its bracket. NULL: it has no
+     * length, and no sections */
     SectionForce (*has_section)(const Instance *instance, bool planar, const char *name);
     Expr (*section)(const Instance *instance, Arena *arena, bool planar, const char *name, Expr at,
                     const ShapeState *state);
@@ -352,9 +355,10 @@ struct Instance {
     const char **terminal_names; /* "0": the datum */
     int scalar_count;
     int *scalar_edges;
-    int parts[2]; /* PLACES_PARTS: instances; -1 */
-    Expr sensed;  /* PLACES_SENSED: over the user's variables; NULL */
-    int joint;    /* instance whose coordinate it acts on; -1 */
+    int parts[2];              /* PLACES_PARTS: instances; -1 */
+    Expr sensed;               /* PLACES_SENSED: over the user's variables; NULL */
+    const struct Given *given; /* equations that no row tells (given.h); NULL */
+    int joint;                 /* instance whose coordinate it acts on; -1 */
     int joint_coordinate;
     const char *coordinate; /* its name, as in the user's expressions; NULL */
     bool on_angle;          /* that coordinate is an angle */
@@ -370,6 +374,8 @@ struct Instance {
     const char *text;  /* its statement */
 };
 
+/* whether it deforms along a length, as a beam does */
+bool instance_bends(const Instance *instance);
 /* The coordinates of its pose in this scene, its values read. */
 const CoordinateRow *instance_coords(const Instance *instance, bool planar, int *count);
 /* How many coordinates it has, those of shapes among them, and which is the i-th. */

@@ -14,6 +14,9 @@ libcore_la_SOURCES += \
   lib/model/model_draft.h \
   lib/model/model_event.c \
   lib/model/model_function.c \
+  lib/model/model_given.c \
+  lib/model/model_given.h \
+  lib/model/model_given_end.c \
   lib/model/model_history.c \
   lib/model/model_history.h \
   lib/model/model_impl.h \

@@ -662,6 +662,8 @@ Measure variable_measure(const State *state, const Instance *own, const char *na
     text_free(&resolved);
     if (thing != NULL && thing->kind != THING_DEFINITION) {
         part = state->parts.at[thing->index];
+        if (part->given != NULL) /* equations of any units hold it */
+            return out;
         if (thing->kind == THING_COORDINATE || part->coord_count == 1)
             out = measure_of_unit(
                 units[part->coord_kind[thing->kind == THING_COORDINATE ? thing->coordinate : 0]]);

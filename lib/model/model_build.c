@@ -356,7 +356,7 @@ static void add_terminals(PartDraft *draft)
     }
 }
 
-static void commit(PartDraft *draft, const char *text)
+void part_draft_commit(PartDraft *draft, const char *text)
 {
     State *state = draft->state;
     Instance *part = draft->part;
@@ -388,7 +388,7 @@ static Status check_scene(const State *state, const Component *row, Place place,
     return E_VALUE;
 }
 
-static Instance *new_part(State *state, const Component *row, bool is_virtual)
+Instance *part_new(State *state, const Component *row, bool is_virtual)
 {
     Instance *part = pool_alloc(state->pool, sizeof *part);
 
@@ -410,7 +410,7 @@ Status apply_component(State **state, const Statement *statement, Outcome *outco
     char *text = NULL;
     Status status = OK;
 
-    draft.part = new_part(*state, row, statement->is_virtual);
+    draft.part = part_new(*state, row, statement->is_virtual);
     draft.scope = (Scope){.state = *state,
                           .kind = row->family == FAMILY_DRIVER ? SCOPE_DRIVE : SCOPE_NUMBER,
                           .own = draft.part};
@@ -426,7 +426,7 @@ Status apply_component(State **state, const Statement *statement, Outcome *outco
     CHECK(part_check(draft.state, draft.part, &outcome->remarks, diag));
 
     text = statement_full_text(statement);
-    commit(&draft, text);
+    part_draft_commit(&draft, text);
     outcome->effect = EFFECT_EQUATIONS;
 done:
     if (status != OK)

@@ -54,7 +54,7 @@ static Status check_station(State *state, const Instance *arm, const Value *at, 
     const Instance *beam = maker_of(state, arm->tail);
     Status status = OK;
 
-    if (beam == NULL || beam->row->deforming == NULL) {
+    if (beam == NULL || !instance_bends(beam)) {
         status =
             diag_set(diag, E_VALUE,
                      "%s doesn't start from the root of a beam, so at= has no meaning", arm->name);
@@ -80,7 +80,10 @@ static Status check_arm(State *state, const Instance *arm, Diag *diag)
 {
     const int at = component_param(arm->row, "at");
 
-    return arm->row->family == FAMILY_ARM && at >= 0 && arm->values[at].given
+    const Instance *on = at >= 0 && arm->values[at].given ? maker_of(state, arm->tail) : NULL;
+
+    return arm->row->family == FAMILY_ARM && at >= 0 && arm->values[at].given &&
+                   (on == NULL || on->given == NULL) /* a frame that equations move */
                ? check_station(state, arm, &arm->values[at], diag)
                : OK;
 }

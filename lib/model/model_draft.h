@@ -15,6 +15,10 @@ typedef struct PartDraft {
     Diag *diag;
 } PartDraft;
 
+/* a part of that row, not yet of the state; its values are to come */
+Instance *part_new(State *state, const Component *row, bool is_virtual);
+/* Make it one of the state, with its nodes and edges, its values read. */
+void part_draft_commit(PartDraft *draft, const char *text);
 /* the name of the part, then what it connects (model_terminals.c) */
 MUST_USE Status part_draft_read_name(PartDraft *draft);
 MUST_USE Status part_draft_read_terminals(PartDraft *draft);

@@ -249,7 +249,7 @@ static const Instance *bent_part(const State *state, const char *text, const cha
     static const char *const members[] = {"u", "v", "w", "phi"};
     const Instance *part = state_owner(state, text, member);
 
-    if (part == NULL || part->row->deforming == NULL)
+    if (part == NULL || !instance_bends(part))
         return NULL;
     for (int i = 0; i < (state->planar ? 2 : COUNT(members)); i++)
         if (strcmp(*member, members[i]) == 0)

@@ -447,6 +447,23 @@ void subsystem_forget_places(State *state, int use);
 /* Refuse ports that nothing inside knows. */
 MUST_USE Status subsystem_check_ports(const State *state, int use, Place place, Diag *diag);
 
+/* `unknown`, `internal` or `give` */
+bool verb_gives(const Statement *statement);
+/* What stands for an effort at a port where equations are given: ".fx" of a frame, "_source.i" of a
+ * terminal; `rest` is what follows the port's name. NULL: it is no effort. */
+const char *given_effort(const Port *port, const char *rest);
+/* Equations in the place of parts (model_given.c). Of a definition's lines, before they are
+ * applied: which unknowns move frames. */
+void given_begin(State *state, int use, const char *body);
+/* Refuse parts beside equations. */
+MUST_USE Status given_allows(State *state, int use, const Statement *s, Diag *diag);
+/* One of those, in the instance's names; `from` is as it was written. */
+MUST_USE Status given_add(State *state, int use, const Statement *renamed, const Statement *from,
+                          Diag *diag);
+/* All lines are there (model_given_end.c): check them, and tell the values of the parts made for
+ * them. *at_use: what is wrong stands where the instance is bound, not in a line. */
+MUST_USE Status given_end(State *state, int use, bool *at_use, Diag *diag);
+
 /* A definition that is being read (model_opened.c). */
 typedef struct Opened Opened;
 MUST_USE Status opened_begin(const State *state, const Statement *statement, Opened **out,

@@ -2,6 +2,7 @@
  *
  * A variable's own name is its coordinate's ("theta1", "m1.x"), or owner and member
  * ("h9.fx"); primes follow behind it. */
+#include "component/given.h"
 #include "language/functions.h"
 #include "language/habits.h"
 #include "model/model_impl.h"
@@ -318,6 +319,10 @@ static Status plain_resolve(const State *state, const char *path, int primes, Pl
     if (thing->kind == THING_COORDINATE) {
         text_add(name, part->coord[thing->coordinate]);
         return check_order(path, primes, 2, place, diag);
+    }
+    if (part != NULL && part->row == &component_unknown) {
+        text_add(name, path);
+        return check_order(path, primes, part->given->order, place, diag);
     }
     if (part != NULL) {
         if (part->coord_count != 1)

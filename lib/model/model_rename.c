@@ -14,6 +14,7 @@ typedef struct Renaming {
     int use;
     Pool *pool;
     const Statement *statement; /* a law's arguments hide other names */
+    bool gives;                 /* it is of equations: efforts at ports are names of the inside */
     Diag *diag;
     bool along; /* x is the place along a part */
 } Renaming;
@@ -159,6 +160,12 @@ static Status path_of_port(const Renaming *r, int port, const char *rest, const 
     const char *place = NULL;
     Text text = {0};
 
+    if (r->gives && given_effort(p, rest) != NULL) {
+        text_addf(&text, "%s%s", own_name(r, p->name), given_effort(p, rest));
+        *out = pool_text(r->pool, text.at, text.length);
+        text_free(&text);
+        return OK;
+    }
     TRY(port_place(r, port, &place));
     if (place == NULL)
         place = own_name(r, p->name);
@@ -342,6 +349,28 @@ static Status rename_use(const Renaming *r, Statement *s)
     return OK;
 }
 
+/* unknown, internal, give: of the last, the ports whose variables it tells keep their names */
+static Status rename_given(Renaming *r, Statement *s)
+{
+    r->gives = true;
+    for (int i = 0; i < s->operands.count; i++)
+        if (s->row.number == VERB_unknown)
+            rename_new(r, s->operands.at[i].value);
+        else
+            TRY(rename_in(r, s->operands.at[i].value));
+    for (int i = 0; i < s->pairs.count; i++) {
+        const char *path = s->pairs.at[i].name;
+        const char *first = pool_text(r->pool, path, strcspn(path, "."));
+        const int port = subsystem_port(use_of(r)->subsystem, first);
+        const char *place = NULL;
+
+        TRY(rename_in(r, s->pairs.at[i].value));
+        if (port >= 0 && given_effort(&use_of(r)->subsystem->ports[port], path + strlen(first)))
+            TRY(port_place(r, port, &place));
+    }
+    return OK;
+}
+
 /* what the verbs of a definition have: names and pairs of variables; of an event keys as well */
 static Status rename_verb(const Renaming *r, Statement *s)
 {
@@ -397,7 +426,7 @@ static void copy_trees(Renaming *r, const Statement *from, Statement *to)
 Status statement_rename(State *state, int use, const Statement *statement, Pool *pool,
                         Statement *out, Diag *diag)
 {
-    Renaming r = {state, use, pool, statement, diag, false};
+    Renaming r = {.state = state, .use = use, .pool = pool, .statement = statement, .diag = diag};
     Text text = {0};
     Status status = OK;
 
@@ -409,6 +438,8 @@ Status statement_rename(State *state, int use, const Statement *statement, Pool 
         CHECK(rename_component(&r, out));
     else if (strcmp(statement->verb, "use") == 0)
         CHECK(rename_use(&r, out));
+    else if (verb_gives(statement))
+        CHECK(rename_given(&r, out));
     else
         CHECK(rename_verb(&r, out));
     statement_print(&text, out);

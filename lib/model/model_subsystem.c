@@ -3,7 +3,7 @@
  * A definition is tried on an instance of its own name, whose ports are bound to anything that
  * can stand there, so that its faults are told where it is written. The instance is taken back
  * when the definition is whole: text is what stays. */
-#include "model/model_impl.h"
+#include "model/model_given.h"
 
 #include <string.h>
 
@@ -148,6 +148,7 @@ Status subsystem_begin(State *state, const Statement *statement, int *use, Diag 
                     .subsystem = subsystem,
                     .bound = pool_alloc(state->pool,
                                         sizeof(char *) * ((size_t)subsystem->port_count + 1)),
+                    .equations = pool_alloc(state->pool, sizeof(Equations)),
                     .outer = -1,
                     .line = line_add(state, subsystem->name, -1, -1, NULL),
                     .is_trial = true});

@@ -3,7 +3,7 @@
  * `use` of several is a line each, so that one can go without the others. What an instance makes
  * has lines of its own, which come and go with that one. */
 #include "language/verbs.h"
-#include "model/model_impl.h"
+#include "model/model_given.h"
 
 #include <string.h>
 
@@ -79,8 +79,8 @@ static Status value_for(const Pair *pair, int which, int count, Syntax *out, Dia
 
 static Status check_allowed(const State *state, int use, const Statement *s, Diag *diag)
 {
-    static const int allowed[] = {VERB_output, VERB_event,  VERB_init, VERB_guess,
-                                  VERB_tree,   VERB_cotree, VERB_use};
+    static const int allowed[] = {VERB_output, VERB_event, VERB_init,    VERB_guess,    VERB_tree,
+                                  VERB_cotree, VERB_use,   VERB_unknown, VERB_internal, VERB_give};
 
     if (s->kind != STATEMENT_VERB || s->row.component != NULL)
         return OK;
@@ -111,12 +111,15 @@ static Status check_new(const State *state, const Statement *renamed, const Stat
     return E_NAME;
 }
 
-static Status apply_renamed(State **state, Statement *s, Outcome *outcome, Diag *diag)
+static Status apply_renamed(State **state, Statement *s, const Statement *from, Outcome *outcome,
+                            Diag *diag)
 {
     const int pairs = s->pairs.count;
     Pair *const at = s->pairs.at;
     Status status = OK;
 
+    if (verb_gives(s))
+        return given_add(*state, (*state)->inside, s, from, diag);
     if (s->row.number == VERB_tree || s->row.number == VERB_cotree)
         return apply_tree_inside(state, s, outcome, diag);
     if (s->row.number != VERB_output)
@@ -174,11 +177,12 @@ Status use_apply(State **state, int use, const Statement *statement, Outcome *ou
         statement->operands.count > 2)
         return apply_each(state, use, statement, outcome, diag);
     pool = pool_new(0);
+    CHECK(given_allows(s, use, statement, diag));
     CHECK(statement_rename(s, use, statement, pool, &renamed, diag));
     if (statement->kind != STATEMENT_VERB)
         CHECK(check_new(s, &renamed, statement, diag));
     s->inside = use;
-    status = apply_renamed(state, &renamed, outcome, diag);
+    status = apply_renamed(state, &renamed, statement, outcome, diag);
     s->inside = outer;
 done:
     LIST_FREE(renamed.operands);
@@ -261,11 +265,35 @@ static Status apply_line(State **state, Expansion *x, const Statement *statement
     return OK;
 }
 
+/* The end of a definition that holds equations: what is wrong with a line is shown there. */
+static Status end_lines(State *state, const Expansion *x, const char *body, Diag *diag)
+{
+    bool at_use = false;
+    Diag fault = {0};
+    const Status status = given_end(state, x->use, &at_use, &fault);
+    const char *line = body;
+
+    if (status == OK)
+        return OK;
+    for (int number = 2; number < fault.place.line && *line != '\0'; number++)
+        line += strcspn(line, "\n") + (strchr(line, '\n') != NULL);
+    if (!at_use) {
+        char *text = mem_text(line, strcspn(line, "\n"));
+
+        show_inside(state, x->use, text, &fault);
+        mem_free(text);
+    }
+    if (diag != NULL)
+        *diag = fault;
+    return status;
+}
+
 static Status apply_lines(State **state, Expansion *x, const char *body, Diag *diag)
 {
-    Status status = OK;
     int number = 2; /* the first line is the definition's head */
+    Status status = OK;
 
+    given_begin(*state, x->use, body);
     for (const char *line = body; *line != '\0' && status == OK; number++) {
         const size_t length = strcspn(line, "\n");
         char *text = mem_text(line, length);
@@ -284,7 +312,7 @@ static Status apply_lines(State **state, Expansion *x, const char *body, Diag *d
         mem_free(text);
         line += length + (line[length] == '\n');
     }
-    return status;
+    return status == OK ? end_lines(*state, x, body, diag) : status;
 }
 
 Status use_apply_lines(State **state, int use, const char *body, Outcome *outcome, Diag *diag)
@@ -490,6 +518,7 @@ static Status make_instance(UseDraft *d, const Operand *operand)
         .name = state_text(state, syntax_name(operand->value)),
         .subsystem = d->subsystem,
         .bound = pool_alloc(state->pool, sizeof(char *) * ((size_t)d->subsystem->port_count + 1)),
+        .equations = pool_alloc(state->pool, sizeof(Equations)),
         .outer = state->inside};
     d->overrides =
         pool_alloc(state->pool, sizeof *d->overrides * ((size_t)d->subsystem->parameter_count + 1));

@@ -1,6 +1,7 @@
 /* info.c: everything about one name */
 #include "present/info.h"
 
+#include "component/given.h"
 #include "present/show.h"
 
 #include <string.h>
@@ -64,6 +65,13 @@ static void add_ends(Table *table, const View *view, const Instance *instance)
         table_cell(table, "couples");
         table_cellf(table, "%s %s", model_instance(view->model, instance->parts[0])->name,
                     model_instance(view->model, instance->parts[1])->name);
+    }
+    if (instance->given != NULL && instance->scalar_count > 0) {
+        char *text = expr_text(instance->given->equation);
+
+        table_cell(table, "0 =");
+        table_cell(table, text);
+        mem_free(text);
     }
     if (instance->sensed != NULL) {
         char *text = expr_text(instance->sensed);
@@ -395,6 +403,8 @@ static bool is_used(const Model *model, Expr symbol)
     for (int i = 0; i < model_count(model); i++) {
         const Instance *instance = model_instance(model, i);
 
+        if (given_depends(instance->given, symbol))
+            return true;
         for (int p = 0; p < instance->row->param_count; p++)
             for (int k = 0; k < instance->values[p].count; k++)
                 if (expr_depends(instance->values[p].at[k], symbol))
@@ -430,6 +440,21 @@ static bool is_used(const Model *model, Expr symbol)
     return false;
 }
 
+/* whether it is the port of an instance, or an unknown's own */
+static bool is_taken(const Model *model, const char *node, const int *edges, int count)
+{
+    if (count > 0 && model_edge_owner(model, edges[0])->given != NULL)
+        return true;
+    for (int u = 0; u < model_use_count(model); u++) {
+        const Use *use = model_use(model, u);
+
+        for (int p = 0; p < use->subsystem->port_count; p++)
+            if (use->bound[p] != NULL && strcmp(use->bound[p], node) == 0)
+                return true;
+    }
+    return false;
+}
+
 static void add_unused(const View *view, Text *out)
 {
     const Graph *graph = model_graph(view->model);
@@ -437,10 +462,10 @@ static void add_unused(const View *view, Text *out)
 
     for (int n = 0; n < graph_node_count(graph); n++) {
         const int *edges;
-        const bool alone = graph_edges_at(graph, n, &edges) < 2;
+        const int count = graph_edges_at(graph, n, &edges);
         const Node *node = graph_node(graph, n);
 
-        if (alone && !node->datum)
+        if (count < 2 && !node->datum && !is_taken(view->model, node->name, edges, count))
             layout_item(&frames, node->name);
     }
     for (int i = 0; i < model_parameter_count(view->model); i++) {

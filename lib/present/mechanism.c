@@ -148,7 +148,7 @@ Status mechanism_open(Mechanism *mechanism, const View *view, MechanismOptions o
         const Instance *instance = model_instance(model, i);
 
         bodies += instance->row->family == FAMILY_BODY;
-        if (instance->row->deforming != NULL) {
+        if (instance_bends(instance)) {
             LIST_PUSH(mechanism->bents, ((Bent){instance, mechanism->spots}));
             mechanism->spots += BENT_SPOTS;
         }

@@ -161,6 +161,12 @@ Status elastic_add_load(System *system, const Elastic *elastic, Loads *loads, Di
     const Frame *frame = &system->kinematics->frames[elastic->node];
     const Rotation back = rotation_transpose(&frame->zero);
 
+    for (int i = 0; i < count; i++) {
+        Expr drive;
+
+        TRY(variables_resolve(system, b->drive[i], &drive, diag));
+        put_own(system, elastic, loads, i, drive, 1);
+    }
     for (int p = 0; p < elastic->load_powers; p++) {
         const Vec spread = vector_at(b->spread + (ptrdiff_t)3 * p);
         Vec load = vector_at(b->load + (ptrdiff_t)3 * p);
@@ -185,7 +191,7 @@ bool system_axis_point(System *system, const Instance *part, Expr fraction, Expr
     const Instance *own = &system->origin->instances[part->number];
     Vec at;
 
-    if (own->row->deforming == NULL)
+    if (!instance_bends(own))
         return false;
     system_touch(system);
     at = vector_at(

@@ -106,8 +106,8 @@ static void add_station(System *system, const Instance *arm, const Instance *par
     }
     for (int i = 0; i < turns_of(system); i++) {
         station->angle[i] = expr_hold(arena, station->angle[i]);
-        LIST_PUSH(k->dependents,
-                  dependent(system, first, count, station->turn + i, expr_int(arena, 0)));
+        LIST_PUSH(k->dependents, dependent(system, first, count, station->turn + i,
+                                           expr_hold(arena, station->twist[i])));
     }
 }
 

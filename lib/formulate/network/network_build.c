@@ -156,7 +156,8 @@ static void add_states(System *system)
             (void)add_state(
                 system,
                 (Unknown){.branchlike = -1, .own = k, .instance = branch->instance, .derives = -1},
-                system_keep(system, "%s.%s", owner->name, own.member));
+                system_keep(system, "%s%s%s", owner->name, own.member[0] != '\0' ? "." : "",
+                            own.member));
         }
     }
 }

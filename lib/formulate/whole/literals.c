@@ -6,6 +6,7 @@
  * and voltages of a network, which may cancel. */
 #include "formulate/whole/literals.h"
 
+#include "component/given.h"
 #include "formulate/system/constraints.h"
 #include "formulate/system/kinematics.h"
 #include "formulate/system/network.h"
@@ -218,8 +219,8 @@ static bool same_instance(const Literals *literals, const Instance *own, const I
            same_bytes(own->scalar_edges, from->scalar_edges, from->scalar_count,
                       sizeof *own->scalar_edges) &&
            same_bytes(own->parts, from->parts, COUNT(own->parts), sizeof *own->parts) &&
-           own->sensed == from->sensed && own->joint == from->joint &&
-           own->joint_coordinate == from->joint_coordinate &&
+           own->sensed == from->sensed && given_same(own->given, from->given) &&
+           own->joint == from->joint && own->joint_coordinate == from->joint_coordinate &&
            same_text(own->coordinate, from->coordinate) && own->on_angle == from->on_angle &&
            own->coord_count == from->coord_count &&
            same_texts(own->coord, from->coord, from->coord_count) && own->by == from->by &&

@@ -1,5 +1,6 @@
 /* system_build.c: a System from a scene: copied parts, variables, and the order in which it is
  * built */
+#include "component/given.h"
 #include "formulate/dynamics/cutset_equations.h"
 #include "formulate/dynamics/shapes.h"
 #include "formulate/kinematics/alike.h"
@@ -65,6 +66,7 @@ static void copy_instance(System *system, const Instance *from, Instance *to)
     *to = *from;
     to->name = system_keep(system, "%s", from->name);
     to->text = NULL;
+    to->given = given_copy(system->pool, from->given);
     if (from->coordinate != NULL)
         to->coordinate = system_keep(system, "%s", from->coordinate);
     to->terminals =
@@ -223,7 +225,7 @@ static void add_coordinate(System *system, const Instance *instance, int c)
                     .edge = instance->edge,
                     .instance = instance->number,
                     .is_angle = instance->coord_kind[c] == COORDINATE_ANGLE,
-                    .is_shape = shape >= 0,
+                    .is_shape = shape >= 0 && instance_bends(instance),
                     .unit = 1};
 
     if (own.is_shape)

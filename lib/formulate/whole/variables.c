@@ -2,6 +2,7 @@
  *
  * A name is a coordinate, an entry (lambda(1), mass(2,2)), an output, or member of a part:
  * the tables below say which members a family has and who tells them. */
+#include "component/given.h"
 #include "formulate/dynamics/efforts.h"
 #include "formulate/dynamics/reactions.h"
 #include "formulate/kinematics/coordinate.h"
@@ -292,12 +293,15 @@ static bool own_state(const System *system, const Instance *instance, const char
         return false;
     for (int k = 0; k < system->network->unknowns.count; k++) {
         const Unknown *y = &system->network->unknowns.at[k];
-        const char *dot = strrchr(expr_name(y->symbol), '.');
+        const char *own;
 
-        if (y->own >= 0 && y->instance == instance->number && strcmp(dot + 1, member) == 0) {
-            *out = y->symbol;
-            return true;
-        }
+        if (y->own < 0 || y->instance != instance->number)
+            continue;
+        own = expr_name(y->symbol) + strlen(instance->name);
+        if (strcmp(own + (*own == '.'), member) != 0)
+            continue;
+        *out = y->symbol;
+        return true;
     }
     return false;
 }
@@ -333,7 +337,7 @@ static Status scalar_variable(System *system, const Instance *instance, const ch
     if (count == 0)
         return diag_set(diag, E_MISSING, "%s.%s can't be told", instance->name, member);
     branch = scalar_branch(system, instance, which);
-    if (strcmp(name, domain_across(domain)) == 0)
+    if (name[0] == '\0' || strcmp(name, domain_across(domain)) == 0)
         return network_across(system, branch, out, diag);
     if (strcmp(name, domain_through(domain)) == 0)
         return network_through(system, branch, out, diag);
@@ -651,6 +655,18 @@ static bool find_coordinate(const System *system, const char *path, const Instan
     return true;
 }
 
+/* the highest derivative of an unknown whose equation is given: what its edge solves for */
+static const Instance *solved_for(const System *system, const char *path, int primes)
+{
+    const int number = names_find(system->origin->instance_names, path);
+    const Instance *part = number >= 0 ? &system->origin->instances[number] : NULL;
+
+    return part != NULL && part->given != NULL && part->scalar_count > 0 && primes > 0 &&
+                   primes == part->given->order
+               ? part
+               : NULL;
+}
+
 Status system_variable(System *system, const char *path, int primes, Expr *out, Diag *diag)
 {
     system_touch(system);
@@ -661,6 +677,9 @@ Status system_variable(System *system, const char *path, int primes, Expr *out, 
 
     if (find_coordinate(system, path, &owner, &which))
         return coordinate_value(system, owner, which, primes, out, diag);
+    owner = solved_for(system, path, primes);
+    if (owner != NULL)
+        return network_across(system, scalar_branch(system, owner, 0), out, diag);
     CHECK(entry_variable(system, path, &found, out, diag));
     if (!found && strcmp(path, "model.dof") == 0) {
         CHECK(free_speeds(system, out, diag));

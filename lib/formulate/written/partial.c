@@ -94,9 +94,13 @@ void chain_motion(const System *system, int chain, Vec *w, Vec *alpha)
     *w = vec_express(system, *w, turn->parent, chain);
     *alpha = vec_express(system, *alpha, turn->parent, chain);
     spin = vec_zero(arena);
-    for (int j = turn->speed; j < turn->speed + turn->speed_count; j++)
-        spin = vec_add(arena, spin,
-                       vec_scale(arena, speed_rate(system, j), speed_axis(system, j, chain)));
+    for (int j = turn->speed; j < turn->speed + turn->speed_count; j++) {
+        const Vec axis = speed_axis(system, j, chain);
+
+        spin = vec_add(arena, spin, vec_scale(arena, speed_rate(system, j), axis));
+        *alpha =
+            vec_add(arena, *alpha, vec_scale(arena, speed_acceleration(system, j, NULL), axis));
+    }
     *alpha = vec_add(arena, *alpha, vec_cross(arena, *w, spin));
     *w = vec_add(arena, *w, spin);
 }

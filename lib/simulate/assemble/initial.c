@@ -194,6 +194,18 @@ static Status check_angles(const Assembly *a, Diag *diag)
     return status;
 }
 
+/* Coordinates that are told or guessed and place no frame begin there. */
+static void begin_others(Assembly *a)
+{
+    for (int i = 0; i < a->given_count; i++) {
+        const GivenValue *given = &a->given[i];
+
+        if (given->level == LEVEL_POSITION && given->place >= 0 && !given->is_own &&
+            given->stand.kind == STANDS_NOT)
+            a->y[given->place] = given->target;
+    }
+}
+
 static Status find_position(Assembly *a, bool closed, Diag *diag)
 {
     const Layout *l = a->l;
@@ -206,6 +218,7 @@ static Status find_position(Assembly *a, bool closed, Diag *diag)
     for (int i = 0; i < p.count; i++)
         if (p.picked[i]->column >= 0)
             held[p.picked[i]->column] = true;
+    begin_others(a);
     memcpy(begun, a->y, (size_t)l->n * sizeof(double));
     CHECK(pull(a, diag));
     for (int i = 0; i < p.count; i++)

@@ -77,6 +77,23 @@ static int datum_of(const Graph *graph)
     return node;
 }
 
+/* Frames that stand on what deforms without a length, and what hangs on them. */
+static void find_moved(Skeleton *s)
+{
+    int count;
+    const Tree *tree = system_tree(s->system, TREE_ROTATION);
+    const int *nodes = tree_nodes(tree, &count);
+
+    s->is_moved = NEW_ARRAY(bool, s->node_count);
+    for (int i = 1; i < count; i++) {
+        const Link *link = &s->links[s->link_at[tree_parent_edge(tree, nodes[i])]];
+
+        s->is_moved[nodes[i]] =
+            s->is_moved[tree_parent(tree, nodes[i])] ||
+            (link->instance->row->deforming != NULL && !instance_bends(link->instance));
+    }
+}
+
 Skeleton *skeleton_new(const Layout *layout, Parameters *parameters)
 {
     const System *system = layout->system;
@@ -98,6 +115,7 @@ Skeleton *skeleton_new(const Layout *layout, Parameters *parameters)
         s->link_at[instance->edge] = s->link_count;
         make_link(system, parameters, instance, &s->links[s->link_count++]);
     }
+    find_moved(s);
     s->frame = free_link(system_is_planar(system), s->datum);
     return s;
 }
@@ -106,7 +124,7 @@ void skeleton_free(Skeleton *s)
 {
     if (s == NULL)
         return;
-    MEM_FREE(s->links, s->link_at, s);
+    MEM_FREE(s->links, s->link_at, s->is_moved, s);
 }
 
 /* --- from coordinates to poses --- */

@@ -46,8 +46,9 @@ typedef struct Skeleton {
     int node_count, datum;
     int link_count;
     Link *links;
-    int *link_at; /* number of the link of an edge that has one */
-    Link frame;   /* a frame against the datum: x y z, Euler parameters; in a plane x y, an angle */
+    bool *is_moved; /* nodes that a block moves: what turns them is no link's coordinate */
+    int *link_at;   /* number of the link of an edge that has one */
+    Link frame; /* a frame against the datum: x y z, Euler parameters; in a plane x y, an angle */
 } Skeleton;
 
 /* New; NULL where there is nothing mechanical. */

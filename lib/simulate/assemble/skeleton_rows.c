@@ -222,7 +222,7 @@ static Reversal find_reversal(const Skeleton *s, const Pose *poses)
         double size = 0;
         int count;
 
-        if (!link->holds)
+        if (!link->holds || s->is_moved[link->tail] || s->is_moved[link->head])
             continue;
         pose_between(&poses[link->tail], &poses[link->head], &relative);
         count = link_turn_rows(link, &relative, rows);

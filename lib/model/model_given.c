@@ -1,0 +1,527 @@
+/* model_given.c: subsystems that hold equations in the place of parts
+ *
+ * What moves frames becomes a block, mass q'' = force: the coefficients of the efforts at these
+ * frames have to be the transposed Jacobian of their motion, or the ports would make power of
+ * nothing. Every other unknown becomes a part of its own in the network. `unknown` and `give` make
+ * parts, so that their names are there; what these hold is told when all lines are read
+ * (model_given_end.c). */
+#include "model/model_given.h"
+#include "component/component_rows.h"
+#include "language/verbs.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+const char *const given_motions[GIVEN_POSE] = {"x", "y", "z", "theta"};
+const char *const given_efforts[GIVEN_EFFORTS] = {"fx", "fy", "fz", "tx", "ty", "tz"};
+
+bool verb_gives(const Statement *s)
+{
+    return s->kind == STATEMENT_VERB && s->row.component == NULL &&
+           (s->row.number == VERB_unknown || s->row.number == VERB_internal ||
+            s->row.number == VERB_give);
+}
+
+static int find_word(const char *const *words, int count, const char *word)
+{
+    for (int i = 0; i < count; i++)
+        if (strcmp(words[i], word) == 0)
+            return i;
+    return -1;
+}
+
+const char *given_effort(const Port *port, const char *rest)
+{
+    if (rest[0] != '.')
+        return NULL;
+    if (port->is_frame)
+        return find_word(given_efforts, GIVEN_EFFORTS, rest + 1) >= 0 ? rest : NULL;
+    return strcmp(rest, ".i") == 0 ? "_source.i" : NULL;
+}
+
+/* --- which unknowns move frames: before a line is applied --- */
+
+typedef LIST(Statement *) Statements;
+
+static Statements read_lines(const char *body)
+{
+    Statements out = {0};
+
+    if (strstr(body, "unknown") == NULL)
+        return out;
+    for (const char *line = body; *line != '\0';) {
+        const size_t length = strcspn(line, "\n");
+        char *text = mem_text(line, length);
+        Statement *s = NULL;
+        size_t next = 0;
+
+        if (statement_parse(text, 1, (SyntaxOptions){false}, &next, &s, NULL) == OK &&
+            verb_gives(s))
+            LIST_PUSH(out, s);
+        else
+            statement_free(s);
+        mem_free(text);
+        line += length + (line[length] == '\n');
+    }
+    return out;
+}
+
+/* whether the tree holds the variable with so many primes at least */
+static bool holds(const Syntax *syntax, const char *name, int primes)
+{
+    if (syntax->kind == SYNTAX_VARIABLE && strcmp(syntax->text, name) == 0)
+        return syntax->primes >= primes;
+    for (int i = 0; i < syntax->count; i++)
+        if (holds(syntax->args[i], name, primes))
+            return true;
+    return false;
+}
+
+/* of `P.x`: the port, and which motion; -1: something else */
+static int motion_given(const Subsystem *subsystem, const char *path, int *port)
+{
+    const size_t length = strcspn(path, ".");
+    char *first = mem_text(path, length);
+
+    *port = subsystem_port(subsystem, first);
+    mem_free(first);
+    return *port >= 0 && subsystem->ports[*port].is_frame && path[length] == '.'
+               ? find_word(given_motions, GIVEN_POSE, path + length + 1)
+               : -1;
+}
+
+typedef struct Scan {
+    const Subsystem *subsystem;
+    Statements lines;
+    LIST(const char *) names; /* of unknowns */
+    bool *moves;
+    bool *frames; /* by port: its motion is given */
+} Scan;
+
+static bool mark_all(Scan *scan, const Syntax *syntax, int primes)
+{
+    bool more = false;
+
+    for (int k = 0; k < scan->names.count; k++) {
+        more = more || (!scan->moves[k] && holds(syntax, scan->names.at[k], primes));
+        scan->moves[k] = scan->moves[k] || holds(syntax, scan->names.at[k], primes);
+    }
+    return more;
+}
+
+/* What stands in a frame's motion moves it, and what accelerates in one equation with that. */
+static void mark_moving(Scan *scan)
+{
+    bool more = true;
+    int port;
+
+    for (int i = 0; i < scan->lines.count; i++)
+        for (int p = 0; p < scan->lines.at[i]->pairs.count; p++)
+            if (motion_given(scan->subsystem, scan->lines.at[i]->pairs.at[p].name, &port) >= 0) {
+                (void)mark_all(scan, scan->lines.at[i]->pairs.at[p].value, 0);
+                scan->frames[port] = true;
+            }
+    while (more) {
+        more = false;
+        for (int i = 0; i < scan->lines.count; i++) {
+            const Statement *s = scan->lines.at[i];
+            bool moves = false;
+
+            for (int k = 0; k < scan->names.count && s->row.number == VERB_internal; k++)
+                moves = moves ||
+                        (scan->moves[k] && holds(s->operands.at[0].value, scan->names.at[k], 2));
+            more = (moves && mark_all(scan, s->operands.at[0].value, 2)) || more;
+        }
+    }
+}
+
+const char *given_name(State *state, const Use *use, const char *name)
+{
+    Text text = {0};
+    const char *own;
+
+    text_addf(&text, "%s.%s", use->name, name);
+    own = state_text(state, text.at);
+    text_free(&text);
+    return own;
+}
+
+void given_begin(State *state, int use, const char *body)
+{
+    Equations *equations = state->uses.at[use].equations;
+    Scan scan = {.subsystem = state->uses.at[use].subsystem, .lines = read_lines(body)};
+    const int ports = scan.subsystem->port_count;
+
+    for (int i = 0; i < scan.lines.count; i++)
+        for (int k = 0;
+             scan.lines.at[i]->row.number == VERB_unknown && k < scan.lines.at[i]->operands.count;
+             k++)
+            LIST_PUSH(scan.names, scan.lines.at[i]->operands.at[k].value->text);
+    scan.moves = NEW_ARRAY(bool, scan.names.count + 1);
+    scan.frames = NEW_ARRAY(bool, ports + 1);
+    mark_moving(&scan);
+    pool_keep(state->pool, equations, sizeof *equations);
+    equations->moving = pool_alloc(state->pool, sizeof(char *) * ((size_t)scan.names.count + 1));
+    equations->frames = pool_alloc(state->pool, sizeof(int) * ((size_t)ports + 1));
+    for (int k = 0; k < scan.names.count; k++)
+        if (scan.moves[k])
+            equations->moving[equations->moving_count++] =
+                given_name(state, &state->uses.at[use], scan.names.at[k]);
+    for (int p = 0; p < ports; p++)
+        if (scan.frames[p])
+            equations->frames[equations->frame_count++] = p;
+    for (int i = 0; i < scan.lines.count; i++)
+        statement_free(scan.lines.at[i]);
+    LIST_FREE(scan.lines);
+    LIST_FREE(scan.names);
+    MEM_FREE(scan.moves, scan.frames);
+}
+
+/* --- parts --- */
+
+static Given *new_given(State *state, int count, int frames)
+{
+    Given *given = pool_alloc(state->pool, sizeof *given);
+    const Expr zero = expr_int(state->arena, 0);
+    const struct {
+        Expr **at;
+        int count;
+    } lists[] = {
+        {&given->mass, count * count}, {&given->force, count}, {&given->pose, frames * GIVEN_POSE}};
+
+    *given = (Given){.count = count, .frame_count = frames, .equation = zero, .order = 2};
+    for (int k = 0; k < COUNT(lists); k++) {
+        *lists[k].at = pool_alloc(state->pool, sizeof(Expr) * ((size_t)lists[k].count + 1));
+        for (int i = 0; i < lists[k].count; i++)
+            (*lists[k].at)[i] = zero;
+    }
+    return given;
+}
+
+/* values that are nothing yet */
+static void clear_values(State *state, Instance *part)
+{
+    for (int k = 0; k < part->row->param_count; k++) {
+        const Param *param = &part->row->params[k];
+        Value *value = &part->values[k];
+
+        if (param->fallback != NULL) {
+            param_fallback(state, param, value);
+            continue;
+        }
+        value->count = param->kind == PARAM_LAWS || !state->planar ? 3 : 1;
+        for (int i = 0; i < value->count; i++)
+            value->at[i] = expr_int(state->arena, 0);
+    }
+}
+
+/* A part of the inside between mechanical nodes (-1: its own) or on a terminal and the datum. */
+static Instance *add_part(State *state, const Component *row, const char *name, int tail, int head,
+                          const char *terminal)
+{
+    const char *terminals[] = {terminal, "0"};
+    PartDraft draft = {.state = state, .part = part_new(state, row, false)};
+
+    draft.part->name = state_text(state, name);
+    draft.part->tail = tail;
+    draft.part->head = head;
+    clear_values(state, draft.part);
+    if (terminal != NULL) {
+        (void)state_terminal(state, "0", row->domain);
+        draft.terminals = terminals;
+    }
+    part_draft_commit(&draft, row->name);
+    return draft.part;
+}
+
+static Instance *add_unknown(State *state, const char *name)
+{
+    Text terminal = {0};
+    Instance *part;
+
+    text_addf(&terminal, "%s.node", name);
+    part = add_part(state, &component_unknown, name, -1, -1, terminal.at);
+    part->given = new_given(state, 0, 0);
+    text_free(&terminal);
+    return part;
+}
+
+static void add_frame(State *state, const Use *use, int port, int tail, int number)
+{
+    const char *name = given_name(state, use, use->subsystem->ports[port].name);
+    const Instance *arm = add_part(state, &component_arm, name, tail, -1, NULL);
+    Value *at = &arm->values[component_param(arm->row, "at")];
+
+    at->given = true;
+    at->at[0] = expr_int(state->arena, number);
+}
+
+/* the block and its coordinates, then the frames that it moves */
+static void add_block(State *state, const Use *use)
+{
+    Equations *equations = use->equations;
+    const size_t count = (size_t)equations->moving_count;
+    PartDraft draft = {.state = state, .part = part_new(state, &component_block, false)};
+    Instance *block = draft.part;
+
+    block->name = given_name(state, use, "block");
+    block->given = new_given(state, (int)count, equations->frame_count);
+    block->tail = state->datum[DOMAIN_MECHANICAL];
+    block->coord_count = (int)count;
+    block->coord = pool_alloc(state->pool, sizeof *block->coord * count);
+    block->coord_kind = pool_alloc(state->pool, sizeof *block->coord_kind * count);
+    block->coord_rotation = pool_alloc(state->pool, sizeof *block->coord_rotation * count);
+    memcpy(block->coord, equations->moving, sizeof *block->coord * count);
+    part_draft_commit(&draft, "block");
+    pool_keep(state->pool, equations, sizeof *equations);
+    equations->block = block;
+    for (int f = 0; f < equations->frame_count; f++)
+        add_frame(state, use, equations->frames[f], block->head, f);
+}
+
+/* --- lines --- */
+
+static void add_equation(State *state, Equations *equations, Equation of)
+{
+    Equation *equation = pool_alloc(state->pool, sizeof *equation);
+
+    *equation = of;
+    pool_keep(state->pool, equations, sizeof *equations);
+    if (equations->last != NULL) {
+        pool_keep(state->pool, equations->last, sizeof *equations->last);
+        equations->last->next = equation;
+    } else
+        equations->first = equation;
+    equations->last = equation;
+}
+
+static Status add_unknowns(State *state, const Use *use, const Statement *s, Diag *diag)
+{
+    Equations *equations = use->equations;
+
+    for (int i = 0; i < s->operands.count; i++) {
+        const Operand *operand = &s->operands.at[i];
+        const char *name = operand->value->text;
+        const bool moves = find_word(equations->moving, equations->moving_count, name) >= 0;
+        Equation equation = {.kind = EQUATION_UNKNOWN, .place = operand->place};
+
+        if (!moves || equations->block == NULL)
+            TRY(name_is_free(state, name, operand->place, diag));
+        if (subsystem_port(use->subsystem, name + strlen(use->name) + 1) >= 0)
+            return diag_at(diag, E_NAME, operand->place, "%s is a port",
+                           name + strlen(use->name) + 1);
+        if (!moves)
+            equation.part = add_unknown(state, name);
+        else if (equations->block == NULL)
+            add_block(state, use);
+        add_equation(state, equations, equation);
+    }
+    return OK;
+}
+
+static Status given_twice(const Use *use, const Equation *equation, const Pair *pair, Diag *diag)
+{
+    const Port *port = &use->subsystem->ports[equation->port];
+
+    for (const Equation *e = use->equations->first; e != NULL; e = e->next) {
+        if (e->kind != EQUATION_GIVES || e->port != equation->port)
+            continue;
+        if (e->is_motion == equation->is_motion && e->member == equation->member)
+            return diag_at(diag, E_VALUE, pair->name_place, "%s is given twice", pair->name);
+        if (e->is_motion == equation->is_motion)
+            continue;
+        (void)diag_at(diag, E_VALUE, pair->name_place, "both motion and effort of %s are given",
+                      port->name);
+        diag_hint(diag, "a port hands out one of the two and takes the other");
+        return E_VALUE;
+    }
+    return OK;
+}
+
+/* of a terminal: what is given of it follows from through= */
+static Status terminal_given(const Port *port, const Pair *pair, const char *member, Diag *diag)
+{
+    const char *wanted = port->is_through ? "v" : "i";
+
+    if (strcmp(member, wanted) == 0)
+        return OK;
+    (void)diag_at(diag, E_VALUE, pair->name_place,
+                  port->is_through ? "%s gives its voltage, and takes the current"
+                                   : "%s takes its voltage, and gives the current",
+                  port->name);
+    diag_hint(diag,
+              port->is_through ? "give %s.v = EXPR; without through=[%s] it is the other way round"
+                               : "give %s.i = EXPR; with through=[%s] it is the other way round",
+              port->name, port->name);
+    return E_VALUE;
+}
+
+static Status read_target(const Use *use, const Pair *pair, Equation *out, Diag *diag)
+{
+    const size_t length = strcspn(pair->name, ".");
+    char *first = mem_text(pair->name, length);
+    const char *member = pair->name[length] == '.' ? pair->name + length + 1 : "";
+    const Port *port = NULL;
+    Status status = OK;
+
+    out->port = subsystem_port(use->subsystem, first);
+    mem_free(first);
+    if (out->port < 0 || pair->primes > 0) {
+        (void)diag_at(diag, E_NAME, pair->name_place, "what is given is of a port of %s",
+                      use->subsystem->name);
+        diag_hint(diag, "as in give B.x = .., B.y = .. of a frame, give e.i = .. of a terminal");
+        return E_NAME;
+    }
+    port = &use->subsystem->ports[out->port];
+    out->is_motion = port->is_frame && find_word(given_motions, GIVEN_POSE, member) >= 0;
+    if (!port->is_frame) {
+        TRY(terminal_given(port, pair, member, diag));
+        return given_twice(use, out, pair, diag);
+    }
+    out->member = out->is_motion ? find_word(given_motions, GIVEN_POSE, member)
+                                 : find_word(given_efforts, GIVEN_EFFORTS, member);
+    if (out->member >= 0)
+        return given_twice(use, out, pair, diag);
+    status = diag_at(diag, E_NAME, pair->name_place, "%s is nothing that a frame gives",
+                     member[0] != '\0' ? member : port->name);
+    diag_hint(diag, "its motion is %s.x %s.y %s.z %s.theta, its effort %s.fx .. %s.tz", port->name,
+              port->name, port->name, port->name, port->name, port->name);
+    return status;
+}
+
+static Status in_this_scene(const State *state, const Equation *e, const Pair *pair, Diag *diag)
+{
+    static const bool planar_motions[GIVEN_POSE] = {true, true, false, true};
+    static const bool planar_efforts[GIVEN_EFFORTS] = {true, true, false, false, false, true};
+    const bool *const planar = e->is_motion ? planar_motions : planar_efforts;
+
+    if (state->planar ? planar[e->member] : !e->is_motion || e->member < 3)
+        return OK;
+    (void)diag_at(diag, E_VALUE, pair->name_place, "%s is not for a %s scene", pair->name,
+                  state->planar ? "planar" : "spatial");
+    diag_hint(diag, state->planar ? "in a plane there are x, y, theta and fx, fy, tz"
+                                  : "in space a frame that is given keeps the axes of ground");
+    return E_VALUE;
+}
+
+/* What hands out an effort at a frame; NULL: the frame rests, and feels none. */
+static Instance *loading_part(State *state, const Component *row, const char *name,
+                              const char *frame)
+{
+    const Instance *there = state_part(state, name);
+    Expr pose[GIVEN_POSE];
+
+    if (there != NULL)
+        return state->parts.at[there->number];
+    if (given_rests(state, frame, pose))
+        return NULL;
+    return add_part(state, row, name, state->datum[DOMAIN_MECHANICAL],
+                    graph_find_node(state->graph, frame), NULL);
+}
+
+/* the part of what a port is given */
+static Instance *part_given(State *state, const Use *use, const Equation *e)
+{
+    const Port *port = &use->subsystem->ports[e->port];
+    const char *own = given_name(state, use, port->name);
+    const char *at = use->bound[e->port] != NULL ? use->bound[e->port] : own;
+    const bool turns = e->member >= 3;
+    Instance *part = NULL;
+    Text name = {0};
+
+    text_addf(&name, "%s_%s", own, !port->is_frame ? "source" : turns ? "torque" : "force");
+    if (!port->is_frame && !port->is_through && e->value->kind == SYNTAX_NUMBER &&
+        strtod(e->value->text, NULL) == 0)
+        (void)state_terminal(state, at, DOMAIN_ELECTRICAL); /* it only looks */
+    else if (!port->is_frame)
+        part = add_part(state, port->is_through ? &component_vsource : &component_isource, name.at,
+                        -1, -1, at);
+    else if (!e->is_motion)
+        part = loading_part(state, turns ? &component_torque : &component_force, name.at, at);
+    else if (state_part(state, own) == NULL) /* of a definition whose end isn't read */
+        add_frame(state, use, e->port, state->datum[DOMAIN_MECHANICAL], 0);
+    text_free(&name);
+    return part;
+}
+
+static Status add_given(State *state, int use, const Statement *s, const Statement *from,
+                        Diag *diag)
+{
+    for (int i = 0; i < s->pairs.count; i++) {
+        const Use *u = &state->uses.at[use];
+        Equation target = {.kind = EQUATION_GIVES};
+
+        TRY(read_target(u, &from->pairs.at[i], &target, diag));
+        if (u->subsystem->ports[target.port].is_frame)
+            TRY(in_this_scene(state, &target, &from->pairs.at[i], diag));
+        target.value = syntax_copy(state->pool, s->pairs.at[i].value);
+        target.place = from->pairs.at[i].value->place;
+        target.part = part_given(state, u, &target);
+        add_equation(state, u->equations, target);
+    }
+    return OK;
+}
+
+Status given_allows(State *state, int use, const Statement *s, Diag *diag)
+{
+    Equations *equations = state->uses.at[use].equations;
+    const bool is_part =
+        s->kind == STATEMENT_VERB && (s->row.component != NULL || s->row.number == VERB_use);
+
+    if (is_part && equations->first == NULL && !equations->has_parts) {
+        pool_keep(state->pool, equations, sizeof *equations);
+        equations->has_parts = true;
+    }
+    if (is_part ? equations->first == NULL : !verb_gives(s) || !equations->has_parts)
+        return OK;
+    (void)diag_at(diag, E_MODEL, s->verb_place, "%s holds %s before",
+                  state->uses.at[use].subsystem->name, is_part ? "equations" : "parts");
+    diag_hint(diag, "a subsystem is made of parts or of equations; two are joined at their ports");
+    return E_MODEL;
+}
+
+Status given_add(State *state, int use, const Statement *s, const Statement *from, Diag *diag)
+{
+    Equations *equations = state->uses.at[use].equations;
+
+    switch (s->row.number) {
+    case VERB_unknown:
+        return add_unknowns(state, &state->uses.at[use], s, diag);
+    case VERB_internal:
+        add_equation(state, equations,
+                     (Equation){.kind = EQUATION_INTERNAL,
+                                .value = syntax_copy(state->pool, s->operands.at[0].value),
+                                .place = from->operands.at[0].place});
+        return OK;
+    default:
+        return add_given(state, use, s, from, diag);
+    }
+}
+
+/* --- outside of a definition --- */
+
+static Status only_inside(const Statement *s, Diag *diag)
+{
+    (void)diag_at(diag, E_SYNTAX, s->verb_place, "'%s' stands in the definition of a subsystem",
+                  s->verb);
+    diag_hint(diag, "subsystem NAME frames=[..] terminals=[..] ... end");
+    return E_SYNTAX;
+}
+
+Status apply_unknown(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
+{
+    (void)state, (void)outcome;
+    return only_inside(statement, diag);
+}
+
+Status apply_internal(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
+{
+    (void)state, (void)outcome;
+    return only_inside(statement, diag);
+}
+
+Status apply_give(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
+{
+    (void)state, (void)outcome;
+    return only_inside(statement, diag);
+}

@@ -1,0 +1,706 @@
+/* model_given_end.c: given equations, all of them read, to the values of the parts made for them */
+#include "base/random.h"
+#include "model/model_given.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef LIST(Expr) Exprs;
+
+typedef struct Ending {
+    State *state;
+    const Use *use;
+    Equations *equations;
+    Scope scope;
+    NameList arguments; /* efforts at frames whose motion is given: "leg1.B.fx" */
+    Exprs rates;        /* highest derivatives of unknowns that move */
+    Exprs unknowns;     /* themselves */
+    Exprs efforts;      /* of `arguments` */
+    Exprs once;         /* rates and efforts: what equations of motion are linear in */
+    Exprs from, to;     /* variables of ports at rest, derivatives of the other unknowns */
+    bool at_use;        /* what is wrong is what the instance is bound to */
+    Diag *diag;
+} Ending;
+
+/* --- ports at rest --- */
+
+static const Instance *frame_maker(const State *state, const char *frame)
+{
+    const Instance *part = state_part(state, frame);
+
+    return part != NULL && part->row->family == FAMILY_ARM ? part : NULL;
+}
+
+/* R v + r */
+static void move(Arena *arena, const Expr R[9], const Expr *v, Expr r[3])
+{
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            r[i] = expr_add(arena, r[i], expr_mul(arena, R[3 * i + k], v[k]));
+}
+
+static void turn(Arena *arena, Expr R[9], const Expr *by)
+{
+    Expr product[9];
+
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) {
+            product[3 * i + k] = expr_int(arena, 0);
+            for (int j = 0; j < 3; j++)
+                product[3 * i + k] = expr_add(arena, product[3 * i + k],
+                                              expr_mul(arena, R[3 * i + j], by[3 * j + k]));
+        }
+    memcpy(R, product, sizeof product);
+}
+
+/* its place and turn against ground, along arms; false: something else lies between */
+static bool place_frame(const State *state, const char *frame, Expr r[3], Expr R[9])
+{
+    const Instance *arm = frame_maker(state, frame);
+
+    if (strcmp(frame, "ground") == 0) {
+        for (int i = 0; i < 9; i++)
+            R[i] = expr_int(state->arena, i % 4 == 0);
+        for (int i = 0; i < 3; i++)
+            r[i] = expr_int(state->arena, 0);
+        return true;
+    }
+    if (arm == NULL || instance_value(arm, "at")->given ||
+        !place_frame(state, graph_node(state->graph, arm->tail)->name, r, R))
+        return false;
+    move(state->arena, R, instance_value(arm, "position")->at, r);
+    turn(state->arena, R, instance_value(arm, "rotation")->at);
+    return true;
+}
+
+bool given_rests(const State *state, const char *frame, Expr pose[GIVEN_POSE])
+{
+    Expr R[9];
+
+    if (!place_frame(state, frame, pose, R))
+        return false;
+    pose[3] = expr_call2(state->arena, OP_ATAN2, R[3], R[0]);
+    return true;
+}
+
+static void put(Ending *ending, Expr from, Expr to)
+{
+    LIST_PUSH(ending->from, from);
+    LIST_PUSH(ending->to, to);
+}
+
+static Expr variable(const Ending *ending, const char *head, const char *member)
+{
+    Text name = {0};
+    Expr symbol;
+
+    text_addf(&name, "%s%s", head, member);
+    symbol = expr_symbol(ending->state->arena, name.at, SYMBOL_VARIABLE);
+    text_free(&name);
+    return symbol;
+}
+
+/* A.x and the like are numbers where A rests, and so are their rates */
+static Status rest_ports(Ending *ending)
+{
+    static const char *const resting[] = {".vx",  ".vy",      ".vz",     ".ax",     ".ay",
+                                          ".az",  ".wx",      ".wy",     ".wz",     ".x'",
+                                          ".y'",  ".z'",      ".theta'", ".x''",    ".y''",
+                                          ".z''", ".theta''", ".alphax", ".alphay", ".alphaz"};
+    static const char *const members[GIVEN_POSE] = {".x", ".y", ".z", ".theta"};
+    const Use *use = ending->use;
+
+    for (int p = 0; p < use->subsystem->port_count; p++) {
+        Expr pose[GIVEN_POSE];
+        const char *frame = use->bound[p];
+
+        if (!use->subsystem->ports[p].is_frame || frame == NULL)
+            continue;
+        if (given_rests(ending->state, frame, pose)) {
+            for (int k = 0; k < GIVEN_POSE; k++)
+                put(ending, variable(ending, frame, members[k]), pose[k]);
+            for (int k = 0; k < COUNT(resting); k++)
+                put(ending, variable(ending, frame, resting[k]), expr_int(ending->state->arena, 0));
+        } else if (ending->equations->moving_count > 0) {
+            (void)diag_set(ending->diag, E_MODEL,
+                           "%s=%s moves, and equations that move frames want %s at rest",
+                           use->subsystem->ports[p].name, frame, use->subsystem->ports[p].name);
+            diag_hint(ending->diag, "bind it to ground, or to an arm on ground");
+            return E_MODEL;
+        }
+    }
+    return OK;
+}
+
+/* --- expressions --- */
+
+static void name_efforts(Ending *ending)
+{
+    const Use *use = ending->use;
+
+    for (int f = 0; f < ending->equations->frame_count; f++)
+        for (int k = 0; k < GIVEN_EFFORTS; k++) {
+            Text name = {0};
+
+            text_addf(&name, "%s.%s.%s", use->name,
+                      use->subsystem->ports[ending->equations->frames[f]].name, given_efforts[k]);
+            LIST_PUSH(ending->arguments, state_text(ending->state, name.at));
+            LIST_PUSH(ending->efforts, expr_symbol(ending->state->arena, name.at, SYMBOL_ARGUMENT));
+            text_free(&name);
+        }
+    ending->scope.arguments = ending->arguments.at;
+    ending->scope.argument_count = ending->arguments.count;
+}
+
+static void name_moving(Ending *ending)
+{
+    for (int k = 0; k < ending->equations->moving_count; k++) {
+        LIST_PUSH(ending->unknowns, variable(ending, ending->equations->moving[k], ""));
+        LIST_PUSH(ending->rates, variable(ending, ending->equations->moving[k], "''"));
+    }
+}
+
+static Status read_all(Ending *ending)
+{
+    for (Equation *e = ending->equations->first; e != NULL; e = e->next)
+        if (e->kind != EQUATION_UNKNOWN) {
+            pool_keep(ending->state->pool, e, sizeof *e);
+            TRY(scope_expression(&ending->scope, e->value, &e->e, ending->diag));
+        }
+    return OK;
+}
+
+static bool depends_on_any(Expr e, const Exprs *symbols)
+{
+    for (int i = 0; i < symbols->count; i++)
+        if (expr_depends(e, symbols->at[i]))
+            return true;
+    return false;
+}
+
+/* the highest derivative of an unknown in the equations */
+static int order_of(const Ending *ending, const Instance *unknown)
+{
+    int order = 0;
+
+    for (const Equation *e = ending->equations->first; e != NULL; e = e->next)
+        for (int k = 1; k <= 2 && e->kind != EQUATION_UNKNOWN; k++)
+            if (k > order &&
+                expr_depends(e->e, variable(ending, unknown->name, k == 1 ? "'" : "''")))
+                order = k;
+    return order;
+}
+
+/* Names of derivatives in the equations: the last is what the network solves for, the others are
+ * states. */
+static void tell_orders(Ending *ending)
+{
+    for (Equation *e = ending->equations->first; e != NULL; e = e->next) {
+        Instance *part = e->part;
+        Given *given;
+        Expr last;
+
+        if (e->kind != EQUATION_UNKNOWN || part == NULL)
+            continue;
+        given = given_copy(ending->state->pool, part->given);
+        pool_keep(ending->state->pool, part, sizeof *part);
+        given->order = order_of(ending, part);
+        part->given = given;
+        last = variable(ending, part->name, ".v");
+        put(ending, variable(ending, part->name, "''"), last);
+        put(ending, variable(ending, part->name, "'"),
+            given->order == 2 ? variable(ending, part->name, ".rate") : last);
+        if (given->order == 0)
+            put(ending, variable(ending, part->name, ""), last);
+    }
+}
+
+static void put_variables(Ending *ending)
+{
+    for (Equation *e = ending->equations->first; e != NULL; e = e->next)
+        if (e->kind != EQUATION_UNKNOWN)
+            e->e = expr_substitute(ending->state->arena, e->e, ending->from.at, ending->to.at,
+                                   ending->from.count);
+}
+
+/* --- counts --- */
+
+static int count_kind(const Equations *equations, EquationKind kind)
+{
+    int count = 0;
+
+    for (const Equation *e = equations->first; e != NULL; e = e->next)
+        count += e->kind == kind;
+    return count;
+}
+
+static const Equation *last_of(const Equations *equations, EquationKind kind)
+{
+    const Equation *last = NULL;
+
+    for (const Equation *e = equations->first; e != NULL; e = e->next)
+        if (e->kind == kind)
+            last = e;
+    return last;
+}
+
+static Status check_counts(const Ending *ending)
+{
+    const Equations *equations = ending->equations;
+    const int unknowns = count_kind(equations, EQUATION_UNKNOWN);
+    const int internal = count_kind(equations, EQUATION_INTERNAL);
+    const Equation *there = last_of(equations, unknowns > 0 ? EQUATION_UNKNOWN : EQUATION_INTERNAL);
+
+    if (unknowns == internal)
+        return OK;
+    (void)diag_at(ending->diag, E_MODEL, there->place, "%d unknown%s and %d internal equation%s",
+                  unknowns, unknowns == 1 ? "" : "s", internal, internal == 1 ? "" : "s");
+    diag_hint(ending->diag, "one 'internal EXPR', which is 0, for each unknown");
+    return E_MODEL;
+}
+
+static bool is_told(const Equations *equations, int port, int motion)
+{
+    for (const Equation *e = equations->first; e != NULL; e = e->next)
+        if (e->kind == EQUATION_GIVES && e->port == port &&
+            (motion < 0 || (e->is_motion && e->member == motion)))
+            return true;
+    return false;
+}
+
+/* each port hands out something, and a frame that is moved all of its motion */
+static Status check_ports(const Ending *ending)
+{
+    const Subsystem *subsystem = ending->use->subsystem;
+    const Equations *equations = ending->equations;
+
+    for (int p = 0; p < subsystem->port_count; p++) {
+        const Port *port = &subsystem->ports[p];
+
+        /* a frame at rest feels no effort */
+        if (is_told(equations, p, -1) || (port->is_frame && equations->moving_count > 0))
+            continue;
+        (void)diag_at(ending->diag, E_MODEL, equations->last->place, "nothing tells what %s gives",
+                      port->name);
+        diag_hint(ending->diag,
+                  port->is_frame
+                      ? "give %s.x = .., %s.y = .., %s.theta = .. its motion, or %s.fx = .., its "
+                        "effort"
+                      : "give %s.%s = EXPR",
+                  port->name,
+                  port->is_frame     ? port->name
+                  : port->is_through ? "v"
+                                     : "i",
+                  port->name, port->name);
+        return E_MODEL;
+    }
+    for (int f = 0; f < equations->frame_count; f++)
+        for (int k = 0; k < GIVEN_POSE; k++) {
+            const bool wanted = ending->state->planar ? k != 2 : k != 3;
+            const char *name = subsystem->ports[equations->frames[f]].name;
+
+            if (!wanted || is_told(equations, equations->frames[f], k))
+                continue;
+            (void)diag_at(ending->diag, E_MODEL, equations->last->place, "%s.%s isn't given", name,
+                          given_motions[k]);
+            diag_hint(ending->diag, "of a frame that is moved all is: %s",
+                      ending->state->planar ? "x, y, theta" : "x, y, z");
+            return E_MODEL;
+        }
+    return OK;
+}
+
+/* --- identities, by numbers at random places --- */
+
+static double random_value(void *context, Expr symbol)
+{
+    const State *state = context;
+    uint64_t seed = 0;
+    double unit, own;
+
+    for (const char *c = expr_name(symbol); *c != '\0'; c++)
+        seed = seed * 131 + (unsigned char)*c;
+    seed += (uint64_t)state->number * 977; /* another place each time it is counted up */
+    unit = random_unit(&seed);
+    if (expr_symbol_kind(symbol) != SYMBOL_PARAMETER)
+        return unit;
+    own = state_number_now(state, symbol);
+    return own != 0 ? own * (1 + unit / 4) : unit / 4; /* next to what it is: of its sign */
+}
+
+enum { TRIES = 6 };
+static const double EQUAL = 1e-9; /* of the larger of two numbers: far above rounding */
+
+/* whether a and b are one function; *out: a, at the last place */
+static bool same_function(const State *state, Expr a, Expr b)
+{
+    State place = *state; /* its number alone tells places apart */
+    bool same = true;
+
+    for (int i = 0; i < TRIES && same; i++) {
+        double x, y;
+
+        place.number = i;
+        x = expr_evaluate(a, random_value, &place);
+        y = expr_evaluate(b, random_value, &place);
+        same = (isnan(x) && isnan(y)) || fabs(x - y) <= EQUAL * fmax(1, fmax(fabs(x), fabs(y)));
+    }
+    return same;
+}
+
+static bool is_negative(const State *state, Expr e)
+{
+    State place = *state;
+    bool negative = false;
+
+    for (int i = 0; i < TRIES; i++) {
+        place.number = i;
+        negative = negative || expr_evaluate(e, random_value, &place) < 0;
+    }
+    return negative;
+}
+
+/* --- what moves frames --- */
+
+/* its motion (else zero) */
+static Expr motion_of(const Ending *ending, int frame, int motion)
+{
+    for (const Equation *e = ending->equations->first; e != NULL; e = e->next)
+        if (e->kind == EQUATION_GIVES && e->is_motion && e->member == motion &&
+            e->port == ending->equations->frames[frame])
+            return e->e;
+    return expr_int(ending->state->arena, 0);
+}
+
+static Status read_pose(const Ending *ending, Given *given)
+{
+    const Equations *equations = ending->equations;
+
+    for (int f = 0; f < equations->frame_count; f++)
+        for (int k = 0; k < GIVEN_POSE; k++)
+            given->pose[f * GIVEN_POSE + k] = motion_of(ending, f, k);
+    for (const Equation *e = equations->first; e != NULL; e = e->next) {
+        Expr left = e->e;
+
+        if (e->kind != EQUATION_GIVES || !e->is_motion)
+            continue;
+        for (int k = 0; k < ending->unknowns.count; k++) {
+            const Expr one = expr_int(ending->state->arena, 1);
+
+            left = expr_substitute(ending->state->arena, left, &ending->unknowns.at[k], &one, 1);
+        }
+        if ((expr_kinds(left) & ~(1U << SYMBOL_PARAMETER)) == 0)
+            continue;
+        (void)diag_at(ending->diag, E_MODEL, e->place,
+                      "the motion of a frame follows from unknowns and parameters alone");
+        diag_hint(ending->diag, "not from rates, t or other variables; of a port A that rests "
+                                "A.x A.y A.theta");
+        return E_MODEL;
+    }
+    return OK;
+}
+
+/* What an equation is to be divided by, so that it is mass q'' - force + J^T effort = 0: by the
+ * first effort that the unknown moves. NULL: it moves none */
+static Expr scale_of(const Ending *ending, const Given *given, Expr row, int unknown)
+{
+    Arena *arena = ending->state->arena;
+
+    for (int f = 0; f < given->frame_count; f++)
+        for (int k = 0; k < GIVEN_POSE; k++) {
+            static const int works_on[GIVEN_POSE] = {0, 1, 2, 5};
+            const Expr moved =
+                expr_diff(arena, given->pose[f * GIVEN_POSE + k], ending->unknowns.at[unknown]);
+            const Expr felt =
+                expr_diff(arena, row, ending->efforts.at[f * GIVEN_EFFORTS + works_on[k]]);
+
+            if (expr_is_zero(moved))
+                continue;
+            if (expr_is_zero(felt))
+                return NULL;
+            if (same_function(ending->state, felt, moved))
+                return expr_int(arena, 1);
+            if (same_function(ending->state, felt, expr_neg(arena, moved)))
+                return expr_int(arena, -1);
+            return expr_div(arena, felt, moved);
+        }
+    return expr_int(arena, 1);
+}
+
+/* whether all efforts stand in the row as they do work on the unknown's motion */
+static bool makes_no_power(const Ending *ending, const Given *given, Expr row, Expr scale,
+                           int unknown)
+{
+    Arena *arena = ending->state->arena;
+
+    for (int f = 0; f < given->frame_count; f++)
+        for (int k = 0; k < GIVEN_EFFORTS; k++) {
+            static const int motion_of_effort[GIVEN_EFFORTS] = {0, 1, 2, -1, -1, 3};
+            const int motion = motion_of_effort[k];
+            const Expr felt = expr_diff(arena, row, ending->efforts.at[f * GIVEN_EFFORTS + k]);
+            const Expr moved = motion < 0 ? expr_int(arena, 0)
+                                          : expr_diff(arena, given->pose[f * GIVEN_POSE + motion],
+                                                      ending->unknowns.at[unknown]);
+
+            if (!same_function(ending->state, felt, expr_mul(arena, scale, moved)))
+                return false;
+        }
+    return true;
+}
+
+static Status not_the_one(const Ending *ending, const Equation *row, int unknown)
+{
+    const char *name = ending->equations->moving[unknown] + strlen(ending->use->name) + 1;
+
+    (void)diag_at(ending->diag, E_MODEL, row->place,
+                  "this isn't the equation of %s: efforts at the ports don't stand in it as they "
+                  "work on %s",
+                  name, name);
+    diag_hint(ending->diag,
+              "the factor of B.fx is that of d B.x/d %s, and so on, and equations "
+              "stand in the order of their unknowns",
+              name);
+    return E_MODEL;
+}
+
+/* it is linear in what may stand in it once only */
+static Status check_linear(const Ending *ending, const Equation *row, const Exprs *symbols,
+                           const char *what)
+{
+    for (int k = 0; k < symbols->count; k++) {
+        if (!depends_on_any(expr_diff(ending->state->arena, row->e, symbols->at[k]), symbols))
+            continue;
+        (void)diag_at(ending->diag, E_MODEL, row->place, "the equation isn't linear in %s", what);
+        diag_hint(ending->diag, "solve it for them, or make a part of it a further unknown");
+        return E_MODEL;
+    }
+    return OK;
+}
+
+static Status read_row(const Ending *ending, const Equation *row, int unknown, Given *given)
+{
+    Arena *arena = ending->state->arena;
+    const int n = given->count;
+    const Expr zero = expr_int(arena, 0);
+    Expr rest = row->e, scale;
+
+    TRY(check_linear(ending, row, &ending->once, "second derivatives and efforts"));
+    scale = scale_of(ending, given, row->e, unknown);
+    if (scale == NULL || !makes_no_power(ending, given, row->e, scale, unknown))
+        return not_the_one(ending, row, unknown);
+    for (int k = 0; k < ending->efforts.count; k++)
+        rest = expr_substitute(arena, rest, &ending->efforts.at[k], &zero, 1);
+    for (int j = 0; j < n; j++) {
+        given->mass[unknown * n + j] =
+            expr_div(arena, expr_diff(arena, rest, ending->rates.at[j]), scale);
+        rest = expr_substitute(arena, rest, &ending->rates.at[j], &zero, 1);
+    }
+    given->force[unknown] = expr_neg(arena, expr_div(arena, rest, scale));
+    return OK;
+}
+
+/* inertia: symmetric, not negative, of positions alone */
+static Status check_mass(const Ending *ending, const Given *given, const Equation *const *rows)
+{
+    const int n = given->count;
+    const State *state = ending->state;
+
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            Expr left = given->mass[i * n + j];
+            const char *name = ending->equations->moving[j] + strlen(ending->use->name) + 1;
+
+            for (int k = 0; k < n; k++) {
+                const Expr one = expr_int(state->arena, 1);
+
+                left = expr_substitute(state->arena, left, &ending->unknowns.at[k], &one, 1);
+            }
+            if ((expr_kinds(left) & ~(1U << SYMBOL_PARAMETER)) != 0) {
+                (void)diag_at(ending->diag, E_MODEL, rows[i]->place,
+                              "the factor of %s'' follows from more than positions", name);
+                diag_hint(ending->diag, "unknowns that move frames and parameters may stand in it");
+                return E_MODEL;
+            }
+            if (j < i && !same_function(state, given->mass[i * n + j], given->mass[j * n + i])) {
+                (void)diag_at(ending->diag, E_MODEL, rows[i]->place,
+                              "the factor of %s'' here isn't that of the other in its equation",
+                              name);
+                diag_hint(ending->diag,
+                          "factors of second derivatives are symmetric, once each equation is "
+                          "divided so that efforts work on its unknown");
+                return E_MODEL;
+            }
+            if (i == j && is_negative(state, given->mass[i * n + i])) {
+                (void)diag_at(ending->diag, E_MODEL, rows[i]->place,
+                              "the inertia of %s would be negative", name);
+                diag_hint(ending->diag,
+                          "an effort at a port is what the subsystem exerts there, as that of a "
+                          "joint on its tip: it stands on the side of the inertia");
+                return E_MODEL;
+            }
+        }
+    return OK;
+}
+
+static bool contains_turn(Expr e, Expr symbol)
+{
+    if (expr_kind(e) == EXPR_CALL && (expr_op(e) == OP_SIN || expr_op(e) == OP_COS) &&
+        expr_depends(e, symbol))
+        return true;
+    for (int i = 0; i < expr_arg_count(e); i++)
+        if (contains_turn(expr_arg(e, i), symbol))
+            return true;
+    return false;
+}
+
+/* an angle, where it turns a frame or stands below a sine */
+static void tell_kinds(const Ending *ending, const Given *given)
+{
+    Instance *block = ending->equations->block;
+
+    for (int k = 0; k < given->count; k++)
+        for (int i = 0; i < given->frame_count * GIVEN_POSE; i++)
+            if (contains_turn(given->pose[i], ending->unknowns.at[k]) ||
+                (i % GIVEN_POSE == 3 && expr_depends(given->pose[i], ending->unknowns.at[k])))
+                block->coord_kind[k] = COORDINATE_ANGLE;
+}
+
+static bool is_moving_row(const Ending *ending, const Equation *e)
+{
+    return e->kind == EQUATION_INTERNAL &&
+           (depends_on_any(e->e, &ending->rates) || depends_on_any(e->e, &ending->efforts));
+}
+
+static Status tell_block(Ending *ending)
+{
+    Equations *equations = ending->equations;
+    const int count = equations->moving_count;
+    const Equation **rows;
+    Given *given;
+    int found = 0;
+
+    if (equations->block == NULL)
+        return OK;
+    rows = pool_alloc(ending->state->pool, sizeof(Equation *) * ((size_t)count + 1));
+    given = given_copy(ending->state->pool, equations->block->given);
+    TRY(read_pose(ending, given));
+    for (const Equation *e = equations->first; e != NULL; e = e->next) {
+        if (!is_moving_row(ending, e))
+            continue;
+        if (found < count)
+            TRY(read_row(ending, e, found, given));
+        rows[found < count ? found : count] = e;
+        found++;
+    }
+    if (found != count) {
+        (void)diag_at(ending->diag, E_MODEL, equations->last->place,
+                      "%d unknown%s frames, and %d equation%s second derivatives or efforts", count,
+                      count == 1 ? " moves" : "s move", found,
+                      found == 1 ? " holds their" : "s hold their");
+        diag_hint(ending->diag, "each of them needs its equation of motion");
+        return E_MODEL;
+    }
+    TRY(check_mass(ending, given, rows));
+    tell_kinds(ending, given);
+    pool_keep(ending->state->pool, equations->block, sizeof *equations->block);
+    equations->block->given = given;
+    return OK;
+}
+
+/* --- the rest --- */
+
+/* the other equations, in the order of the other unknowns */
+static Status tell_unknowns(Ending *ending)
+{
+    const Equations *equations = ending->equations;
+    const Equation *e = equations->first;
+    Exprs last = {0};
+    Status status = OK;
+
+    for (const Equation *u = equations->first; u != NULL; u = u->next)
+        if (u->kind == EQUATION_UNKNOWN && u->part != NULL)
+            LIST_PUSH(last, variable(ending, u->part->name, ".v"));
+    for (Equation *u = equations->first; u != NULL; u = u->next) {
+        if (u->kind != EQUATION_UNKNOWN || u->part == NULL)
+            continue;
+        while (e->kind != EQUATION_INTERNAL || is_moving_row(ending, e))
+            e = e->next; /* counts agree */
+        CHECK(check_linear(ending, e, &last, "the highest derivatives"));
+        ((Given *)u->part->given)->equation = e->e; /* a copy of its own, see tell_orders() */
+        e = e->next;
+    }
+done:
+    LIST_FREE(last);
+    return status;
+}
+
+static Status tell_given(Ending *ending)
+{
+    for (const Equation *e = ending->equations->first; e != NULL; e = e->next) {
+        const int entry = e->part != NULL && e->part->row->family == FAMILY_FORCE
+                              ? (e->member < 3 || ending->state->planar ? e->member : e->member - 3)
+                              : 0;
+
+        if (e->kind != EQUATION_GIVES || e->part == NULL)
+            continue;
+        if (depends_on_any(e->e, &ending->efforts) || depends_on_any(e->e, &ending->rates)) {
+            (void)diag_at(ending->diag, E_MODEL, e->place,
+                          "what is handed out here follows from accelerations or efforts");
+            diag_hint(ending->diag, "at a port that moves it follows from positions, rates, "
+                                    "voltages and currents");
+            return E_MODEL;
+        }
+        e->part->values[0].at[e->member == 5 && ending->state->planar ? 0 : entry] = e->e;
+    }
+    return OK;
+}
+
+/* In order; the first fault is told. */
+static Status end_all(Ending *ending)
+{
+    TRY(check_counts(ending));
+    TRY(check_ports(ending));
+    name_efforts(ending);
+    name_moving(ending);
+    for (int i = 0; i < ending->rates.count; i++)
+        LIST_PUSH(ending->once, ending->rates.at[i]);
+    for (int i = 0; i < ending->efforts.count; i++)
+        LIST_PUSH(ending->once, ending->efforts.at[i]);
+    TRY(read_all(ending));
+    ending->at_use = true;
+    TRY(rest_ports(ending));
+    ending->at_use = false;
+    tell_orders(ending);
+    put_variables(ending);
+    TRY(tell_block(ending));
+    TRY(tell_unknowns(ending));
+    return tell_given(ending);
+}
+
+Status given_end(State *state, int use, bool *at_use, Diag *diag)
+{
+    Ending ending = {.state = state,
+                     .use = &state->uses.at[use],
+                     .equations = state->uses.at[use].equations,
+                     .scope = {.state = state, .kind = SCOPE_EFFORT},
+                     .diag = diag};
+    Status status = OK;
+
+    *at_use = false;
+    if (ending.equations->first == NULL)
+        return OK;
+    status = end_all(&ending);
+    *at_use = ending.at_use;
+    /* what the expressions need, a line that came of them does */
+    if (status == OK)
+        line_uses(state, &state->lines.at[state->lines.count - 1], &ending.scope);
+    LIST_FREE(ending.scope.uses);
+    LIST_FREE(ending.arguments);
+    LIST_FREE(ending.rates);
+    LIST_FREE(ending.unknowns);
+    LIST_FREE(ending.efforts);
+    LIST_FREE(ending.once);
+    LIST_FREE(ending.from);
+    LIST_FREE(ending.to);
+    return status;
+}
