@@ -643,8 +643,10 @@ static void write_file(const Code *code, const Language *language, Text *out)
         add_modes(code, out);
     add_rows(code, out);
     add_projection(code, out);
-    if (code_has_modes(code))
+    if (code_has_modes(code)) {
+        text_add(out, "\n#ifdef MODEL_CHECK\n#include <stdio.h>\n#endif\n");
         add_lines(out, shared_text_modes_step_c);
+    }
     if (code->inverse != NULL)
         add_inverse(code, out);
     if (code->live.is_wanted)

@@ -2,6 +2,9 @@
  *
  *     master FILE.fmu exchange|simulation REFERENCE.csv TOLERANCE
  *         runs it and compares what the columns say, to ten tolerances
+ *     master FILE.fmu crude|drifting REFERENCE.csv TOLERANCE
+ *         model exchange by even steps of the midpoint rule, which leave the constraints: puts
+ *         states back when it is asked to, or never does
  *     master FILE.fmu rules SEED
  *         calls it in orders at random that the standard allows, and some that it doesn't
  *
@@ -13,7 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { STAGES = 7, COLUMNS = 200, MOST_EVENTS = 20000 };
+enum { STAGES = 7, COLUMNS = 200, MOST_EVENTS = 20000, CRUDE = 40 /* steps a row */ };
 #define LOCATED 1e-13 /* of 1 + |t|: events */
 
 static int bad;
@@ -324,6 +327,41 @@ static void exchange(Unit *unit, const Reference *r, double tolerance)
     run_free(&run);
 }
 
+/* Even steps between rows. A unit that is asked for 1e-6 asks for event mode on its way. */
+static void crude(Unit *unit, const Reference *r, double tolerance, bool is_put_back)
+{
+    Run run = run_new(unit, 1e-6);
+
+    run_begin(&run);
+    for (int row = 1; row < r->rows; row++) {
+        const double from = run.t, span = r->values[row * r->columns] - from;
+
+        for (int k = 1; k <= CRUDE; k++) {
+            const double h = span / CRUDE;
+            bool wants = false, ends = false;
+
+            for (int i = 0; i < run.n; i++)
+                run.at[i] = run.x[i] + h / 2 * run.k[0][i];
+            rates(&run, run.t + h / 2, run.at, run.k[1]);
+            for (int i = 0; i < run.n; i++)
+                run.x[i] += h * run.k[1][i];
+            run.t = from + span * k / CRUDE;
+            rates(&run, run.t, run.x, run.k[0]);
+            expect_ok(instance_step_done(&run.in, &wants, &ends), &run.in,
+                      "CompletedIntegratorStep");
+            run.put_back += wants;
+            if (wants && is_put_back) {
+                expect_ok(instance_enter_events(&run.in), &run.in, "EnterEventMode");
+                settle(&run);
+            }
+        }
+        compare(&run.in, r, row, tolerance);
+    }
+    printf("put back %d times\n", run.put_back);
+    bad += run.put_back == 0;
+    run_free(&run);
+}
+
 static void simulation(Unit *unit, const Reference *r, double tolerance)
 {
     Instance in = instance_new(unit, "run", true);
@@ -546,8 +584,8 @@ int main(int argc, char **argv)
     Unit *unit;
 
     if (argc < 4) {
-        fputs("usage: master FILE.fmu exchange|simulation REFERENCE TOLERANCE | FILE.fmu rules "
-              "SEED\n",
+        fputs("usage: master FILE.fmu exchange|simulation|crude|drifting REFERENCE TOLERANCE | "
+              "FILE.fmu rules SEED\n",
               stderr);
         return 2;
     }
@@ -566,8 +604,10 @@ int main(int argc, char **argv)
 
         if (strcmp(argv[2], "exchange") == 0)
             exchange(unit, &r, tolerance);
-        else
+        else if (strcmp(argv[2], "simulation") == 0)
             simulation(unit, &r, tolerance);
+        else
+            crude(unit, &r, tolerance, strcmp(argv[2], "crude") == 0);
         free(r.values);
     }
     unit_close(unit);
