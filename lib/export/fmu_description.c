@@ -17,7 +17,9 @@ typedef struct Described { /* a variable of the interface */
     int reference;
     char *name;
     bool is_output;
-    int place; /* in the list, from 1 */
+    int place;           /* in the list, from 1 */
+    char *unit;          /* NULL: none, or it isn't known */
+    Dimension dimension; /* of that */
 } Described;
 
 typedef struct Description {
@@ -59,15 +61,38 @@ static int indicator_count(const Code *code)
 
 /* --- the list --- */
 
-static void add_variable(Description *d, Group group, int i, int reference, const char *name)
-{
-    Described variable = {group,
-                          i,
-                          reference,
-                          mem_text(name, strlen(name)),
-                          group == GROUP_OUT,
-                          d->variables.count + 1};
+static const Dimension seconds = {{0, 0, 1}};
 
+/* of what is called `of`, or of its rate */
+static void find_unit(const Description *d, const char *of, Described *variable)
+{
+    Text unit = {0};
+
+    if (variable->group == GROUP_T)
+        variable->dimension = seconds;
+    else if (variable->group == GROUP_INDICATOR ||
+             !model_text_dimension(d->code->view->model, of, &variable->dimension) ||
+             (variable->group == GROUP_RATE &&
+              !dimension_times(variable->dimension, seconds, -1, &variable->dimension)))
+        return;
+    dimension_print(&unit, variable->dimension);
+    if (unit.at == NULL || strcmp(unit.at, "1") == 0)
+        text_free(&unit);
+    else
+        variable->unit = text_done(&unit);
+}
+
+static void add_variable(Description *d, Group group, int i, int reference, const char *name,
+                         const char *of)
+{
+    Described variable = {.group = group,
+                          .i = i,
+                          .reference = reference,
+                          .name = mem_text(name, strlen(name)),
+                          .is_output = group == GROUP_OUT,
+                          .place = d->variables.count + 1};
+
+    find_unit(d, of, &variable);
     (void)names_add(d->names, name);
     LIST_PUSH(d->variables, variable);
 }
@@ -89,7 +114,7 @@ static void add_output(Description *d, int i, int reference)
 
     if (place < 0) {
         place = d->variables.count;
-        add_variable(d, GROUP_OUT, i, reference, name);
+        add_variable(d, GROUP_OUT, i, reference, name, name);
     } else if (d->variables.at[place].is_output || d->variables.at[place].group != GROUP_Y)
         return;
     d->variables.at[place].is_output = true;
@@ -103,21 +128,22 @@ static void list_variables(Description *d)
     int reference = 0;
     Text name = {0};
 
-    add_variable(d, GROUP_T, 0, reference++, "t");
+    add_variable(d, GROUP_T, 0, reference++, "t", "t");
     for (int i = 0; i < parameters; i++)
-        add_variable(d, GROUP_P, i, reference++, expr_name(code->parameters.at[i]));
+        add_variable(d, GROUP_P, i, reference++, expr_name(code->parameters.at[i]),
+                     expr_name(code->parameters.at[i]));
     for (int i = 0; i < d->states; i++)
-        add_variable(d, GROUP_Y, i, reference++, state_name(d, i));
+        add_variable(d, GROUP_Y, i, reference++, state_name(d, i), state_name(d, i));
     for (int i = 0; i < d->states; i++) {
         text_addf(&name, "der(%s)", state_name(d, i));
-        add_variable(d, GROUP_RATE, i, reference++, name.at);
+        add_variable(d, GROUP_RATE, i, reference++, name.at, state_name(d, i));
         text_free(&name);
     }
     for (int i = 0; i < code->outputs.count; i++)
         add_output(d, i, reference++);
     for (int i = 0; d->what->version == 3 && i < indicator_count(code); i++) {
         text_addf(&name, "indicator(%d)", i + 1);
-        add_variable(d, GROUP_INDICATOR, i, reference++, name.at);
+        add_variable(d, GROUP_INDICATOR, i, reference++, name.at, name.at);
         text_free(&name);
     }
 }
@@ -152,6 +178,11 @@ static void put_value(Description *d, const Described *v)
 {
     const Code *code = d->code;
 
+    if (v->unit != NULL) {
+        text_add(d->out, " unit=\"");
+        put_escaped(d->out, v->unit);
+        text_char(d->out, '"');
+    }
     if (v->group == GROUP_P && !code->live.depends[v->i])
         put_start(d, code->values[v->i]);
     if (v->group == GROUP_Y)
@@ -162,6 +193,31 @@ static void put_value(Description *d, const Described *v)
         /* by its place in the list in version 2, where states' places are references and 1 */
         text_addf(d->out, " derivative=\"%d\"", d->what->version == 2 ? state + 1 : state);
     }
+}
+
+/* each unit once, in the base units that it is of */
+static void put_units(Description *d)
+{
+    static const char *const bases[] = {"m", "kg", "s", "A", "K", "rad"};
+    Names *known = names_new();
+
+    text_add(d->out, "  <UnitDefinitions>\n");
+    for (int i = 0; i < d->variables.count; i++) {
+        const Described *v = &d->variables.at[i];
+
+        if (v->unit == NULL || names_find(known, v->unit) >= 0)
+            continue;
+        (void)names_add(known, v->unit);
+        text_add(d->out, "    <Unit name=\"");
+        put_escaped(d->out, v->unit);
+        text_add(d->out, "\"><BaseUnit");
+        for (int k = 0; k < COUNT(bases); k++)
+            if (v->dimension.power[k] != 0)
+                text_addf(d->out, " %s=\"%d\"", bases[k], v->dimension.power[k]);
+        text_add(d->out, "/></Unit>\n");
+    }
+    text_add(d->out, "  </UnitDefinitions>\n");
+    names_free(known);
 }
 
 static void put_variables(Description *d)
@@ -353,13 +409,14 @@ void fmu_describe(const Code *code, const Exported *what, const char *token, Tex
     list_variables(&d);
     put_head(&d, token);
     put_kinds(&d);
+    put_units(&d);
     put_categories(out);
     text_add(out, "  <DefaultExperiment startTime=\"0\" tolerance=\"" FMU_TOLERANCE "\"/>\n");
     put_variables(&d);
     put_structure(&d);
     text_add(out, "</fmiModelDescription>\n");
     for (int i = 0; i < d.variables.count; i++)
-        mem_free(d.variables.at[i].name);
+        MEM_FREE(d.variables.at[i].name, d.variables.at[i].unit);
     LIST_FREE(d.variables);
     LIST_FREE(d.outputs);
     names_free(d.names);

@@ -199,6 +199,8 @@ MUST_USE Status model_check_unit(const Model *model, const Syntax *syntax, const
                                  const char *name, Diag *diag);
 /* False where it isn't known. */
 bool model_dimension(const Model *model, const Syntax *syntax, Dimension *out);
+/* the same of an expression's text, as the name of a state or an item */
+bool model_text_dimension(const Model *model, const char *text, Dimension *out);
 /* the unit in SI of a member of one of its instances, "effort"; NULL */
 const char *model_member_unit(const Model *model, const Instance *part, const char *member);
 /* two that are compared */

@@ -344,18 +344,6 @@ static Status linear_entry(const ct_session *session, int entry, const int *inde
     return OK;
 }
 
-/* what the name of a state or output means */
-static bool text_dimension(const Model *model, const char *text, Dimension *out)
-{
-    Pool *pool = pool_new(1024);
-    Syntax *syntax = NULL;
-    const bool found = syntax_parse_expression(text, pool, &syntax, NULL) == OK &&
-                       model_dimension(model, syntax, out);
-
-    pool_free(pool);
-    return found;
-}
-
 /* of a parameter, or of the value of a source or an actuator */
 static bool input_dimension(const Model *model, const char *name, Dimension *out)
 {
@@ -365,7 +353,7 @@ static bool input_dimension(const Model *model, const char *name, Dimension *out
     int param;
 
     if (source == NULL)
-        return text_dimension(model, name, out);
+        return model_text_dimension(model, name, out);
     param = instance_input(source);
     if (param < 0 || source->row->params[param].unit == NULL ||
         !unit_parse(source->row->params[param].unit, strlen(source->row->params[param].unit), &unit,
@@ -401,9 +389,10 @@ bool session_entry_dimension(void *context, const Syntax *call, Dimension *out)
     i = written_index(call->args[0]);
     j = written_index(call->args[1]);
     if (i < 1 || i > matrix.rows || j < 1 || j > matrix.columns ||
-        !text_dimension(session->model, matrix.row_names[i - 1], &row) ||
-        !(matrix.column_names == session->linear->input_names ? input_dimension : text_dimension)(
-            session->model, matrix.column_names[j - 1], &column))
+        !model_text_dimension(session->model, matrix.row_names[i - 1], &row) ||
+        !(matrix.column_names == session->linear->input_names
+              ? input_dimension
+              : model_text_dimension)(session->model, matrix.column_names[j - 1], &column))
         return false;
     return dimension_times(row, column, -1, out) &&
            (matrix.row_names != session->linear->state_names ||

@@ -84,6 +84,27 @@ class Description:
                     {id(v) for v in self.variables if self.value(v).get("derivative") is not None},
                     "the structure's derivatives are others than those of the list")
 
+    def units(self):
+        known = {}
+        for unit in self.root.findall("UnitDefinitions/Unit"):
+            self.expect(unit.get("name") not in known, f"{unit.get('name')}: a unit twice")
+            known[unit.get("name")] = {k: int(v) for k, v in unit.find("BaseUnit").attrib.items()}
+        by_place = {str(i + 1) if self.version == 2 else v.get("valueReference"): v
+                    for i, v in enumerate(self.variables)}
+        used = {self.value(v).get("unit") for v in self.variables} - {None}
+        self.expect(used == set(known), "units that nobody has, or nobody tells")
+        for v in self.variables:
+            name, unit = v.get("name"), self.value(v).get("unit")
+            if v.get("causality") == "independent":
+                self.expect(known.get(unit) == {"s": 1}, "time is not in seconds")
+            of = by_place.get(self.value(v).get("derivative"))
+            if of is None or self.value(of).get("unit") is None:
+                continue
+            rate = dict(known[self.value(of).get("unit")])
+            rate["s"] = rate.get("s", 0) - 1
+            self.expect({k: p for k, p in rate.items() if p != 0} == known.get(unit),
+                        f"{name}: {unit} is no rate of {self.value(of).get('unit')}")
+
     def structure(self):
         outputs = self.unknowns("Outputs", "Output")
         self.expect({id(v) for v in outputs} ==
@@ -136,7 +157,7 @@ class Description:
                 self.expect("sources/" + f.get("name") in names, f"no {f.get('name')}")
 
     def check(self):
-        for part in (self.names, self.kinds, self.derivatives, self.structure, self.files):
+        for part in (self.names, self.kinds, self.derivatives, self.units, self.structure, self.files):
             part()
         for text in self.broken:
             print(f"{self.path}: {text}")
