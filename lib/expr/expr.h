@@ -203,8 +203,8 @@ void expr_replace(Arena *arena, Expr *roots, int root_count, const Expr *from, c
  * again. */
 typedef struct Renaming Renaming;
 Renaming *renaming_new(Arena *arena, const char *from, const char *to); /* new; borrows the texts */
-/* From now on `from`, a symbol or what is held, becomes `to`; equal numbers do. False: they can't,
- * or something else became of it. */
+/* From now on `from`, a symbol or what is held, becomes `to`; a number becomes itself. False: they
+ * can't, or something else became of it. */
 bool renaming_pair(Renaming *renaming, Expr from, Expr to);
 Expr renaming_of(Renaming *renaming, Expr e);
 void renaming_free(Renaming *renaming); /* NULL is fine */

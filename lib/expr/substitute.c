@@ -209,7 +209,7 @@ bool renaming_pair(Renaming *renaming, Expr from, Expr to)
 {
     int place;
 
-    if (expr_is_number(from) || expr_is_number(to))
+    if (expr_is_number(from))
         return from == to;
     /* a sign goes into the products and sums around it */
     if (from->kind == EXPR_PRODUCT && from->count == 2 && expr_is(node_args(from)[0], -1)) {
@@ -228,7 +228,6 @@ Expr renaming_of(Renaming *renaming, Expr e)
 {
     enum { AT_HAND = 32 };
     Walk *walk = &renaming->images.walk;
-    Expr at_hand[AT_HAND];
     int place;
 
     if (e->kinds == 0)
@@ -236,6 +235,9 @@ Expr renaming_of(Renaming *renaming, Expr e)
     place = walk_find(walk, e);
     if (place >= 0)
         return renaming->images.of.at[place];
+
+    Expr at_hand[AT_HAND] = {NULL};
+
     walk_below(walk, e, ~0U, NULL, NULL);
     for (int i = renaming->images.of.count; i < walk->count; i++) {
         const Expr own = walk->nodes[i];

@@ -8,6 +8,8 @@ libcore_la_SOURCES += \
 	lib/formulate/system/system.h lib/formulate/system/system_impl.h lib/formulate/system/vector.c \
 	lib/formulate/system/vector.h \
 	lib/formulate/kinematics/alike.c lib/formulate/kinematics/alike.h \
+	lib/formulate/kinematics/circuits.c lib/formulate/kinematics/circuits.h \
+	lib/formulate/kinematics/row_patterns.c lib/formulate/kinematics/row_patterns.h \
 	lib/formulate/kinematics/common_turns.c lib/formulate/kinematics/constraint_rows.c \
 	lib/formulate/kinematics/constraint_rows.h lib/formulate/kinematics/coordinate.c \
 	lib/formulate/kinematics/coordinate.h lib/formulate/kinematics/critical.c \

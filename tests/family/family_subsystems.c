@@ -457,11 +457,137 @@ static Verdict legs_are_derived_alike(Member *member)
     return same ? AGREES : DISAGREES;
 }
 
+/* --- spatial legs below a platform, closed by joints of any rows --- */
+
+enum { STRUTS = 4 };
+
+/* from `a` along a universal joint's and a slide's own way */
+static void put_strut(Writer *w, const char *p, const char *a)
+{
+    put(w, "%sL = 0.3\nbody %sb1 mass=1 inertia=[0.04, 0.05, 0.06]\n", p, p);
+    put(w, "body %sb2 mass=0.8 inertia=[0.02, 0.03, 0.05]\n", p);
+    put(w, "arm %sk %sb1 [%sL, 0.01, 0]\narm %sB %sb2 [%sL, 0, 0]\n", p, p, p, p, p, p);
+    put(w, "universal %sth %s %sb1 axes=[y, z]\n", p, a, p);
+    put(w, "prismatic %ss %sk %sb2 axis=x\n", p, p, p);
+    put(w, "spring %ssp %ss k=100 rest=0.2\ndamper %sd %ss d=2\n", p, p, p, p);
+}
+
+/* what is 0 for one leg needn't be for another */
+static double often_zero(Member *member, double size)
+{
+    return member_one_of(member, 3) == 0 ? 0 : member_between(member, -size, size);
+}
+
+/* Its base so that its tip is near its pin: assembly does what is left. */
+static void put_closed(Member *member, Robot *r, int i, const char *base, const char *closing,
+                       bool swapped)
+{
+    const double a = member_between(member, -0.4, 0.4), b = member_between(member, -0.4, 0.4);
+    const double s = member_between(member, 0.1, 0.5), l = 0.6 + s;
+    const bool straight = member_one_of(member, 3) == 0;
+    const double p[3] = {often_zero(member, 0.3), often_zero(member, 0.3), often_zero(member, 0.3)};
+    Writer both = {.length = 0};
+
+    put(&both, "arm p%d m [%.17g, %.17g, %.17g]\n", i, p[0], p[1], p[2]);
+    if (straight)
+        put(&both, "arm g%d %s [%.17g, %.17g, %.17g]\n", i, base, p[0] - l, p[1], p[2]);
+    else
+        put(&both, "arm g%d %s [%.17g, %.17g, %.17g]\n", i, base, p[0] - l * cos(a) * cos(b),
+            p[1] - l * sin(b), p[2] + l * sin(a) * cos(b));
+    for (int k = 0; k < 2; k++) {
+        Writer *w = k == 0 ? &r->flat : &r->made;
+        const char dot = k == 0 ? '_' : '.';
+        char prefix[20], place[20], tip[20], pin[20];
+
+        (void)snprintf(prefix, sizeof prefix, "leg%d_", i);
+        (void)snprintf(place, sizeof place, "g%d", i);
+        (void)snprintf(tip, sizeof tip, "leg%d%cB", i, dot);
+        (void)snprintf(pin, sizeof pin, "p%d", i);
+        put(w, "%s", both.text);
+        if (k == 0)
+            put_strut(w, prefix, place);
+        else
+            put(w, "use strut leg%d A=g%d\n", i, i);
+        put(w, "%s h%d %s %s\n", closing, i, swapped ? pin : tip, swapped ? tip : pin);
+        put(w, "guess leg%d%cs = %.17g, leg%d%cth.a1 = %.17g, leg%d%cth.a2 = %.17g\n", i,
+            dot, s, i, dot, straight ? 0 : a, i, dot, straight ? 0 : b);
+    }
+}
+
+static void draw_platform(Member *member, Robot *r)
+{
+    static const char *const closings[] = {"spherical", "universal", "cylindrical"};
+    const char *closing = closings[member_one_of(member, 3)];
+    const bool moves = member_one_of(member, 3) == 0, swapped = member_one_of(member, 2) == 0;
+
+    memset(r, 0, sizeof *r);
+    r->legs = 2 + member_one_of(member, strcmp(closing, "spherical") == 0 ? STRUTS : 2);
+    put(&r->flat, "gravity [0, 0, -9.81]\n");
+    if (moves)
+        put(&r->flat, "body cart mass=9 inertia=[2, 2, 2]\nprismatic c ground cart axis=x\n"
+                      "init c' = 0.3\n");
+    put(&r->flat, "body m mass=8 inertia=[0.1, 0.2, 0.3]\nguess m.x = 0, m.y = 0, m.z = 0\n");
+    put(&r->made, "%ssubsystem strut frames=[A, B]\n", r->flat.text);
+    put_strut(&r->made, "", "A");
+    put(&r->made, "end\n");
+    for (int i = 0; i < r->legs; i++)
+        put_closed(member, r, i, moves ? "cart" : "ground", closing, swapped);
+    for (int k = 0; k < 2; k++) {
+        Writer *w = k == 0 ? &r->flat : &r->made;
+
+        put(w, "tree m%s", moves ? " c" : "");
+        for (int i = 0; i < r->legs; i++)
+            put(w, k == 0 ? " leg%d_th leg%d_s" : " leg%d.th leg%d.s", i, i);
+        put(w, "\n");
+    }
+}
+
+static bool same_platforms(Member *member, const Robot *r, Kit *flat, Kit *made)
+{
+    static const char *const asked[] = {"s", "s''", "th.a1'", "s.Ty", "th.fx", "b2.z"};
+    const int rows = (int)kit_value(flat, "model.m"), columns = 6 + 3 * r->legs;
+    bool same = same_equations(member, flat, made);
+    char first[60], second[60];
+
+    for (int i = 0; i < r->legs && same; i++)
+        for (int k = 0; k < (int)(sizeof asked / sizeof asked[0]) && same; k++) {
+            (void)snprintf(first, sizeof first, "leg%d_%s", i, asked[k]);
+            (void)snprintf(second, sizeof second, "leg%d.%s", i, asked[k]);
+            same = agree(member, flat, first, made, second, 1e-8);
+        }
+    for (int k = 1; k <= rows && same; k++)
+        for (int j = 1; j <= columns && same; j++) {
+            (void)snprintf(first, sizeof first, "jacobian(%d,%d)", k, j);
+            same = agree(member, flat, first, made, first, 1e-8);
+        }
+    return same;
+}
+
+static Verdict platforms_are_derived_alike(Member *member)
+{
+    static const char run[] = "simulate 0.05 every=0.05 rtol=1e-10 atol=1e-11\n";
+    static Robot r;
+    Kit flat = kit_new(), made = kit_new();
+    bool same, stands = false;
+
+    draw_platform(member, &r);
+    same = runs(member, &flat, r.flat.text) && runs(member, &made, r.made.text);
+    if (same && kit_do(&flat, run) == CT_OK)
+        stands = same = runs(member, &made, run);
+    same = same && (!stands || same_platforms(member, &r, &flat, &made));
+    if (!same || member->told)
+        tell(member, "--- flat\n%s--- made\n%s", r.flat.text, r.made.text);
+    kit_free(&flat);
+    kit_free(&made);
+    return !same ? DISAGREES : stands ? AGREES : REFUSED;
+}
+
 int main(int argc, char **argv)
 {
     static const Family families[] = {
         {"parts_and_subsystems_agree", 20, 0, 0, parts_and_subsystems_agree},
         {"legs_are_derived_alike", 6, 0, 0, legs_are_derived_alike},
+        {"platforms_are_derived_alike", 6, 1, 0, platforms_are_derived_alike},
     };
 
     return family_main(families, (int)(sizeof families / sizeof families[0]), argc, argv);

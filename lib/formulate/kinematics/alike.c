@@ -338,7 +338,6 @@ static void look_for_first(const System *system, Alike *alike, const int *order,
         if (are_alike(&p)) {
             follow(alike, &p, use);
             made[use].first = first;
-            made[first].is_first = true;
             return;
         }
         renaming_free(p.renaming);
@@ -505,9 +504,25 @@ void alike_keep_way(const Follower *follower, const FirstWay *way)
 bool alike_hangs(Follower *follower, Vec from, Vec to)
 {
     for (int i = 0; i < 3; i++)
-        follower->moves =
-            follower->moves && renaming_pair(follower->renaming, from.at[i], to.at[i]);
+        follower->moves = follower->moves &&
+                          expr_is_number(from.at[i]) == expr_is_number(to.at[i]) &&
+                          renaming_pair(follower->renaming, from.at[i], to.at[i]);
     return follower->moves;
+}
+
+bool alike_is_first(const System *system, const Follower *follower, int node)
+{
+    return is_within(system, system->alike->use_of_node[node], follower->first->use);
+}
+
+bool alike_is_outside(const System *system, int node)
+{
+    return system->alike->use_of_node[node] < 0;
+}
+
+bool alike_fill(const Follower *follower, Expr hole, Expr value)
+{
+    return renaming_pair(follower->renaming, hole, value);
 }
 
 bool alike_moves(const Follower *follower)
@@ -532,36 +547,59 @@ Vec alike_vec(const Follower *follower, Vec v)
     return v;
 }
 
-/* How deep the innermost instance around the node lies that is followed, and on which nothing
- * hangs; 0: none is */
-static int depth_of_first(const System *system, int node)
+int alike_level(const System *system, int node)
 {
-    const Alike *alike = system->alike;
-    int use = alike->use_of_node[node], depth = 0;
+    int level = 0;
 
-    while (use >= 0 && (!system->origin->uses[use].is_first || alike->inside[use].is_open))
-        use = system->origin->uses[use].outer;
-    for (; use >= 0; use = system->origin->uses[use].outer)
-        depth++;
-    return depth;
+    while (alike_node(system, node, &node) != NULL)
+        level++;
+    return level;
+}
+
+/* --- an order inward --- */
+
+typedef struct Inward {
+    const Alike *alike;
+    const int *order; /* of the tree, outward */
+    int nodes, count;
+    bool *is_listed; /* a node */
+    int *list;
+} Inward;
+
+/* A node behind what hangs on it, and behind the whole of the instance that its own follows: those
+ * calls go as deep as definitions stand in one another. */
+static void list_node(Inward *inward, int node);
+
+static void list_inside(Inward *inward, const Inside *inside)
+{
+    for (int i = inward->nodes - 1; i > 0; i--)
+        for (int k = 0; k < inside->nodes.count; k++)
+            if (inside->nodes.at[k] == inward->order[i])
+                list_node(inward, inward->order[i]);
+}
+
+static void list_node(Inward *inward, int node)
+{
+    const Follower *follower = inward->alike != NULL ? inward->alike->of_node[node] : NULL;
+
+    if (inward->is_listed[node])
+        return;
+    if (follower != NULL && alike_ends(follower) && !inward->is_listed[inward->alike->node[node]])
+        list_inside(inward, follower->first);
+    inward->is_listed[node] = true;
+    inward->list[inward->count++] = node;
 }
 
 int *alike_inward(const System *system, TreeKind kind, int *count)
 {
-    int nodes, filled = 0, deepest = 0;
-    const int *order = tree_nodes(system->origin->trees[kind], &nodes);
-    int *inward = NEW_ARRAY(int, nodes);
-    int *depth = NEW_ARRAY(int, nodes);
+    Inward inward = {.alike = system->alike};
 
-    for (int i = 1; i < nodes && system->alike != NULL; i++) {
-        depth[i] = depth_of_first(system, order[i]);
-        deepest = depth[i] > deepest ? depth[i] : deepest;
-    }
-    for (; deepest >= 0; deepest--)
-        for (int i = nodes - 1; i > 0; i--)
-            if (depth[i] == deepest)
-                inward[filled++] = order[i];
-    *count = filled;
-    mem_free(depth);
-    return inward;
+    inward.order = tree_nodes(system->origin->trees[kind], &inward.nodes);
+    inward.is_listed = NEW_ARRAY(bool, graph_node_count(system->origin->graph));
+    inward.list = NEW_ARRAY(int, inward.nodes);
+    for (int i = inward.nodes - 1; i > 0; i--)
+        list_node(&inward, inward.order[i]);
+    mem_free(inward.is_listed);
+    *count = inward.count;
+    return inward.list;
 }

@@ -27,6 +27,9 @@ const int *alike_members(const Follower *follower, int *count); /* its nodes */
  * false: it is inside the first. */
 bool alike_chain_for(const System *system, const Follower *follower, int chain, int *out);
 
+bool alike_is_first(const System *system, const Follower *follower, int node); /* in the first */
+bool alike_is_outside(const System *system, int node);                         /* of all */
+
 /* What the ways through a first instance sum up to, kept for all that follow it. */
 typedef struct FirstWay {
     int node, chain, axes;
@@ -40,10 +43,16 @@ bool alike_moves(const Follower *follower); /* it could be, so far */
 /* nothing but its own hangs on it or on the first */
 bool alike_ends(const Follower *follower);
 
+/* From now on a symbol becomes that in what it takes over; false: something else became of it. */
+bool alike_fill(const Follower *follower, Expr hole, Expr value);
 Expr alike_take(const Follower *follower, Expr e);
 Vec alike_vec(const Follower *follower, Vec v);
 
-/* The nodes of a tree inward, those of instances that are followed first: new, mem_free() */
+/* How many first ones lie behind a node: that of its instance, that of whose this is, ... */
+int alike_level(const System *system, int node);
+
+/* The nodes of a tree inward, each behind all of the instance that its own takes its loads over
+ * from: new, mem_free() */
 int *alike_inward(const System *system, TreeKind kind, int *count);
 
 #endif

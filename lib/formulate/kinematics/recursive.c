@@ -98,6 +98,36 @@ static void step_motion(System *system, int node)
                              vec_scale(arena, expr_int(arena, 2), vec_cross(arena, w, slid)));
 }
 
+/* a = a_parent + alpha x r + what the speeds make of it + s' u' */
+static Vec node_acceleration(const System *system, int n, const Expr *accelerations,
+                             const Vec *alpha, const Vec *a)
+{
+    Arena *arena = system->arena;
+    const Frame *frame = &system->kinematics->frames[n];
+    int axes = node_axes(system, n);
+    int resolve = system->kinematics->chains.at[frame->step_chain].resolve, first = n;
+    Follower *follower = accelerations == NULL ? alike_node(system, n, &first) : NULL;
+    Vec turn, own;
+
+    if (moves_alike(system, follower, n, a[system->kinematics->frames[first].parent],
+                    a[frame->parent]))
+        return alike_vec(follower, a[first]);
+    turn = vec_express_held(system, alpha[frame->step_chain], resolve, axes);
+    own = vec_express_held(system, a[frame->parent], node_axes(system, frame->parent), axes);
+    own = vec_add(arena, own, vec_cross(arena, turn, frame->step));
+    own = vec_add(arena, own, frame->product);
+    for (int k = 0; k < frame->slide_count; k++) {
+        Expr rate = speed_acceleration(system, frame->slide[k].speed, accelerations);
+
+        if (!expr_is_zero(rate))
+            own = vec_add(
+                arena, own,
+                vec_scale(arena, rate,
+                          vec_express(system, frame->slide[k].axis, frame->step_chain, axes)));
+    }
+    return vec_hold(arena, own);
+}
+
 void accelerations_build(const System *system, const Expr *accelerations, Vec *alpha, Vec *a)
 {
     Arena *arena = system->arena;
@@ -130,34 +160,15 @@ void accelerations_build(const System *system, const Expr *accelerations, Vec *a
         return;
     order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
     a[order[0]] = vec_zero(arena);
-    for (int i = 1; i < nodes; i++) {
-        int n = order[i];
-        const Frame *frame = &system->kinematics->frames[n];
-        int axes = node_axes(system, n);
-        int resolve = system->kinematics->chains.at[frame->step_chain].resolve, first = n;
-        Follower *follower = accelerations == NULL ? alike_node(system, n, &first) : NULL;
-        Vec turn;
+    for (int i = 1; i < nodes; i++)
+        a[order[i]] = node_acceleration(system, order[i], accelerations, alpha, a);
+}
 
-        if (moves_alike(system, follower, n, a[system->kinematics->frames[first].parent],
-                        a[frame->parent])) {
-            a[n] = alike_vec(follower, a[first]);
-            continue;
-        }
-        turn = vec_express_held(system, alpha[frame->step_chain], resolve, axes);
-        a[n] = vec_express_held(system, a[frame->parent], node_axes(system, frame->parent), axes);
-        a[n] = vec_add(arena, a[n], vec_cross(arena, turn, frame->step));
-        a[n] = vec_add(arena, a[n], frame->product);
-        for (int k = 0; k < frame->slide_count; k++) {
-            Expr rate = speed_acceleration(system, frame->slide[k].speed, accelerations);
-
-            if (!expr_is_zero(rate))
-                a[n] = vec_add(
-                    arena, a[n],
-                    vec_scale(arena, rate,
-                              vec_express(system, frame->slide[k].axis, frame->step_chain, axes)));
-        }
-        a[n] = vec_hold(arena, a[n]);
-    }
+void node_moved(System *shadow, int node)
+{
+    step_motion(shadow, node);
+    shadow->kinematics->a0[node] =
+        node_acceleration(shadow, node, NULL, shadow->kinematics->alpha0, shadow->kinematics->a0);
 }
 
 void motion_build(System *system)

@@ -7,6 +7,8 @@
 void motion_build(System *system);
 /* angular accelerations of chains and accelerations of nodes, with u' or (NULL) without */
 void accelerations_build(const System *system, const Expr *accelerations, Vec *alpha, Vec *a);
+/* a node's own, anew, of a copy whose step to it is another one */
+void node_moved(System *shadow, int node);
 /* position of a node in ground axes, held; formed at the first call */
 Vec node_position(System *system, int node);
 
