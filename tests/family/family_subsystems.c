@@ -509,8 +509,8 @@ static void put_closed(Member *member, Robot *r, int i, const char *base, const 
         else
             put(w, "use strut leg%d A=g%d\n", i, i);
         put(w, "%s h%d %s %s\n", closing, i, swapped ? pin : tip, swapped ? tip : pin);
-        put(w, "guess leg%d%cs = %.17g, leg%d%cth.a1 = %.17g, leg%d%cth.a2 = %.17g\n", i,
-            dot, s, i, dot, straight ? 0 : a, i, dot, straight ? 0 : b);
+        put(w, "guess leg%d%cs = %.17g, leg%d%cth.a1 = %.17g, leg%d%cth.a2 = %.17g\n", i, dot, s, i,
+            dot, straight ? 0 : a, i, dot, straight ? 0 : b);
     }
 }
 

@@ -42,3 +42,30 @@ echo '--- thirty legs: patterns of blocks'
     printf '\nshow structure\n'
 } >many.ct
 cotree -q many.ct | sed -n '4,7p;32,42p;66,76p'
+echo '--- instances inside others and on their tips: one alone is pulled, by 12 (3.28024 - 0.4) N,'
+echo '--- along the slide by 2.6/3.28024 of that; 1.9 kg'
+cat >hung.ct <<'END'
+scene planar
+arm far ground [3, 2]
+body cart mass=4 inertia=1
+prismatic rail ground cart axis=x
+subsystem inner frames=[A, tip]
+  body b mass=1.3 inertia=0.07
+  arm tip b [0.3, 0]
+  prismatic h A b axis=x
+end
+subsystem outer frames=[A, tip]
+  L = 0.4
+  body b mass=1.9 inertia=0.06
+  arm tip b [L, 0]
+  prismatic h A b axis=x
+  use inner i A=tip
+end
+use inner u0 A=cart
+use outer u1 u2 u3 A=[cart, cart, cart] L=[0.4, 0.7, 0.3]
+use inner u4 A=u2.tip
+use inner u6 A=u3.tip
+spring ends far u1.tip k=12 length=0.4
+print u1.h'', u2.h'', u0.h''
+END
+cotree -q hung.ct

@@ -200,17 +200,20 @@ static void add_speeds(System *system, CompositeMass *mass, const int *at)
 
     mass->speed_count = count;
     mass->speeds = pool_alloc(system->pool, (size_t)count * sizeof *mass->speeds);
-    for (int pass = 0; pass < 2; pass++) /* what others take over comes before them */
+    /* what others take over comes before them */
+    for (int level = 0, done = 0; done < count; level++)
         for (int j = 0; j < count; j++) {
+            const int node = speed_node(system, j);
             int first;
             const Follower *follower = alike_speed(system, j, &first);
-            const bool takes = follower != NULL && alike_ends(follower);
 
-            if (takes != (pass == 1))
+            if (alike_level(system, node) != level)
                 continue;
-            mass->speeds[j] = takes ? speed_alike(mass, follower, first)
-                                    : speed_of(system, mass, composites, &loads, j);
-            mass->speeds[j].place = at[speed_node(system, j)];
+            mass->speeds[j] = follower != NULL && alike_ends(follower)
+                                  ? speed_alike(mass, follower, first)
+                                  : speed_of(system, mass, composites, &loads, j);
+            mass->speeds[j].place = at[node];
+            done++;
         }
     list_speeds(system, mass);
 }

@@ -302,7 +302,8 @@ void loads_add_inertia(const System *system, Loads *loads, const Vec *alpha, con
     Vec *gravity = NEW_ARRAY(Vec, system->kinematics->chains.count);
 
     vec_express_outward(system, system->origin->gravity, gravity);
-    for (int pass = 0; pass < 2; pass++) /* what others take over comes before them */
+    /* what others take over comes before them */
+    for (int level = 0, done = 0; done < system->dynamics->masses.count; level++)
         for (int i = 0; i < system->dynamics->masses.count; i++) {
             const Mass *mass = &system->dynamics->masses.at[i];
             int first;
@@ -310,11 +311,14 @@ void loads_add_inertia(const System *system, Loads *loads, const Vec *alpha, con
                 accelerations == NULL ? alike_node(system, mass->node, &first) : NULL;
             const bool takes = follower != NULL && alike_moves(follower);
 
-            if (takes && pass == 1)
+            if ((accelerations == NULL ? alike_level(system, mass->node) : 0) != level)
+                continue;
+            if (takes)
                 take_inertia(loads, follower, mass->node, first);
-            else if (!takes && pass == 0)
+            else
                 add_inertia_of(system, loads, mass, gravity[node_axes(system, mass->node)], alpha,
                                a);
+            done++;
         }
     for (int i = 0; i < system->dynamics->elastics.count; i++)
         add_elastic(system, &system->dynamics->elastics.at[i], loads, alpha, a, accelerations);

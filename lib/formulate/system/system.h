@@ -97,9 +97,8 @@ int system_quaternion(const System *system, int i);
 
 typedef struct Instanced {
     const char *name, *definition;
-    int outer;     /* the one around it; -1 */
-    int first;     /* whose equations it took over, in its own names; -1: they were derived */
-    bool is_first; /* others took its over */
+    int outer; /* the one around it; -1 */
+    int first; /* whose equations it took over, in its own names; -1: they were derived */
 } Instanced;
 
 /* an outer one before those inside; NULL at the end */
