@@ -148,12 +148,14 @@ static int line_count(const char *text)
     return count;
 }
 
-/* wait, unless Ctrl-C comes; false then */
+/* Wait, unless Ctrl-C comes; false then. Another signal, as of a new size, cuts it short. */
 static bool wait_for(double seconds)
 {
     struct timespec rest = {(time_t)seconds, (long)((seconds - (double)(time_t)seconds) * 1e9)};
 
-    return !interrupt_asked() && nanosleep(&rest, NULL) == 0;
+    if (!interrupt_asked())
+        (void)nanosleep(&rest, NULL);
+    return !interrupt_asked();
 }
 
 static bool terminal_moves(void)
@@ -163,13 +165,28 @@ static bool terminal_moves(void)
     return isatty(STDOUT_FILENO) && term != NULL && strcmp(term, "dumb") != 0;
 }
 
-/* One picture over the other; the last one stays, which is all that a file or a pipe gets. */
-static void show_frames(Call *call, char *const *frames, double interval)
+static bool fits(const ct_paper *paper)
 {
+    const ct_paper now = text_paper();
+
+    return now.columns == paper->columns && now.rows == paper->rows;
+}
+
+/* One picture over the other; the last one stays, which is all that a file or a pipe gets. The
+ * frame to go on with, drawn anew, where the terminal has another size than the paper; -1: that is
+ * all. */
+static int show_frames(Call *call, char *const *frames, const ct_paper *paper, int first,
+                       double interval)
+{
+    const bool moves = terminal_moves();
     const char *last = frames[0];
 
-    for (int i = 0; terminal_moves() && frames[i] != NULL; i++) {
+    for (int i = 0; frames[i] != NULL; i++) {
         last = frames[i];
+        if (!moves || i < first)
+            continue;
+        if (!fits(paper))
+            return i;
         for (const char *line = last; *line != '\0'; line += strcspn(line, "\n") + 1)
             printf("\r%.*s\033[K\n", (int)strcspn(line, "\n"), line);
         printf("\033[%dA", line_count(last));
@@ -177,10 +194,9 @@ static void show_frames(Call *call, char *const *frames, double interval)
         if (!wait_for(interval))
             break;
     }
-    for (int i = 0; !terminal_moves() && frames[i] != NULL; i++)
-        last = frames[i];
     interrupt_clear();
     put_text(call->out, last);
+    return -1;
 }
 
 static ct_status command_animate(Call *call, ct_error *error)
@@ -216,7 +232,17 @@ static ct_status command_animate(Call *call, ct_error *error)
     } else if (path != NULL) {
         status = write_file(call, path, texts[0], strlen(texts[0]), error);
     } else {
-        show_frames(call, texts, interval);
+        int next = show_frames(call, texts, &paper, 0, interval);
+
+        while (next >= 0 && status == CT_OK) {
+            ct_words_free(texts);
+            texts = NULL;
+            fputs("\r\033[J", stdout);
+            paper = text_paper();
+            status = ct_animate(call->session, call->statement, &paper, &texts, &interval, error);
+            if (status == CT_OK)
+                next = show_frames(call, texts, &paper, next, interval);
+        }
     }
     ct_words_free(texts);
     return status;

@@ -395,9 +395,20 @@ def moving():
     need(page.count('class="frame"') == 10 and "http" not in page, "a page that needs nothing")
 
 
+def page():
+    """what a browser makes of the page: time goes on, and one frame is shown at a time"""
+    text = open("page.html", encoding="utf-8").read()
+    frames = re.findall(r'<g class="(frame[^"]*)"', text)
+    need(len(frames) == 10 and frames.count("frame on") == 1, str(frames))
+    times = [float(t) for t in re.findall(r"t = (\S+) s", re.search("<title>(.*?)</title>", text)[1])]
+    need(len(times) > 1 and times[0] < times[1], str(times))
+    width, height, busy = png("page.png")
+    need((width, height) == (900, 700) and busy > 0.3, f"{width} x {height}, {busy}")
+
+
 {"one": one, "two": two, "three": three, "bars": bars, "alone": alone, "path": path, "many": many,
  "runs": runs, "measured": measured, "ranges": ranges, "png": png_of_both,
  "documents": documents, "loop": loop, "graph": graph, "mechanism": mechanism, "moving": moving, "events": events, "mixed": mixed,
  "units": units, "spectrum": spectrum, "spatial": spatial, "bent": bent, "springs": springs,
  "forces": forces, "domains": domains, "circuit": circuit, "ports": ports,
- "characters": characters}[sys.argv[1]]()
+ "characters": characters, "page": page}[sys.argv[1]]()

@@ -21,6 +21,8 @@ terminal_tests = \
     tests/terminal/plot_titles.exp \
     tests/terminal/bode.exp \
     tests/terminal/draw.exp \
+    tests/terminal/resize.exp \
+    tests/terminal/window.exp \
     tests/terminal/gnuplot_missing.exp \
     tests/terminal/gnuplot_killed.exp \
     tests/terminal/gnuplot_stuck.exp \
