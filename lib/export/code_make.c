@@ -5,6 +5,7 @@
 #include "compile/program.h"
 #include "formulate/dynamics/cutset_equations.h"
 #include "formulate/solved/accelerations.h"
+#include "formulate/solved/prescribed.h"
 #include "model/model.h"
 
 #include <ctype.h>
@@ -308,49 +309,19 @@ static void add_linear_network(Code *code)
     mem_free(rows);
 }
 
-/* The only entry of a row of Phi_u, where that is 1; -1: the row is another. */
-static int single(const Code *code, int row)
-{
-    const Layout *l = code->layout;
-    const Reading *r = system_run(l->system);
-    int found = -1, count = 0;
-
-    for (int j = 0; j < l->nu; j++)
-        if (!expr_is_zero(r->phi_u[row * l->nu + j])) {
-            found = j;
-            count++;
-        }
-    return count == 1 && r->phi_u[row * l->nu + found] == expr_int(code->arena, 1) ? found : -1;
-}
-
-/* Where each speed is prescribed by a row of its own, u' is gamma, and M u' + lambda = F. */
+/* Where each speed is prescribed by a row of its own. */
 static bool add_prescribed(Code *code)
 {
     const Layout *l = code->layout;
-    const Reading *r = system_run(l->system);
-    const int nu = l->nu;
-    Expr *rows = NEW_ARRAY(Expr, 2 * nu);
-    bool is = l->m == nu;
+    Expr *rows = NEW_ARRAY(Expr, 3 * l->nu);
 
-    for (int k = 0; k < nu && is; k++) {
-        is = single(code, k) >= 0 && rows[single(code, k)] == NULL;
-        if (is)
-            rows[single(code, k)] = r->gamma[k];
-    }
-    for (int k = 0; k < nu && is; k++) {
-        const int j = single(code, k);
-
-        rows[nu + k] = r->force[j];
-        for (int i = 0; i < nu; i++)
-            rows[nu + k] = expr_sub(code->arena, rows[nu + k],
-                                    expr_mul(code->arena, r->mass[j * nu + i], rows[i]));
-    }
-    code->is_explicit = is;
-    if (is)
+    code->is_explicit = l->m == l->nu && system_pushes(l->system, rows + 2 * l->nu, NULL) == OK &&
+                        system_prescribed(l->system, rows + 2 * l->nu, rows, rows + l->nu);
+    if (code->is_explicit)
         code_add_function(code, "accelerations", "u', which is prescribed, and lambda", rows,
-                          2 * nu, 1);
+                          2 * l->nu, 1);
     mem_free(rows);
-    return is;
+    return code->is_explicit;
 }
 
 static void add_mechanics(Code *code)

@@ -49,7 +49,9 @@ libcore_la_SOURCES += \
 	lib/formulate/solved/accelerations.c lib/formulate/solved/accelerations.h \
 	lib/formulate/solved/along_trees.c lib/formulate/solved/along_trees.h \
 	lib/formulate/solved/groups.c lib/formulate/solved/groups.h lib/formulate/solved/linear_network.c \
-	lib/formulate/solved/linear_network.h lib/formulate/solved/ratio.c lib/formulate/solved/ratio.h \
+	lib/formulate/solved/linear_network.h lib/formulate/solved/prescribed.c lib/formulate/solved/prescribed.h \
+	lib/formulate/solved/price.h \
+	lib/formulate/solved/ratio.c lib/formulate/solved/ratio.h \
 	lib/formulate/solved/resistance.c lib/formulate/solved/resistance.h \
 	lib/formulate/solved/response.c lib/formulate/solved/response.h \
 	lib/formulate/solved/state_space.c lib/formulate/solved/state_space.h

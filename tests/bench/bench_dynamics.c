@@ -1,9 +1,9 @@
 /* bench_dynamics.c: operations and time of one evaluation of a robot's and of chains' accelerations
  *
  * The robot and the chains of tests/bench/peers.py, which puts other programs beside these rows.
- * An evaluation is one of the equations' rate: q' and u' where t, q and u are given. Named as an
- * argument, one of them alone. The robot is exported as C, too, which cc makes a library of here,
- * and timed beside. */
+ * An evaluation is one of the equations' rate: q' and u' where t, q and u are given; inverse, one
+ * of the joints' torques where u' are given too. Named as an argument, one of them alone. The robot
+ * is exported as C, too, which cc makes a library of here, and timed beside. */
 #include "../unit/session_kit.h"
 #include "bench.h"
 #include "bench_model.h"
@@ -12,6 +12,7 @@
 #include "../unit/form.h"
 #include "formulate/dynamics/cutset_equations.h"
 #include "formulate/solved/accelerations.h"
+#include "formulate/solved/prescribed.h"
 #include "simulate/equations/motion.h"
 #include "simulate/equations/numbers.h"
 
@@ -21,7 +22,11 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { TRIES = 300, FEW = 3000 /* evaluations until a program has been made native */ };
+enum {
+    TRIES = 300,
+    FEW = 3000 /* evaluations until a program has been made native */,
+    FEW_LINKS = 50 /* of chains that are driven, too */
+};
 
 static double parameter(void *model, Expr symbol)
 {
@@ -194,7 +199,61 @@ done:
     mem_free(rate);
 }
 
-static void measure(const char *text, const char *name, bool is_exported)
+/* --- torques of a motion that is given --- */
+
+/* drivers of all joints: of that name, and numbers from `first` on */
+static char *driven(const char *text, const char *joint, int first, int count)
+{
+    Text all = {0};
+
+    text_add(&all, text);
+    for (int j = 0; j < count; j++)
+        text_addf(&all, "driver D%d %s%d = %.17g*t^2/2\n", j, joint, first + j, sin(3 + 0.7 * j));
+    return text_done(&all);
+}
+
+/* Nanoseconds of one evaluation; the torques are printed. */
+static double evaluation_inverse(Motion *motion, const System *system)
+{
+    const int length = motion_length(motion), few = 2 + 2 * (200 / (10 + system_nu(system)));
+    double *y = NEW_ARRAY(double, 2 * length), seconds;
+    Solved solved;
+
+    place(system, y);
+    memcpy(y + length, y, (size_t)length * sizeof(double));
+    y[length] += 0.1;
+    for (int i = 0; i < FEW; i++)
+        (void)motion_solve(motion, 0, y + i % 2 * length, &solved);
+    BENCH_LEAST(TRIES, seconds,
+                for (int i = 0; i < few; i++)(void)
+                    motion_solve(motion, 0, y + i % 2 * length, &solved));
+    (void)motion_solve(motion, 0, y, &solved);
+    printf("# tau");
+    for (int j = 0; j < system_nu(system); j++)
+        printf(" %.15g", -solved.multipliers[j]);
+    printf("\n");
+    mem_free(y);
+    return 1e9 * seconds / few;
+}
+
+static void count_inverse(System *system, const char *name)
+{
+    const int nu = system_nu(system);
+    Expr *told = NEW_ARRAY(Expr, 3 * nu), *pushes = told + 2 * nu;
+
+    if (system_pushes(system, pushes, NULL) == OK &&
+        system_prescribed(system, pushes, told, told + nu)) {
+        const OpCount ops = expr_count_beside(told, 2 * nu, 1U << SYMBOL_PARAMETER);
+
+        line(name, "inverse_operations", (double)(ops.add + ops.mul), "ops");
+        line(name, "inverse_functions", (double)ops.fun, "ops");
+    }
+    mem_free(told);
+}
+
+typedef enum Asked { ASKED_RATES, ASKED_EXPORT, ASKED_TORQUES } Asked;
+
+static void measure(const char *text, const char *name, Asked asked)
 {
     Model *model = bench_model(text);
     System *system = NULL;
@@ -204,23 +263,34 @@ static void measure(const char *text, const char *name, bool is_exported)
     Layout *layout;
     Diag diag = {0};
     double *rate, took;
+    int *rows;
 
     if (form_system(model, &system, &diag) != OK) {
         printf("# %s: %s\n", name, diag.message);
         return;
     }
-    count(system, name);
+    if (asked == ASKED_TORQUES)
+        count_inverse(system, name);
+    else
+        count(system, name);
     layout = layout_new(system);
+    rows = NEW_ARRAY(int, layout->m);
+    for (int k = 0; k < layout->m; k++)
+        rows[k] = k;
     parameters.evaluator = EVALUATOR_STRICT;
     if (numbers_new(layout, &parameters, &numbers, &diag) == OK) {
-        motion = motion_new(numbers_equations(numbers), &(MotionOptions){.tolerance = 1e-9});
+        motion =
+            motion_new(numbers_equations(numbers),
+                       &(MotionOptions){.rows = rows, .row_count = layout->m, .tolerance = 1e-9});
         rate = NEW_ARRAY(double, motion_length(motion));
-        took = evaluation(motion, system, rate);
-        line(name, "forward", took, "ns");
-        if (is_exported)
+        took = asked == ASKED_TORQUES ? evaluation_inverse(motion, system)
+                                      : evaluation(motion, system, rate);
+        line(name, asked == ASKED_TORQUES ? "inverse" : "forward", took, "ns");
+        if (asked == ASKED_EXPORT)
             measure_exported(text, name, system, took, rate);
         mem_free(rate);
     }
+    mem_free(rows);
     motion_free(motion);
     numbers_free(numbers);
     parameters_free(&parameters);
@@ -229,18 +299,51 @@ static void measure(const char *text, const char *name, bool is_exported)
     model_free(model);
 }
 
+/* a row of `inverse`, all that a run does for it */
+static void measure_row(const char *driven_text, const char *name)
+{
+    enum { ROWS = 100000 };
+    Kit kit = kit_new();
+    double many = 0, few = 0;
+    bool sound = kit_do(&kit, driven_text) == CT_OK;
+
+    if (sound)
+        BENCH_LEAST(5, many, sound = sound && kit_do(&kit, "inverse 1 every=0.00001\n") == CT_OK);
+    if (sound)
+        BENCH_LEAST(5, few, sound = sound && kit_do(&kit, "inverse 1 every=0.5\n") == CT_OK);
+    if (sound)
+        line(name, "inverse_row", 1e9 * (many - few) / ROWS, "ns");
+    else
+        printf("# %s: %s\n", name, kit.error.message);
+    kit_free(&kit);
+}
+
+/* a model, and the same with a driver on each of its joints */
+static void measure_both(const char *text, const char *name, const char *joint, int first,
+                         int count)
+{
+    char *all = driven(text, joint, first, count);
+
+    measure(text, name, first > 0 ? ASKED_EXPORT : ASKED_RATES);
+    if (count <= FEW_LINKS)
+        measure(all, name, ASKED_TORQUES);
+    if (count <= FEW_LINKS)
+        measure_row(all, name);
+    mem_free(all);
+}
+
 int main(int argc, char **argv)
 {
     static const int links[] = {2, 10, 50, 200, 1000};
 
     if (argc < 2 || strcmp(argv[1], "6r") == 0)
-        measure(robot_6r, "6r", true);
+        measure_both(robot_6r, "6r", "j", 1, 6);
     for (int i = 0; i < COUNT(links); i++) {
         char *text = robot_chain(links[i]), name[24];
 
         (void)snprintf(name, sizeof name, "chain_%d", links[i]);
         if (argc < 2 || strcmp(argv[1], name) == 0)
-            measure(text, name, false);
+            measure_both(text, name, "h", 0, links[i]);
         mem_free(text);
     }
     return 0;

@@ -55,7 +55,16 @@ int main(int argc, char **argv)
     for (int j = 0; j < model->nv; j++)
         printf(" %.15g", data->qacc[j]);
     printf("\nforward %.6g\n", least(model, data, mj_forward));
+    place(model, data, 0);
+    for (int j = 0; j < model->nv; j++)
+        data->qacc[j] = sin(3 + 0.7 * j);
     printf("inverse %.6g\n", least(model, data, mj_inverse));
+    place(model, data, 0);
+    mj_inverse(model, data);
+    printf("# tau");
+    for (int j = 0; j < model->nv; j++)
+        printf(" %.15g", data->qfrc_inverse[j]);
+    printf("\n");
     mj_deleteData(data);
     mj_deleteModel(model);
     return 0;

@@ -52,9 +52,11 @@ int main()
     for (int i = 0; i < n; i++) {
         state.updQ()[i] = std::sin(1 + 1.7 * i);
         state.updU()[i] = std::cos(2 + 1.3 * i);
+        asked[i] = std::sin(3 + 0.7 * i);
     }
     system.realize(state, Stage::Acceleration);
     const Vector found = state.getUDot();
+    Vector asked(n), torques;
 
     std::cout.precision(15);
     std::cout << "# u'";
@@ -63,7 +65,6 @@ int main()
     std::cout << '\n';
     for (int what = 0; what < 2; what++) {
         double best = 1e300;
-        Vector torques;
 
         for (int turn = 0; turn < (n > 100 ? 30 : 200); turn++) {
             const double begin = now();
@@ -73,12 +74,20 @@ int main()
                 system.realize(state, what == 0 ? Stage::Acceleration : Stage::Dynamics);
                 if (what == 1)
                     matter.calcResidualForceIgnoringConstraints(
-                        state, Vector(0), system.getRigidBodyForces(state, Stage::Dynamics), found,
+                        state, Vector(0), system.getRigidBodyForces(state, Stage::Dynamics), asked,
                         torques);
             }
             best = std::min(best, (now() - begin) / few);
         }
         std::cout << (what == 0 ? "forward " : "inverse ") << 1e9 * best << '\n';
     }
+    state.updQ()[0] = std::sin(1.0);
+    system.realize(state, Stage::Dynamics);
+    matter.calcResidualForceIgnoringConstraints(
+        state, Vector(0), system.getRigidBodyForces(state, Stage::Dynamics), asked, torques);
+    std::cout << "# tau";
+    for (int j = 0; j < n; j++)
+        std::cout << ' ' << torques[j];
+    std::cout << '\n';
     return 0;
 }

@@ -5,9 +5,10 @@
 
 Builds the drivers beside this file in FOLDER, where the libraries of MuJoCo and Simbody are there,
 and runs each in turn with BENCH_DYNAMICS, our bench. Prints `name value unit`: ns of an evaluation,
-and how many times ours the others take. Accelerations have to agree to eight digits. A library that
+and how many times ours the others take. Accelerations and torques have to agree to eight digits. A library that
 is missing, or can't load a model, is a line behind '#'."""
 
+import math
 import os
 import subprocess
 import sys
@@ -81,11 +82,11 @@ def drivers(folder):
 
 
 def rows_of(text):
-    """accelerations, and the figures by name"""
-    found, figures = [], {}
+    """accelerations and torques, and the figures by name"""
+    found, figures = {"u'": [], "tau": []}, {}
     for line in text.splitlines():
-        if line.startswith("# u'"):
-            found = [float(word) for word in line.split()[2:]]
+        if line.startswith(("# u'", "# tau")):
+            found[line.split()[1]] = [float(word) for word in line.split()[2:]]
         elif not line.startswith("#"):
             figures[line.split()[0]] = float(line.split()[1])
     return found, figures
@@ -100,6 +101,13 @@ def run_peer(peer, program, tree, gravity):
     if done.returncode != 0:
         raise OSError(" ".join((done.stdout + done.stderr).replace("#", " ").split()) or "it failed")
     return rows_of(done.stdout)
+
+
+def differs(found, right):
+    """of the largest"""
+    if len(found) != len(right):
+        return math.inf
+    return max(abs(a - b) for a, b in zip(found, right)) / max(map(abs, right))
 
 
 def run_case(name, ours, peers):
@@ -122,14 +130,15 @@ def run_case(name, ours, peers):
         except (OSError, subprocess.TimeoutExpired) as failure:
             print(f"# {name}: {peer}: {failure}")
             continue
-        largest = max(map(abs, right))
-        off = max(abs(a - b) for a, b in zip(found, right)) / largest
-        agree = agree and len(found) == len(right) and off < 1e-8
+        off = max(differs(found[what], right[what]) for what in right if right[what])
+        agree = agree and off < 1e-8
         print(f"peers.{name}_{peer}_differs {off:.2g} of the largest")
         for what, value in figures.items():
             print(f"peers.{name}_{what}_{peer} {value:.4g} ns")
             if what in own:
                 print(f"peers.{name}_{what}_{peer}_times {value / own[what]:.3g} ours")
+        if "inverse_row" in own:
+            print(f"peers.{name}_inverse_{peer}_row_times {figures['inverse'] / own['inverse_row']:.3g} ours")
     return agree
 
 

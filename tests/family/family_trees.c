@@ -35,6 +35,8 @@ typedef struct TreeCase {
     double g[3], q[MOST_SPEEDS], u[MOST_SPEEDS];
     char name[MOST_SPEEDS][16];
     bool is_planar;
+    int rotor_on; /* the body whose angle against ground turns a motor's rotor; -1: none */
+    double rotor;
 } TreeCase;
 
 /* --- drawn --- */
@@ -138,6 +140,9 @@ static void draw(Member *member, TreeCase *c)
             c->body[i].inertia[0] = c->body[i].inertia[1] = c->body[i].inertia[2] = 0.3;
         }
     }
+    c->rotor_on =
+        c->is_planar && member_one_of(member, 3) == 0 ? member_one_of(member, c->bodies) : -1;
+    c->rotor = round_to(member_between(member, 0.1, 2));
     c->g[c->is_planar ? 1 : 2] = -9.81;
     c->g[0] = member_one_of(member, 2) == 0 ? 0 : 1.5;
 }
@@ -259,14 +264,25 @@ typedef Real Centres[MOST_BODIES][3];
 
 #define SINGULAR 1e-6L /* what a pivot may be the rest of */
 
-/* d'Alembert: sum over points of (m a - f) . dp/dq_j = Q_j. False: a speed has next to no inertia
- * of its own. */
-static bool by_points(const TreeCase *c, double *out)
+typedef Real Balance[MOST_SPEEDS][MOST_SPEEDS + 1];
+
+/* how a rate turns the rotor */
+static void turn_rotor(const TreeCase *c, Real *rate)
 {
+    for (int i = c->rotor_on; i >= 0; i = c->body[i].joint.parent)
+        if (c->body[i].joint.kind == REVOLUTE)
+            rate[c->body[i].joint.first] = c->body[i].joint.back ? -1 : 1;
+}
+
+/* d'Alembert: sum over points of (m a - f) . dp/dq_j = Q_j, as M and what stands right of it */
+static void balance(const TreeCase *c, Balance M)
+{
+    Real rotor[MOST_SPEEDS] = {0};
     static Points slopes[MOST_SPEEDS], ahead, behind, bends, here;
     static Centres lead[MOST_SPEEDS], off, off2;
-    Real M[MOST_SPEEDS][MOST_SPEEDS + 1] = {{0}}, size[MOST_SPEEDS];
 
+    turn_rotor(c, rotor);
+    memset(M, 0, sizeof(Balance));
     memset(slopes, 0, sizeof slopes);
     memset(bends, 0, sizeof bends);
     memset(lead, 0, sizeof lead);
@@ -305,7 +321,18 @@ static bool by_points(const TreeCase *c, double *out)
             if (joint->first == j)
                 M[j][c->n] -= joint->stiffness * c->q[j] + joint->damping * c->u[j];
         }
+        for (int k = 0; k < c->n; k++)
+            M[j][k] += (Real)c->rotor * rotor[j] * rotor[k];
     }
+}
+
+/* False: a speed has next to no inertia of its own. */
+static bool by_points(const TreeCase *c, double *out)
+{
+    static Balance M;
+    Real size[MOST_SPEEDS];
+
+    balance(c, M);
     for (int k = 0; k < c->n; k++)
         size[k] = M[k][k];
     for (int k = 0; k < c->n; k++) {
@@ -321,6 +348,21 @@ static bool by_points(const TreeCase *c, double *out)
     for (int k = 0; k < c->n; k++)
         out[k] = (double)(M[k][c->n] / M[k][k]);
     return true;
+}
+
+/* what joints take so that these are the accelerations */
+static void torques_by_points(const TreeCase *c, const double *acceleration, double *out)
+{
+    static Balance M;
+
+    balance(c, M);
+    for (int j = 0; j < c->n; j++) {
+        Real sum = -M[j][c->n];
+
+        for (int k = 0; k < c->n; k++)
+            sum += M[j][k] * acceleration[k];
+        out[j] = (double)sum;
+    }
 }
 
 /* --- as cotree has it --- */
@@ -382,6 +424,11 @@ static char *text_of(const TreeCase *c)
             text_add(&text, "\n");
         }
     }
+    if (c->rotor_on >= 0)
+        text_addf(&text,
+                  "virtual revolute v ground b%d\nvsource V a 0 0\n"
+                  "motor M v a 0 R=1 Kt=0 J=%.17g\n",
+                  c->rotor_on, c->rotor);
     text_add(&text, "tree joint\n");
     return text_done(&text);
 }
@@ -406,7 +453,7 @@ static bool alike(Member *member, const TreeCase *c, const char *what, const dou
 static bool compare(Member *member, const TreeCase *c, TreesModel *model, bool by_run,
                     const double *right)
 {
-    double found[MOST_SPEEDS];
+    double found[MOST_SPEEDS] = {0};
     char what[80];
     bool good = true;
 
@@ -426,7 +473,7 @@ static bool compare(Member *member, const TreeCase *c, TreesModel *model, bool b
 static Verdict accelerations(Member *member, bool by_run)
 {
     TreeCase c;
-    double right[MOST_SPEEDS];
+    double right[MOST_SPEEDS] = {0};
     char *text, message[200] = "";
     TreesModel *model;
     bool good;
@@ -456,11 +503,53 @@ static Verdict run(Member *member)
     return accelerations(member, true);
 }
 
+/* torques of accelerations that are asked for, each way; and of drivers in a run */
+static Verdict torques(Member *member)
+{
+    TreeCase c;
+    double asked[MOST_SPEEDS], right[MOST_SPEEDS] = {0}, found[MOST_SPEEDS] = {0};
+    char what[80], message[200] = "", *text;
+    Text driven = {0};
+    TreesModel *model;
+    TreesAnswer answer = TREES_FOUND;
+    bool good = true;
+
+    do {
+        draw(member, &c);
+        for (int j = 0; j < c.n; j++)
+            asked[j] = round_to(member_between(member, -5, 5));
+        torques_by_points(&c, asked, right);
+    } while (!isfinite(right[0])); /* no points have such moments of inertia */
+    text = text_of(&c);
+    text_add(&driven, text);
+    for (int j = 0; j < c.n; j++)
+        text_addf(&driven, "driver D%d %s = %.17g + %.17g*t + %.17g*t^2/2\n", j, c.name[j], c.q[j],
+                  c.u[j], asked[j]);
+    tell(member, "%s", driven.at);
+    model = trees_open(text, message, sizeof message);
+    for (int way = 0; model != NULL && good && way < TREES_TORQUES; way++) {
+        answer = trees_torques(model, way, c.name, c.q, c.u, asked, c.n, found, what, sizeof what);
+        good = answer == TREES_HAVE_NONE ||
+               (answer == TREES_FOUND && alike(member, &c, what, found, right));
+    }
+    good = good && model != NULL;
+    trees_close(model);
+    model = good ? trees_open(driven.at, message, sizeof message) : NULL;
+    good = model != NULL && trees_driven(model, c.name, c.q, c.u, c.n, found) == TREES_FOUND &&
+           alike(member, &c, "drivers", found, right);
+    tell(member, "%s\n", message);
+    trees_close(model);
+    text_free(&driven);
+    mem_free(text);
+    return good ? AGREES : DISAGREES;
+}
+
 int main(int argc, char **argv)
 {
     static const Family families[] = {
         {"trees: every way along the trees tells the accelerations of points", 60, 0, 0, each_way},
         {"trees: a run finds the accelerations of points", 100, 0, 0, run},
+        {"trees: torques of a motion are those of points", 60, 0, 0, torques},
     };
 
     return family_main(families, COUNT(families), argc, argv);

@@ -9,6 +9,7 @@
 #include "simulate/equations/numbers.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 struct TreesModel {
@@ -148,5 +149,70 @@ TreesAnswer trees_run(TreesModel *trees, const char names[][TREES_NAME], const d
     motion_free(motion);
     numbers_free(numbers);
     MEM_FREE(order, y);
+    return answer;
+}
+
+TreesAnswer trees_torques(TreesModel *trees, int number, const char names[][TREES_NAME],
+                          const double *q, const double *u, const double *acceleration, int n,
+                          double *out, char *what, size_t room)
+{
+    const Way way = {DELAY_NONE, number % 2 == 1, number % 4 > 1};
+    const bool is_one_pass = number == TREES_TORQUES - 1, moves = number >= 4;
+    Groups *groups =
+        system_nu(trees->system) == n && !is_one_pass ? groups_new(trees->system) : NULL;
+    Arena *arena = system_arena(trees->system);
+    Expr *told = NEW_ARRAY(Expr, 3 * n), *pushes = told + n, *asked = told + 2 * n;
+    int *order = order_of(trees, names, n);
+    double *y = state(order, q, u, n);
+    TreesAnswer answer = TREES_HAVE_NONE;
+
+    (void)snprintf(what, room, "torques, %s, merges %d, ends merged %d, inertia moved %d",
+                   is_one_pass ? "frame by frame" : "over groups", way.merges, way.ends_merged,
+                   moves);
+    for (int j = 0; j < n; j++)
+        asked[order[j]] = expr_real(arena, acceleration[j]);
+    if (is_one_pass && dynamics_lack(trees->system, asked, told))
+        answer = evaluate(trees, told, y, order, n, out);
+    if (groups != NULL && moves)
+        groups_move_inertia(arena, groups);
+    if (groups != NULL && system_pushes(trees->system, pushes, NULL) == OK) {
+        efforts_along(trees->system, groups, &way, asked, told);
+        for (int j = 0; j < n; j++)
+            told[j] = expr_sub(arena, told[j], pushes[j]);
+        answer = evaluate(trees, told, y, order, n, out);
+    }
+    groups_free(groups);
+    MEM_FREE(told, order, y);
+    return answer;
+}
+
+TreesAnswer trees_driven(TreesModel *trees, const char names[][TREES_NAME], const double *q,
+                         const double *u, int n, double *out)
+{
+    Numbers *numbers = NULL;
+    Motion *motion = NULL;
+    int *order = order_of(trees, names, n), *rows = NEW_ARRAY(int, n);
+    double *y = state(order, q, u, n);
+    TreesAnswer answer = TREES_FAILED;
+    Solved solved;
+
+    for (int k = 0; k < n; k++)
+        rows[k] = k;
+    if (system_m(trees->system) == n &&
+        numbers_new(trees->layout, &trees->parameters, &numbers, NULL) == OK) {
+        motion = motion_new(numbers_equations(numbers),
+                            &(MotionOptions){.rows = rows, .row_count = n, .tolerance = 1e-9});
+        if (motion_solve(motion, 0, y, &solved))
+            answer = TREES_FOUND;
+        for (int k = 0; k < n && answer == TREES_FOUND; k++) {
+            const char *driver =
+                system_instance_name(trees->system, system_constraint(trees->system, k)->instance);
+
+            out[atoi(driver + 1)] = -solved.multipliers[k];
+        }
+    }
+    motion_free(motion);
+    numbers_free(numbers);
+    MEM_FREE(order, rows, y);
     return answer;
 }

@@ -1,11 +1,12 @@
-/* trees.h: accelerations of a tree of joints as cotree has them, by each way it may take */
+/* trees.h: accelerations and torques of a tree of joints as cotree has them, by each way it may
+ * take */
 #ifndef COTREE_TESTS_FAMILY_TREES_H
 #define COTREE_TESTS_FAMILY_TREES_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-enum { TREES_WAYS = 24, TREES_NAME = 16 };
+enum { TREES_WAYS = 24, TREES_TORQUES = 9, TREES_NAME = 16 };
 
 /* NONE: what is there doesn't allow any way along the trees */
 typedef enum TreesAnswer { TREES_FOUND, TREES_HAVE_NONE, TREES_FAILED } TreesAnswer;
@@ -21,5 +22,13 @@ TreesAnswer trees_way(TreesModel *model, int way, const char names[][TREES_NAME]
 /* as a run finds them */
 TreesAnswer trees_run(TreesModel *model, const char names[][TREES_NAME], const double *q,
                       const double *u, int n, double *out);
+
+/* torques of joints for accelerations that are asked for, and what the way is */
+TreesAnswer trees_torques(TreesModel *model, int way, const char names[][TREES_NAME],
+                          const double *q, const double *u, const double *acceleration, int n,
+                          double *out, char *what, size_t room);
+/* torques of the drivers D0, D1, ... of these coordinates, as a run finds them */
+TreesAnswer trees_driven(TreesModel *model, const char names[][TREES_NAME], const double *q,
+                         const double *u, int n, double *out);
 
 #endif

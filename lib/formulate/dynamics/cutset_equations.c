@@ -12,6 +12,7 @@
 #include "formulate/kinematics/alike.h"
 #include "formulate/kinematics/coordinate.h"
 #include "formulate/kinematics/frames.h"
+#include "formulate/kinematics/recursive.h"
 #include "formulate/system/constraints.h"
 #include "formulate/system/dynamics.h"
 #include "formulate/system/kinematics.h"
@@ -610,6 +611,56 @@ Status system_pushes(System *system, Expr *out, Diag *diag)
     }
     pool_release(system->pool, mark);
     return OK;
+}
+
+/* what parts add to M, times u' */
+static Expr shares_times(const System *system, int speed, const Expr *acceleration)
+{
+    Expr sum = expr_int(system->arena, 0);
+
+    for (int i = 0; i < system->dynamics->shares.count; i++) {
+        const Entry *share = &system->dynamics->shares.at[i];
+
+        if (share->row == speed)
+            sum = expr_add(system->arena, sum,
+                           expr_mul(system->arena, share->value, acceleration[share->column]));
+    }
+    return sum;
+}
+
+bool dynamics_lack(System *system, const Expr *acceleration, Expr *out)
+{
+    const int nu = system->kinematics->u.count;
+    Vec *alpha, *a;
+    PoolMark mark;
+    Loads loads;
+    bool is_told = false;
+
+    if (system->kinematics->speed_count > nu)
+        return false;
+    system_touch(system);
+    mark = pool_mark(system->pool);
+    alpha = NEW_ARRAY(Vec, system->kinematics->chains.count);
+    a = NEW_ARRAY(Vec, graph_node_count(system->origin->graph));
+    accelerations_build(system, acceleration, alpha, a);
+    loads = loads_new(system);
+    loads_add_inertia(system, &loads, alpha, a, acceleration);
+    if (efforts_add(system, &loads, false, NULL) == OK) {
+        const Sums *sums = loads_sum(system, &loads);
+
+        for (int j = 0; j < nu; j++) {
+            const Expr there =
+                expr_add(system->arena, sums_project(system, sums, j), system->dynamics->pushes[j]);
+
+            out[j] =
+                expr_hold(system->arena,
+                          expr_sub(system->arena, shares_times(system, j, acceleration), there));
+        }
+        is_told = true;
+    }
+    MEM_FREE(alpha, a);
+    pool_release(system->pool, mark);
+    return is_told;
 }
 
 Status system_form_mass(System *system, Diag *diag)

@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "formulate/solved/along_trees.h"
+#include "formulate/solved/price.h"
 #include "formulate/system/system_impl.h"
 
 #include <string.h>
@@ -70,18 +71,6 @@ static bool through_mass(System *system, const Expr *force, Expr *acceleration, 
     return found;
 }
 
-/* --- what a way costs in a run --- */
-
-/* a sine costs about as much as so many additions in a run */
-enum { FUNCTION_PRICE = 20 };
-
-static int64_t cost_of(const Expr *roots, int count)
-{
-    const OpCount ops = expr_count_beside(roots, count, 1U << SYMBOL_PARAMETER);
-
-    return ops.add + ops.mul + FUNCTION_PRICE * ops.fun;
-}
-
 /* --- the cheapest --- */
 
 typedef struct Search {
@@ -95,7 +84,7 @@ typedef struct Search {
 
 static bool offer(Search *search)
 {
-    const int64_t cost = cost_of(search->tried, 2 * search->n);
+    const int64_t cost = price_of(search->tried, 2 * search->n);
 
     if (cost >= search->least)
         return false;

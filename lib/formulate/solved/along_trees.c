@@ -19,7 +19,7 @@
 typedef struct Work { /* of a group, in the axes of chain `axes` */
     int axes;
     Vec axis, way;        /* way: in the parent's axes */
-    Vec w, alpha, a;      /* at u' = 0, gravity taken off */
+    Vec w, alpha, a;      /* at u' = 0 or those that are given, gravity taken off */
     Expr turning[9];      /* alpha x + w x (w x */
     bool reaches[MOTION]; /* how the parent moves the joint, in these axes */
     bool moves[MOTION];
@@ -170,14 +170,15 @@ static int own_component(const Group *group, Vec axis)
     return group->slides ? SHIFT + found : found;
 }
 
-static void move(Course *c, int g)
+/* with these u', or NULL: at u' = 0 */
+static void move(Course *c, int g, const Expr *acceleration)
 {
     Arena *arena = c->arena;
     const Group *group = &c->groups[g];
     Work *work = &c->work[g];
     const Work *parent = &c->work[group->parent];
     const Expr u = speed_rate(c->system, group->speed);
-    Vec turned;
+    Vec turned, *moved = group->slides ? &work->a : &work->alpha;
     Vec a;
 
     work->axis = express(c, group->axis, group->chain, work->axes);
@@ -198,8 +199,23 @@ static void move(Course *c, int g)
         work->w = vec_hold(arena, vec_add(arena, work->w, vec_scale(arena, u, work->axis)));
         work->alpha = vec_hold(arena, vec_add(arena, work->alpha, turned));
     }
+    if (acceleration != NULL)
+        *moved = vec_hold(arena, vec_add(arena, *moved,
+                                         vec_scale(arena, acceleration[group->speed], work->axis)));
     work->own = own_component(group, work->axis);
     find_turning(c, work);
+}
+
+/* all groups, outward */
+static void move_all(Course *c, const Expr *acceleration)
+{
+    c->work[0].w = c->work[0].alpha = vec_zero(c->arena);
+    for (int i = 0; i < 3; i++)
+        c->work[0].a.at[i] = expr_neg(c->arena, c->system->origin->gravity.at[i]);
+    choose_axes(c);
+    find_turning(c, &c->work[0]);
+    for (int g = 1; g < c->count; g++)
+        move(c, g, acceleration);
 }
 
 /* --- resistance --- */
@@ -433,19 +449,13 @@ bool accelerations_along(const System *system, const Groups *groups, const Way *
                 .count = groups->all.count,
                 .way = way,
                 .applied = applied};
-    const Vec zero = vec_zero(c.arena);
     bool sound = true;
     int next;
 
     c.work = NEW_ARRAY(Work, c.count);
     c.at = NEW_ARRAY(int, c.count);
-    c.work[0].w = c.work[0].alpha = c.work[0].x[0] = c.work[0].x[1] = zero;
-    for (int i = 0; i < 3; i++)
-        c.work[0].a.at[i] = expr_neg(c.arena, system->origin->gravity.at[i]);
-    choose_axes(&c);
-    find_turning(&c, &c.work[0]);
-    for (int g = 1; g < c.count; g++)
-        move(&c, g);
+    c.work[0].x[0] = c.work[0].x[1] = vec_zero(c.arena);
+    move_all(&c, NULL);
     for (int g = 0; g < c.count; g++)
         resistance_init(c.arena, &c.work[g].beyond);
     for (int g = c.count - 1; g > 0 && sound; g--)
@@ -470,4 +480,53 @@ bool accelerations_along(const System *system, const Groups *groups, const Way *
     LIST_FREE(c.yields);
     MEM_FREE(c.work, c.at);
     return sound;
+}
+
+/* --- efforts of a motion that is known --- */
+
+/* what the group and all beyond it take along its speed; the rest goes on to the parent */
+static Expr take(Course *c, int g)
+{
+    Arena *arena = c->arena;
+    const Group *group = &c->groups[g];
+    const Group body = in_axes(c, group, c->work[g].axes);
+    Work *work = &c->work[g], *parent = &c->work[group->parent];
+    const int first = group->slides ? SHIFT : 0;
+    Resistance load;
+    Expr along;
+
+    resistance_init(arena, &load);
+    load_body(c, work, &body, &load);
+    resistance_confine(arena, &load, work->moves);
+    resistance_add(arena, &load, &work->beyond);
+    along =
+        vec_dot(arena, work->axis, (Vec){{load.b[first], load.b[first + 1], load.b[first + 2]}});
+    resistance_confine(arena, &load, work->reaches);
+    resistance_turn(c->system, &load, work->axes, parent->axes);
+    resistance_shift(arena, &load, work->way);
+    resistance_add(arena, &parent->beyond, &load);
+    return expr_neg(arena, along);
+}
+
+void efforts_along(const System *system, const Groups *groups, const Way *way,
+                   const Expr *acceleration, Expr *effort)
+{
+    Course c = {.system = system,
+                .arena = system->arena,
+                .groups = groups->all.at,
+                .count = groups->all.count,
+                .way = way};
+
+    c.work = NEW_ARRAY(Work, c.count);
+    move_all(&c, acceleration);
+    for (int g = 0; g < c.count; g++)
+        resistance_init(c.arena, &c.work[g].beyond);
+    for (int g = c.count - 1; g > 0; g--) {
+        const int speed = c.groups[g].speed;
+
+        effort[speed] = expr_add(c.arena, take(&c, g),
+                                 expr_mul(c.arena, share_of(&c, speed), acceleration[speed]));
+    }
+    resistance_free(&c.work[0].beyond);
+    mem_free(c.work);
 }

@@ -23,4 +23,9 @@ typedef struct Way {
 bool accelerations_along(const System *system, const Groups *groups, const Way *way,
                          const Expr *applied, Expr *acceleration, Expr *excess);
 
+/* M u' less what inertia and gravity make of F, for u' that are given, outward and inward once
+ * (Luh, Walker and Paul 1980). Of the way no delay counts. */
+void efforts_along(const System *system, const Groups *groups, const Way *way,
+                   const Expr *acceleration, Expr *effort);
+
 #endif

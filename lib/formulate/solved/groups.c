@@ -12,7 +12,8 @@ typedef struct Spot {
     Vec way;
 } Spot;
 
-/* both trees reach every node by the same edge, and every speed is of a turn or of a shift */
+/* both trees reach every node by the same edge, every speed is of a turn or of a shift, and what
+ * parts add to M is of one speed each */
 static bool applies(const System *system)
 {
     const Kinematics *kin = system->kinematics;
@@ -31,6 +32,9 @@ static bool applies(const System *system)
     for (int j = 0; j < kin->u.count; j++)
         if ((kin->speeds[j].chain >= 0) == (kin->speeds[j].slide_node >= 0) ||
             (kin->speeds[j].chain >= 0 && kin->chains.at[kin->speeds[j].chain].is_free))
+            return false;
+    for (int i = 0; i < system->dynamics->shares.count; i++)
+        if (system->dynamics->shares.at[i].row != system->dynamics->shares.at[i].column)
             return false;
     return true;
 }

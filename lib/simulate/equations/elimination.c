@@ -1,10 +1,19 @@
-/* elimination.c: the accelerations that a run's program tells, of mechanisms without constraints */
+/* elimination.c: the accelerations that a run's program tells, where nothing has to be solved */
 #include "simulate/equations/elimination.h"
 #include "formulate/dynamics/cutset_equations.h"
 #include "formulate/solved/accelerations.h"
 
 #include "base/memory.h"
 #include "compile/program.h"
+
+/* before they are known: nothing in them may follow from accelerations */
+static bool is_known_early(const Layout *l, const Expr *told)
+{
+    for (int i = 0; i < 2 * l->nu; i++)
+        if (stage_of(told[i]) > STAGE_NETWORK)
+            return false;
+    return true;
+}
 
 Status elimination_choose(const Layout *l, Told *by, Expr **out, Diag *diag)
 {
@@ -15,17 +24,19 @@ Status elimination_choose(const Layout *l, Told *by, Expr **out, Diag *diag)
 
     *out = told;
     *by = TOLD_NOT;
-    if (l->m > 0 || l->nu == 0)
+    if (l->nu == 0 || (l->m > 0 && l->m != l->nu))
         goto done;
     CHECK(system_pushes(l->system, pushes, diag));
     for (int j = 0; j < l->nu; j++) {
         pushes[j] = layout_on_surfaces(l, pushes[j]);
         force[j] = layout_on_surfaces(l, r->force[j]);
     }
-    *by = system_accelerations(l->system, force, pushes, told, told + l->nu);
-    for (int j = 0; j < l->nu; j++)
-        if (*by != TOLD_NOT && stage_of(told[j]) > STAGE_NETWORK)
-            *by = TOLD_NOT;
+    if (l->m == 0)
+        *by = system_accelerations(l->system, force, pushes, told, told + l->nu);
+    else if (l->surface_count == 0 && system_prescribed(l->system, pushes, told, told + l->nu))
+        *by = TOLD_PRESCRIBED;
+    if (*by != TOLD_NOT && !is_known_early(l, told))
+        *by = TOLD_NOT;
 done:
     mem_free(pushes);
     return status;

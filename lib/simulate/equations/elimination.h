@@ -3,10 +3,11 @@
 #define COTREE_SIMULATE_EQUATIONS_ELIMINATION_H
 
 #include "formulate/solved/accelerations.h"
+#include "formulate/solved/prescribed.h"
 #include "simulate/equations/input_layout.h"
 
-/* u' on the layout's surfaces, then what tells its rounding (2 nu): new, also where it is not
- * told. */
+/* u' on the layout's surfaces, then what tells its rounding, or where all is prescribed the
+ * multipliers (2 nu): new, also where it is not told. */
 MUST_USE Status elimination_choose(const Layout *layout, Told *by, Expr **out, Diag *diag);
 
 #endif

@@ -328,6 +328,14 @@ static void move(Motion *mo, const double *du, double *q)
     equations_normalise(eq, q);
 }
 
+/* Phi_u du = bottom where Phi_u is a permutation but for signs: what is prescribed */
+static void take_prescribed(Motion *mo)
+{
+    memset(mo->du, 0, (size_t)mo->eq->nu * sizeof(double));
+    for (int k = 0; k < mo->used; k++)
+        pattern_add(mo->eq->rows, mo->eq->phi_u, mo->rows[k], mo->bottom[k], mo->du);
+}
+
 /* The nearest position by how errors are measured, not by masses: where rounding is what is left as
  * a residual, a light crank at its dead centre would go far to spare a heavy rocker some 1e-16 rad.
  *
@@ -346,7 +354,7 @@ static bool project_position(Motion *mo, double t, double *y)
     left = distance(mo);
     if (left <= 1e-16 * size)
         return true;
-    if (!motion_factor_with(mo, mo->nearest_kkt, mo->unit))
+    if (!motion_is_prescribed(mo) && !motion_factor_with(mo, mo->nearest_kkt, mo->unit))
         return false;
     for (int sweep = 0; sweep < PROJECTION_SWEEPS && left > 1e-16 * size; sweep++) {
         if (left <= 1e-13 * size && left > 0.5 * before)
@@ -354,15 +362,16 @@ static bool project_position(Motion *mo, double t, double *y)
         before = left;
         for (int k = 0; k < mo->used; k++)
             mo->bottom[k] = -mo->eq->phi[mo->rows[k]];
-        kkt_solve(mo->nearest_kkt, NULL, mo->bottom, mo->du, mo->lambda);
+        if (motion_is_prescribed(mo))
+            take_prescribed(mo);
+        else
+            kkt_solve(mo->nearest_kkt, NULL, mo->bottom, mo->du, mo->lambda);
         move(mo, mo->du, y);
-        /* the factors stay those of the first sweep */
-        mo->eq->position(mo->eq->context, t, y);
+        motion_at_position(mo, t, y); /* the factors stay those of the first sweep */
         left = distance(mo);
         if (!isfinite(left))
             break;
     }
-    mo->is_evaluated = false;
     return left <= enough;
 }
 
@@ -371,12 +380,15 @@ static bool project_velocity(Motion *mo, double t, const double *y, double *u, c
     const Equations *eq = mo->eq;
 
     motion_at_position(mo, t, y);
-    if (!motion_factor(mo))
+    if (!motion_is_prescribed(mo) && !motion_factor(mo))
         return false;
     eq->velocity(eq->context, u, x);
     for (int k = 0; k < mo->used; k++)
         mo->bottom[k] = eq->nu_rate[mo->rows[k]] - pattern_dot(eq->rows, eq->phi_u, mo->rows[k], u);
-    kkt_solve(mo->kkt, NULL, mo->bottom, mo->du, mo->lambda);
+    if (motion_is_prescribed(mo))
+        take_prescribed(mo);
+    else
+        kkt_solve(mo->kkt, NULL, mo->bottom, mo->du, mo->lambda);
     for (int j = 0; j < eq->nu; j++)
         u[j] += mo->du[j];
     return vector_is_finite(u, eq->nu);

@@ -72,6 +72,9 @@ typedef struct Equations {
     /* u' of M u' = force where there are no constraints, by other means than M; false: M leaves
      * nothing but rounding of it. NULL: by M */
     bool (*without_mass)(void *context, double *acceleration);
+    /* Where each speed has a row of its own, so that Phi_u is a permutation but for signs: u', and
+     * the multipliers of all rows; NULL: not so */
+    void (*prescribed)(void *context, double *acceleration, double *multiplier);
     void (*bring_mass)(void *context);  /* M up to date; NULL: it is */
     const double *force;                /* nu; by equations_force() */
     void (*bring_force)(void *context); /* F up to date; NULL: it is */

@@ -76,6 +76,12 @@ bool motion_evaluate(Motion *motion, double t, const double *y);
 /* then u', in the form of the run */
 bool motion_solve_rates(Motion *motion);
 
+/* nothing has to be solved for */
+static inline bool motion_is_prescribed(const Motion *mo)
+{
+    return mo->eq->prescribed != NULL && mo->used == mo->eq->m;
+}
+
 /* --- motion_solve.c --- */
 
 /* the solution by form, with the network where they hang together, and what is made of it */

@@ -21,6 +21,11 @@ bool motion_solve_augmented(Motion *mo)
 {
     const Equations *eq = mo->eq;
 
+    if (motion_is_prescribed(mo)) {
+        eq->prescribed(eq->context, mo->du, mo->lambda_all);
+        pick_rows(mo, mo->lambda_all, mo->lambda);
+        return true;
+    }
     if (eq->without_mass != NULL && eq->without_mass(eq->context, mo->du)) {
         mo->counts.factorisations += !mo->is_alone;
         mo->is_alone = true;

@@ -1,41 +1,10 @@
 /* numbers.c: the recursive form, compiled in stages */
-#include "simulate/equations/numbers.h"
-
-#include "base/memory.h"
-#include "simulate/equations/articulated.h"
-#include "simulate/equations/elimination.h"
-#include "simulate/equations/mass_matrix.h"
+#include "simulate/equations/numbers_impl.h"
 
 #include <math.h>
 #include <string.h>
 
 #define MOST_EXCESS 1e12 /* of what a pivot of M is the rest of: it would be rounding */
-
-/* --- equations --- */
-
-struct Numbers {
-    Equations eq;
-    const Layout *layout;
-    Probe *main, *switching, *network;
-    Pattern rows, masses; /* where entries of Phi_u and M stand */
-    /* M: of the main program; or NULL. By a matrix, from what that holds from mass_needs on; where
-     * elimination does without, from a program of its own, as far as that was asked for. */
-    MassMatrix *mass;
-    Articulated *articulated;
-    Probe *massing;
-    int mass_needs;
-    Told told_by;                        /* whether the main program has eliminated M itself */
-    bool is_articulated, is_mass_old;    /* factors are there; M is of another position */
-    bool is_mass_constant, is_mass_kept; /* with the parameters of now: of bodies without joints */
-    const double *told_accelerations;    /* of the main program, and what tells their rounding */
-    Probe *slip;   /* of surfaces that are slid along: h', or what of it they reach, and h */
-    Guard *guards; /* of the conditions, */
-    Expr *told;    /* which are these for a user; NULL: margins */
-    int *quaternions, *network_places;
-    LIST(int) margins;   /* whose they are, of the switches */
-    bool is_network_new; /* its program has seen t, q, u, x as they are */
-    double *cap, *unit;
-};
 
 static void take_references(void *context, const double *references)
 {
@@ -84,6 +53,22 @@ static bool tell_accelerations(void *context, double *acceleration)
     return true;
 }
 
+/* likewise where all is prescribed */
+static void tell_prescribed(void *context, double *acceleration, double *multiplier)
+{
+    const Numbers *nb = context;
+    const size_t size = (size_t)nb->layout->nu * sizeof(double);
+
+    memcpy(acceleration, nb->told_accelerations, size);
+    memcpy(multiplier, nb->told_accelerations + nb->layout->nu, size);
+}
+
+/* M and F are brought from a program of their own when somebody asks for them */
+static bool needs_no_mass(const Numbers *nb)
+{
+    return nb->told_by == TOLD_ALONG || nb->told_by == TOLD_PRESCRIBED;
+}
+
 static void bring_mass(void *context)
 {
     Numbers *nb = context;
@@ -116,25 +101,6 @@ static void velocity(void *context, const double *u, const double *x)
     inputs_put(inputs, nb->layout->x, x, nb->layout->nx);
     workspace_run(nb->main->workspace, STAGE_VELOCITY, STAGE_VELOCITY);
     nb->is_network_new = true;
-}
-
-static void slide(void *context, const double *signs)
-{
-    Numbers *nb = context;
-
-    inputs_put(probe_inputs(nb->main), nb->layout->signs, signs, nb->layout->slides);
-}
-
-static void slip(void *context, double t, const double *y, const Solved *solved, double *slip,
-                 double *off)
-{
-    const Numbers *nb = context;
-    const Layout *l = nb->layout;
-    const RowValues row = row_of_solved(l, t, y, solved);
-    const double *values = probe_values(nb->slip, &row);
-
-    memcpy(slip, values, (size_t)l->slides * sizeof(double));
-    memcpy(off, values + l->slides, (size_t)l->slides * sizeof(double));
 }
 
 static void copy_inputs(Numbers *nb, int first, int count)
@@ -191,48 +157,6 @@ static void accelerated(void *context, const double *acceleration, const double 
     inputs_put(inputs, nb->layout->acceleration, acceleration, nb->layout->nu);
     inputs_put(inputs, nb->layout->multipliers, multipliers, nb->layout->m);
     workspace_run(nb->main->workspace, STAGE_ACCELERATION, STAGE_ACCELERATION);
-}
-
-static void switches(void *context, double t, const double *q, const double *u, const double *x,
-                     double *out)
-{
-    Numbers *nb = context;
-    double *inputs = probe_inputs(nb->switching);
-
-    inputs[nb->layout->t] = t;
-    inputs_put(inputs, nb->layout->references, probe_inputs(nb->main) + nb->layout->references,
-               nb->layout->multi_turns);
-    inputs_put(inputs, nb->layout->q, q, nb->layout->n);
-    inputs_put(inputs, nb->layout->u, u, nb->layout->nu);
-    inputs_put(inputs, nb->layout->x, x, nb->layout->nx);
-    inputs_put(inputs, nb->layout->signs, probe_inputs(nb->main) + nb->layout->signs,
-               nb->layout->slides);
-    if (nb->eq.switches_read_network)
-        memcpy(inputs + nb->layout->rates, probe_inputs(nb->main) + nb->layout->rates,
-               (size_t)(nb->layout->nx + nb->layout->nz) * sizeof(double));
-    workspace_run(nb->switching->workspace, STAGE_TIME, STAGE_NETWORK);
-    memcpy(out, workspace_roots(nb->switching->workspace),
-           (size_t)nb->eq.switch_count * sizeof(double));
-}
-
-static bool margin_is_steep(void *context, int k)
-{
-    const Numbers *nb = context;
-    int i = nb->margins.at[k];
-
-    return nb->layout->side[i] != NULL && nb->layout->closed[i] &&
-           !system_is_ideal(nb->layout->system, i);
-}
-
-typedef LIST(Expr) Roots;
-
-/* of roots that are on their surfaces as far as they have to be */
-static Status compile(const Layout *layout, Parameters *parameters, const Roots *roots, Probe **out,
-                      Diag *diag)
-{
-    const ProbeOrder order = {.roots = roots->at, .root_count = roots->count, .is_put = true};
-
-    return probe_make(layout, parameters, &order, out, diag);
 }
 
 /* angles that count turns, then their rates */
@@ -331,7 +255,7 @@ static Status compile_network(Numbers *nb, Parameters *parameters, Diag *diag)
     int residual = block_on(l, &roots, r->network_residual, l->nx + l->nz);
     Status status = OK;
 
-    CHECK(compile(l, parameters, &roots, &nb->network, diag));
+    CHECK(numbers_compile(l, parameters, &roots, &nb->network, diag));
     nb->eq.network = workspace_roots(nb->network->workspace) + network;
     nb->eq.network_residual = workspace_roots(nb->network->workspace) + residual;
     nb->eq.network_at = network_at;
@@ -389,7 +313,7 @@ static Status compile_mass(Numbers *nb, Parameters *parameters, Diag *diag)
     int count, force;
     Status status = OK;
 
-    if (nb->articulated == NULL && nb->told_by != TOLD_ALONG)
+    if (nb->articulated == NULL && !needs_no_mass(nb))
         return OK;
     if (nb->mass != NULL) {
         needs = mass_matrix_needs(nb->mass, &count);
@@ -397,10 +321,9 @@ static Status compile_mass(Numbers *nb, Parameters *parameters, Diag *diag)
     } else {
         (void)mass_block(nb, &roots);
     }
-    force =
-        block_on(l, &roots, system_run(l->system)->force, nb->told_by == TOLD_ALONG ? l->nu : 0);
-    CHECK(compile(l, parameters, &roots, &nb->massing, diag));
-    if (nb->told_by == TOLD_ALONG) {
+    force = block_on(l, &roots, system_run(l->system)->force, needs_no_mass(nb) ? l->nu : 0);
+    CHECK(numbers_compile(l, parameters, &roots, &nb->massing, diag));
+    if (needs_no_mass(nb)) {
         nb->eq.force = workspace_roots(nb->massing->workspace) + force;
         nb->eq.bring_force = bring_force;
     }
@@ -426,13 +349,13 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, const Expr 
     Roots roots = {0};
     int phi = block(&roots, r->phi, l->m);
     int phi_u = stored_block(&roots, r->phi_u, l->m, l->nu, &nb->rows);
-    int mass = nb->told_by == TOLD_ALONG ? 0 : mass_block(nb, &roots);
+    int mass = needs_no_mass(nb) ? 0 : mass_block(nb, &roots);
     int nu_rate = block(&roots, r->nu, l->m);
     int gamma = block_on(l, &roots, r->gamma, l->m);
     int q_rate = block(&roots, r->q_rate, l->n);
     int network = iterates ? 0 : network_block(l, &roots);
     int rhs = block_on(l, &roots, r->network_rhs, iterates ? 0 : l->nx + l->nz);
-    int force = block_on(l, &roots, r->force, nb->told_by == TOLD_ALONG ? 0 : l->nu);
+    int force = block_on(l, &roots, r->force, needs_no_mass(nb) ? 0 : l->nu);
     int told = block(&roots, accelerations, nb->told_by != TOLD_NOT ? 2 * l->nu : 0);
     int work = block_on(l, &roots, &power, 1);
     int angles = roots.count;
@@ -444,7 +367,7 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, const Expr 
     for (int i = 0; i < l->n && mapped; i++)
         for (int j = 0; j < l->nu; j++)
             LIST_PUSH(roots, system_n_entry(l->system, i, j));
-    CHECK(compile(l, parameters, &roots, &nb->main, diag));
+    CHECK(numbers_compile(l, parameters, &roots, &nb->main, diag));
     at = workspace_roots(nb->main->workspace);
     nb->eq.phi = at + phi;
     nb->eq.phi_u = at + phi_u;
@@ -459,7 +382,9 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, const Expr 
     nb->eq.network_rhs = at + rhs;
     nb->eq.force = at + force;
     nb->told_accelerations = at + told;
-    if (nb->told_by != TOLD_NOT)
+    if (nb->told_by == TOLD_PRESCRIBED)
+        nb->eq.prescribed = tell_prescribed;
+    else if (nb->told_by != TOLD_NOT)
         nb->eq.without_mass = tell_accelerations;
     else if (nb->articulated != NULL)
         nb->eq.without_mass = articulate;
@@ -473,191 +398,6 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, const Expr 
         CHECK(compile_network(nb, parameters, diag));
 done:
     LIST_FREE(roots);
-    return status;
-}
-
-/* what tells whether ideal switches stay on their sides */
-static Status add_margins(Numbers *nb, Roots *roots, Diag *diag)
-{
-    System *system = nb->layout->system;
-    Status status = OK;
-
-    for (int i = 0; i < system_ideal_count(system); i++) {
-        IdealSwitch ideal;
-        Stage stage;
-
-        CHECK(system_ideal(system, i, &ideal, diag));
-        stage = ideal.margin != NULL ? stage_of(ideal.margin) : STAGE_PARAMETER;
-        if (stage == STAGE_PARAMETER || stage > STAGE_NETWORK)
-            continue;
-        nb->eq.switches_read_network = nb->eq.switches_read_network || stage == STAGE_NETWORK;
-        LIST_PUSH(*roots, layout_on_surfaces(nb->layout, ideal.margin));
-        LIST_PUSH(nb->margins, i);
-        nb->eq.margin_count++;
-    }
-done:
-    return status;
-}
-
-typedef struct Conditions {
-    Roots roots;
-    Roots told;
-    LIST(Guard) guards;
-} Conditions;
-
-static void push_condition(Numbers *nb, Conditions *c, Expr condition, Guard guard)
-{
-    Stage stage = stage_of(condition);
-
-    if (stage == STAGE_PARAMETER || stage > STAGE_NETWORK)
-        return;
-    nb->eq.switches_read_network = nb->eq.switches_read_network || stage == STAGE_NETWORK;
-    guard.solved = guard.surface >= 0 && stage == STAGE_NETWORK;
-    LIST_PUSH(c->roots, condition);
-    LIST_PUSH(c->told,
-              guard.surface >= 0 ? system_surface(nb->layout->system, guard.surface) : condition);
-    LIST_PUSH(c->guards, guard);
-}
-
-/* what watches a surface that the equations stay on: whether its sign leaves -1 .. 1; or its side
- */
-static void push_surface(Numbers *nb, Conditions *c, int number, const Surface *surface)
-{
-    Arena *arena = system_arena(nb->layout->system);
-
-    if (surface->side != 0) {
-        push_condition(nb, c, surface->measure, (Guard){number, .side = surface->side});
-        return;
-    }
-    nb->eq.switches_read_network = true; /* with which signs are found */
-    push_condition(nb, c, expr_sub(arena, expr_int(arena, 1), surface->sign),
-                   (Guard){number, .end = 1});
-    push_condition(nb, c, expr_add(arena, expr_int(arena, 1), surface->sign),
-                   (Guard){number, .end = -1});
-}
-
-/* the entry of the layout's surfaces; NULL: it is none of them */
-static const Surface *find_surface(const Layout *l, Expr condition)
-{
-    int way;
-    Expr surface =
-        l->surface_count > 0 ? surface_of(system_arena(l->system), condition, &way) : NULL;
-
-    for (int i = 0; i < l->surface_count; i++)
-        if (l->surfaces[i].condition == surface)
-            return &l->surfaces[i];
-    return NULL;
-}
-
-static bool is_watched(const Conditions *c, int surface)
-{
-    for (int i = 0; i < c->guards.count; i++)
-        if (surface >= 0 && c->guards.at[i].surface == surface)
-            return true;
-    return false;
-}
-
-/* conditions that can be looked at before the accelerations are known */
-static void push_conditions(Numbers *nb, Conditions *c)
-{
-    const Layout *l = nb->layout;
-    const Switch *switches;
-    int time_only = 0;
-    int count = system_switches(l->system, &switches, &time_only);
-
-    for (int i = 0; i < count; i++) {
-        int number = switches[i].surface;
-        const Surface *on = i < time_only ? NULL : find_surface(l, switches[i].condition);
-        int before = c->roots.count;
-
-        if (is_watched(c, number))
-            continue;
-        if (number >= 0 && on != NULL)
-            push_surface(nb, c, number, on);
-        else if (number >= 0)
-            push_condition(nb, c, layout_on_surfaces(l, system_surface(l->system, number)),
-                           (Guard){.surface = number});
-        else if (on == NULL) /* else its bend lies on a surface that is watched */
-            push_condition(nb, c, layout_on_surfaces(l, switches[i].condition),
-                           (Guard){.surface = -1});
-        nb->eq.time_only += i < time_only ? c->roots.count - before : 0;
-    }
-}
-
-static Status compile_switches(Numbers *nb, Parameters *parameters, Diag *diag)
-{
-    Conditions c = {0};
-    Status status = OK;
-
-    push_conditions(nb, &c);
-    CHECK(add_margins(nb, &c.roots, diag));
-    while (c.guards.count < c.roots.count)
-        LIST_PUSH(c.guards, (Guard){.surface = -1});
-    while (c.told.count < c.roots.count)
-        LIST_PUSH(c.told, NULL);
-    nb->eq.switch_count = c.roots.count;
-    nb->eq.switches_follow_time =
-        c.roots.at != NULL && layout_follows_time(nb->layout, c.roots.at + nb->eq.time_only,
-                                                  c.roots.count - nb->eq.time_only);
-    if (c.roots.count > 0)
-        CHECK(compile(nb->layout, parameters, &c.roots, &nb->switching, diag));
-    nb->eq.guards = nb->guards = c.guards.at;
-    c.guards.at = NULL;
-    nb->told = c.told.at;
-    c.told.at = NULL;
-done:
-    LIST_FREE(c.told);
-    LIST_FREE(c.roots);
-    LIST_FREE(c.guards);
-    return status;
-}
-
-/* How a surface is left: by h where signs reach that, else h', else h''; and what has to be 0
- * beside it. */
-static Status slip_of(const Layout *l, Expr h, Expr *slip, Expr *off, Diag *diag)
-{
-    const unsigned solved = 1U << SYMBOL_ALGEBRAIC | 1U << SYMBOL_STATE_RATE;
-    const unsigned reached = solved | 1U << SYMBOL_ACCELERATION;
-    Status status = OK;
-
-    *slip = h;
-    *off = expr_int(system_arena(l->system), 0);
-    if ((expr_kinds(h) & solved) != 0)
-        return OK;
-    *off = h;
-    CHECK(system_rate(l->system, h, slip, diag));
-    if ((expr_kinds(*slip) & reached) != 0)
-        return OK;
-    *off = *slip;
-    CHECK(system_rate(l->system, *off, slip, diag));
-done:
-    return status;
-}
-
-static Status compile_slip(Numbers *nb, Parameters *parameters, Diag *diag)
-{
-    const Layout *l = nb->layout;
-    Roots roots = {0};
-    Roots off = {0};
-    Status status = OK;
-
-    nb->eq.slide_count = l->slides;
-    if (l->slides == 0)
-        return OK;
-    nb->eq.slide = slide;
-    nb->eq.slip = slip;
-    for (int i = 0; i < l->slides; i++) {
-        Expr both[2];
-
-        CHECK(slip_of(l, l->surfaces[i].measure, &both[0], &both[1], diag));
-        LIST_PUSH(roots, both[0]);
-        LIST_PUSH(off, both[1]);
-    }
-    (void)block(&roots, off.at, off.count);
-    CHECK(probe_new(l, parameters, roots.at, roots.count, &nb->slip, diag));
-done:
-    LIST_FREE(roots);
-    LIST_FREE(off);
     return status;
 }
 
@@ -703,9 +443,7 @@ Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out, 
                          .position = position,
                          .velocity = velocity,
                          .network_solved = network_solved,
-                         .loads = loads,
-                         .switches = switches,
-                         .margin_is_steep = margin_is_steep};
+                         .loads = loads};
     while (system_quaternion(layout->system, count) >= 0)
         count++;
     nb->quaternions = NEW_ARRAY(int, count);
@@ -729,8 +467,8 @@ Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out, 
         nb->articulated = articulated_new(layout->system);
     CHECK(compile_equations(nb, parameters, accelerations, diag));
     CHECK(compile_mass(nb, parameters, diag));
-    CHECK(compile_switches(nb, parameters, diag));
-    CHECK(compile_slip(nb, parameters, diag));
+    CHECK(numbers_watch(nb, parameters, diag));
+    CHECK(numbers_slide(nb, parameters, diag));
     *out = nb;
     nb = NULL;
 done:
@@ -774,14 +512,4 @@ void numbers_set(Numbers *nb, Expr parameter, double value)
 const Equations *numbers_equations(const Numbers *nb)
 {
     return &nb->eq;
-}
-
-Expr numbers_condition(const Numbers *nb, int i)
-{
-    return nb->told[i];
-}
-
-int numbers_margin(const Numbers *nb, int i)
-{
-    return nb->margins.at[i - (nb->eq.switch_count - nb->eq.margin_count)];
 }

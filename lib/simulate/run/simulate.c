@@ -477,7 +477,10 @@ static bool reach(ActiveRun *r, double from, double to, double *y, int depth)
     double *trial = NEW_ARRAY(double, r->phase->length);
     double *rate = NEW_ARRAY(double, r->phase->length);
     double moved = 0, turned = 0;
-    bool sound = ode->rate(ode->context, from, y, rate);
+    /* where all is prescribed there is but one branch, wherever the search for it begins */
+    const bool has_branches =
+        numbers_equations(r->phase->numbers)->prescribed == NULL || l->multi_turns > 0;
+    bool sound = !has_branches || ode->rate(ode->context, from, y, rate);
 
     for (int i = 0; i < l->n; i++) {
         double bend = numbers_equations(r->phase->numbers)->map == NULL ? rate[l->n + i] : 0;
@@ -492,7 +495,7 @@ static bool reach(ActiveRun *r, double from, double to, double *y, int depth)
     }
     memcpy(rate, trial, (size_t)r->phase->length * sizeof(double));
     sound = sound && motion_project(r->phase->motion, to, trial);
-    for (int i = 0; i < l->n; i++)
+    for (int i = 0; i < l->n && has_branches; i++)
         moved = fmax(moved, fabs(trial[i] - rate[i]));
     for (int i = layout_references(l); i < layout_references(l) + l->multi_turns; i++)
         turned = fmax(turned, TURNED / MISSED * fabs(trial[i] - rate[i]));

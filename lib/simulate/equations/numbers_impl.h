@@ -1,0 +1,53 @@
+/* numbers_impl.h: what makes Numbers, and what of it is watched */
+#ifndef COTREE_SIMULATE_EQUATIONS_NUMBERS_IMPL_H
+#define COTREE_SIMULATE_EQUATIONS_NUMBERS_IMPL_H
+
+#include "base/memory.h"
+#include "simulate/equations/articulated.h"
+#include "simulate/equations/elimination.h"
+#include "simulate/equations/mass_matrix.h"
+#include "simulate/equations/numbers.h"
+
+typedef LIST(Expr) Roots;
+
+struct Numbers {
+    Equations eq;
+    const Layout *layout;
+    Probe *main, *switching, *network;
+    Pattern rows, masses; /* where entries of Phi_u and M stand */
+    /* M: of the main program; or NULL. By a matrix, from what that holds from mass_needs on; where
+     * elimination does without, from a program of its own, as far as that was asked for. */
+    MassMatrix *mass;
+    Articulated *articulated;
+    Probe *massing;
+    int mass_needs;
+    Told told_by;                        /* whether the main program has eliminated M itself */
+    bool is_articulated, is_mass_old;    /* factors are there; M is of another position */
+    bool is_mass_constant, is_mass_kept; /* with the parameters of now: of bodies without joints */
+    const double *told_accelerations;    /* of the main program, and what tells their rounding */
+    Probe *slip;   /* of surfaces that are slid along: h', or what of it they reach, and h */
+    Guard *guards; /* of the conditions, */
+    Expr *told;    /* which are these for a user; NULL: margins */
+    int *quaternions, *network_places;
+    LIST(int) margins;   /* whose they are, of the switches */
+    bool is_network_new; /* its program has seen t, q, u, x as they are */
+    double *cap, *unit;
+};
+
+/* of roots that are on their surfaces as far as they have to be */
+MUST_USE static inline Status numbers_compile(const Layout *layout, Parameters *parameters,
+                                              const Roots *roots, Probe **out, Diag *diag)
+{
+    const ProbeOrder order = {.roots = roots->at, .root_count = roots->count, .is_put = true};
+
+    return probe_make(layout, parameters, &order, out, diag);
+}
+
+/* --- numbers_watch.c --- */
+
+/* conditions of jumps and bends, and of switches that stay on their sides; with their program */
+MUST_USE Status numbers_watch(Numbers *numbers, Parameters *parameters, Diag *diag);
+/* how the surfaces that are slid along are left */
+MUST_USE Status numbers_slide(Numbers *numbers, Parameters *parameters, Diag *diag);
+
+#endif
