@@ -253,6 +253,7 @@ static Status try_definition(State **state, const Statement *statement, Subsyste
     }
     out->parameters = NEW_ARRAY(const char *, (*state)->parameters.count + 1);
     learn(*state, use, out);
+    out->size = (*state)->lines.count - first;
     models_uses(*state, first, definitions, scope);
 done:
     text_free(&outcome.remarks);

@@ -7,6 +7,8 @@
 
 #include <string.h>
 
+enum { MOST_STATEMENTS = 20000 }; /* of one instance: definitions that double soon have more */
+
 /* --- what may be reached from outside --- */
 
 /* whether `use` is the one at work, or around it: its names came by a port */
@@ -573,6 +575,13 @@ Status apply_use(State **state, const Statement *statement, Outcome *outcome, Di
     }
     if (draft.subsystem == NULL)
         return name_unknown(*state, "subsystem", name, what->place, diag);
+    if (draft.subsystem->size > MOST_STATEMENTS) {
+        (void)diag_at(diag, E_VALUE, what->place, "an instance of %s has %d statements", name,
+                      draft.subsystem->size);
+        diag_hint(diag, "%d are the most; definitions that use others several times grow fast",
+                  MOST_STATEMENTS);
+        return E_VALUE;
+    }
     draft.count = statement->operands.count - 1;
     for (int i = 1; i < statement->operands.count && status == OK; i++) {
         draft.which = i - 1;

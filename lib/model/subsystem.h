@@ -17,6 +17,7 @@ typedef struct Subsystem {
     int port_count;
     const char **parameters; /* that `use` may give another value */
     int parameter_count;
+    int size; /* statements of an instance, those of instances inside included */
 } Subsystem;
 
 typedef struct Equations Equations; /* of an instance that is given them (model_given.c) */

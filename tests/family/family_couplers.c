@@ -182,7 +182,7 @@ static void solve(double a[FREE][FREE], double *b, int n)
 static void accelerate(const Model *m, const double *free, const double *w, double *rate,
                        double *second, double *effort)
 {
-    double M[MOST][MOST], h[MOST], a[FREE][FREE] = {{0}}, left[MOST];
+    double M[MOST][MOST] = {{0}}, h[MOST] = {0}, a[FREE][FREE] = {{0}}, left[MOST];
     Motion motion;
 
     follow(m, free, w, &motion);
