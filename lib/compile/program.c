@@ -69,6 +69,15 @@ int program_operations(const Program *program, Stage stage)
     return operations;
 }
 
+Stage program_last_stage(const Program *program)
+{
+    Stage last = STAGE_COUNT - 1;
+
+    while (last > STAGE_PARAMETER && program->first_root[last] == program->root_count)
+        last--;
+    return last;
+}
+
 size_t program_bytes(const Program *program)
 {
     return sizeof *program + pool_bytes(program->texts) +

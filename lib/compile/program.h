@@ -46,6 +46,8 @@ int program_input_count(const Program *program);
 int program_root_count(const Program *program);
 /* instructions of one stage: a fused product and sum is one, a sine with its cosine too */
 int program_operations(const Program *program, Stage stage);
+/* the last stage that a root needs */
+Stage program_last_stage(const Program *program);
 /* operations carried out, all stages, by the rule of expr.h */
 OpCount program_count(const Program *program);
 size_t program_bytes(const Program *program);

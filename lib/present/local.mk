@@ -51,6 +51,7 @@ libcore_la_SOURCES += \
   lib/present/show_graph.c \
   lib/present/show_linear.c \
   lib/present/show_response.c \
+  lib/present/show_program.c \
   lib/present/show_session.c \
   lib/present/show_structure.c \
   lib/present/show_state.c \

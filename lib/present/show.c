@@ -29,7 +29,7 @@ static const Topic topics[] = {
     {"runs",         "all runs: what ran, from when to when, in how many steps", NEED_MODEL, BEHIND_NOTHING, show_runs},
     {"init",         "initial values and guesses that were given",         NEED_MODEL,  BEHIND_NOTHING, show_init},
     {"settings",     "how the session computes and prints",                NEED_MODEL,  BEHIND_NOTHING, show_settings},
-    {"program",      "the straight-line program that a run evaluates",     NEED_RUNNING, BEHIND_NOTHING, show_program},
+    {"program",      "what a run evaluates, what is hoisted, kept, skipped", NEED_RUNNING, BEHIND_NOTHING, show_program},
     {"state",        "a linear network as x' = A x + B u",                 NEED_MODEL,  BEHIND_NOTHING, show_state},
     {"linear",       "matrices of the last linearisation",                 NEED_LINEAR, BEHIND_NOTHING, show_linear},
     {"transfer",     "transfer functions of the last linearisation",       NEED_LINEAR, BEHIND_PAIR,    show_transfer},

@@ -1,5 +1,4 @@
-/* show_session.c: parameters, outputs, settings, the last run and the program */
-#include "compile/program.h"
+/* show_session.c: parameters, outputs, settings and the last run */
 #include "present/show.h"
 
 #include <inttypes.h>
@@ -368,47 +367,4 @@ Status show_events(const View *view, const Selection *selection, Text *out, Diag
         text_free(&times);
     }
     return OK;
-}
-
-/* --- what is evaluated --- */
-
-static void push_reading(const System *system, Expr **roots, int *count)
-{
-    const Reading *r = system_run(system);
-    const int nu = system_nu(system), m = system_m(system), n = system_n(system);
-    const int k = system_nx(system) + system_nz(system);
-    const struct {
-        const Expr *at;
-        int count;
-    } parts[] = {
-        {r->phi, m},    {r->phi_u, m * nu},       {r->nu, m},    {r->gamma, m}, {r->mass, nu * nu},
-        {r->force, nu}, {r->network_residual, k}, {r->q_rate, n}};
-    LIST(Expr) all = {0};
-
-    for (int p = 0; p < COUNT(parts); p++)
-        for (int i = 0; i < parts[p].count; i++)
-            LIST_PUSH(all, parts[p].at[i]);
-    for (int i = 0; i < r->network_entries; i++)
-        LIST_PUSH(all, r->network[i].value);
-    *roots = all.at;
-    *count = all.count;
-}
-
-Status show_program(const View *view, const Selection *selection, Text *out, Diag *diag)
-{
-    Expr *roots = NULL, *symbols = NULL;
-    Program *program = NULL;
-    Status status = OK;
-    int count, inputs;
-
-    (void)selection;
-    CHECK(system_form_mass(view->system, diag));
-    push_reading(view->system, &roots, &count);
-    inputs = expr_symbols(roots, count, &symbols);
-    CHECK(program_new(roots, count, symbols, inputs, &program, diag));
-    program_print(out, program);
-done:
-    program_free(program);
-    MEM_FREE(symbols, roots);
-    return status;
 }

@@ -88,6 +88,46 @@ static void every_topic_fits_the_page(void)
     }
 }
 
+/* What a run does once, again only where something has changed, and not at all: each where it is
+ * so, and not where it isn't. */
+static void a_program_tells_what_is_hoisted_kept_and_skipped(void)
+{
+#define FREE_BODY "body b mass=1 inertia=[1, 1, 1]\nfree f ground b\n"
+    static const struct {
+        const char *model, *holds, *lacks;
+    } cases[] = {
+        /* nothing but numbers: no operation is left of them */
+        {FREE_BODY, "hoisted  0 operations of", NULL},
+        /* a*b alone */
+        {"a = 2; b = 3\nscene planar\nbody m mass=1 inertia=1\nprismatic s ground m axis=x\n"
+         "force F m [a*b*cos(t), 0]\n",
+         "hoisted  1 operation of", NULL},
+        {FREE_BODY, "kept     M, which is constant", "which accelerations do without"},
+        {SLIDER_CRANK ONE_TREE, "skipped  ", "M, which is constant"},
+        {"resistor R a b 10\ncapacitor C b 0 1 mF\nvsource V a 0 5*sin(t)\n",
+         "kept     the matrix of the network, which is constant", "M, which"},
+        {"resistor R a b 10\ncapacitor C b 0 (1 + 0.1*t)*1e-3\nvsource V a 0 5*sin(t)\n",
+         "operations of t and coordinates", "matrix of the network"},
+        /* a matrix of six on six whose diagonal is all there is */
+        {FREE_BODY, "skipped  30 of 36 entries of M, which are 0", "multiplier"},
+        {SLIDER_CRANK TWO_TREES, "solving at rows of t, coordinates, speeds", "multiplier"},
+        {SLIDER_CRANK TWO_TREES "form embedded\n",
+         "skipped  1 multiplier, which the embedded form does without", NULL},
+    };
+
+    for (int i = 0; i < COUNT(cases); i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, cases[i].model);
+        EXPECT_DONE(&kit, "show program");
+        EXPECT_HOLDS(kit.text, cases[i].holds);
+        if (cases[i].lacks != NULL)
+            EXPECT_LACKS(kit.text, cases[i].lacks);
+        kit_free(&kit);
+    }
+#undef FREE_BODY
+}
+
 /* what stands on the left of an assignment has to be something that can be assigned to */
 static void programs_assign_to_names(void)
 {
@@ -679,6 +719,7 @@ int main(void)
     RUN(rates_of_constraints_are_linear_in_rates);
     RUN(the_motor_arm_has_a_mechanical_and_an_electrical_equation);
     RUN(every_topic_fits_the_page);
+    RUN(a_program_tells_what_is_hoisted_kept_and_skipped);
     RUN(programs_assign_to_names);
     RUN(latex_has_its_brackets_in_pairs);
     RUN(entries_and_variables_can_be_asked_for);

@@ -448,10 +448,12 @@ void motion_residuals(Motion *mo, double t, const double *y, double *position, d
 {
     const Equations *eq = mo->eq;
 
+    *position = *velocity = 0;
+    if (eq->m == 0)
+        return;
     motion_at_position(mo, t, y);
     eq->velocity(eq->context, y + eq->n, y + eq->n + eq->nu);
     *position = vector_largest(eq->phi, eq->m);
-    *velocity = 0;
     for (int k = 0; k < eq->m; k++) {
         double left = fabs(pattern_dot(eq->rows, eq->phi_u, k, y + eq->n) - eq->nu_rate[k]);
 

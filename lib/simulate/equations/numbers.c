@@ -499,6 +499,13 @@ void numbers_free(Numbers *nb)
     mem_free(nb);
 }
 
+const Program *numbers_program(const Numbers *nb, NumbersPart part)
+{
+    const Probe *const parts[] = {nb->main, nb->network, nb->switching, nb->slip, nb->massing};
+
+    return parts[part] != NULL ? residual_program(probe_residual(parts[part])) : NULL;
+}
+
 void numbers_set(Numbers *nb, Expr parameter, double value)
 {
     Probe *const probes[] = {nb->main, nb->switching, nb->network, nb->slip, nb->massing};

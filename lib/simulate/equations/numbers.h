@@ -14,6 +14,17 @@ void numbers_free(Numbers *numbers); /* NULL is fine */
 const Equations *numbers_equations(const Numbers *numbers);
 /* Another value of a parameter in all of its programs, where they hold it. */
 void numbers_set(Numbers *numbers, Expr parameter, double value);
+/* what is run: the equations first, and with them M and F where they are asked for */
+typedef enum NumbersPart {
+    NUMBERS_EQUATIONS,
+    NUMBERS_NETWORK,
+    NUMBERS_CONDITIONS,
+    NUMBERS_SLIP,
+    NUMBERS_MASS,
+    NUMBERS_PARTS
+} NumbersPart;
+/* NULL: there is none; borrowed */
+const Program *numbers_program(const Numbers *numbers, NumbersPart part);
 /* what condition i of the equations compares with 0; NULL: it is whether a diode stays on its side
  */
 Expr numbers_condition(const Numbers *numbers, int i);

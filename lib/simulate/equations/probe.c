@@ -83,6 +83,13 @@ const Residual *probe_residual(const Probe *probe)
     return probe->residual;
 }
 
+bool probe_reads_state(const Probe *probe)
+{
+    /* signs of surfaces that are slid along are states to a program, and have to be found */
+    return probe->layout->slides == 0 &&
+           program_last_stage(residual_program(probe->residual)) <= STAGE_VELOCITY;
+}
+
 bool probe_turn(Probe *probe, Expr parameter, double value)
 {
     int count;
@@ -143,13 +150,18 @@ bool row_solve(const Layout *l, Motion *motion, double t, const double *y, RowVa
     return sound;
 }
 
-static void put_row(const Layout *l, const RowValues *row, double *inputs)
+static void put_state(const Layout *l, const RowValues *row, double *inputs)
 {
     inputs[l->t] = row->t;
     inputs_put(inputs, l->references, row->references, l->multi_turns);
     inputs_put(inputs, l->q, row->q, l->n);
     inputs_put(inputs, l->u, row->u, l->nu);
     inputs_put(inputs, l->x, row->x, l->nx);
+}
+
+static void put_row(const Layout *l, const RowValues *row, double *inputs)
+{
+    put_state(l, row, inputs);
     inputs_put(inputs, l->signs, row->signs, l->slides);
     inputs_put(inputs, l->rates, row->rates, l->nx);
     inputs_put(inputs, l->z, row->z, l->nz);
@@ -161,7 +173,10 @@ static void put_row(const Layout *l, const RowValues *row, double *inputs)
 
 const double *probe_values(Probe *probe, const RowValues *row)
 {
-    put_row(probe->layout, row, probe_inputs(probe));
+    if (probe_reads_state(probe))
+        put_state(probe->layout, row, probe_inputs(probe));
+    else
+        put_row(probe->layout, row, probe_inputs(probe));
     workspace_run(probe->workspace, STAGE_TIME, STAGE_ACCELERATION);
     return workspace_roots(probe->workspace);
 }

@@ -64,6 +64,9 @@ void probe_free(Probe *probe); /* NULL is fine */
 MUST_USE Status probe_at(const Layout *layout, Parameters *parameters, Expr e, const RowValues *row,
                          double *out, Diag *diag);
 const Residual *probe_residual(const Probe *probe);
+/* whether t, coordinates, speeds and states are all that its values need: nothing has to be solved
+ */
+bool probe_reads_state(const Probe *probe);
 
 /* Another value of a parameter, for this probe alone. False: no root holds it. */
 bool probe_turn(Probe *probe, Expr parameter, double value);

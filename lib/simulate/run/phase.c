@@ -179,7 +179,11 @@ void phase_probe_at(Phase *phase, Probe *probe, double t, const double *y, const
 {
     RowValues row;
 
-    if (phase_driven_row(phase, t, y, driven, &row))
+    if (probe_reads_state(probe)) {
+        phase_enter(phase);
+        row = row_of_state(phase->layout, t, y);
+        memcpy(out, probe_values(probe, &row), (size_t)count * sizeof(double));
+    } else if (phase_driven_row(phase, t, y, driven, &row))
         memcpy(out, probe_values(probe, &row), (size_t)count * sizeof(double));
     else
         probe_unsolved(phase, probe, t, y, count, out);

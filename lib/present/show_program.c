@@ -1,0 +1,158 @@
+/* show_program.c: what a run evaluates, and what it is spared */
+#include "present/show.h"
+#include "simulate/equations/numbers.h"
+
+/* operations of a run's programs, as they are reached */
+typedef struct Work {
+    int hoisted;                    /* of parameters alone */
+    int position, velocity, solved; /* with t and q; u and x; what is solved for */
+    int asked;                      /* of M and F, where they are asked for alone */
+} Work;
+
+static Work work_of(const Numbers *numbers)
+{
+    Work work = {0};
+
+    for (int part = 0; part < NUMBERS_PARTS; part++) {
+        const Program *p = numbers_program(numbers, (NumbersPart)part);
+        const bool is_asked = part == NUMBERS_MASS;
+
+        if (p == NULL)
+            continue;
+        work.hoisted += program_operations(p, STAGE_PARAMETER);
+        for (int stage = STAGE_TIME; stage < STAGE_COUNT; stage++)
+            *(is_asked                  ? &work.asked
+              : stage <= STAGE_POSITION ? &work.position
+              : stage == STAGE_VELOCITY ? &work.velocity
+                                        : &work.solved) += program_operations(p, (Stage)stage);
+    }
+    return work;
+}
+
+static int zeros(const Expr *entries, int count)
+{
+    int zero = 0;
+
+    for (int i = 0; i < count; i++)
+        zero += expr_is_zero(entries[i]);
+    return zero;
+}
+
+static bool are_constant(const Expr *entries, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (stage_of(entries[i]) > STAGE_PARAMETER)
+            return false;
+    return count > 0;
+}
+
+static void add_line(const View *view, Text *out, const char *lead, Text *line)
+{
+    layout_words(out, view->page.columns, lead, line->at);
+    text_free(line);
+}
+
+static void add_zeros(const View *view, Text *out, const char *name, const Expr *entries, int count)
+{
+    const int zero = zeros(entries, count);
+    Text line = {0};
+
+    if (zero == 0)
+        return;
+    text_addf(&line, "%d of %d entries of %s, which are 0", zero, count, name);
+    add_line(view, out, "skipped  ", &line);
+}
+
+static void add_kept(const View *view, Text *out, const Equations *eq, const Work *work)
+{
+    const int nu = system_nu(view->system), all = work->position + work->velocity + work->solved;
+    Text line = {0};
+
+    layout_count(&line, work->hoisted, "operation", "operations");
+    text_addf(&line, " of %d, of parameters alone: done once a run", work->hoisted + all);
+    add_line(view, out, "hoisted  ", &line);
+    layout_count(&line, work->position, "operation", "operations");
+    text_addf(&line,
+              " of t and coordinates, %d of speeds and states, %d of what is solved for: each is "
+              "done again when what it reads has changed",
+              work->velocity, work->solved);
+    add_line(view, out, "kept     ", &line);
+    if (eq->bring_mass == NULL && are_constant(system_run(view->system)->mass, nu * nu)) {
+        text_add(&line, "M, which is constant: put together once");
+        add_line(view, out, "kept     ", &line);
+    }
+    if (eq->network_is_constant && system_run(view->system)->network_entries > 0) {
+        text_add(&line, "the matrix of the network, which is constant: factored once");
+        add_line(view, out, "kept     ", &line);
+    }
+}
+
+static void add_skipped(const View *view, Text *out, const Equations *eq, const Work *work)
+{
+    const Reading *r = system_run(view->system);
+    const int nu = system_nu(view->system), m = system_m(view->system);
+    const char *const *independent;
+    int count;
+    Text line = {0};
+
+    add_zeros(view, out, "Phi_u", r->phi_u, m * nu);
+    if (eq->bring_mass == NULL) {
+        add_zeros(view, out, "M", r->mass, nu * nu);
+    } else {
+        text_add(&line, "M, which accelerations do without");
+        if (work->asked > 0) {
+            text_add(&line, ": ");
+            layout_count(&line, work->asked, "operation", "operations");
+        }
+        add_line(view, out, "skipped  ", &line);
+    }
+    if (m > 0 && model_form(view->model, &independent, &count) == FORM_EMBEDDED) {
+        layout_count(&line, m, "multiplier", "multipliers");
+        text_add(&line, ", which the embedded form does without");
+        add_line(view, out, "skipped  ", &line);
+    }
+    text_add(&line,
+             "solving at rows of t, coordinates, speeds and states: they are read as they are");
+    add_line(view, out, "skipped  ", &line);
+}
+
+static void print_programs(const Numbers *numbers, Text *out)
+{
+    static const char *const names[NUMBERS_PARTS] = {"equations", "network", "conditions",
+                                                     "slip on surfaces",
+                                                     "M and F, where they are asked for"};
+
+    for (int part = 0; part < NUMBERS_PARTS; part++) {
+        const Program *p = numbers_program(numbers, (NumbersPart)part);
+
+        if (p == NULL || program_count(p).add + program_count(p).mul + program_count(p).fun == 0)
+            continue;
+        text_addf(out, "%s:\n", names[part]);
+        program_print(out, p);
+    }
+}
+
+Status show_program(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    Parameters parameters = {0}; /* whatever their values are */
+    Layout *layout = layout_new(view->system);
+    Numbers *numbers = NULL;
+    const Equations *eq;
+    Status status;
+    Work work;
+
+    (void)selection;
+    CHECK(numbers_new(layout, &parameters, &numbers, diag));
+    eq = numbers_equations(numbers);
+    work = work_of(numbers);
+    if (eq->bring_mass == NULL)
+        CHECK(system_form_mass(view->system, diag));
+    print_programs(numbers, out);
+    add_kept(view, out, eq, &work);
+    add_skipped(view, out, eq, &work);
+done:
+    numbers_free(numbers);
+    layout_free(layout);
+    parameters_free(&parameters);
+    return status;
+}
