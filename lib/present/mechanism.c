@@ -173,6 +173,11 @@ Status mechanism_open(Mechanism *mechanism, const View *view, MechanismOptions o
     return OK;
 }
 
+int mechanism_spot_items(const Mechanism *mechanism, int spot)
+{
+    return spot < mechanism->nodes ? PER_NODE : 3;
+}
+
 void mechanism_close(Mechanism *mechanism)
 {
     LIST_FREE(mechanism->items);

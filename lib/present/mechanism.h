@@ -11,8 +11,9 @@
 typedef enum Look { LOOK_ISO, LOOK_XY, LOOK_XZ, LOOK_YZ } Look;
 
 typedef struct MechanismOptions {
-    Look look;      /* of a spatial scene */
-    bool reactions; /* of joints, as arrows */
+    Look look;           /* of a spatial scene */
+    bool reactions;      /* of joints, as arrows */
+    const char *caption; /* in the place of the time; NULL */
 } MechanismOptions;
 
 /* A force or moment on a frame, as an arrow. */
@@ -66,6 +67,8 @@ MUST_USE Status mechanism_open(Mechanism *mechanism, const View *view, Mechanism
 MUST_USE Status mechanism_fit(Mechanism *mechanism, const double *values, int rows, Diag *diag);
 /* picture_close() */
 void mechanism_draw(const Mechanism *mechanism, const double *values, double t, Picture *out);
+/* how many items a spot has: where it is, and of a frame how it is turned */
+int mechanism_spot_items(const Mechanism *mechanism, int spot);
 void mechanism_close(Mechanism *mechanism);
 
 #endif

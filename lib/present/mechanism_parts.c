@@ -442,5 +442,6 @@ void sheet_corner(Sheet *sheet, double t)
     (void)snprintf(text, sizeof text, "t = %.4g s", t);
     if (title != NULL && *title != '\0')
         picture_text(sheet->picture, INK_DARK, (Point){16, 24}, 15, ANCHOR_START, title);
-    picture_text(sheet->picture, INK_DARK, (Point){width - 60, 24}, 13, ANCHOR_END, text);
+    picture_text(sheet->picture, INK_DARK, (Point){width - 60, 24}, 13, ANCHOR_END,
+                 mechanism->options.caption != NULL ? mechanism->options.caption : text);
 }

@@ -21,6 +21,8 @@ libcore_la_SOURCES += \
   lib/session/session_model.h \
   lib/session/session_plot.c \
   lib/session/session_run.c \
+  lib/session/session_shape.c \
+  lib/session/session_shape.h \
   lib/session/session_spectrum.c \
   lib/session/session_start.c \
   lib/session/session_statement.c \

@@ -1,5 +1,5 @@
 /* session_draw.c: draw and animate: the graph, and the mechanism at instants of a run */
-#include "session/session_impl.h"
+#include "session/session_shape.h"
 
 #include "present/graph_picture.h"
 #include "present/info.h"
@@ -69,7 +69,9 @@ static Status read_options(const ct_session *session, const Statement *s, Mechan
 
 typedef struct Strip {
     Mechanism mechanism;
-    double *values; /* instants x items */
+    ModeShape shape; /* of `mode`, that is drawn at phases of its period */
+    int mode;        /* counted from 1; 0: instants of a run */
+    double *values;  /* instants x items */
     double *times;
     int count;
     Picture *pictures; /* one an instant */
@@ -80,10 +82,46 @@ static void strip_free(Strip *strip)
     for (int i = 0; strip->pictures != NULL && i < strip->count; i++)
         picture_close(&strip->pictures[i]);
     mechanism_close(&strip->mechanism);
+    shape_free(&strip->shape);
     MEM_FREE(strip->values, strip->times, strip->pictures);
 }
 
-static Status fill_strip(ct_session *session, Run *run, Strip *strip, Diag *diag)
+/* which mode is drawn, if one is */
+static Status read_mode(ct_session *session, const Statement *s, int *out, Diag *diag)
+{
+    const Pair *pair = find_key(s, "mode");
+    double number = 0;
+
+    if (pair != NULL)
+        TRY(session_number(session, pair->value, &number, diag));
+    if (pair != NULL && !(number >= 1 && number <= 1e6 && number == floor(number)))
+        return diag_at(diag, E_VALUE, pair->value->place, "a mode is a whole number from 1 on");
+    *out = (int)number;
+    return OK;
+}
+
+/* All pictures of a strip stand about one instant, in phases of a mode. */
+static Status bend_strip(ct_session *session, const Statement *s, Run *run, Strip *strip,
+                         Diag *diag)
+{
+    const int items = strip->mechanism.items.count;
+    Status status = OK;
+
+    if (strip->mode == 0)
+        return OK;
+    status = shape_find(session, run, strip->times[0], &strip->mechanism, strip->mode,
+                        &strip->shape, diag);
+    if (status == E_VALUE && diag->place.line == 0)
+        diag->place = find_key(s, "mode")->value->place;
+    for (int i = 0; status == OK && i < strip->count; i++)
+        shape_move(&strip->shape, items, 2 * M_PI * i / strip->count,
+                   strip->values + (size_t)i * (size_t)items);
+    strip->mechanism.options.caption = strip->shape.caption;
+    return status;
+}
+
+static Status fill_strip(ct_session *session, const Statement *s, Run *run, Strip *strip,
+                         Diag *diag)
 {
     const Mechanism *mechanism = &strip->mechanism;
     const int items = mechanism->items.count;
@@ -100,6 +138,7 @@ static Status fill_strip(ct_session *session, Run *run, Strip *strip, Diag *diag
         CHECK(result_reader_values_at(run->reader, mechanism->items.at, items, strip->times[i],
                                       strip->values + (size_t)i * (size_t)items, diag));
     }
+    CHECK(bend_strip(session, s, run, strip, diag));
     CHECK(mechanism_fit(&strip->mechanism, strip->values, strip->count, diag));
     for (int i = 0; i < strip->count; i++)
         mechanism_draw(mechanism, strip->values + (size_t)i * (size_t)items, strip->times[i],
@@ -134,6 +173,7 @@ static Status draw_mechanism(ct_session *session, const Statement *s, ct_paper *
     Status status;
 
     CHECK(read_options(session, s, &options, diag));
+    CHECK(read_mode(session, s, &strip.mode, diag));
     CHECK(mechanism_open(&strip.mechanism, &view, options, diag));
     strip.times = NEW_ARRAY(double, 1);
     if (s->at != NULL)
@@ -144,7 +184,7 @@ static Status draw_mechanism(ct_session *session, const Statement *s, ct_paper *
         CHECK(session_start(session, &run, diag));
     if (s->at == NULL)
         strip.times[0] = result_times(run->result)[0];
-    CHECK(fill_strip(session, run, &strip, diag));
+    CHECK(fill_strip(session, s, run, &strip, diag));
     write_picture(session, &strip.pictures[0], paper, out);
 done:
     strip_free(&strip);
@@ -245,6 +285,7 @@ ct_status ct_draw(ct_session *session, const ct_statement *statement, ct_paper *
 
 /* --- animate --- */
 
+static const double PERIOD = 2;        /* s, in which a mode goes there and back */
 static const double RATE = 25;         /* pictures a second */
 static const double RATE_OF_TEXT = 8;  /* a terminal shows no more */
 static const double MOST_FRAMES = 250; /* of a file */
@@ -279,13 +320,15 @@ typedef struct Span {
     double from, to, speed;
 } Span;
 
-static Status read_span(ct_session *session, const Statement *s, const Run *run, Span *out,
-                        Diag *diag)
+static Status read_span(ct_session *session, const Statement *s, const Run *run, bool is_mode,
+                        Span *out, Diag *diag)
 {
     const double *times = result_times(run->result);
     const Pair *from = find_key(s, "from"), *to = find_key(s, "to"), *speed = find_key(s, "speed");
 
     *out = (Span){times[0], times[result_rows(run->result) - 1], 1};
+    if (is_mode)
+        out->to = out->from + PERIOD;
     if (from != NULL)
         TRY(session_instant(session, from->value, &out->from, diag));
     if (to != NULL)
@@ -295,6 +338,9 @@ static Status read_span(ct_session *session, const Statement *s, const Run *run,
     if (speed != NULL && !(out->speed > 0 && isfinite(out->speed)))
         return diag_at(diag, E_VALUE, speed->value->place,
                        "speed= is how often faster than it ran: a number above 0");
+    if (is_mode && (from != NULL || to != NULL))
+        return diag_at(diag, E_SYNTAX, (from != NULL ? from : to)->value->place,
+                       "a mode moves about the start, through its own period");
     if (!(out->from < out->to))
         return diag_at(diag, E_VALUE, s->verb_place, "nothing moves from %.6g to %.6g s", out->from,
                        out->to);
@@ -309,16 +355,25 @@ static Status make_strip(ct_session *session, const Statement *s, double rate, d
     Run *run = NULL;
     Span span;
 
-    TRY(find_run(session, s, &run, diag));
-    TRY(read_span(session, s, run, &span, diag));
+    TRY(read_mode(session, s, &strip->mode, diag));
+    if (strip->mode > 0 && s->operands.count == 0)
+        TRY(session_start(session, &run, diag));
+    else
+        TRY(find_run(session, s, &run, diag));
+    TRY(read_span(session, s, run, strip->mode > 0, &span, diag));
     TRY(read_options(session, s, &options, diag));
     TRY(mechanism_open(&strip->mechanism, &view, options, diag));
     *seconds = (span.to - span.from) / span.speed;
     strip->count = (int)fmax(2, fmin(most, ceil(*seconds * rate)));
     strip->times = NEW_ARRAY(double, strip->count);
     for (int i = 0; i < strip->count; i++)
-        strip->times[i] = span.from + (span.to - span.from) * i / (strip->count - 1);
-    return fill_strip(session, run, strip, diag);
+        strip->times[i] = strip->mode > 0
+                              ? span.from
+                              : span.from + (span.to - span.from) * i / (strip->count - 1);
+    TRY(fill_strip(session, s, run, strip, diag));
+    for (int i = 0; strip->mode > 0 && i < strip->count; i++)
+        strip->times[i] = strip->shape.period * i / strip->count;
+    return OK;
 }
 
 ct_status ct_animate(ct_session *session, const ct_statement *statement, ct_paper *paper,

@@ -529,6 +529,97 @@ static void a_plain_terminal_gets_plain_characters(void)
     kit_free(&kit);
 }
 
+static bool drawn_holds(Kit *kit, const char *line, const char *what)
+{
+    char *svg = drawn(kit, line, "svg");
+    const bool holds = strstr(svg, what) != NULL;
+
+    ct_free(svg);
+    return holds;
+}
+
+/* how far a body's centre is from where it rests, m */
+static void moved_in_mode(Kit *kit, const char *line, const char *body, double rest_x,
+                          double rest_y, double out[2])
+{
+    char *svg = drawn(kit, line, "svg");
+    const double scale = scale_of(svg);
+    double base[2], at[2];
+
+    circle(svg, "body base", base);
+    circle(svg, body, at);
+    out[0] = (at[0] - base[0]) / scale - rest_x;
+    out[1] = (base[1] - at[1]) / scale - rest_y;
+    ct_free(svg);
+}
+
+/* two masses between three springs: together, and against each other */
+static void modes_are_shapes(void)
+{
+    Kit kit = kit_new();
+    double a[2], b[2];
+
+    EXPECT_DONE(&kit, "scene planar\nbody base mass=1 inertia=1\nweld w ground base\n"
+                      "body a mass=1 inertia=1\nbody b mass=1 inertia=1\narm pa ground [1, 0]\n"
+                      "arm pb ground [2, 0]\nprismatic sa pa a axis=x\n"
+                      "prismatic sb pb b axis=x\nspring k1 sa k=1\nspring k2 sb k=1\n"
+                      "spring k3 a b k=1 length=1\nbody c mass=1 inertia=1\n"
+                      "revolute hc ground c\nspring kc hc k=50");
+    moved_in_mode(&kit, "draw mechanism mode=1", "body a", 1, 0, a);
+    moved_in_mode(&kit, "draw mechanism mode=1", "body b", 2, 0, b);
+    EXPECT_NEAR(fabs(a[0]), 0.15 * 2, 2e-3); /* of the whole, which is 2 m long */
+    EXPECT_NEAR(a[0], b[0], 2e-3);
+    moved_in_mode(&kit, "draw mechanism mode=2", "body a", 1, 0, a);
+    moved_in_mode(&kit, "draw mechanism mode=2", "body b", 2, 0, b);
+    EXPECT_NEAR(fabs(a[0]), 0.15 * 2, 2e-3);
+    EXPECT_NEAR(a[0], -b[0], 2e-3);
+    /* one that only turns is drawn, too */
+    EXPECT(drawn_holds(&kit, "draw mechanism mode=3", "mode 3, 7.0711 rad/s"));
+    kit_free(&kit);
+}
+
+/* a cantilever's first shape: 0.33952 of the tip's way half way along; then in space, and moved */
+static void modes_of_beams_are_bent(void)
+{
+    Kit kit = kit_new();
+    double mid[2], tip[2];
+
+    EXPECT_DONE(&kit, "scene planar\nbody base mass=1 inertia=1\nweld w ground base\n"
+                      "beam b length=1 mass_per_length=1 EIz=1 modes=[0, 5]\nweld w1 base b\n"
+                      "arm am b at=0.5\narm at b at=1\nbody m mass=1e-9 inertia=1e-9\n"
+                      "body t1 mass=1e-9 inertia=1e-9\nweld wm am m\nweld wt at t1\n");
+    moved_in_mode(&kit, "draw mechanism mode=1", "body m", 0.5, 0, mid);
+    moved_in_mode(&kit, "draw mechanism mode=1", "body t1", 1, 0, tip);
+    EXPECT_NEAR(fabs(tip[1]), 0.15, 1e-3);
+    EXPECT_NEAR(mid[1] / tip[1], 0.33952, 5e-3);
+    moved_in_mode(&kit, "draw mechanism mode=2", "body m", 0.5, 0, mid);
+    moved_in_mode(&kit, "draw mechanism mode=2", "body t1", 1, 0, tip);
+    EXPECT_NEAR(mid[1] / tip[1], -0.71366, 5e-3);
+    kit_free(&kit);
+}
+
+/* a period in two seconds, of which the page tells the true times; a run's beginning, too */
+static void a_mode_is_a_film(void)
+{
+    Kit kit = kit_new();
+    int count;
+    double interval;
+    char *page;
+
+    EXPECT_DONE(&kit, "body m mass=1 inertia=[1, 1, 1]\nrevolute h ground m axis=x\n"
+                      "arm e m [0, 0, 1]\nspring k h k=4\n");
+    page = film(&kit, "animate mode=1", "html", &count, &interval);
+    EXPECT(count_of(page, "class=\"frame\"") == 50);
+    EXPECT_HOLDS(page, "const seconds = 2, times = [0,0.0628319,");
+    EXPECT_HOLDS(page, "mode 1, 2 rad/s");
+    ct_free(page);
+    EXPECT_DONE(&kit, "simulate 1\n");
+    page = film(&kit, "animate run1 mode=1", "text", &count, &interval);
+    EXPECT(count == 16);
+    ct_free(page);
+    kit_free(&kit);
+}
+
 static void what_cannot_be_drawn_says_why(void)
 {
     static const struct {
@@ -546,6 +637,12 @@ static void what_cannot_be_drawn_says_why(void)
         {"animate from=0.5 to=0.5", "nothing moves"},
         {"animate speed=0", "above 0"},
         {"animate speed=-1", "above 0"},
+        {"draw mechanism mode=0", "a whole number from 1 on"},
+        {"draw mechanism mode=1.5", "a whole number from 1 on"},
+        {"draw mechanism mode=3", "there are 2 modes, counted from 1"},
+        {"draw mode=1", "draw mechanism"},
+        {"animate mode=3", "there are 2 modes"},
+        {"animate mode=1 from=0.5", "through its own period"},
     };
     Kit kit = kit_new();
 
@@ -583,6 +680,9 @@ int main(void)
     RUN(each_domain_has_its_colour_and_dash);
     RUN(nodes_stand_apart);
     RUN(a_plain_terminal_gets_plain_characters);
+    RUN(modes_are_shapes);
+    RUN(modes_of_beams_are_bent);
+    RUN(a_mode_is_a_film);
     RUN(what_cannot_be_drawn_says_why);
     return test_end();
 }
