@@ -141,7 +141,7 @@ static void latex_name(Text *out, const char *name, size_t end)
     }
 }
 
-/* a name, or the law of one called for another: D1.law(C1.v) */
+/* a name, one that is numbered, lambda(1), or the law of one called for another, D1.law(C1.v) */
 static void latex_symbol(Text *out, Expr symbol)
 {
     const char *name = expr_name(symbol);
@@ -149,6 +149,9 @@ static void latex_symbol(Text *out, Expr symbol)
 
     if (expr_data(symbol) != NULL) {
         latex_table(out, expr_data(symbol));
+    } else if (open != NULL && isdigit((unsigned char)open[1])) {
+        latex_name(out, name, (size_t)(open - name));
+        text_addf(out, "_{%.*s}", (int)strlen(open) - 2, open + 1);
     } else if (open != NULL) {
         latex_name(out, name, (size_t)(open - name));
         text_add(out, "\\left(");

@@ -32,17 +32,25 @@ static void add_term_name(Text *out, const View *view, Block block, const Term *
 
 /* --- circuits --- */
 
+static SumOrder way_order(const Way *way)
+{
+    return story_order(way->count > 0 ? &way->at[0].sign : NULL, way->count, sizeof *way->at);
+}
+
 /* "r(h9) = r(r6) - r(r7) ..." */
 static void say_way(Text *out, const View *view, int chord, const Way *way)
 {
+    const SumOrder order = way_order(way);
     Text words = {0};
 
     text_add(&words, story_is_typeset(view) ? "$" : "");
     story_add_variable(&words, view, "r", true, chord);
     text_add(&words, " = ");
-    for (int i = 0; i < way->count; i++) {
-        story_add_sign(&words, way->at[i].sign, i == 0);
-        story_add_variable(&words, view, "r", true, way->at[i].edge);
+    for (int k = 0; k < way->count; k++) {
+        const WayStep *step = &way->at[story_at(&order, k)];
+
+        story_add_sign(&words, step->sign, k == 0);
+        story_add_variable(&words, view, "r", true, step->edge);
     }
     text_addf(&words, "%s%s, the circuit of ", way->count == 0 ? "0" : "",
               story_is_typeset(view) ? "$" : "");
@@ -69,10 +77,11 @@ static void add_turned(Text *out, const View *view, int node)
 
 static void say_vectors(Text *out, const View *view, const Way *way)
 {
+    const SumOrder order = way_order(way);
     bool first = true;
 
     for (int i = 0; i < way->count; i++) {
-        const WayStep *step = &way->at[i];
+        const WayStep *step = &way->at[story_at(&order, i)];
         Text words = {0};
 
         if (story_is_nothing(step->shift.at))
@@ -114,12 +123,15 @@ void derive_turns(Text *out, const View *view, int chord)
     const int room = tree_depth(tree, edge->tail) + tree_depth(tree, edge->head);
     int *edges = NEW_ARRAY(int, 2 * room + 1);
     const int count = tree_path(tree, edge->tail, edge->head, edges, edges + room);
+    const SumOrder order = story_order(edges + room, count, sizeof *edges);
 
     text_add(&words, story_is_typeset(view) ? "$" : "");
     story_add_variable(&words, view, story_is_typeset(view) ? "\\omega" : "w", true, chord);
     text_add(&words, " = ");
-    for (int i = 0; i < count; i++) {
-        story_add_sign(&words, edges[room + i], i == 0);
+    for (int k = 0; k < count; k++) {
+        const int i = story_at(&order, k);
+
+        story_add_sign(&words, edges[room + i], k == 0);
         story_add_variable(&words, view, story_is_typeset(view) ? "\\omega" : "w", true, edges[i]);
     }
     text_addf(&words, "%s%s, the circuit of ", count == 0 ? "0" : "",
@@ -215,6 +227,7 @@ static Status say_entry(Story *story, Block block, const char *letter, int row, 
 {
     const View *view = story->view;
     const bool vector = block == BLOCK_FORCES || block == BLOCK_CONSTRAINTS;
+    const bool is_backwards = way != NULL && way_order(way).step < 0;
     Terms terms = {0};
     Status status = OK;
     Expr e;
@@ -222,7 +235,7 @@ static Status say_entry(Story *story, Block block, const char *letter, int row, 
     CHECK(system_terms(view->system, block, row, column, &terms, diag));
     CHECK(system_show(view->system, block, row, column, &e, diag));
     for (int i = 0; i < terms.count; i++) {
-        const Term *term = &terms.at[i];
+        const Term *term = &terms.at[is_backwards ? terms.count - 1 - i : i];
         Text name = {0};
 
         add_term_name(&name, view, block, term);
@@ -548,13 +561,17 @@ static void say_network_step(Story *story, const NetworkSteps *steps, const Netw
     Text words = {0};
 
     if (step->is_summed) {
+        const SignedEdge *all = step->count > 0 ? &steps->signed_edges.at[step->first] : NULL;
+        const SumOrder order =
+            story_order(all != NULL ? &all->sign : NULL, step->count, sizeof *all);
+
         text_add(&words, story_is_typeset(view) ? "$" : "");
         add_network_variable(&words, view, step->edge, step->is_across);
         text_add(&words, step->count > 0 ? " = " : " = 0");
-        for (int i = 0; i < step->count; i++) {
-            const SignedEdge *other = &steps->signed_edges.at[step->first + i];
+        for (int k = 0; k < step->count; k++) {
+            const SignedEdge *other = &all[story_at(&order, k)];
 
-            story_add_sign(&words, other->sign, i == 0);
+            story_add_sign(&words, other->sign, k == 0);
             add_network_variable(&words, view, other->edge, step->is_across);
         }
         text_add(&words, story_is_typeset(view) ? "$" : "");

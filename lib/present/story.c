@@ -46,6 +46,22 @@ void story_add_variable(Text *out, const View *view, const char *letter, bool is
     text_add(out, story_is_typeset(view) ? "}}" : ")");
 }
 
+SumOrder story_order(const int *sign, int count, size_t stride)
+{
+    SumOrder order = {0, 1, count};
+
+    if (count == 0 || sign[0] > 0)
+        return order;
+    for (int i = count - 1; i > 0; i--)
+        if (*(const int *)((const char *)sign + (size_t)i * stride) > 0) {
+            order.first = i;
+            if (i == count - 1)
+                order.step = -1;
+            break;
+        }
+    return order;
+}
+
 void story_add_sign(Text *out, int sign, bool first)
 {
     if (first)
