@@ -247,48 +247,6 @@ static void add_angles(Code *code)
 
 /* --- what is solved for --- */
 
-int code_newton_rows(Code *code, const Expr *residuals, int first, int count, const char *name,
-                     const char *what)
-{
-    int function;
-    Arena *arena = code->arena;
-    const Layout *l = code->layout;
-    const int width = count + 1;
-    Expr *rows = NEW_ARRAY(Expr, count * width);
-    Expr *unknowns = NEW_ARRAY(Expr, count);
-
-    for (int k = 0; k < count; k++) {
-        const int at = first + k;
-
-        /* x', z, u' and lambda stand one behind the other in the layout, too */
-        unknowns[k] = l->symbols[l->rates + at];
-    }
-    for (int i = 0; i < count; i++) {
-        Expr *symbols = NULL;
-        const int found = expr_symbols(&residuals[i], 1, &symbols);
-
-        for (int k = 0; k < count; k++)
-            rows[i * width + k] = expr_int(arena, 0);
-        for (int e = 0; e < found; e++)
-            for (int k = 0; k < count; k++)
-                if (unknowns[k] == symbols[e])
-                    rows[i * width + k] = expr_diff(arena, residuals[i], symbols[e]);
-        rows[i * width + count] = expr_neg(arena, residuals[i]);
-        mem_free(symbols);
-    }
-    function = code_add_function(code, name, what, rows, count, width);
-    MEM_FREE(rows, unknowns);
-    return function;
-}
-
-void code_add_newton(Code *code, const Expr *residuals, int first, int count, const char *name)
-{
-    const int function =
-        code_newton_rows(code, residuals, first, count, name, "rows of [A | b] in A ds = b");
-
-    code->groups[code->group_count++] = (CodeGroup){first, count, function, true};
-}
-
 static void add_linear_network(Code *code)
 {
     const Layout *l = code->layout;
