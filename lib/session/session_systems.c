@@ -83,18 +83,22 @@ static bool is_current(const ct_session *session, const System *system)
 
 void session_sweep(ct_session *session)
 {
-    const System *last = NULL;
+    const System *last = NULL, *before = NULL;
     int kept = 0;
 
     mem_keep(session->systems.at);
     for (int i = 0; i < session->systems.count; i++)
-        if (!system_serves(session->systems.at[i], false))
+        if (!system_serves(session->systems.at[i], false)) {
+            before = last;
             last = session->systems.at[i];
+        }
     for (int i = 0; i < session->systems.count; i++) {
         System *system = session->systems.at[i];
 
-        /* numbers may be all that has changed since the last one was made for a run */
-        if (is_current(session, system) || is_named(session, system) || system == last)
+        /* numbers may be all that has changed since the last one was made for a run, and what has
+         * changed besides may be undone */
+        if (is_current(session, system) || is_named(session, system) || system == last ||
+            system == before)
             session->systems.at[kept++] = system;
         else
             system_free(system);
@@ -117,6 +121,19 @@ static System *find_system(const ct_session *session, const SystemOptions *optio
     return NULL;
 }
 
+/* it is the one used last from now on */
+static void put_last(ct_session *session, System *system)
+{
+    const int count = session->systems.count;
+    int kept = 0;
+
+    mem_keep(session->systems.at);
+    for (int i = 0; i < count; i++)
+        if (session->systems.at[i] != system)
+            session->systems.at[kept++] = session->systems.at[i];
+    session->systems.at[count - 1] = system;
+}
+
 static Status system_of_form(ct_session *session, NetworkForm form, bool has_literals, System **out,
                              Diag *diag)
 {
@@ -131,8 +148,10 @@ static Status system_of_form(ct_session *session, NetworkForm form, bool has_lit
         return OK;
     CHECK(model_scene(session->model, &scene, diag));
     *out = find_system(session, &options, &scene);
-    if (*out != NULL)
+    if (*out != NULL) {
+        put_last(session, *out);
         goto done;
+    }
     report(&session->watch, "equations", -1);
     CHECK(system_new_view(&scene, &options, &system, diag));
     system_set_watch(system, &session->watch);

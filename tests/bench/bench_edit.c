@@ -109,11 +109,15 @@ static void edit(Model *model, const char *lines)
     while (next < strlen(lines)) {
         Statement *statement = NULL;
         Diag diag = {0};
+        const bool applied =
+            statement_parse(lines, 1, (SyntaxOptions){0}, &next, &statement, &diag) == OK &&
+            model_apply(model, statement, &diag) == OK;
 
-        if (statement_parse(lines, 1, (SyntaxOptions){0}, &next, &statement, &diag) != OK ||
-            model_apply(model, statement, &diag) != OK)
-            printf("# %s\n", diag.message);
         statement_free(statement);
+        if (!applied) {
+            printf("# %s\n", diag.message);
+            return;
+        }
     }
 }
 
@@ -134,17 +138,21 @@ static const struct Edit {
         {"mass", "set b50.mass = 1.25", "set b50.mass = 1.75"},
         {"length", "set h50.position = [-0.5, 0]", "set h50.position = [-0.4, 0]"},
         {"type", "delete j50; revolute j50 t50 h50", "delete j50; prismatic j50 t50 h50 axis=x"},
+        {"body", "body more mass=1 inertia=1; revolute tip b99 more", "delete tip; delete more"},
 },
   spatial_edits[] = {
       {"mass", "set b50.mass = 1.25", "set b50.mass = 1.75"},
       {"length", "set h50.position = [-0.5, 0, 0.2]", "set h50.position = [-0.4, 0, 0.1]"},
       {"joint", "set j50.axis = [0.5, 0.25, 1]", "set j50.axis = [0.25, 0.5, 1]"},
       {"type", "delete j50; revolute j50 t50 h50", "delete j50; prismatic j50 t50 h50 axis=x"},
+      {"body", "body more mass=1 inertia=[1, 1, 1]; revolute tip b99 more",
+       "delete tip; delete more"},
 };
 
 static void bench_chain(bool planar, const char *tree, bool loop)
 {
     const struct Edit *edits = planar ? planar_edits : spatial_edits;
+    const char *choice = strcmp(tree, "joint") == 0 ? "tree joint" : "tree absolute";
     char *text = chain_text(planar, tree, loop);
     double least = 1e300;
     Model *model = NULL;
@@ -164,8 +172,8 @@ static void bench_chain(bool planar, const char *tree, bool loop)
         /* the mean of edits each of which changes something */
         for (int i = 0; i < TRIES; i++) {
             edit(model, i % 2 == 0 ? edits[k].one : edits[k].other);
-            if (strcmp(edits[k].what, "type") == 0)
-                edit(model, "tree joint");
+            if (strcmp(edits[k].what, "type") == 0 || strcmp(edits[k].what, "body") == 0)
+                edit(model, choice);
             sum += form(model, &system);
         }
         chain_line(planar, tree, loop, edits[k].what, sum / TRIES);

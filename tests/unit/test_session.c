@@ -1,6 +1,9 @@
 /* test_session.c: life of a session, statements, building, undo */
 #include "session_kit.h"
 
+#include "base/memory.h"
+#include "base/text.h"
+
 static void a_statement_is_handed_out_in_parts(void)
 {
     const char *line = "simulate 10 every=0.01 method=bdf; print h8 at 0.5  # and more";
@@ -317,6 +320,61 @@ static void a_session_bears_any_order_of_statements(void)
     }
 }
 
+/* how often equations were formed */
+static void count_formed(void *context, const char *phase, double fraction)
+{
+    (void)fraction;
+    *(int *)context += strcmp(phase, "formulating") == 0;
+}
+
+static void undo_and_redo_of_an_edit_form_no_equations(void)
+{
+    static const char run[] = "simulate 0.01";
+    int formed = 0;
+    const ct_hooks hooks = {.columns = 80, .context = &formed, .progress = count_formed};
+    Kit kit = {.session = ct_session_new(&hooks)};
+    Text chain = {0};
+    int once;
+    double before, behind;
+
+    text_add(&chain,
+             "gravity [0, -9.81, 0]\nbody b0 mass=1 inertia=[1, 1, 1]\nrevolute j0 ground b0\n");
+    for (int i = 1; i < 20; i++)
+        text_addf(&chain,
+                  "body b%d mass=1.5 inertia=[1, 1, 1]\narm t%d b%d [1.5, 0, 0]\nrevolute j%d t%d "
+                  "b%d\n",
+                  i, i, i - 1, i, i, i);
+    EXPECT_DONE(&kit, chain.at);
+    text_free(&chain);
+    EXPECT_DONE(&kit, run);
+    before = kit_value(&kit, "b19.y");
+    once = formed;
+    EXPECT(once > 0);
+    EXPECT_DONE(&kit, "delete j19");
+    EXPECT_DONE(&kit, "prismatic j19 t19 b19 axis=y");
+    EXPECT_DONE(&kit, "init j19' = 3");
+    EXPECT_DONE(&kit, run);
+    behind = kit_value(&kit, "b19.y");
+    EXPECT(formed > once && fabs(behind - before) > 1e-9);
+    once = formed;
+    for (int i = 0; i < 2; i++) {
+        for (int k = 0; k < 3; k++)
+            EXPECT(ct_undo(kit.session, &kit.error) == CT_OK);
+        EXPECT_DONE(&kit, run);
+        EXPECT_NEAR(kit_value(&kit, "b19.y"), before, 0);
+        for (int k = 0; k < 3; k++)
+            EXPECT(ct_redo(kit.session, &kit.error) == CT_OK);
+        EXPECT_DONE(&kit, run);
+        EXPECT_NEAR(kit_value(&kit, "b19.y"), behind, 0);
+    }
+    EXPECT(formed == once);
+    /* a number of a part changes none either */
+    EXPECT_DONE(&kit, "set b7.mass = 2.5");
+    EXPECT_DONE(&kit, run);
+    EXPECT(formed == once);
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(a_statement_is_handed_out_in_parts);
@@ -334,5 +392,6 @@ int main(void)
     RUN(two_sessions_know_nothing_of_each_other);
     RUN(a_session_needs_no_hooks);
     RUN(a_session_bears_any_order_of_statements);
+    RUN(undo_and_redo_of_an_edit_form_no_equations);
     return test_end();
 }
