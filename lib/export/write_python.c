@@ -79,6 +79,52 @@ static const char after[] =
     "    k3, s = rates(p, t + h/2, y + h/2*k2, s)\n    k4, s = rates(p, t + h, y + h*k3, s)\n"
     "    return project(p, t + h, y + h/6*(k1 + 2*k2 + 2*k3 + k4)), s\n";
 
+/* The same functions with np standing for SymPy: what they compute with are symbols then. */
+static const char symbols[] =
+    "\n\ndef symbolic():\n"
+    "    \"\"\"The functions as matrices of SymPy, by name, and the symbols p, t, y, s that they "
+    "are\n"
+    "    over, called as in the model. What asks on which side of something it is has none.\"\"\"\n"
+    "    global np\n    import sympy\n\n    numpy = np\n\n"
+    "    class Stand:\n        pi = sympy.pi\n"
+    "        sin, cos, tan = sympy.sin, sympy.cos, sympy.tan\n"
+    "        arcsin, arccos, arctan = sympy.asin, sympy.acos, sympy.atan\n"
+    "        sinh, cosh, tanh, arctan2 = sympy.sinh, sympy.cosh, sympy.tanh, sympy.atan2\n"
+    "        exp, log, sqrt, abs, sign = sympy.exp, sympy.log, sympy.sqrt, sympy.Abs, sympy.sign\n"
+    "        minimum, maximum = sympy.Min, sympy.Max\n"
+    "        floor, ceil = sympy.floor, sympy.ceiling\n"
+    "        shape, broadcast_shapes = numpy.shape, numpy.broadcast_shapes\n\n"
+    "        @staticmethod\n        def zeros(shape):\n"
+    "            return numpy.zeros(shape, object)\n\n"
+    "    t = sympy.Symbol('t', real=True)\n    p, y, s = (numpy.zeros(n, object) for n in (P, Y, "
+    "S))\n"
+    "    for array, place, name in NAMES:\n"
+    "        {'p': p, 'y': y, 's': s}[array][place] = sympy.Symbol(name, real=True)\n"
+    "    over = [[x for x in array if x != 0] for array in (p, [t], y, s)]\n    found = {}\n"
+    "    np = Stand\n    try:\n        p = prepare(p)\n        for function in FUNCTIONS:\n"
+    "            try:\n                found[function.__name__] = sympy.Matrix(function(p, t, y, "
+    "s))\n"
+    "            except (AttributeError, TypeError):\n                pass\n"
+    "    finally:\n        np = numpy\n    return found, over\n"
+    "\n\ndef check_symbolic():\n    import sympy\n\n    found, over = symbolic()\n"
+    "    p, worst, bad = parameters(), 0, 0\n"
+    "    given = [p[place] for array, place, name in sorted(NAMES) if array == 'p']\n"
+    "    for t, y, s, sums in STATES[:3]:\n"
+    "        y = np.array(y)*(1 + (np.arange(Y) % 5 + 1)/32)\n"
+    "        for k, function in enumerate(FUNCTIONS):\n"
+    "            matrix = found.get(function.__name__)\n"
+    "            if matrix is None or not len(matrix):\n                continue\n"
+    "            numbers = given + [t, *y, *s]\n"
+    "            compute = sympy.lambdify(sum(over, []), matrix, 'numpy', cse=True)\n"
+    "            out = np.asarray(compute(*numbers), float).reshape(-1)\n"
+    "            total = ((1 + np.arange(len(out)) % 7)*out).sum()\n"
+    "            off = abs(total - sums[k][0])/(sums[k][1] or 1)\n"
+    "            worst, bad = max(worst, off), bad + (not off <= 1e-12)\n"
+    "    print('%d of %d functions in symbols: %s, off by %.1e at most' % (\n"
+    "        len(found), len(FUNCTIONS), 'NOT as they were' if bad else 'all as they were', "
+    "worst))\n"
+    "    return bad\n";
+
 static const char check[] =
     "\n\ndef check():\n    p = parameters()\n    worst, bad = 0, 0\n"
     "    times = np.array([state[0] for state in STATES])\n"
@@ -103,7 +149,8 @@ static const char check[] =
     "    print('%d states: %s, off by %.1e at most' % (\n"
     "        len(STATES), 'NOT as they were' if bad else 'all as they were', worst))\n"
     "    return bad\n"
-    "\n\nif __name__ == '__main__':\n    sys.exit(check() > 0)\n";
+    "\n\nif __name__ == '__main__':\n"
+    "    sys.exit((check_symbolic() if sys.argv[1:] == ['symbolic'] else check()) > 0)\n";
 
 static void add_list(Text *out, const double *values, int count)
 {
@@ -177,6 +224,24 @@ static void add_states(const Code *code, Text *out)
     text_add(out, "\n]\n");
 }
 
+static void add_names(const Code *code, Text *out)
+{
+    static const char letters[] = {[CODE_P] = 'p', [CODE_Y] = 'y', [CODE_S] = 's'};
+
+    text_add(out, "\n# array, place, name\nNAMES = [");
+    for (int i = 0; i < code->inputs.count; i++) {
+        const CodeInput *input = &code->inputs.at[i];
+        const int of_layout = i - code->parameters.count;
+        const Expr symbol =
+            of_layout < 0 ? code->parameters.at[i] : code->layout->symbols[of_layout];
+
+        if (input->array != CODE_T)
+            text_addf(out, "\n    ('%c', %d, \"%s\"),", letters[input->array], input->place,
+                      expr_name(symbol));
+    }
+    text_add(out, "\n]\n");
+}
+
 static void add_tables(const Code *code, Text *out)
 {
     if (code->lowered.tables.count == 0)
@@ -217,6 +282,7 @@ static void write_file(const Code *code, const Language *language, Text *out)
     for (int i = 0, first; (first = system_quaternion(code->layout->system, i)) >= 0; i++)
         text_addf(out, "%d, ", first);
     text_add(out, ")\n");
+    add_names(code, out);
     add_tables(code, out);
     text_add(out, "\n\ndef prepare(p):\n"
                   "    \"\"\"what follows from parameters alone: after one has changed\"\"\"\n");
@@ -236,6 +302,7 @@ static void write_file(const Code *code, const Language *language, Text *out)
     add_solve(code, out);
     text_add(out, after);
     add_states(code, out);
+    text_add(out, symbols);
     text_add(out, check);
 }
 
