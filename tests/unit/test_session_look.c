@@ -2,6 +2,7 @@
 #include "session_kit.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 
 static void one_tree_gives_the_two_equations_of_the_paper(void)
 {
@@ -710,8 +711,48 @@ static void wide_patterns_stand_in_blocks_of_columns(void)
     }
 }
 
+/* Where the last of many bodies is, near ground and far from it: by turns about y and z, one after
+ * the other, from the tip inward, p = turn(p + [1, 0, 0]). */
+static void places_far_out_are_those_of_the_turns(void)
+{
+    enum { BODIES = 27 };
+    Text text = {0};
+    Kit kit = kit_new();
+    char name[16];
+
+    for (int i = 0; i < BODIES; i++) {
+        text_addf(&text, "body b%d mass=1 inertia=[1, 2, 3]; arm s%d b%d [-1, 0, 0]\n", i, i, i);
+        if (i == 0)
+            text_add(&text, "revolute h0 ground s0 axis=z\n");
+        else
+            text_addf(&text, "revolute h%d b%d s%d axis=%c\n", i, i - 1, i, "zy"[i % 2]);
+        text_addf(&text, "init h%d = %.17g\n", i, 0.1 + 0.03 * i);
+    }
+    EXPECT_DONE(&kit, text.at);
+    EXPECT_DONE(&kit, "assemble");
+    for (int last = 8; last < BODIES; last += 9) { /* 8 and 17 are written out, 26 isn't */
+        double p[3] = {0, 0, 0};
+
+        for (int i = last; i >= 0; i--) {
+            const double c = cos(0.1 + 0.03 * i), s = sin(0.1 + 0.03 * i), x = p[0] + 1;
+            double *across = i % 2 == 0 ? &p[1] : &p[2];
+            const double side = i % 2 == 0 ? *across : -*across, turned = s * x + c * side;
+
+            p[0] = c * x - s * side;
+            *across = i % 2 == 0 ? turned : -turned;
+        }
+        for (int k = 0; k < 3; k++) {
+            (void)snprintf(name, sizeof name, "b%d.%c", last, "xyz"[k]);
+            EXPECT_NEAR(kit_value(&kit, name), p[k], 1e-12);
+        }
+    }
+    text_free(&text);
+    kit_free(&kit);
+}
+
 int main(void)
 {
+    RUN(places_far_out_are_those_of_the_turns);
     RUN(wide_matrices_stand_in_blocks_of_columns);
     RUN(wide_patterns_stand_in_blocks_of_columns);
     RUN(one_tree_gives_the_two_equations_of_the_paper);

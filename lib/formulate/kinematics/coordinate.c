@@ -3,8 +3,10 @@
 #include "formulate/kinematics/frames.h"
 #include "formulate/kinematics/framesum.h"
 #include "formulate/kinematics/multi_turn.h"
+#include "formulate/kinematics/recursive.h"
 #include "formulate/system/constraints.h"
 #include "formulate/system/kinematics.h"
+#include "formulate/system/origin.h"
 #include "formulate/system/resolve.h"
 #include "formulate/system/system_impl.h"
 #include "formulate/system/vector.h"
@@ -142,7 +144,33 @@ Vec joint_axis(const System *system, const Instance *owner, const Steps *steps, 
     return system->kinematics->speeds[speed].axis;
 }
 
-static Status chord_value(const System *system, const Instance *owner, int coordinate, Expr *out,
+/* depth that two ends may differ by for a way between them to be written out */
+enum { FAR_APART = 20 };
+
+/* The same by positions, each a step from the one before: a way of many turns, written out, turns
+ * each of its steps through all of them. */
+static Expr far_slide(System *system, const Instance *owner, const Step *slide)
+{
+    Arena *arena = system->arena;
+    Vec axis =
+        frame_vector(system, owner->tail, (Vec){{slide->axis[0], slide->axis[1], slide->axis[2]}});
+
+    axis = vec_express(system, axis, system->kinematics->frames[owner->tail].chain, 0);
+    return vec_dot(
+        arena, axis,
+        vec_sub(arena, node_position(system, owner->head), node_position(system, owner->tail)));
+}
+
+static Expr shown_slide(System *system, const Instance *owner, const Step *slide)
+{
+    const Tree *tree = system->origin->trees[TREE_TRANSLATION];
+    const int apart = tree_depth(tree, owner->head) - tree_depth(tree, owner->tail);
+
+    return apart > FAR_APART || apart < -FAR_APART ? far_slide(system, owner, slide)
+                                                   : slide_value(system, owner, slide);
+}
+
+static Status chord_value(System *system, const Instance *owner, int coordinate, Expr *out,
                           Diag *diag)
 {
     Steps steps;
@@ -150,7 +178,7 @@ static Status chord_value(const System *system, const Instance *owner, int coord
     instance_steps(system, owner, &steps);
     for (int k = 0; k < steps.shift_count && !steps_are_tied(&steps); k++)
         if (steps.shift[k].coordinate == coordinate) {
-            *out = slide_value(system, owner, &steps.shift[k]);
+            *out = shown_slide(system, owner, &steps.shift[k]);
             return OK;
         }
     for (int k = 0; k < steps.turn_count && steps.turn_count < 3; k++) {
@@ -159,7 +187,7 @@ static Status chord_value(const System *system, const Instance *owner, int coord
         if (steps.turn[k].coordinate != coordinate)
             continue;
         if (steps_are_tied(&steps) && !owner->is_virtual) { /* its shift knows all turns */
-            *out = expr_div(system->arena, slide_value(system, owner, &steps.shift[0]),
+            *out = expr_div(system->arena, shown_slide(system, owner, &steps.shift[0]),
                             steps.shift[0].scale);
             return OK;
         }
