@@ -29,6 +29,7 @@ libcore_la_SOURCES += \
   lib/model/model_terminals.c \
   lib/model/model_rebuild.c \
   lib/model/model_rename.c \
+  lib/model/model_rest.c \
   lib/model/model_scene.c \
   lib/model/model_settings.def \
   lib/model/model_start.c \
