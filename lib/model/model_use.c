@@ -173,6 +173,8 @@ Status use_apply(State **state, int use, const Statement *statement, Outcome *ou
     Statement renamed = {0};
     Status status = OK;
 
+    if (statement->kind == STATEMENT_EMPTY)
+        return OK;
     mem_keep(s);
     TRY(check_allowed(s, use, statement, diag));
     if (statement->kind == STATEMENT_VERB && statement->row.number == VERB_use &&

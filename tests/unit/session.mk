@@ -102,3 +102,6 @@ test_functions_LDADD = libcotree.la
 UNIT_TESTS += test_chart
 test_chart_SOURCES = tests/unit/test_chart.c tests/unit/session_kit.h tests/unit/test.h
 test_chart_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_stored
+test_stored_SOURCES = tests/unit/test_stored.c tests/unit/session_kit.h tests/unit/test.h
+test_stored_LDADD = $(unit_ldadd)
