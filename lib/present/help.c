@@ -193,9 +193,10 @@ static bool add_function(Text *out, const char *word)
 static bool add_quantity(Text *out, const char *word)
 {
     const HelpTopic *topic = NULL;
+    const size_t length = strcspn(word, "."); /* energy.kinetic is one of energy */
 
     for (int i = 0; whole_name(i) != NULL; i++)
-        if (strcmp(word, whole_name(i)) == 0)
+        if (strlen(whole_name(i)) == length && strncmp(word, whole_name(i), length) == 0)
             topic = help_topic_find("variables");
     if (topic == NULL && function_is_figure(word))
         topic = help_topic_find("functions");
