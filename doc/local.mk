@@ -29,9 +29,10 @@ EXTRA_DIST += doc/pictures/list doc/pictures/drawn-andrews.svg \
 # what is made stands in the folder of the build
 doc/cotree.pdf doc/cotree.dvi: export TEXINPUTS = doc:$(srcdir)/doc:
 doc/cotree.html doc/cotree.pdf doc/cotree.dvi: doc/pictures/drawn
-doc/pictures/drawn: doc/pictures/list tests/bench/precision.dat cotree$(EXEEXT)
+doc/pictures/drawn: doc/pictures/list tests/bench/precision.dat tests/bench/scaling.dat cotree$(EXEEXT)
 	$(srcdir)/scripts/dev/pictures ./cotree png doc/pictures
 	$(srcdir)/scripts/dev/precision-pictures $(srcdir)/tests/bench/precision.dat png doc/pictures
+	$(srcdir)/scripts/dev/scaling-pictures $(srcdir)/tests/bench/scaling.dat png doc/pictures
 	@touch $@
 drawn_pictures = \
 	doc/pictures/arm.png doc/pictures/converter.png doc/pictures/crane.png \
@@ -52,7 +53,7 @@ drawn_pictures = \
 	doc/pictures/drawn-graph.png \
 	doc/pictures/drawn-ports.png doc/pictures/platform.png doc/pictures/robot-torques.png \
 	doc/pictures/work-andrews_absolute.png doc/pictures/work-bushing.png \
-	doc/pictures/work-double_pendulum.png doc/pictures/work-rectifier.png
+	doc/pictures/scaling.png doc/pictures/work-double_pendulum.png doc/pictures/work-rectifier.png
 CLEANFILES += doc/pictures/drawn $(drawn_pictures)
 
 # the pages name them as they stand beside the manual: pictures/arm.png

@@ -5,7 +5,7 @@ dev = $(SHELL) $(srcdir)/scripts/dev
 EXTRA_DIST += autogen.sh run-demo run-tests .clang-format .clang-tidy .shellcheckrc \
 	scripts/dev/bench-compare scripts/dev/bench-table scripts/dev/build scripts/dev/check-hacking scripts/dev/check-layers scripts/dev/check-size \
 	scripts/dev/check-tables scripts/dev/check-unused scripts/dev/coverage scripts/dev/lint \
-	scripts/dev/packages scripts/dev/pictures scripts/dev/precision-pictures scripts/dev/total scripts/dev/transcripts
+	scripts/dev/packages scripts/dev/pictures scripts/dev/precision-pictures scripts/dev/scaling-pictures scripts/dev/total scripts/dev/transcripts
 
 # all tests, with their sum as the last line
 check-total: all
@@ -61,10 +61,11 @@ bench: all
 	@rm -rf bench.work; mkdir bench.work
 	@for bench in $(BENCHES); do \
 		(cd bench.work && TOP_SRCDIR=$(abs_srcdir) LD_LIBRARY_PATH=../.libs ../$$bench $(abs_srcdir)/scripts \
-			$(abs_builddir)/.libs/cotree) || exit 1; \
+			$(abs_builddir)/.libs/cotree) || echo "# $$bench: failed"; \
 	done >bench.out
 	@$(dev)/bench-table $(srcdir)/tests/bench/record.txt <bench.out
-	@status=0; for part in bench-precision bench-estimates bench-peers bench-latency; do $(MAKE) -s $$part || status=1; done; \
+	@status=0; ! grep '^# bench_.*: failed' bench.out || status=1; \
+	for part in bench-precision bench-scaling bench-estimates bench-peers bench-latency; do $(MAKE) -s $$part || status=1; done; \
 		exit $$status
 
 # work against precision of every reference and stress case, by method: a table, and pictures in
@@ -75,6 +76,14 @@ bench-precision: all
 		>precision/rows || status=1; cat precision/rows; \
 	$(dev)/precision-pictures precision/data svg precision && \
 		echo "pictures are in precision/" && exit $$status
+
+# forming, memory, an evaluation and a run by the number of parts, and SymPy's forming beside ours
+bench-scaling: all
+	@rm -rf scaling; mkdir scaling
+	@status=0; PYTHONDONTWRITEBYTECODE=1 $(srcdir)/tests/bench/scaling.py -o scaling/data ./cotree \
+		>scaling/rows || status=1; cat scaling/rows; \
+	$(dev)/scaling-pictures scaling/data svg scaling && \
+		echo "the picture is in scaling/" && exit $$status
 
 # what check=on says of its error, over the error, by case, method and tolerance
 bench-estimates: all
@@ -98,6 +107,10 @@ bench-record: bench
 precision-record: all
 	$(srcdir)/tests/bench/precision.py -o $(srcdir)/tests/bench/precision.dat ./cotree $(srcdir) \
 		double_pendulum andrews_absolute rectifier bushing
+
+# what the manual's picture of scaling shows; rows that fail are none of it
+scaling-record: all
+	-PYTHONDONTWRITEBYTECODE=1 $(srcdir)/tests/bench/scaling.py -o $(srcdir)/tests/bench/scaling.dat ./cotree
 
 # random statements against the sanitizers, for so many seconds in all; `all` is a make of its own,
 # which beside the fuzzers would link the library twice at a time
@@ -133,6 +146,6 @@ mostlyclean-local:
 	rm -f $(BENCHES) $(FUZZERS) bench.out check.log
 
 distclean-local:
-	rm -rf san small faults coverage bench.work precision
+	rm -rf san small faults coverage bench.work precision scaling
 
-.PHONY: check-total check-hacking check-san check-small check-faults lint format bench bench-precision bench-estimates bench-peers bench-latency bench-record precision-record fuzz stress check-coverage
+.PHONY: check-total check-hacking check-san check-small check-faults lint format bench bench-precision bench-scaling bench-estimates bench-peers bench-latency bench-record precision-record scaling-record fuzz stress check-coverage
