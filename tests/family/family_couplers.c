@@ -390,7 +390,7 @@ static void say_law(Script *script, const Model *m, int i)
 
 static bool near(Member *member, Kit *kit, const char *what, int i, double wanted, double bound)
 {
-    char name[32], claim[64];
+    char name[32], claim[128];
     const double got = ((void)snprintf(name, sizeof name, what, i), kit_value(kit, name));
 
     (void)snprintf(claim, sizeof claim, "%s is %.12g, wanted %.12g", name, got, wanted);

@@ -339,7 +339,9 @@ static void columns_have_names_and_units(void)
     }
     ct_columns_free(columns);
     EXPECT(ct_columns(l->kit.session, NULL, 0, 0, &columns, &count, &rows, &l->kit.error) == CT_OK);
-    EXPECT(count == 3);
+    EXPECT(count == 4);
+    EXPECT_TEXT(columns[3].name, "U1.held");
+    EXPECT_TEXT(columns[3].unit, "V");
     EXPECT_TEXT(columns[2].name, "s'");
     EXPECT_TEXT(columns[2].unit, "m/s");
     ct_columns_free(columns);
