@@ -3,11 +3,12 @@
 #ifndef COTREE_EXPORT_SHARED_TEXT_H
 #define COTREE_EXPORT_SHARED_TEXT_H
 
-extern const char *const shared_text_fmu_h[], *const shared_text_fmu_c[],
-                                                  *const shared_text_fmu_step_c[],
-                                                      *const shared_text_fmi2_c[],
-                                                          *const shared_text_fmi3_c[],
-                                                              *const shared_text_modes_c[],
-                                                                  *const shared_text_modes_step_c[];
+extern const char *const shared_text_fmu_h[],
+    *const shared_text_fmu_c[], *const shared_text_fmu_step_c[],
+                                    *const shared_text_fmi_h[],
+                                        *const shared_text_fmi2_c[],
+                                            *const shared_text_fmi3_c[],
+                                                *const shared_text_modes_c[],
+                                                    *const shared_text_modes_step_c[];
 
 #endif

@@ -187,6 +187,7 @@ static Status pack(const Exported *what, Archive **out, Diag *diag)
     take_lines(archive, "sources/fmu.h", shared_text_fmu_h);
     take_lines(archive, "sources/fmu.c", shared_text_fmu_c);
     take_lines(archive, "sources/fmu_step.c", shared_text_fmu_step_c);
+    take_lines(archive, "sources/fmi.h", shared_text_fmi_h);
     if (what->version == 2)
         take_lines(archive, "sources/fmi2.c", shared_text_fmi2_c);
     else {

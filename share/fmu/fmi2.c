@@ -1,19 +1,7 @@
 /* fmi2.c: the Functional Mock-up Interface, version 2.0: model exchange and co-simulation
  *
  * Types and functions are those that the standard names (fmi-standard.org), declared here. */
-#include "fmu.h"
-
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#if defined _WIN32
-#define EXPORTED __declspec(dllexport)
-#elif defined __GNUC__
-#define EXPORTED __attribute__((visibility("default")))
-#else
-#define EXPORTED
-#endif
+#include <stddef.h>
 
 typedef void *fmi2Component;
 typedef void *fmi2ComponentEnvironment;
@@ -50,45 +38,25 @@ typedef struct {
     fmi2Real nextEventTime;
 } fmi2EventInfo;
 
-enum {
-    ANY = FMU_INSTANTIATED | FMU_INITIALISING | FMU_EVENTS | FMU_CONTINUOUS | FMU_STEPPING,
-    ALWAYS = ANY | FMU_TERMINATED | FMU_FAILED,
-    COMPUTED = FMU_INITIALISING | FMU_EVENTS | FMU_CONTINUOUS | FMU_TERMINATED | FMU_FAILED
-};
+#define FMI(name)             fmi2##name
+#define FMI_STATE(verb, what) fmi2##verb##FMUstate##what
+#define FMI_READ_STATE        fmi2DeSerializeFMUstate
+#define FMI_RATES             fmi2GetDerivatives
+typedef fmi2Component FmiInstance;
+typedef fmi2Boolean FmiBoolean;
+typedef fmi2String FmiString;
+typedef fmi2FMUstate FmiState;
+typedef fmi2Byte FmiByte;
+typedef fmi2ValueReference FmiReference;
+typedef fmi2Status FmiStatus;
+#include "fmi.h"
 
 void fmu_say(Fmu *fmu, FmuStatus status, const char *text)
 {
-    static const char *const categories[] = {"logEvents", "logStatusWarning", "logStatusDiscard",
-                                             "logStatusError", "logStatusFatal"};
-
     if (fmu->logger != NULL && (status >= FMU_ERROR || fmu->is_logging))
         ((fmi2CallbackLogger)fmu->logger)(fmu->environment, fmu->name, (fmi2Status)status,
                                           categories[status], "%s", text);
 }
-
-/* the instance, if the function may be called where it stands */
-static Fmu *allowed(fmi2Component instance, unsigned modes, const char *function)
-{
-    Fmu *fmu = instance;
-    char line[100];
-
-    if (fmu == NULL || ((unsigned)fmu->now.mode & modes) != 0)
-        return fmu;
-    (void)snprintf(line, sizeof line, "%.60s can't be called here", function);
-    fmu_say(fmu, FMU_ERROR, line);
-    return NULL;
-}
-
-#define TAKE(modes)                                                                                \
-    Fmu *fmu = allowed(instance, modes, __func__);                                                 \
-                                                                                                   \
-    if (fmu == NULL)                                                                               \
-    return fmi2Error
-
-/* a function of the interface: declared, then defined */
-#define FUNCTION(name, arguments)                                                                  \
-    EXPORTED fmi2Status name arguments;                                                            \
-    fmi2Status name arguments
 
 /* --- an instance --- */
 
@@ -156,25 +124,13 @@ void fmi2FreeInstance(fmi2Component instance)
     fmu->release(fmu);
 }
 
-FUNCTION(fmi2SetDebugLogging,
-         (fmi2Component instance, fmi2Boolean on, size_t count, const fmi2String categories[]))
-{
-    TAKE(ALWAYS);
-    (void)count;
-    (void)categories;
-    fmu->is_logging = on;
-    return fmi2OK;
-}
-
 FUNCTION(fmi2SetupExperiment, (fmi2Component instance, fmi2Boolean hasTolerance, fmi2Real tolerance,
                                fmi2Real start, fmi2Boolean hasStop, fmi2Real stop))
 {
     TAKE(FMU_INSTANTIATED);
     (void)hasStop;
     (void)stop;
-    if (hasTolerance && tolerance > 0)
-        fmu->now.tolerance = tolerance;
-    fmu->now.start = fmu->now.t = start;
+    begin_at(fmu, hasTolerance, tolerance, start);
     return fmi2OK;
 }
 
@@ -185,55 +141,20 @@ FUNCTION(fmi2EnterInitializationMode, (fmi2Component instance))
     return fmi2OK;
 }
 
-FUNCTION(fmi2ExitInitializationMode, (fmi2Component instance))
-{
-    FmuStatus status;
-
-    TAKE(FMU_INITIALISING);
-    status = fmu_initialise(fmu);
-    if (status == FMU_OK)
-        fmu->now.mode = fmu->is_cosimulation ? FMU_STEPPING : FMU_EVENTS;
-    return (fmi2Status)status;
-}
-
-FUNCTION(fmi2Terminate, (fmi2Component instance))
-{
-    TAKE(FMU_EVENTS | FMU_CONTINUOUS | FMU_STEPPING);
-    fmu->now.mode = FMU_TERMINATED;
-    return fmi2OK;
-}
-
-FUNCTION(fmi2Reset, (fmi2Component instance))
-{
-    TAKE(ALWAYS);
-    fmu_reset(fmu);
-    return fmi2OK;
-}
-
 /* --- variables --- */
 
 FUNCTION(fmi2GetReal, (fmi2Component instance, const fmi2ValueReference references[], size_t count,
                        fmi2Real values[]))
 {
-    FmuStatus status = FMU_OK;
-    size_t i;
-
     TAKE(ALWAYS);
-    for (i = 0; i < count && status == FMU_OK; i++)
-        status = fmu_get(fmu, references[i], &values[i]);
-    return (fmi2Status)status;
+    return get_all(fmu, references, count, values);
 }
 
 FUNCTION(fmi2SetReal, (fmi2Component instance, const fmi2ValueReference references[], size_t count,
                        const fmi2Real values[]))
 {
-    FmuStatus status = FMU_OK;
-    size_t i;
-
     TAKE(FMU_INSTANTIATED | FMU_INITIALISING | FMU_EVENTS | FMU_STEPPING);
-    for (i = 0; i < count && status == FMU_OK; i++)
-        status = fmu_set(fmu, references[i], values[i]);
-    return (fmi2Status)status;
+    return set_all(fmu, references, count, values);
 }
 
 /* of these types there are no variables */
@@ -267,80 +188,7 @@ FUNCTION(fmi2GetDirectionalDerivative,
                                        derivatives);
 }
 
-/* --- the whole state --- */
-
-FUNCTION(fmi2GetFMUstate, (fmi2Component instance, fmi2FMUstate *state))
-{
-    TAKE(ALWAYS);
-    if (*state == NULL)
-        *state = malloc(sizeof(FmuNumbers));
-    if (*state == NULL)
-        return (fmi2Status)fmu_fail(fmu, FMU_ERROR, "there is no memory for a state", 0);
-    memcpy(*state, &fmu->now, sizeof(FmuNumbers));
-    return fmi2OK;
-}
-
-FUNCTION(fmi2SetFMUstate, (fmi2Component instance, fmi2FMUstate state))
-{
-    TAKE(ALWAYS);
-    if (state == NULL)
-        return (fmi2Status)fmu_fail(fmu, FMU_ERROR, "there is no state", 0);
-    memcpy(&fmu->now, state, sizeof(FmuNumbers));
-    return fmi2OK;
-}
-
-FUNCTION(fmi2FreeFMUstate, (fmi2Component instance, fmi2FMUstate *state))
-{
-    TAKE(ALWAYS);
-    (void)fmu;
-    if (state != NULL) {
-        free(*state);
-        *state = NULL;
-    }
-    return fmi2OK;
-}
-
-FUNCTION(fmi2SerializedFMUstateSize, (fmi2Component instance, fmi2FMUstate state, size_t *size))
-{
-    TAKE(ALWAYS);
-    (void)fmu;
-    (void)state;
-    *size = sizeof(FmuNumbers);
-    return fmi2OK;
-}
-
-FUNCTION(fmi2SerializeFMUstate,
-         (fmi2Component instance, fmi2FMUstate state, fmi2Byte bytes[], size_t size))
-{
-    TAKE(ALWAYS);
-    if (state == NULL || size < sizeof(FmuNumbers))
-        return (fmi2Status)fmu_fail(fmu, FMU_ERROR, "a state has other bytes", (double)size);
-    memcpy(bytes, state, sizeof(FmuNumbers));
-    return fmi2OK;
-}
-
-FUNCTION(fmi2DeSerializeFMUstate,
-         (fmi2Component instance, const fmi2Byte bytes[], size_t size, fmi2FMUstate *state))
-{
-    TAKE(ALWAYS);
-    if (size != sizeof(FmuNumbers))
-        return (fmi2Status)fmu_fail(fmu, FMU_ERROR, "a state has other bytes", (double)size);
-    if (*state == NULL)
-        *state = malloc(sizeof(FmuNumbers));
-    if (*state == NULL)
-        return (fmi2Status)fmu_fail(fmu, FMU_ERROR, "there is no memory for a state", 0);
-    memcpy(*state, bytes, sizeof(FmuNumbers));
-    return fmi2OK;
-}
-
 /* --- model exchange --- */
-
-FUNCTION(fmi2EnterEventMode, (fmi2Component instance))
-{
-    TAKE(FMU_CONTINUOUS | FMU_EVENTS);
-    fmu->now.mode = FMU_EVENTS;
-    return fmi2OK;
-}
 
 FUNCTION(fmi2NewDiscreteStates, (fmi2Component instance, fmi2EventInfo *info))
 {
@@ -355,77 +203,6 @@ FUNCTION(fmi2NewDiscreteStates, (fmi2Component instance, fmi2EventInfo *info))
     info->nextEventTimeDefined = fmu->now.next < HUGE_VAL;
     info->nextEventTime = info->nextEventTimeDefined ? fmu->now.next : 0;
     return (fmi2Status)status;
-}
-
-FUNCTION(fmi2EnterContinuousTimeMode, (fmi2Component instance))
-{
-    TAKE(FMU_EVENTS);
-    fmu->now.mode = FMU_CONTINUOUS;
-    return fmi2OK;
-}
-
-FUNCTION(fmi2CompletedIntegratorStep,
-         (fmi2Component instance, fmi2Boolean noSetPrior, fmi2Boolean *enterEventMode,
-          fmi2Boolean *terminateSimulation))
-{
-    TAKE(FMU_CONTINUOUS);
-    (void)noSetPrior;
-    *enterEventMode = fmu_has_drifted(fmu);
-    *terminateSimulation = 0;
-    return fmi2OK;
-}
-
-FUNCTION(fmi2SetTime, (fmi2Component instance, fmi2Real t))
-{
-    TAKE(FMU_EVENTS | FMU_CONTINUOUS);
-    fmu_set_time(fmu, t);
-    return fmi2OK;
-}
-
-#define IS_SIZE(is, should)                                                                        \
-    if ((is) != (size_t)(should))                                                                  \
-    return (fmi2Status)fmu_fail(fmu, FMU_ERROR, "the arrays have another size", (double)(is))
-
-FUNCTION(fmi2SetContinuousStates, (fmi2Component instance, const fmi2Real x[], size_t count))
-{
-    TAKE(FMU_CONTINUOUS | FMU_EVENTS);
-    IS_SIZE(count, FMU_STATES);
-    fmu_set_states(fmu, x);
-    return fmi2OK;
-}
-
-FUNCTION(fmi2GetDerivatives, (fmi2Component instance, fmi2Real rates[], size_t count))
-{
-    TAKE(COMPUTED);
-    IS_SIZE(count, FMU_STATES);
-    return (fmi2Status)fmu_rates(fmu, rates);
-}
-
-FUNCTION(fmi2GetEventIndicators, (fmi2Component instance, fmi2Real indicators[], size_t count))
-{
-    TAKE(COMPUTED);
-    IS_SIZE(count, FMU_INDICATORS);
-    return (fmi2Status)fmu_indicators(fmu, indicators);
-}
-
-FUNCTION(fmi2GetContinuousStates, (fmi2Component instance, fmi2Real x[], size_t count))
-{
-    TAKE(COMPUTED);
-    IS_SIZE(count, FMU_STATES);
-    memcpy(x, fmu->now.y, FMU_STATES * sizeof(double));
-    return fmi2OK;
-}
-
-FUNCTION(fmi2GetNominalsOfContinuousStates,
-         (fmi2Component instance, fmi2Real nominals[], size_t count))
-{
-    size_t i;
-
-    TAKE(ALWAYS);
-    IS_SIZE(count, FMU_STATES);
-    for (i = 0; i < count; i++)
-        nominals[i] = 1;
-    return fmi2OK;
 }
 
 /* --- co-simulation --- */

@@ -2,21 +2,10 @@
  *
  * Types and functions are those that the standard names (fmi-standard.org), declared here. There
  * are no clocks, arrays, inputs or variables but real ones. */
-#include "fmu.h"
+#include <stddef.h>
 
 #include <stdbool.h>
 #include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
-#if defined _WIN32
-#define EXPORTED __declspec(dllexport)
-#elif defined __GNUC__
-#define EXPORTED __attribute__((visibility("default")))
-#else
-#define EXPORTED
-#endif
 
 typedef void *fmi3Instance;
 typedef void *fmi3InstanceEnvironment;
@@ -59,48 +48,25 @@ typedef void (*fmi3ClockUpdateCallback)(fmi3InstanceEnvironment);
 typedef void (*fmi3LockPreemptionCallback)(void);
 typedef void (*fmi3UnlockPreemptionCallback)(void);
 
-enum {
-    ANY = FMU_INSTANTIATED | FMU_INITIALISING | FMU_EVENTS | FMU_CONTINUOUS | FMU_STEPPING,
-    ALWAYS = ANY | FMU_TERMINATED | FMU_FAILED,
-    COMPUTED = FMU_INITIALISING | FMU_EVENTS | FMU_CONTINUOUS | FMU_TERMINATED | FMU_FAILED
-};
+#define FMI(name)             fmi3##name
+#define FMI_STATE(verb, what) fmi3##verb##FMUState##what
+#define FMI_READ_STATE        fmi3DeserializeFMUState
+#define FMI_RATES             fmi3GetContinuousStateDerivatives
+typedef fmi3Instance FmiInstance;
+typedef fmi3Boolean FmiBoolean;
+typedef fmi3String FmiString;
+typedef fmi3FMUState FmiState;
+typedef fmi3Byte FmiByte;
+typedef fmi3ValueReference FmiReference;
+typedef fmi3Status FmiStatus;
+#include "fmi.h"
 
 void fmu_say(Fmu *fmu, FmuStatus status, const char *text)
 {
-    static const char *const categories[] = {"logEvents", "logStatusWarning", "logStatusDiscard",
-                                             "logStatusError", "logStatusFatal"};
-
     if (fmu->logger != NULL && (status >= FMU_ERROR || fmu->is_logging))
         ((fmi3LogMessageCallback)fmu->logger)(fmu->environment, (fmi3Status)status,
                                               categories[status], text);
 }
-
-/* the instance, if the function may be called where it stands */
-static Fmu *allowed(fmi3Instance instance, unsigned modes, const char *function)
-{
-    Fmu *fmu = instance;
-    char line[100];
-
-    if (fmu == NULL || ((unsigned)fmu->now.mode & modes) != 0)
-        return fmu;
-    (void)snprintf(line, sizeof line, "%.60s can't be called here", function);
-    fmu_say(fmu, FMU_ERROR, line);
-    return NULL;
-}
-
-#define TAKE(modes)                                                                                \
-    Fmu *fmu = allowed(instance, modes, __func__);                                                 \
-                                                                                                   \
-    if (fmu == NULL)                                                                               \
-    return fmi3Error
-#define FAIL(text) return (fmi3Status)fmu_fail(fmu, FMU_ERROR, text, 0)
-#define IS_SIZE(is, should)                                                                        \
-    if ((is) != (size_t)(should))                                                                  \
-    return (fmi3Status)fmu_fail(fmu, FMU_ERROR, "the arrays have another size", (double)(is))
-/* a function of the interface: declared, then defined */
-#define FUNCTION(name, arguments)                                                                  \
-    EXPORTED fmi3Status name arguments;                                                            \
-    fmi3Status name arguments
 
 /* --- an instance --- */
 
@@ -185,50 +151,14 @@ void fmi3FreeInstance(fmi3Instance instance)
     free(instance);
 }
 
-FUNCTION(fmi3SetDebugLogging,
-         (fmi3Instance instance, fmi3Boolean on, size_t count, const fmi3String categories[]))
-{
-    TAKE(ALWAYS);
-    (void)count, (void)categories;
-    fmu->is_logging = on;
-    return fmi3OK;
-}
-
 FUNCTION(fmi3EnterInitializationMode,
          (fmi3Instance instance, fmi3Boolean hasTolerance, fmi3Float64 tolerance, fmi3Float64 start,
           fmi3Boolean hasStop, fmi3Float64 stop))
 {
     TAKE(FMU_INSTANTIATED);
     (void)hasStop, (void)stop;
-    if (hasTolerance && tolerance > 0)
-        fmu->now.tolerance = tolerance;
-    fmu->now.start = fmu->now.t = start;
+    begin_at(fmu, hasTolerance, tolerance, start);
     fmu->now.mode = FMU_INITIALISING;
-    return fmi3OK;
-}
-
-FUNCTION(fmi3ExitInitializationMode, (fmi3Instance instance))
-{
-    FmuStatus status;
-
-    TAKE(FMU_INITIALISING);
-    status = fmu_initialise(fmu);
-    if (status == FMU_OK)
-        fmu->now.mode = fmu->is_cosimulation ? FMU_STEPPING : FMU_EVENTS;
-    return (fmi3Status)status;
-}
-
-FUNCTION(fmi3Terminate, (fmi3Instance instance))
-{
-    TAKE(FMU_EVENTS | FMU_CONTINUOUS | FMU_STEPPING);
-    fmu->now.mode = FMU_TERMINATED;
-    return fmi3OK;
-}
-
-FUNCTION(fmi3Reset, (fmi3Instance instance))
-{
-    TAKE(ALWAYS);
-    fmu_reset(fmu);
     return fmi3OK;
 }
 
@@ -251,27 +181,17 @@ NEVER(fmi3ActivateModelPartition, (fmi3Instance instance, fmi3ValueReference clo
 FUNCTION(fmi3GetFloat64, (fmi3Instance instance, const fmi3ValueReference references[],
                           size_t count, fmi3Float64 values[], size_t valueCount))
 {
-    FmuStatus status = FMU_OK;
-    size_t i;
-
     TAKE(ALWAYS);
     IS_SIZE(valueCount, count);
-    for (i = 0; i < count && status == FMU_OK; i++)
-        status = fmu_get(fmu, references[i], &values[i]);
-    return (fmi3Status)status;
+    return get_all(fmu, references, count, values);
 }
 
 FUNCTION(fmi3SetFloat64, (fmi3Instance instance, const fmi3ValueReference references[],
                           size_t count, const fmi3Float64 values[], size_t valueCount))
 {
-    FmuStatus status = FMU_OK;
-    size_t i;
-
     TAKE(FMU_INSTANTIATED | FMU_INITIALISING | FMU_EVENTS | FMU_STEPPING);
     IS_SIZE(valueCount, count);
-    for (i = 0; i < count && status == FMU_OK; i++)
-        status = fmu_set(fmu, references[i], values[i]);
-    return (fmi3Status)status;
+    return set_all(fmu, references, count, values);
 }
 
 /* of these types there are no variables */
@@ -403,78 +323,7 @@ FUNCTION(fmi3GetAdjointDerivative,
     FAIL("derivatives are along directions alone");
 }
 
-/* --- the whole state --- */
-
-static FmuStatus copy_state(Fmu *fmu, fmi3FMUState *state, const void *from)
-{
-    if (*state == NULL)
-        *state = malloc(sizeof(FmuNumbers));
-    if (*state == NULL)
-        return fmu_fail(fmu, FMU_ERROR, "there is no memory for a state", 0);
-    memcpy(*state, from, sizeof(FmuNumbers));
-    return FMU_OK;
-}
-
-FUNCTION(fmi3GetFMUState, (fmi3Instance instance, fmi3FMUState *state))
-{
-    TAKE(ALWAYS);
-    return (fmi3Status)copy_state(fmu, state, &fmu->now);
-}
-
-FUNCTION(fmi3SetFMUState, (fmi3Instance instance, fmi3FMUState state))
-{
-    TAKE(ALWAYS);
-    if (state == NULL)
-        FAIL("there is no state");
-    memcpy(&fmu->now, state, sizeof(FmuNumbers));
-    return fmi3OK;
-}
-
-FUNCTION(fmi3FreeFMUState, (fmi3Instance instance, fmi3FMUState *state))
-{
-    TAKE(ALWAYS);
-    (void)fmu;
-    if (state != NULL) {
-        free(*state);
-        *state = NULL;
-    }
-    return fmi3OK;
-}
-
-FUNCTION(fmi3SerializedFMUStateSize, (fmi3Instance instance, fmi3FMUState state, size_t *size))
-{
-    TAKE(ALWAYS);
-    (void)fmu, (void)state;
-    *size = sizeof(FmuNumbers);
-    return fmi3OK;
-}
-
-FUNCTION(fmi3SerializeFMUState,
-         (fmi3Instance instance, fmi3FMUState state, fmi3Byte bytes[], size_t size))
-{
-    TAKE(ALWAYS);
-    if (state == NULL || size < sizeof(FmuNumbers))
-        FAIL("a state has other bytes");
-    memcpy(bytes, state, sizeof(FmuNumbers));
-    return fmi3OK;
-}
-
-FUNCTION(fmi3DeserializeFMUState,
-         (fmi3Instance instance, const fmi3Byte bytes[], size_t size, fmi3FMUState *state))
-{
-    TAKE(ALWAYS);
-    IS_SIZE(size, sizeof(FmuNumbers));
-    return (fmi3Status)copy_state(fmu, state, bytes);
-}
-
 /* --- model exchange --- */
-
-FUNCTION(fmi3EnterEventMode, (fmi3Instance instance))
-{
-    TAKE(FMU_CONTINUOUS | FMU_EVENTS);
-    fmu->now.mode = FMU_EVENTS;
-    return fmi3OK;
-}
 
 FUNCTION(fmi3EvaluateDiscreteStates, (fmi3Instance instance))
 {
@@ -499,73 +348,6 @@ FUNCTION(fmi3UpdateDiscreteStates,
     *hasNext = fmu->now.next < HUGE_VAL;
     *next = *hasNext ? fmu->now.next : 0;
     return (fmi3Status)status;
-}
-
-FUNCTION(fmi3EnterContinuousTimeMode, (fmi3Instance instance))
-{
-    TAKE(FMU_EVENTS);
-    fmu->now.mode = FMU_CONTINUOUS;
-    return fmi3OK;
-}
-
-FUNCTION(fmi3CompletedIntegratorStep, (fmi3Instance instance, fmi3Boolean noSetPrior,
-                                       fmi3Boolean *enterEventMode, fmi3Boolean *terminate))
-{
-    TAKE(FMU_CONTINUOUS);
-    (void)noSetPrior;
-    *enterEventMode = fmu_has_drifted(fmu) != 0;
-    *terminate = false;
-    return fmi3OK;
-}
-
-FUNCTION(fmi3SetTime, (fmi3Instance instance, fmi3Float64 t))
-{
-    TAKE(FMU_EVENTS | FMU_CONTINUOUS);
-    fmu_set_time(fmu, t);
-    return fmi3OK;
-}
-
-FUNCTION(fmi3SetContinuousStates, (fmi3Instance instance, const fmi3Float64 x[], size_t count))
-{
-    TAKE(FMU_CONTINUOUS | FMU_EVENTS);
-    IS_SIZE(count, FMU_STATES);
-    fmu_set_states(fmu, x);
-    return fmi3OK;
-}
-
-FUNCTION(fmi3GetContinuousStateDerivatives,
-         (fmi3Instance instance, fmi3Float64 rates[], size_t count))
-{
-    TAKE(COMPUTED);
-    IS_SIZE(count, FMU_STATES);
-    return (fmi3Status)fmu_rates(fmu, rates);
-}
-
-FUNCTION(fmi3GetEventIndicators, (fmi3Instance instance, fmi3Float64 indicators[], size_t count))
-{
-    TAKE(COMPUTED);
-    IS_SIZE(count, FMU_INDICATORS);
-    return (fmi3Status)fmu_indicators(fmu, indicators);
-}
-
-FUNCTION(fmi3GetContinuousStates, (fmi3Instance instance, fmi3Float64 x[], size_t count))
-{
-    TAKE(COMPUTED);
-    IS_SIZE(count, FMU_STATES);
-    memcpy(x, fmu->now.y, FMU_STATES * sizeof(double));
-    return fmi3OK;
-}
-
-FUNCTION(fmi3GetNominalsOfContinuousStates,
-         (fmi3Instance instance, fmi3Float64 nominals[], size_t count))
-{
-    size_t i;
-
-    TAKE(ALWAYS);
-    IS_SIZE(count, FMU_STATES);
-    for (i = 0; i < count; i++)
-        nominals[i] = 1;
-    return fmi3OK;
 }
 
 FUNCTION(fmi3GetNumberOfEventIndicators, (fmi3Instance instance, size_t *count))
