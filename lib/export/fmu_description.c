@@ -344,6 +344,7 @@ static void put_sources(const Description *d)
     if (d->what->version == 2)
         text_add(d->out, ">\n    <SourceFiles>\n      <File name=\"model.c\"/>\n"
                          "      <File name=\"fmu.c\"/>\n      <File name=\"fmu_step.c\"/>\n"
+                         "      <File name=\"fmu_ahead.c\"/>\n"
                          "      <File name=\"fmi2.c\"/>\n    </SourceFiles>\n");
 }
 

@@ -42,7 +42,7 @@ libcore_la_SOURCES += \
   lib/export/xml.h
 
 # what is the same for all models in code and FMUs, as strings, a line each
-shared_parts = share/fmu/fmu.h share/fmu/fmu.c share/fmu/fmu_step.c \
+shared_parts = share/fmu/fmu.h share/fmu/fmu.c share/fmu/fmu_step.c share/fmu/fmu_ahead.c \
 	share/fmu/fmi.h share/fmu/fmi2.c share/fmu/fmi3.c \
 	share/code/modes.c share/code/modes_step.c
 EXTRA_DIST += $(shared_parts)

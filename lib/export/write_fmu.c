@@ -68,6 +68,28 @@ static void add_tables(const Code *code, Text *out)
     text_add(out, "#endif\n\n#endif\n");
 }
 
+/* whether time moves, not evenly or by signs alone, what anything else is compared with */
+static bool follows_time(const Code *code)
+{
+    for (int i = 0; i < code->live.sides.count + code->modes.ideals.count; i++) {
+        const CodeFunction *f = code->functions.at;
+
+        while (strcmp(f->name, "indicators") != 0)
+            f++;
+        if (i >= code->live.timed &&
+            (expr_kinds(code->roots.at[f->first + i]) & 1U << SYMBOL_TIME) != 0)
+            return true;
+    }
+    for (int g = 0; g < code->group_count; g++) {
+        const CodeFunction *f = &code->functions.at[code->groups[g].function];
+
+        for (int i = 0; i < f->rows * f->columns; i++)
+            if ((expr_kinds(code->roots.at[f->first + i]) & 1U << SYMBOL_TIME) != 0)
+                return code->live.sides.count + code->modes.ideals.count > code->live.timed;
+    }
+    return false;
+}
+
 static void write_header(const Code *code, const Exported *what, const char *token, Text *out)
 {
     const Layout *l = code->layout;
@@ -90,11 +112,12 @@ static void write_header(const Code *code, const Exported *what, const char *tok
               "    FMU_SIDES = %d,\n    FMU_SWITCHES = %d, /* ideal ones */\n    FMU_TIMED = %d, "
               "/* of those, that are of time alone */\n"
               "    FMU_EVENTS_COUNT = %d,\n    FMU_TARGETS = %d, /* that events give values to */\n"
-              "    FMU_SAMPLES = %d,\n    FMU_QUATERNIONS = %d,\n    FMU_ROWS = %d,\n",
+              "    FMU_FOLLOWS_TIME = %d,\n    FMU_SAMPLES = %d,\n    FMU_QUATERNIONS = %d,\n    "
+              "FMU_ROWS = %d,\n",
               token, FMU_TOLERANCE, !what->only_simulation, !what->only_exchange,
               model_parameter_count(code->view->model), live->first, live->sides.count,
               code->modes.ideals.count, live->timed, live->events.count, live->targets.count,
-              live->samples.count, quaternions, rows);
+              follows_time(code), live->samples.count, quaternions, rows);
     text_addf(out,
               "    FMU_SPACE = 2 * (FMU_ROWS + 2) * (FMU_ROWS + 2) + %d\n};\n"
               "enum { FMU_MARKS, FMU_STOPS, FMU_SETS };          /* what events do */\n"
@@ -146,7 +169,8 @@ static void write_build(Text *out)
                   "  <BuildConfiguration modelIdentifier=\"" FMU_IDENTIFIER "\">\n"
                   "    <SourceFileSet language=\"C99\">\n"
                   "      <SourceFile name=\"model.c\"/>\n      <SourceFile name=\"fmu.c\"/>\n"
-                  "      <SourceFile name=\"fmu_step.c\"/>\n      <SourceFile name=\"fmi3.c\"/>\n"
+                  "      <SourceFile name=\"fmu_step.c\"/>\n      <SourceFile "
+                  "name=\"fmu_ahead.c\"/>\n      <SourceFile name=\"fmi3.c\"/>\n"
                   "    </SourceFileSet>\n    <Library name=\"m\"/>\n"
                   "  </BuildConfiguration>\n</fmiBuildDescription>\n");
 }
@@ -187,6 +211,7 @@ static Status pack(const Exported *what, Archive **out, Diag *diag)
     take_lines(archive, "sources/fmu.h", shared_text_fmu_h);
     take_lines(archive, "sources/fmu.c", shared_text_fmu_c);
     take_lines(archive, "sources/fmu_step.c", shared_text_fmu_step_c);
+    take_lines(archive, "sources/fmu_ahead.c", shared_text_fmu_ahead_c);
     take_lines(archive, "sources/fmi.h", shared_text_fmi_h);
     if (what->version == 2)
         take_lines(archive, "sources/fmi2.c", shared_text_fmi2_c);

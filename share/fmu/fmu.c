@@ -668,7 +668,7 @@ FmuStatus fmu_events(Fmu *fmu, int *moved)
 {
     FmuNumbers *now = &fmu->now;
     double late = 0;
-    int rounds, changes = 1, any = 1, i;
+    int rounds, changes = 1, any = 1, is_new = !now->has_start, i;
     FmuStatus status = project(fmu, moved);
 
     if (status == FMU_OK)
@@ -688,6 +688,7 @@ FmuStatus fmu_events(Fmu *fmu, int *moved)
             status = solve(fmu);
         if (status != FMU_OK)
             break;
+        is_new |= changes;
         model_events(now->p, now->t, now->y, now->s, truths);
         any = 0;
         for (i = 0; i < FMU_EVENTS_COUNT; i++) {
@@ -703,6 +704,8 @@ FmuStatus fmu_events(Fmu *fmu, int *moved)
         now->has_start = 1;
         now->is_changed = 0;
         find_next(fmu);
+        if (FMU_FOLLOWS_TIME)
+            fmu_look_ahead(fmu, is_new);
         if (*moved)
             now->step = 0;
     }

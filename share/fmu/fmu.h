@@ -47,6 +47,7 @@ typedef struct FmuNumbers {
     double t, start;
     double next;    /* event of time; HUGE_VAL: none */
     double step;    /* of the integrator; 0: not known */
+    double rhythm;  /* s: over which what follows time bends little; 0: not known */
     double sampled; /* when samples were taken last */
     double tolerance;
     double p[MODEL_P + 1];
@@ -104,6 +105,10 @@ FmuStatus fmu_events(Fmu *fmu, int *moved);
 int fmu_has_drifted(Fmu *fmu);
 /* states onto the constraints */
 FmuStatus fmu_put_back(Fmu *fmu);
+
+/* Brings the next event near enough for what time moves; `is_new`: that may be other than it was
+ * (fmu_ahead.c). */
+void fmu_look_ahead(Fmu *fmu, int is_new);
 
 /* --- co-simulation (fmu_step.c) --- */
 
