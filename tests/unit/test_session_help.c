@@ -100,7 +100,7 @@ static void units_and_words_of_variables_have_help(void)
     static const char *const wanted[][2] = {{"rpm", "1 rpm is 0.10471975512 rad/s"},
                                             {"mm", "1 mm is 0.001 m"},
                                             {"energy", "energy.kinetic"},
-                                            {"energy.kinetic", "energy.total"},
+                                            {"energy.kinetic", ".total  of the whole model"},
                                             {"settling", "settling(x, band)"},
                                             {"every", "simulate resume"},
                                             {"within", "expect"},
