@@ -117,10 +117,6 @@ static ct_status kit_other(Kit *kit, const ct_statement *statement)
         return ct_redo(session, &kit->error);
     if (strcmp(verb, "export") == 0)
         return ct_export(session, statement, true, &kit->text, &kit->error);
-    if (strcmp(verb, "store") == 0)
-        return ct_store(session, statement, &kit->text, &kit->error);
-    if (strcmp(verb, "load") == 0)
-        return ct_load(session, statement, &kit->error);
     if (strcmp(verb, "expect") == 0)
         return ct_expect(session, statement, &kit->error);
     if (strcmp(verb, "print") == 0 && ct_redirect(statement, &append) == NULL)
