@@ -33,22 +33,11 @@ done:
 
 static Status method_of(const Syntax *syntax, const char **out, Diag *diag)
 {
-    Suggest suggest = suggest_for(syntax->text);
-    const char *name, *brief;
+    const Status status = run_method_find(syntax->text, out, diag);
 
-    for (int i = 0; (name = run_method(i, &brief)) != NULL; i++) {
-        if (strcmp(name, syntax->text) == 0) {
-            *out = name;
-            return OK;
-        }
-        suggest_offer(&suggest, name);
-    }
-    diag_at(diag, E_NAME, syntax->place, "no method is called '%s'", syntax->text);
-    if (suggest.best != NULL)
-        diag_hint(diag, "did you mean '%s'? 'help methods' lists them", suggest.best);
-    else
-        diag_hint(diag, "'help methods' lists them");
-    return E_NAME;
+    if (status != OK && diag != NULL)
+        diag->place = syntax->place;
+    return status;
 }
 
 static Status switch_of(const Syntax *syntax, const char *key, bool *out, Diag *diag)

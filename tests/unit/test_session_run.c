@@ -241,7 +241,7 @@ static void options_that_make_no_sense_are_refused(void)
         {"simulate 1 every=0",      18, "every must be positive"},
         {"simulate 1 rtol=-1e-6",   17, "rtol must be positive"},
         {"simulate 1 every=h",      18, "made of parameters"},
-        {"simulate 1 method=rk45",  19, "no method is called 'rk45'"},
+        {"simulate 1 method=rk45",  19, "there is no method 'rk45'"},
         {"simulate 1 check=perhaps", 18, "on or off"},
         {"resume 1",                 1, "no run to go on with"},
         {"kinematics 1",             1, ""},

@@ -52,5 +52,7 @@ MUST_USE Status run_resume(const Result *old, const Setting *setting, const RunO
 
 /* the rows of methods.def, for help and completion: name and one line; NULL at the end */
 const char *run_method(int i, const char **brief);
+/* the name as it stands there; E_NAME where none is called so */
+MUST_USE Status run_method_find(const char *name, const char **out, Diag *diag);
 
 #endif

@@ -60,10 +60,19 @@ static Status find_method(const char *name, const Method **out, Diag *diag)
         suggest_offer(&suggest, run_method(i, &brief));
     (void)diag_set(diag, E_NAME, "there is no method '%s'", name);
     if (suggest.best != NULL)
-        diag_hint(diag, "did you mean '%s'?", suggest.best);
+        diag_hint(diag, "did you mean '%s'? 'help methods' lists them", suggest.best);
     else
-        diag_hint(diag, "help methods lists them");
+        diag_hint(diag, "'help methods' lists them");
     return E_NAME;
+}
+
+Status run_method_find(const char *name, const char **out, Diag *diag)
+{
+    const Method *method;
+
+    TRY(find_method(name, &method, diag));
+    *out = method != NULL ? method->name : AUTO;
+    return OK;
 }
 
 /* the options with their defaults in place */
