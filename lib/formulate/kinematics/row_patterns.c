@@ -64,6 +64,12 @@ void row_patterns_free(RowPatterns *patterns)
 
 /* --- making one --- */
 
+/* a number, or of parameters: those that stand for numbers of parts, too */
+static bool is_constant(Expr e)
+{
+    return (expr_kinds(e) & ~(1U << SYMBOL_PARAMETER)) == 0;
+}
+
 /* Its number may be another one: nothing moves with it but the chord's own end. */
 static bool may_differ(const System *system, const Pattern *pattern, int node)
 {
@@ -95,8 +101,7 @@ static void add_holes(const RowPatterns *patterns, Pattern *pattern, int node, i
             const Expr other = frames[own_way.at[i]].shift.at[c];
             Hole hole = {.node = at, .component = c};
 
-            if (!expr_is_number(shift->at[c]) ||
-                (expr_is_zero(shift->at[c]) && expr_is_zero(other)))
+            if (!is_constant(shift->at[c]) || (expr_is_zero(shift->at[c]) && expr_is_zero(other)))
                 continue;
             hole.symbol = expr_symbol(
                 system->arena,
@@ -165,7 +170,7 @@ static bool stands_alike(const System *system, const Pattern *pattern, const Fol
 
         if (hole == NULL
                 ? a->shift.at[c] != b->shift.at[c]
-                : !expr_is_number(b->shift.at[c]) || !alike_fill(follower, hole, b->shift.at[c]))
+                : !is_constant(b->shift.at[c]) || !alike_fill(follower, hole, b->shift.at[c]))
             return false;
     }
     return true;
