@@ -194,8 +194,9 @@ static Status find_measured(ct_session *session, const Syntax *item, const Synta
     *values = mem_array(2 * ((size_t)instants.count + 1), sizeof **values);
     for (int i = 0; i < instants.count; i++)
         (*values)[2 * i] = instants.at[i];
-    CHECK(formula_rows(session, &whole, 1, grid, source, instants.at, instants.count, *values, 2, 1,
-                       diag));
+    if (instants.count > 0) /* without times it would be the rows of the run */
+        CHECK(formula_rows(session, &whole, 1, grid, source, instants.at, instants.count, *values,
+                           2, 1, diag));
 done:
     formula_free(&whole);
     formula_free(&place);
