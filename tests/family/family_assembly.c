@@ -320,7 +320,57 @@ static Verdict reversed_member(Member *m)
     return right ? AGREES : DISAGREES;
 }
 
+/* A four-bar on either branch, of which a guess tells as much as decides it: it stands there. */
+static Verdict guessed_four_bar(Member *m)
+{
+    static const char *const ways[] = {"guess h1, h2, h3, h4", "init h1, guess h2",
+                                       "init h1, guess h3",    "init h1, guess h4",
+                                       "guess h1, h3",         "guess h1, h2"};
+    const int way = member_one_of(m, (int)(sizeof ways / sizeof *ways));
+    const double A = member_between(m, 0.3, 1.2), B = member_between(m, 0.3, 1.2);
+    const double C = member_between(m, 0.3, 1.2), h1 = member_between(m, -3, 3);
+    /* the coupler's other end is that of the rocker, whose hinge is where that puts it */
+    const double coupler = member_between(m, -3, 3), rocker = member_between(m, -3, 3);
+    const double at[2] = {A * cos(h1) + B * cos(coupler) - C * cos(rocker),
+                          A * sin(h1) + B * sin(coupler) - C * sin(rocker)};
+    const double h[4] = {h1, remainder(coupler - h1, 2 * M_PI), rocker,
+                         remainder(rocker - coupler, 2 * M_PI)};
+    char text[2048];
+    int length, told = 0;
+    Kit kit = kit_new();
+    bool agrees;
+
+    length = snprintf(text, sizeof text,
+                      "scene planar\nbody a mass=1 inertia=1\nbody b mass=1 inertia=1\n"
+                      "body c mass=1 inertia=1\narm a1 a [%.17g, 0]\narm b1 b [%.17g, 0]\n"
+                      "arm c1 c [%.17g, 0]\narm g ground [%.17g, %.17g]\nrevolute h1 ground a\n"
+                      "revolute h2 a1 b\nrevolute h3 g c\nrevolute h4 b1 c1\n%s\n",
+                      A, B, C, at[0], at[1], member_one_of(m, 2) ? "tree joint" : "tree absolute");
+    for (int i = 0; i < 4; i++) {
+        const bool is_told = strstr(ways[way], (const char[]){'h', (char)('1' + i), '\0'}) != NULL;
+        const bool given = i == 0 && ways[way][0] == 'i';
+
+        told += is_told;
+        if (is_told)
+            length += snprintf(text + length, sizeof text - (size_t)length, "%s h%d = %.17g\n",
+                               given ? "init" : "guess", i + 1, h[i]);
+    }
+    (void)snprintf(text + length, sizeof text - (size_t)length, "assemble\n");
+    agrees = told > 1 && kit_do(&kit, text) == CT_OK;
+    for (int i = 0; i < 4 && agrees; i++) {
+        char name[8];
+
+        (void)snprintf(name, sizeof name, "h%d", i + 1);
+        agrees = keeps(m, name, fabs(remainder(kit_value(&kit, name) - h[i], 2 * M_PI)), 1e-6);
+    }
+    if (!agrees || m->told)
+        tell(m, "%s\n%s: %s\n", text, ways[way], kit.error.message);
+    kit_free(&kit);
+    return agrees ? AGREES : DISAGREES;
+}
+
 static const Family families[] = {
+    {"four_bars_stand_where_they_are_guessed", 60, 0, 0, guessed_four_bar},
     {"starts_are_the_ones_described", 36, 0, 0, told_member},
     {"starts_told_in_part_are_the_same_in_all_trees", 20, 0.5, 0, part_member},
     {"joints_in_any_attitude_stand_as_told_in_absolute_coordinates", 6 * 25, 0, 0, counted_member},

@@ -436,7 +436,7 @@ Status initial_place(Assembly *a, WarmValue warm, void *context, bool *closed, D
     CHECK(place_choose_trees(&p, diag));
     begin(&p);
     place_columns(&p);
-    if (is_guessed_elsewhere(&p))
+    if (!place_meet_guesses(&p) && is_guessed_elsewhere(&p))
         (void)place_search(&p, true);
     from = NEW_ARRAY(double, size);
     memcpy(from, p.c, (size_t)size * sizeof(double));

@@ -76,5 +76,8 @@ void place_poses(Placing *p, const double *c);
 void place_columns(Placing *p); /* list the unknowns (initial_search.c) */
 /* Close what the trees leave open; false: nothing was found that does. */
 bool place_search(Placing *p, bool guesses);
+/* All that was told and guessed, exactly, where that can be: guesses that fit stay as they are.
+ * Else nothing moves. */
+bool place_meet_guesses(Placing *p);
 
 #endif

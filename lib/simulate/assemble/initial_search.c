@@ -377,7 +377,7 @@ static void approach(const PlaceSearch *s, const Rows *rows)
     mem_free(scale);
 }
 
-bool place_search(Placing *p, bool guesses)
+static bool search(Placing *p, bool guesses, bool exactly)
 {
     PlaceSearch s;
     Rows rows;
@@ -399,11 +399,34 @@ bool place_search(Placing *p, bool guesses)
     evaluate(&s, p->c, residual, NULL);
     for (int i = 0; i < rows.rows; i++)
         met = met && !initial_misses(residual[i]);
-    if (!met && rows.columns > 0 && guesses)
+    if (!met && rows.columns > 0 && !exactly)
         approach(&s, &rows);
     else if (!met && rows.columns > 0)
         met = solve(p, &rows, residual);
     mem_free(residual);
     close_search(&s);
+    return met;
+}
+
+bool place_search(Placing *p, bool guesses)
+{
+    return search(p, guesses, !guesses);
+}
+
+bool place_meet_guesses(Placing *p)
+{
+    const size_t bytes = (size_t)p->s->link_count * POSE_COORDS * sizeof(double);
+    double *begun = NEW_ARRAY(double, p->s->link_count *POSE_COORDS);
+    bool met = false;
+
+    memcpy(begun, p->c, bytes);
+    for (int i = 0; i < p->wishes.count && !met; i++)
+        if (p->wishes.at[i].is_guess) {
+            met = search(p, true, true);
+            break;
+        }
+    if (!met)
+        memcpy(p->c, begun, bytes);
+    mem_free(begun);
     return met;
 }
