@@ -548,9 +548,6 @@ static Status read_form(ct_session *session, const Statement *s, const Format *f
                         Exported *what, Diag *diag)
 {
     what->version = 2;
-    if (!format->takes_keys && s->pairs.count > 0)
-        return diag_at(diag, E_SYNTAX, s->pairs.at[0].name_place, "'export %s' takes no keys",
-                       s->operands.at[0].value->text);
     for (int i = 0; i < s->pairs.count; i++) {
         const Pair *pair = &s->pairs.at[i];
         double number;
@@ -569,6 +566,9 @@ static Status read_form(ct_session *session, const Statement *s, const Format *f
             return diag_at(diag, E_VALUE, pair->value->place, "version= is 2 or 3");
         what->version = (int)number;
     }
+    if (!format->takes_keys && s->pairs.count > 0)
+        return diag_at(diag, E_SYNTAX, s->pairs.at[0].name_place, "'export %s' takes no keys",
+                       s->operands.at[0].value->text);
     return OK;
 }
 

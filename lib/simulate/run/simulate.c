@@ -520,6 +520,14 @@ static bool reach(ActiveRun *r, double from, double to, double *y, int depth)
     return reach(r, from, from + h / 2, y, depth - 1) && reach(r, from + h / 2, to, y, depth - 1);
 }
 
+/* What can't be told where the motion begins has a cause, which is named. */
+static bool is_told_at_start(ActiveRun *r, const double *y)
+{
+    Solved solved;
+
+    return motion_solve(r->phase->motion, 0, y, &solved);
+}
+
 static void add_position(ActiveRun *r, double t, const double *y)
 {
     double position = 0, velocity = 0;
@@ -613,6 +621,8 @@ static Status positions(ActiveRun *r, const Setting *setting, const RunOptions *
     memcpy(y, r->begin, (size_t)r->phase->length * sizeof(double));
     if (!motion_project(r->phase->motion, 0, y))
         CHECK(solver_failure(diag, 0, "the start does not meet the constraints"));
+    if (!is_told_at_start(r, y))
+        CHECK(lost(r, 0, 0, y, diag));
     transaction_stop_asking(); /* there will be rows to be kept */
     for (int k = 0; k <= rows && !stop; k++) {
         double t = k > 0 ? grid_time(0, options->duration, options->every, k) : 0;
