@@ -256,15 +256,33 @@ static void add_frame(State *state, const Use *use, int port, int tail, int numb
     at->at[0] = expr_int(state->arena, number);
 }
 
+/* whether the user left the name of a part that is made of equations */
+static Status name_is_left(const State *state, const Use *use, const char *name, Place place,
+                           Diag *diag)
+{
+    const Equations *equations = use->equations;
+
+    if (state_thing(state, name) == NULL &&
+        find_word(equations->moving, equations->moving_count, name) < 0)
+        return OK;
+    (void)diag_at(diag, E_NAME, place, "'%s' is the name of a part that stands for these equations",
+                  name + strlen(use->name) + 1);
+    diag_hint(diag, "choose another one for yours");
+    return E_NAME;
+}
+
 /* the block and its coordinates, then the frames that it moves */
-static void add_block(State *state, const Use *use)
+static Status add_block(State *state, const Use *use, Place place, Diag *diag)
 {
     Equations *equations = use->equations;
     const size_t count = (size_t)equations->moving_count;
-    PartDraft draft = {.state = state, .part = part_new(state, &component_block, false)};
-    Instance *block = draft.part;
+    const char *name = given_name(state, use, "block");
+    PartDraft draft = {.state = state};
+    Instance *block;
 
-    block->name = given_name(state, use, "block");
+    TRY(name_is_left(state, use, name, place, diag));
+    block = draft.part = part_new(state, &component_block, false);
+    block->name = name;
     block->given = new_given(state, (int)count, equations->frame_count);
     block->tail = state->datum[DOMAIN_MECHANICAL];
     block->coord_count = (int)count;
@@ -277,6 +295,7 @@ static void add_block(State *state, const Use *use)
     equations->block = block;
     for (int f = 0; f < equations->frame_count; f++)
         add_frame(state, use, equations->frames[f], block->head, f);
+    return OK;
 }
 
 /* --- lines --- */
@@ -313,7 +332,7 @@ static Status add_unknowns(State *state, const Use *use, const Statement *s, Dia
         if (!moves)
             equation.part = add_unknown(state, name);
         else if (equations->block == NULL)
-            add_block(state, use);
+            TRY(add_block(state, use, operand->place, diag));
         add_equation(state, equations, equation);
     }
     return OK;
@@ -404,7 +423,8 @@ static Status in_this_scene(const State *state, const Equation *e, const Pair *p
     return E_VALUE;
 }
 
-/* What hands out an effort at a frame; NULL: the frame rests, and feels none. */
+/* What hands out an effort at a frame, of which others may have been told; NULL: the frame rests,
+ * and feels none. */
 static Instance *loading_part(State *state, const Component *row, const char *name,
                               const char *frame)
 {
@@ -419,29 +439,37 @@ static Instance *loading_part(State *state, const Component *row, const char *na
                     graph_find_node(state->graph, frame), NULL);
 }
 
-/* the part of what a port is given */
-static Instance *part_given(State *state, const Use *use, const Equation *e)
+/* *out: the part of what a port is given, if it has one */
+static Status part_given(State *state, const Use *use, const Equation *e, Instance **out,
+                         Place place, Diag *diag)
 {
     const Port *port = &use->subsystem->ports[e->port];
     const char *own = given_name(state, use, port->name);
     const char *at = use->bound[e->port] != NULL ? use->bound[e->port] : own;
     const bool turns = e->member >= 3;
-    Instance *part = NULL;
+    const Component *load = turns ? &component_torque : &component_force;
+    const Instance *there;
+    Status status = OK;
     Text name = {0};
 
+    *out = NULL;
     text_addf(&name, "%s_%s", own, !port->is_frame ? "source" : turns ? "torque" : "force");
+    there = state_part(state, name.at);
+    if ((!port->is_frame || !e->is_motion) && (there == NULL || there->row != load))
+        CHECK(name_is_left(state, use, name.at, place, diag));
     if (!port->is_frame && !port->is_through && e->value->kind == SYNTAX_NUMBER &&
         strtod(e->value->text, NULL) == 0)
         (void)state_terminal(state, at, DOMAIN_ELECTRICAL); /* it only looks */
     else if (!port->is_frame)
-        part = add_part(state, port->is_through ? &component_vsource : &component_isource, name.at,
+        *out = add_part(state, port->is_through ? &component_vsource : &component_isource, name.at,
                         -1, -1, at);
     else if (!e->is_motion)
-        part = loading_part(state, turns ? &component_torque : &component_force, name.at, at);
+        *out = loading_part(state, load, name.at, at);
     else if (state_part(state, own) == NULL) /* of a definition whose end isn't read */
         add_frame(state, use, e->port, state->datum[DOMAIN_MECHANICAL], 0);
+done:
     text_free(&name);
-    return part;
+    return status;
 }
 
 static Status add_given(State *state, int use, const Statement *s, const Statement *from,
@@ -456,7 +484,7 @@ static Status add_given(State *state, int use, const Statement *s, const Stateme
             TRY(in_this_scene(state, &target, &from->pairs.at[i], diag));
         target.value = syntax_copy(state->pool, s->pairs.at[i].value);
         target.place = from->pairs.at[i].value->place;
-        target.part = part_given(state, u, &target);
+        TRY(part_given(state, u, &target, &target.part, from->pairs.at[i].name_place, diag));
         add_equation(state, u->equations, target);
     }
     return OK;

@@ -512,6 +512,20 @@ static bool is_moving_row(const Ending *ending, const Equation *e)
            (depends_on_any(e->e, &ending->rates) || depends_on_any(e->e, &ending->efforts));
 }
 
+/* without a block nothing carries the frames */
+static Status check_no_motion(const Ending *ending)
+{
+    for (const Equation *e = ending->equations->first; e != NULL; e = e->next) {
+        if (e->kind != EQUATION_GIVES || !e->is_motion)
+            continue;
+        (void)diag_at(ending->diag, E_MODEL, e->place, "no unknown moves %s",
+                      ending->use->subsystem->ports[e->port].name);
+        diag_hint(ending->diag, "what rests is an arm on ground, beside the subsystem");
+        return E_MODEL;
+    }
+    return OK;
+}
+
 static Status tell_block(Ending *ending)
 {
     Equations *equations = ending->equations;
@@ -521,7 +535,7 @@ static Status tell_block(Ending *ending)
     int found = 0;
 
     if (equations->block == NULL)
-        return OK;
+        return check_no_motion(ending);
     rows = pool_alloc(ending->state->pool, sizeof(Equation *) * ((size_t)count + 1));
     given = given_copy(ending->state->pool, equations->block->given);
     TRY(read_pose(ending, given));

@@ -301,4 +301,22 @@ unknown u"
 two "unknown u
 internal u^2 - 2
 give A.fx = u, B.fx = u, e.i = u"
+two "give A.fx = 0, B.x = 1, B.y = 0, B.theta = 0, e.i = 0"
+two "unknown u
+internal u - e.v
+give A.fx = 0, B.x = 1, B.y = 0, B.theta = 0, e.i = u"
+two "unknown block
+internal block'' + B.fx
+give B.x = block, B.y = 0, B.theta = 0, A.fx = 0, e.i = 0"
+# names of the parts that equations become
+two "block = 2
+unknown u
+internal u'' + block*u + B.fx
+$moves"
+two "unknown e_source
+internal e_source - e.v
+give A.fx = 0, B.fx = 0, e.i = e_source"
+two "unknown A_force
+internal A_force' - A.x
+give A.fx = -3*A_force, B.fx = 0, e.i = 0"
 true
