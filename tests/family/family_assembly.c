@@ -358,7 +358,7 @@ static Verdict guessed_four_bar(Member *m)
     (void)snprintf(text + length, sizeof text - (size_t)length, "assemble\n");
     agrees = told > 1 && kit_do(&kit, text) == CT_OK;
     for (int i = 0; i < 4 && agrees; i++) {
-        char name[8];
+        char name[16];
 
         (void)snprintf(name, sizeof name, "h%d", i + 1);
         agrees = keeps(m, name, fabs(remainder(kit_value(&kit, name) - h[i], 2 * M_PI)), 1e-6);
