@@ -70,6 +70,7 @@ SCRIPT_TESTS = \
 	tests/cases/tours \
 	tests/dev/tools_tell_right_from_wrong \
 	tests/doc/equations_come_out_on_paper \
+	tests/doc/graphviz_reads_the_graph \
 	tests/doc/manual_and_readme_are_true \
 	tests/gallery/pictures_show_what_was_asked_for \
 	tests/install/installed_library_builds_a_program

@@ -1,24 +1,49 @@
-/* write_latex.c: every equation of a model as a document */
+/* write_latex.c: a model as a document: its linear graph, and every equation */
 #include "export/write.h"
+#include "present/graph_picture.h"
+#include "present/latex_lines.h"
 #include "present/show.h"
 
-static void add_escaped(Text *out, const char *text)
+/* pt, of an article: what a figure leaves room for its caption in */
+#define PAGE_WIDTH  340.0
+#define PAGE_HEIGHT 480.0
+#define EASY        0.5  /* pt per px, which is tried for: letters of 6 pt */
+#define SMALLEST    0.25 /* what still can be read */
+
+static void add_figure(const Picture *picture, Text *out)
 {
-    for (; *text != '\0'; text++) {
-        if (*text == '\\')
-            text_add(out, "\\textbackslash{}");
-        else if (*text == '~' || *text == '^')
-            text_addf(out, "\\%c{}", *text);
-        else {
-            if (*text == '#' || *text == '$' || *text == '%' || *text == '&' || *text == '_' ||
-                *text == '{' || *text == '}')
-                text_char(out, '\\');
-            text_char(out, *text);
-        }
+    text_add(out, "\n\\subsection*{Linear graph}\n");
+    if (picture == NULL || picture->width * SMALLEST > PAGE_WIDTH ||
+        picture->height * SMALLEST > PAGE_HEIGHT) {
+        text_add(out, "The graph is too large for a page.\n");
+        return;
     }
+    text_add(out, "\\begin{figure}[htbp]\n\\centering\n");
+    picture_tikz(picture, PAGE_WIDTH, PAGE_HEIGHT, out);
+    text_add(out,
+             "\\caption{The linear graph. Branches of a tree are bold, its chords thin; an edge "
+             "points from its tail to its head, and the datum is filled.}\n\\end{figure}\n");
 }
 
-/* a document of all equations that compiles with amsmath alone */
+static Status add_graph(const View *view, Text *out, Diag *diag)
+{
+    Picture picture = {0};
+    Diag why;
+    const Status status = graph_picture(view, PAGE_WIDTH / EASY, LIT_NOTHING, NULL, &picture, &why);
+
+    if (status == OK) {
+        add_figure(&picture, out);
+        picture_close(&picture);
+    } else if (status == E_VALUE) {
+        add_figure(NULL, out);
+    } else if (status != E_MISSING) {
+        *diag = why;
+        return status;
+    }
+    return OK;
+}
+
+/* a document of all equations that compiles with amsmath and tikz alone */
 static Status write(const Exported *what, Text *out, Diag *diag)
 {
     const View *view = &what->view;
@@ -40,10 +65,11 @@ static Status write(const Exported *what, Text *out, Diag *diag)
     const char *title = model_title(view->model);
 
     latex.page.notation = NOTATION_LATEX;
-    text_add(out, "\\documentclass{article}\n\\usepackage{amsmath}\n"
+    text_add(out, "\\documentclass{article}\n\\usepackage{amsmath}\n\\usepackage{tikz}\n"
                   "\\allowdisplaybreaks\n\\begin{document}\n\\section*{");
-    add_escaped(out, title != NULL && title[0] != '\0' ? title : "Equations");
+    latex_text(out, title != NULL && title[0] != '\0' ? title : "Equations");
     text_add(out, "}\n");
+    TRY(add_graph(view, out, diag));
     for (int i = 0; i < COUNT(sections); i++) {
         if ((sections[i].constraints && system_m(view->system) == 0) ||
             (sections[i].motion && system_nu(view->system) == 0) ||

@@ -14,7 +14,6 @@
 #define NODE_TEXT 13.0
 #define CAPTION   34.0 /* px above a panel */
 #define LEGEND    40.0 /* px below all of them */
-#define WIDEST    1300.0
 #define SOFT      "#b5b5b5"
 #define GLOW      "#ffd54a"
 
@@ -28,6 +27,7 @@ typedef struct Panel {
 typedef struct GraphPicture {
     const View *view;
     const Graph *graph;
+    double widest; /* px: of panels side by side */
     Lit lit;
     int edge; /* that is lit; -1 */
     Panel panels[TREE_KINDS];
@@ -145,7 +145,7 @@ static Point place_panels(GraphPicture *picture)
     for (int i = 0; i < picture->count; i++) {
         Panel *panel = &picture->panels[i];
 
-        if (at.x > 0 && at.x + panel->size.x > WIDEST) {
+        if (at.x > 0 && at.x + panel->size.x > picture->widest) {
             at = (Point){0, at.y + row};
             row = 0;
         }
@@ -413,10 +413,15 @@ static void draw_legend(GraphPicture *picture)
     picture->out->width = fmax(picture->out->width, x);
 }
 
-Status graph_picture(const View *view, Lit lit, const char *edge, Picture *out, Diag *diag)
+Status graph_picture(const View *view, double widest, Lit lit, const char *edge, Picture *out,
+                     Diag *diag)
 {
-    GraphPicture picture = {
-        .view = view, .graph = view_graph(view), .lit = lit, .edge = -1, .out = out};
+    GraphPicture picture = {.view = view,
+                            .graph = view_graph(view),
+                            .widest = widest,
+                            .lit = lit,
+                            .edge = -1,
+                            .out = out};
     Point size;
     Status status = OK;
 

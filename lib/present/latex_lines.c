@@ -253,3 +253,21 @@ void latex_wrap(Text *out, const char *formula, double room)
     LIST_FREE(pieces);
     text_free(&opened);
 }
+
+/* --- text --- */
+
+void latex_text(Text *out, const char *text)
+{
+    for (; *text != '\0'; text++) {
+        if (*text == '\\')
+            text_add(out, "\\textbackslash{}");
+        else if (*text == '~' || *text == '^')
+            text_addf(out, "\\%c{}", *text);
+        else {
+            if (*text == '#' || *text == '$' || *text == '%' || *text == '&' || *text == '_' ||
+                *text == '{' || *text == '}')
+                text_char(out, '\\');
+            text_char(out, *text);
+        }
+    }
+}

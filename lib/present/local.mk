@@ -41,6 +41,7 @@ libcore_la_SOURCES += \
   lib/present/picture_characters.c \
   lib/present/picture_gnuplot.c \
   lib/present/picture_svg.c \
+  lib/present/picture_tikz.c \
   lib/present/reference.c \
   lib/present/show.c \
   lib/present/show.h \

@@ -1,7 +1,8 @@
 /* picture.h: a drawing as a list of shapes on a sheet, whoever writes it
  *
  * Who draws adds shapes, in px, x to the right and y down; later ones lie over earlier ones of the
- * same depth. The writers know nothing of what is drawn: SVG, characters, gnuplot's commands. */
+ * same depth. The writers know nothing of what is drawn: SVG, characters, gnuplot's commands, TikZ.
+ */
 #ifndef COTREE_PRESENT_PICTURE_H
 #define COTREE_PRESENT_PICTURE_H
 
@@ -81,5 +82,7 @@ void picture_html(const Film *film, Text *out);
 void picture_characters(const Picture *picture, int columns, int rows, bool unicode, Text *out);
 /* commands that draw it on any of gnuplot's terminals that is as wide to its height */
 void picture_gnuplot(const Picture *picture, Text *out);
+/* an environment of TikZ no larger than so many pt, in a document that loads tikz */
+void picture_tikz(const Picture *picture, double width, double height, Text *out);
 
 #endif

@@ -233,7 +233,7 @@ static Status draw_seen(ct_session *session, const View *view, Lit lit, const ch
     }
     if (lit == LIT_NOTHING && strcmp(paper->format, "text") == 0)
         return draw_text(view, out, diag);
-    TRY(graph_picture(view, lit, edge, &picture, diag));
+    TRY(graph_picture(view, PICTURE_WIDEST, lit, edge, &picture, diag));
     write_picture(session, &picture, paper, out);
     picture_close(&picture);
     return OK;

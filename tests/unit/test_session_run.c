@@ -412,21 +412,6 @@ static void an_expectation_holds_or_says_by_how_much_not(void)
     kit_free(&kit);
 }
 
-/* --- exports --- */
-
-static void formats_have_what_opens_and_closes_them(void)
-{
-    Kit kit = kit_new();
-
-    EXPECT_DONE(&kit, PENDULUM);
-    EXPECT_DONE(&kit, "export dot");
-    EXPECT_HOLDS(kit.text, "digraph");
-    EXPECT_DONE(&kit, "export latex");
-    EXPECT_HOLDS(kit.text, "\\begin{document}");
-    EXPECT_HOLDS(kit.text, "\\end{document}");
-    kit_free(&kit);
-}
-
 /* --- stopping --- */
 
 typedef struct Patience {
@@ -771,7 +756,6 @@ int main(void)
     RUN(csv_has_a_header_and_reads_back_to_the_last_bit);
     RUN(items_of_several_runs_stand_on_one_grid);
     RUN(an_expectation_holds_or_says_by_how_much_not);
-    RUN(formats_have_what_opens_and_closes_them);
     RUN(a_stopped_run_keeps_what_it_has);
     RUN(a_stopped_derivation_leaves_the_session_whole);
     RUN(what_is_formed_later_can_be_stopped_too);
