@@ -10,6 +10,8 @@ libcore_la_SOURCES += \
   lib/algebra/enclosure.h \
   lib/algebra/hessenberg_form.c \
   lib/algebra/hessenberg_form.h \
+  lib/algebra/independence.c \
+  lib/algebra/independence.h \
   lib/algebra/kkt.c \
   lib/algebra/kkt.h \
   lib/algebra/ldl.c \

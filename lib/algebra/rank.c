@@ -6,6 +6,7 @@
  * twice as long for some dozen bodies (make bench: algebra.rank_*), and can't be stopped. */
 #include "algebra/rank.h"
 
+#include "algebra/independence.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -14,6 +15,7 @@
 
 #define THRESHOLD 1e-9
 #define SMALL     1e-3   /* of the largest row: one that vanishes is not to be chosen */
+#define MANY      64     /* rows, from which on the answer is looked for without pivots first */
 #define STALE     1.5e-8 /* of its square: a length that fell this far has lost half its digits */
 
 typedef struct Pivoted {
@@ -208,6 +210,10 @@ Status rank_rows(const double *matrix, int m, int nu, double threshold, const Wa
         order[k] = k;
     if (m == 0 || nu == 0)
         return OK;
+    if (m >= MANY && rows_are_independent(matrix, m, nu, threshold, watch)) {
+        *rank = m;
+        return OK;
+    }
     p = unit_rows(matrix, nu, NULL, m, 0);
     CHECK(factor(&p, threshold, watch));
     *rank = p.rank;

@@ -3,12 +3,14 @@
 #include "algebra/dense.h"
 #include "algebra/enclosure.h"
 #include "algebra/linear.h"
+#include "algebra/rank.h"
 #include "base/memory.h"
 
 #include "../random.h"
 #include "test.h"
 
 #include <gsl/gsl_errno.h>
+#include <math.h>
 #include <string.h>
 #include <threads.h>
 
@@ -126,6 +128,54 @@ static void cholesky_factors_solve(void)
 
 /* --- GSL's error handler --- */
 
+/* Rows i of 1, 2 a place on and some entry of either sign further on, of sizes over four decades:
+ * independent, as the first entries alone form a triangle. Then one of them, whichever, becomes a
+ * sum of two others but for `apart`. */
+static void put_rows(double *matrix, int m, int nu, uint64_t *seed)
+{
+    memset(matrix, 0, (size_t)(m * nu) * sizeof(double));
+    for (int i = 0; i < m; i++) {
+        const double size = pow(10, test_uniform(seed, -2, 2));
+
+        matrix[i * nu + i] = size;
+        matrix[i * nu + i + 1] = size / 2;
+        matrix[i * nu + i + 1 + (int)test_uniform(seed, 1, nu - i - 1)] = size / 4;
+    }
+}
+
+static void many_rows_have_the_rank_that_they_are_made_of(void)
+{
+    enum { ROWS = 90, COLUMNS = 100 };
+    static const double apart[] = {0, 1e-13, 1e-7, 1e-3};
+    double *matrix = NEW_ARRAY(double, ROWS *COLUMNS);
+    int order[ROWS], rank;
+    uint64_t seed = 11;
+
+    for (int turn = 0; turn < 40; turn++) {
+        const int m = turn % 2 == 0 ? ROWS : ROWS / 2; /* either way to find it */
+        const int third = m / 3, a = (int)test_uniform(&seed, 0, third);
+        const int c = third + (int)test_uniform(&seed, 0, third), b = m - 1 - a;
+        const double small = apart[turn / 2 % COUNT(apart)];
+
+        put_rows(matrix, m, COLUMNS, &seed);
+        EXPECT(rank_rows(matrix, m, COLUMNS, 1e-9, NULL, &rank, order) == OK && rank == m);
+        for (int k = 0; k < m; k++)
+            EXPECT(order[k] == k);
+        for (int j = 0; j < COLUMNS; j++)
+            matrix[c * COLUMNS + j] = matrix[a * COLUMNS + j] - matrix[b * COLUMNS + j];
+        matrix[c * COLUMNS + COLUMNS - 1] +=
+            small * fmax(fabs(matrix[a * COLUMNS + a]), fabs(matrix[b * COLUMNS + b]));
+        EXPECT(rank_rows(matrix, m, COLUMNS, 1e-9, NULL, &rank, order) == OK);
+        EXPECT(rank == (small < 1e-9 ? m - 1 : m));
+        if (rank < m)
+            EXPECT(order[m - 1] == a || order[m - 1] == b || order[m - 1] == c);
+        memset(matrix + (ptrdiff_t)c * COLUMNS, 0, COLUMNS * sizeof(double));
+        EXPECT(rank_rows(matrix, m, COLUMNS, 1e-9, NULL, &rank, order) == OK);
+        EXPECT(rank == m - 1 && order[m - 1] == c);
+    }
+    mem_free(matrix);
+}
+
 #ifndef COTREE_FAULTS /* whose book of what is held is one for all threads */
 static _Atomic int calls, running;
 
@@ -174,6 +224,7 @@ int main(void)
     RUN(blocks_are_what_acts_both_ways);
     RUN(a_match_is_found_where_there_is_one);
     RUN(cholesky_factors_solve);
+    RUN(many_rows_have_the_rank_that_they_are_made_of);
 #ifndef COTREE_FAULTS
     RUN(threads_leave_the_error_handler_to_who_set_it);
 #endif

@@ -127,26 +127,30 @@ static void complete_parameters(Placing *p)
         }
 }
 
-/* the link by which a frame is made: a body's own edge, or an arm; -1 */
-static int maker_of(const Placing *p, int node)
+/* the link by which each frame is made: a body's own edge, or an arm; -1 */
+static int *makers_of(const Skeleton *s)
 {
-    for (int i = 0; i < p->s->link_count; i++) {
-        const Family family = p->s->links[i].instance->row->family;
+    int *maker = NEW_ARRAY(int, s->node_count);
 
-        if (p->s->links[i].head == node && (family == FAMILY_BODY || family == FAMILY_ARM))
-            return i;
+    for (int node = 0; node < s->node_count; node++)
+        maker[node] = -1;
+    for (int i = s->link_count - 1; i >= 0; i--) {
+        const Family family = s->links[i].instance->row->family;
+
+        if (family == FAMILY_BODY || family == FAMILY_ARM)
+            maker[s->links[i].head] = i;
     }
-    return -1;
+    return maker;
 }
 
 /* the body of a frame, and where the frame stands in it; -1: it is one of ground */
-static int body_of(const Placing *p, int node, Pose *in_body)
+static int body_of(const Placing *p, const int *maker, int node, Pose *in_body)
 {
     const double none[POSE_COORDS] = {0};
     int link;
 
     *in_body = (Pose){.R = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
-    while ((link = maker_of(p, node)) >= 0) {
+    while ((link = maker[node]) >= 0) {
         Pose step, sum;
 
         if (p->s->links[link].instance->row->family == FAMILY_BODY)
@@ -185,13 +189,13 @@ static void know_half(Placing *p, int link, bool rotation, const double *c, Know
 
 /* A frame of which all is told says where its body stands: its attitude, and with that its place.
  */
-static void place_body(Placing *p, int node, const double *told, Knowledge known)
+static void place_body(Placing *p, const int *maker, int node, const double *told, Knowledge known)
 {
     const int shifts = p->s->frame.shift_count;
     double c[POSE_COORDS] = {0}, back[9];
     bool whole = true;
     Pose in_body, stands;
-    int body = body_of(p, node, &in_body);
+    int body = body_of(p, maker, node, &in_body);
 
     memcpy(c, told, sizeof c);
     if (p->s->frame.has_parameters)
@@ -221,6 +225,7 @@ static void place_body(Placing *p, int node, const double *told, Knowledge known
 static void place_bodies(Placing *p, bool guesses)
 {
     double *told = NEW_ARRAY(double, p->s->node_count *POSE_COORDS);
+    int *maker = makers_of(p->s);
 
     for (int i = 0; i < p->s->node_count * POSE_COORDS; i++)
         told[i] = NAN;
@@ -237,8 +242,8 @@ static void place_bodies(Placing *p, bool guesses)
             told[place_at(p->s->links[wish->link].head, wish->k)] = wish->value;
     }
     for (int node = 0; node < p->s->node_count; node++)
-        place_body(p, node, told + place_at(node, 0), guesses ? KNOWN_GUESSED : KNOWN_GIVEN);
-    mem_free(told);
+        place_body(p, maker, node, told + place_at(node, 0), guesses ? KNOWN_GUESSED : KNOWN_GIVEN);
+    MEM_FREE(told, maker);
 }
 
 void place_mark_known(Placing *p)
