@@ -160,6 +160,26 @@ static void what_is_undefined_is_called_so(void)
     kit_free(&kit);
 }
 
+/* the next sample leaves everything as it is: c = G.v/2 = 2 (2 - c)/2, and integral control leaves
+ * no error */
+static void what_samples_holds_what_it_would_take_next(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "vsource V b 0 2\nresistor R2 c 0 1\ncapacitor C c 0 1\n"
+                      "gain G a 0 of=b.v-c.v k=2 period=0.1\nresistor R a c 1\n"
+                      "input U u 0 period=0.1 initial=3\n"
+                      "lag L d 0 of=u.v+c.v k=0.5 T=2 period=0.01\nresistor R3 d 0 1\n"
+                      "capacitor C2 e 0 1\npid P f 0 ref=u.v of=e.v Kp=1 Ki=0.5 period=0.2\n"
+                      "resistor R4 f e 1\nresistor R5 e 0 1\nop\n"
+                      "expect c.v ~ 1 within 1e-10\nexpect u.v ~ 3 within 1e-12\n"
+                      "expect d.v ~ 2 within 1e-10\nexpect e.v ~ 3 within 1e-9\n"
+                      "expect P.integral ~ 12 within 1e-8\nsimulate 1\n"
+                      "expect c.v ~ 1 within 1e-9\nexpect d.v ~ 2 within 1e-9\n"
+                      "expect e.v ~ 3 within 1e-8\n");
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(a_diode_behind_a_resistor_obeys_lambert);
@@ -170,5 +190,6 @@ int main(void)
     RUN(large_networks_rest_too);
     RUN(undo_of_an_init_leaves_the_operating_point);
     RUN(what_is_undefined_is_called_so);
+    RUN(what_samples_holds_what_it_would_take_next);
     return test_end();
 }

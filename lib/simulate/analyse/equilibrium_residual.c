@@ -206,8 +206,32 @@ static void place_coordinates(const EquilibriumResidual *s, const double *w, dou
 
 /* --- rows and slopes --- */
 
+/* Held states have no rates: x' = 0 tells nothing of them. At rest the next sample leaves each as
+ * it is, and an input keeps what it begins with: x' = next - x in the place of x' = 0. */
+static Status hold_samples(const EquilibriumResidual *s, Expr *rows, Diag *diag)
+{
+    Arena *arena = system_arena(s->system);
+    const Layout *l = s->l;
+    const OwnSample *own;
+
+    for (int k = 0; (own = system_sample(s->system, k)) != NULL; k++) {
+        const Expr rate = l->symbols[l->rates + own->state];
+        Expr next;
+
+        if (own->period == NULL)
+            continue;
+        TRY(system_resolve(s->system, own->is_input ? own->initial : own->next, &next, diag));
+        next = expr_sub(arena, l->symbols[l->x + own->state], next);
+        for (int i = 0; i < l->nx + l->nz; i++)
+            if (expr_depends(rows[i], rate))
+                rows[i] = expr_add(arena, rows[i],
+                                   expr_mul(arena, expr_diff(arena, rows[i], rate), next));
+    }
+    return OK;
+}
+
 /* the rows; then angles that count turns */
-static void push_roots(const EquilibriumResidual *s, Roots *roots)
+static Status push_roots(const EquilibriumResidual *s, Roots *roots, Diag *diag)
 {
     const Layout *l = s->l;
 
@@ -217,8 +241,10 @@ static void push_roots(const EquilibriumResidual *s, Roots *roots)
         LIST_PUSH(*roots, system_run(l->system)->phi[k]);
     for (int i = 0; i < l->nx + l->nz; i++)
         LIST_PUSH(*roots, row_network(l, i));
+    TRY(hold_samples(s, roots->at + l->nu + l->m, diag));
     for (int k = 0; k < l->multi_turns; k++)
         LIST_PUSH(*roots, system_multi_turn(s->system, k)->angle);
+    return OK;
 }
 
 /* in the order of v; new */
@@ -323,7 +349,7 @@ static Status make_rows(EquilibriumResidual *s, Diag *diag)
     Status status = OK;
 
     CHECK(system_form_mass(s->system, diag));
-    push_roots(s, &roots);
+    CHECK(push_roots(s, &roots, diag));
     order.roots = roots.at;
     order.root_count = roots.count;
     order.unknowns = unknowns;
