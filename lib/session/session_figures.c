@@ -347,8 +347,8 @@ static Status figure_period(const Course *course, double band, double *out, Diag
     }
     if (crossings < 2) {
         (void)diag_at(diag, E_VALUE, course->call->place,
-                      "it rises through its mean %s in the run, so no period can be told",
-                      crossings == 0 ? "never" : "once");
+                      "it %s through its mean in the run, so no period can be told",
+                      crossings == 0 ? "never rises" : "rises once");
         diag_hint(diag, "a longer run shows more of it");
         return E_VALUE;
     }

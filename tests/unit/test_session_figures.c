@@ -91,6 +91,8 @@ static void what_decays_settles(void)
                       "simulate 12 every=3 rtol=1e-10 atol=1e-12");
     EXPECT_NEAR(kit_value(&kit, "settling(C.v, 0.01)"), -log(0.01 + exp(-12)), 1e-6);
     EXPECT_FAILS(&kit, "print settling(C.v, 0)", "above 0");
+    EXPECT_FAILS(&kit, "print period(C.v)", "it rises once through its mean in the run");
+    EXPECT_FAILS(&kit, "print period(-C.v)", "it never rises through its mean");
     EXPECT_FAILS(&kit, "print period(C.v)", "no period can be told");
     EXPECT_FAILS(&kit, "print first(C.v > 2)", "at no instant");
     EXPECT_FAILS(&kit, "print settling(C.v)", "settling");
