@@ -84,6 +84,7 @@ typedef struct CodeModes {
     int first;        /* of their sides, in p */
     int group;        /* of unknowns that they are among */
     int functions[2]; /* its rows' rates; what closed or open ones share */
+    double *rows;     /* of that group, in the mode at the start; count x count */
 } CodeModes;
 
 /* a state and what follows from it here */
@@ -188,6 +189,10 @@ bool code_is_side(const Code *code, Expr call);
 void code_margins(const Code *code, Expr *out);
 /* numbers that C is told of them */
 void code_modes_begin(const Code *code, Text *out);
+/* the rows of the mode at the start, from the values of all functions there */
+void code_modes_keep(Code *code, const double *roots);
+/* E_MODEL, naming a part: a language that differentiates nothing can't solve them. O(count^3). */
+MUST_USE Status code_modes_check(const Code *code, const char *language, Diag *diag);
 void code_modes_free(CodeModes *modes);
 /* Rows [A | b] of residuals over unknowns of s from `first` on, as a function: its number. A is
  * their Jacobian, b what they lack. */
@@ -219,7 +224,8 @@ typedef struct Language {
     const char *power[3];         /* before, between and behind base and exponent */
     void (*open)(Text *out, const Code *code, const CodeFunction *function, const char *locals);
     const char *close;
-    const char *check; /* the command for a file FILE that checks itself */
+    const char *check;   /* the command for a file FILE that checks itself */
+    bool differentiates; /* what a mode of ideal switches asks of states */
     /* the whole file */
     void (*file)(const Code *code, const struct Language *language, Text *out);
 } Language;

@@ -10,6 +10,9 @@
  * of the whole in every mode, and what a mode asks of them is a constraint. theory 8. */
 #include "export/code.h"
 
+#include "algebra/rank.h"
+
+#include <math.h>
 #include <string.h>
 
 static Expr other(Arena *arena, Expr closed)
@@ -240,8 +243,84 @@ void code_modes_begin(const Code *code, Text *out)
               group->first, group->count, is_linear(code));
 }
 
+void code_modes_keep(Code *code, const double *roots)
+{
+    const CodeGroup *group = &code->groups[code->modes.group];
+    const CodeFunction *f = &code->functions.at[group->function];
+    const int n = group->count;
+
+    mem_free(code->modes.rows);
+    code->modes.rows = mem_array((size_t)n * (size_t)n, sizeof *code->modes.rows);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            code->modes.rows[(size_t)i * n + j] = roots[f->first + i * f->columns + j];
+}
+
+/* Unknowns are in units of their own, from MV to nA. */
+static void scale_columns(double *rows, int n)
+{
+    for (int j = 0; j < n; j++) {
+        double most = 0;
+
+        for (int i = 0; i < n; i++)
+            most = fmax(most, fabs(rows[(size_t)i * n + j]));
+        for (int i = 0; most > 0 && i < n; i++)
+            rows[(size_t)i * n + j] /= most;
+    }
+}
+
+/* The ideal switch whose row has the largest part in a combination of rows that is nothing: what
+ * the least multipliers leave of any. */
+static const CodeIdeal *find_dependent(const Code *code, int n)
+{
+    double *left = NEW_ARRAY(double, n), *least = NEW_ARRAY(double, n);
+    const CodeIdeal *found = &code->modes.ideals.at[0];
+
+    for (int i = 0; i < n; i++)
+        left[i] = least[i] = 1 + fmod(i * 0.6180339887498949, 1); /* no two alike */
+    rank_least_multipliers(code->modes.rows, n, n, least);
+    for (int i = 0; i < n; i++)
+        left[i] = fabs(left[i] - least[i]);
+    for (int k = 1; k < code->modes.ideals.count; k++)
+        if (left[code->modes.ideals.at[k].ideal.row] > left[found->ideal.row])
+            found = &code->modes.ideals.at[k];
+    MEM_FREE(left, least);
+    return found;
+}
+
+Status code_modes_check(const Code *code, const char *language, Diag *diag)
+{
+    static const double NOTHING = 1e-10; /* of a row: as exported C tells it */
+    const int n = code->groups[code->modes.group].count;
+    int *order = NULL, rank = n;
+    const CodeIdeal *found;
+    Status status = OK;
+
+    if (code->modes.rows == NULL)
+        return OK;
+    order = NEW_ARRAY(int, n);
+    scale_columns(code->modes.rows, n);
+    CHECK(rank_rows(code->modes.rows, n, n, NOTHING, code->view->watch, &rank, order));
+    if (rank == n)
+        goto done;
+    found = find_dependent(code, n);
+    status = diag_set(
+        diag, E_MODEL,
+        "%s is ideal and %s at the start, where that constrains states or other ideal parts, "
+        "which code in %s can't solve",
+        found->ideal.name,
+        code->values[code->modes.first + (found - code->modes.ideals.at)] > 0.5 ? "closed" : "open",
+        language);
+    diag_hint(diag, "'export c' differentiates such conditions; or give %s Ron= and Roff=",
+              found->ideal.name);
+done:
+    mem_free(order);
+    return status;
+}
+
 void code_modes_free(CodeModes *modes)
 {
+    mem_free(modes->rows);
     LIST_FREE(modes->ideals);
     LIST_FREE(modes->gives);
 }

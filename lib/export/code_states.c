@@ -223,6 +223,8 @@ static bool take_state(States *st, double t, RowValues row)
         mem_free(s);
         return false;
     }
+    if (code_has_modes(code))
+        code_modes_keep(code, roots);
     errors = NEW_ARRAY(double, code->roots.count);
     probe_errors(st->probe, &(RowValues){0}, errors);
     state.s = s;

@@ -660,6 +660,7 @@ static void write_file(const Code *code, const Language *language, Text *out)
 
 const Language language_c = {
     .notation = NOTATION_C,
+    .differentiates = true,
     .array = "%s[%d]",
     .local = "const real %s = %s;",
     .result = "%s = %s;",

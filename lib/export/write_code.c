@@ -1,20 +1,25 @@
 /* write_code.c: the formats that are code in a programming language */
 #include "export/code.h"
 
-static Status write_in(const Exported *what, const Language *language, Text *out, Diag *diag)
+static Status write_in(const Exported *what, const Language *language, const char *name, Text *out,
+                       Diag *diag)
 {
     Code *code = NULL;
+    Status status = OK;
 
-    TRY(code_new(what, false, &code, diag));
+    CHECK(code_new(what, false, &code, diag));
+    if (code_has_modes(code) && !language->differentiates)
+        CHECK(code_modes_check(code, name, diag));
     language->file(code, language, out);
+done:
     code_free(code);
-    return OK;
+    return status;
 }
 
 #define LANGUAGE(word)                                                                             \
     static Status write_##word(const Exported *what, Text *out, Diag *diag)                        \
     {                                                                                              \
-        return write_in(what, &language_##word, out, diag);                                        \
+        return write_in(what, &language_##word, #word, out, diag);                                 \
     }                                                                                              \
     const Format format_##word = {.need = NEED_CODE, .write = write_##word};
 

@@ -356,6 +356,53 @@ static void exported_c_keeps_names_apart(void)
     kit_free(&kit);
 }
 
+/* Only C differentiates what a mode asks of states; the others would fail their own check. */
+static void modes_that_constrain_states_are_refused_but_in_c(void)
+{
+    static const struct {
+        const char *model, *part, *side; /* NULL: it constrains nothing */
+    } cases[] = {
+        {"vsource V 0 a -5\ndiode D a b\ncapacitor C b 0 1e-3\nresistor R b 0 10\ninit C.v = 5",
+         "D ", "closed"},
+        {"vsource V 0 a -5e3\ndiode D a b\ncapacitor C b 0 1e-12\nresistor R b 0 1e9\ninit C.v = "
+         "5e3",
+         "D ", "closed"},
+        {"vsource V a 0 5\nswitch S a b when=t > 1\ninductor L b c 1e-3\nresistor R c 0 10\n"
+         "diode D d 0\nresistor R2 a d 1",
+         "S ", "open"},
+        {"vsource V a 0 5\ndiode D a b\nresistor R b 0 10\ncapacitor C c 0 1e-3\n"
+         "resistor R2 b c 10",
+         NULL, NULL},
+        {"vsource V 0 a -5\ndiode D a b Ron=1e-3 Roff=1e9\ncapacitor C b 0 1e-3\n"
+         "resistor R b 0 10",
+         NULL, NULL},
+    };
+    static const char *const others[] = {"python", "fortran", "matlab"};
+
+    for (int i = 0; i < COUNT(cases); i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, cases[i].model);
+        EXPECT_DONE(&kit, "export c");
+        for (int k = 0; k < COUNT(others); k++) {
+            char statement[32];
+
+            snprintf(statement, sizeof statement, "export %s", others[k]);
+            if (cases[i].part == NULL) {
+                EXPECT_DONE(&kit, statement);
+                continue;
+            }
+            EXPECT(kit_do(&kit, statement) == CT_FAILED);
+            EXPECT(strncmp(kit.error.message, cases[i].part, 2) == 0);
+            EXPECT_HOLDS(kit.error.message, cases[i].side);
+            EXPECT_HOLDS(kit.error.message, others[k]);
+            EXPECT_HOLDS(kit.error.hint, "export c");
+            EXPECT_HOLDS(kit.error.hint, "Ron=");
+        }
+        kit_free(&kit);
+    }
+}
+
 int main(void)
 {
     RUN(formulas_break_before_signs_outside_brackets);
@@ -372,5 +419,6 @@ int main(void)
     RUN(csv_quotes_names_that_hold_commas);
     RUN(exported_c_compiles_and_gives_the_same_numbers);
     RUN(exported_c_keeps_names_apart);
+    RUN(modes_that_constrain_states_are_refused_but_in_c);
     return test_end();
 }

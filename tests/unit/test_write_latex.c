@@ -162,9 +162,10 @@ static void dot_has_every_edge_between_its_nodes(void)
 
         snprintf(label, sizeof label, "[label=\"%s\", style=", edges[i]);
         EXPECT(times(kit.text, label) == 1);
-        for (at = strstr(kit.text, label); at > kit.text && at[-1] != '\n'; at--)
-            ;
-        EXPECT(sscanf(at, " n%d -> n%d", &tail, &head) == 2);
+        at = kit.text != NULL ? strstr(kit.text, label) : NULL;
+        while (at != NULL && at > kit.text && at[-1] != '\n')
+            at--;
+        EXPECT(at != NULL && sscanf(at, " n%d -> n%d", &tail, &head) == 2);
         snprintf(node, sizeof node, "\n  n%d [label=", tail);
         EXPECT(times(kit.text, node) == 1);
         snprintf(node, sizeof node, "\n  n%d [label=", head);
