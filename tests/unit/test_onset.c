@@ -1,8 +1,9 @@
 /* test_onset.c: what acts for a short time is not stepped over: by any method, as its tolerance
  * says
  *
- * Answers come from closed forms, from ngspice 39 at reltol 1e-5 (multiplier), and from DOP853 at
- * 1e-12 with steps of 1/400 of a period by another program (rectifier, doubler). */
+ * Answers come from closed forms, from ngspice 39 at reltol 1e-5 (multiplier) and at 1e-7 with
+ * steps of 0.5 us (diodes in series with coils), and from DOP853 at 1e-12 with steps of 1/400 of a
+ * period by another program (rectifier, doubler). */
 #include "session_kit.h"
 
 #include <math.h>
@@ -371,6 +372,37 @@ static void an_ideal_diode_conducts_in_each_dip(void)
     }
 }
 
+/* A coil's current alone tells the voltage of a diode, through 1e12 ohm while that blocks. */
+static void a_diode_in_series_with_a_coil_runs(void)
+{
+#define MAINS "vsource V a 0 10*sin(2*pi*49.97465*t)\n"
+    static const struct {
+        const char *model, *about;
+        double value;
+    } cases[] = {
+        {MAINS "diode D a b Is=1e-14\ninductor L b 0 1 mH\n", "max(L.i)", 54.92757},
+        {MAINS "inductor L a b 1 mH\ndiode D b 0 Is=1e-14\n", "max(L.i)", 54.92757},
+        {MAINS "diode D a b Is=1e-14\ninductor L b c 1 mH\ncapacitor C c 0 100 uF\n"
+               "resistor R c 0 10\n",
+         "max(L.i)", 1.007665},
+        {MAINS "diode D a b Is=1e-14\ndiode E 0 b Is=1e-14\ninductor L b c 10 mH\n"
+               "resistor R c 0 10\n",
+         "max(L.i)", 0.8723409},
+    };
+    static const struct {
+        const char *run;
+        double error;
+    } runs[] = {{"simulate 0.05", 1e-4},
+                {"simulate 0.05 rtol=1e-4", 1e-3},
+                {"simulate 0.05 rtol=1e-9 atol=1e-12", 1e-4}};
+
+    for (int i = 0; i < COUNT(cases); i++)
+        for (int k = 0; k < COUNT(runs); k++)
+            EXPECT_NEAR(answer(cases[i].model, runs[k].run, "auto", cases[i].about) /
+                            cases[i].value,
+                        1, runs[k].error);
+}
+
 int main(void)
 {
     RUN(a_rectifier_conducts_at_every_tolerance);
@@ -393,5 +425,6 @@ int main(void)
     RUN(a_step_bound_below_nothing_is_refused);
     RUN(a_smooth_source_costs_no_steps);
     RUN(an_ideal_diode_conducts_in_each_dip);
+    RUN(a_diode_in_series_with_a_coil_runs);
     return test_end();
 }

@@ -118,6 +118,12 @@ static void write_steps(const Remark *r, Text *out)
     case REMARK_STIFF:
         text_addf(out, "stiff from t = %.6g s: went on with %s", r->t, r->what);
         break;
+    case REMARK_JOINT:
+        text_addf(out,
+                  "states hardly tell the network's other unknowns at t = %.6g s: went on with %s, "
+                  "which solves both together",
+                  r->t, r->what);
+        break;
     case REMARK_ROUNDING:
         text_addf(out, "steps limited by rounding at t = %.6g s: went on with %s", r->t, r->what);
         break;

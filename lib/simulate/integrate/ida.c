@@ -25,6 +25,8 @@ typedef struct Ida {
     const int *row;
     int *place, *start;
     double *entries;
+    bool jumps;      /* what has no rate may move any way in the step that is being taken */
+    bool has_jumped; /* it did in the last one, whose history tells nothing of the next */
 } Ida;
 
 static const SundialsCalls calls = {
@@ -149,7 +151,7 @@ static int find_weights(N_Vector w, N_Vector weights, void *data)
         if (i >= work && i < d->s.all)
             error = sundials_quadrature_error(&d->s, NV_Ith_S(w, i), NV_Ith_S(d->s.rate, i));
         if (dae->has_rate != NULL && !dae->has_rate[i])
-            error = fmin(error, fmax(FINER * error, FINE));
+            error = d->jumps ? SUNDIALS_ANY : fmin(error, fmax(FINER * error, FINE));
         NV_Ith_S(weights, i) = 1 / error;
     }
     return 0;
@@ -219,14 +221,42 @@ static bool knows_its_error(const Sundials *s, double reached, double last)
     return order > 1 || reached - s->base.t >= LONG_BEFORE * last;
 }
 
+/* Whether the step just taken shows that steps get nowhere: they are shorter than time resolves. */
+static bool gets_nowhere(const Stepper *stepper, int code, double reached)
+{
+    return code == IDA_ERR_FAIL || code == IDA_CONV_FAIL ||
+           (code >= 0 && reached == stepper->t && stepper->stuck > 0);
+}
+
+/* The voltage of a diode that a coil's current leaves moves in some 1e-15 s, which no steps follow:
+ * it goes to where it belongs in one, whose length the states choose. */
+static int jump(Ida *d, double end, double *reached, Diag *diag)
+{
+    Stepper *stepper = &d->s.base;
+    int code = IDA_CONV_FAIL;
+
+    if (start(stepper, stepper->t, stepper->y, diag) != OK)
+        return code;
+    d->jumps = d->has_jumped = true;
+    code = advance(&d->s, end, reached);
+    d->jumps = false;
+    return code;
+}
+
 static Status step(Stepper *stepper, double end, Diag *diag)
 {
     Sundials *s = (Sundials *)stepper;
+    Ida *d = (Ida *)stepper;
     const double before = stepper->t, last = before - stepper->before;
     const int stuck = stepper->stuck;
     double reached = before;
-    int code = advance(s, end, &reached);
+    int code;
 
+    if (d->has_jumped) {
+        d->has_jumped = false;
+        TRY(start(stepper, before, stepper->y, diag));
+    }
+    code = advance(s, end, &reached);
     /* Newton's method finds no way from the history of a steep element: from consistent values it
      * does */
     if (code == IDA_CONV_FAIL && start(stepper, before, stepper->y, diag) == OK) {
@@ -239,6 +269,8 @@ static Status step(Stepper *stepper, double end, Diag *diag)
         stepper->next = BEGIN * (reached - before);
         code = advance(s, end, &reached);
     }
+    if (stepper->ode->dae.has_rate != NULL && gets_nowhere(stepper, code, reached))
+        code = jump(d, end, &reached, diag);
     stepper->before = before;
     if (code == IDA_MEM_FAIL)
         transaction_fail();

@@ -3,8 +3,6 @@
 
 #include <string.h>
 
-#define NO_ERROR 1e20 /* a tolerance that nothing comes near */
-
 const double sundials_nodes[1] = {1};
 
 static void give_back(void *object)
@@ -68,7 +66,7 @@ double sundials_quadrature_error(Sundials *s, double value, double rate)
         s->power = fmax(s->power, fabs(rate));
     /* what begins to act out of nothing is to be noticed by what it moves */
     if (!(s->power > control->atol) || !(control->span > 0))
-        return NO_ERROR;
+        return SUNDIALS_ANY;
     return part * (control->rtol * (fabs(value) + s->power * control->span) + control->atol);
 }
 

@@ -14,6 +14,7 @@
 #include <sundials/sundials_nonlinearsolver.h>
 #include <sundials/sundials_types.h>
 
+#define SUNDIALS_ANY   1e20   /* a tolerance that nothing comes near */
 #define SUNDIALS_TRIES 100000 /* inner steps it may take for one of ours: one mode makes one */
 
 /* the functions of one of its solvers that are alike in all; they return 0 where all went well */

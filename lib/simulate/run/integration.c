@@ -8,18 +8,18 @@
 #define AGAINS  10  /* times that a step is looked over anew for what is met first in it */
 #define CAREFUL 0.5 /* of what would have been allowed behind the last switch: to begin with */
 
-/* The explicit method has found that stability limits its steps, or rounding does. */
-static Status hand_over(Integration *m, RemarkKind why, Diag *diag)
+/* From here on another method: the one in use has found that stability limits its steps, or
+ * rounding does, or it gets no further. */
+static Status hand_over(Integration *m, const Method *method, RemarkKind why, Diag *diag)
 {
-    const Method *stiff = m->segment.stiff;
     const double t = m->stepper->t, next = m->stepper->next;
 
     memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
-    remarks_add(&m->out->remarks, (Remark){.kind = why, .t = t, .what = stiff->name});
+    remarks_add(&m->out->remarks, (Remark){.kind = why, .t = t, .what = method->name});
     integration_give_up_stepper(m);
-    m->stepper = integration_new_stepper(m, stiff);
-    m->out->method = stiff;
-    TRY(stiff->start(m->stepper, t, m->y, diag));
+    m->stepper = integration_new_stepper(m, method);
+    m->out->method = method;
+    TRY(method->start(m->stepper, t, m->y, diag));
     if (why == REMARK_STIFF)
         m->stepper->next = next; /* until something jumps, no other is as good a guess */
     return OK;
@@ -43,13 +43,17 @@ static Status renew(Integration *m, Diag *diag)
 /* Where the stepper gets no further: it ends the run, with the cause, unless rounding stands in the
  * way of an explicit method that nobody named. Where large parts of stiff equations cancel rounding
  * leaves much of their rates, which such a method takes for errors; one for stiff equations damps
- * it. */
+ * it. Unknowns of a network that its states hardly tell want to be solved together with them. */
 static Status end_or_hand_over(Integration *m, bool is_rounding, Diag *diag)
 {
+    const Method *joint = m->segment.joint;
+
+    if (m->plan->method == NULL && joint != NULL && m->out->method != joint)
+        return hand_over(m, joint, REMARK_JOINT, diag);
     if (m->plan->explain != NULL)
         m->plan->explain(m->plan->context, &m->segment, m->stepper, &is_rounding, diag);
     return is_rounding && m->plan->method == NULL && !m->out->method->is_stiff
-               ? hand_over(m, REMARK_ROUNDING, diag)
+               ? hand_over(m, m->segment.stiff, REMARK_ROUNDING, diag)
                : E_SOLVER;
 }
 
@@ -132,7 +136,7 @@ static Status one_step(Integration *m, double end, Diag *diag)
     TRY(renew(m, diag));
     if (m->plan->method == NULL && m->stepper->is_stiff &&
         (m->segment.stiff->is_a_stable || !m->stepper->swings))
-        TRY(hand_over(m, REMARK_STIFF, diag));
+        TRY(hand_over(m, m->segment.stiff, REMARK_STIFF, diag));
     return OK;
 }
 
@@ -227,7 +231,9 @@ static Status run(Integration *m, const double *start, Diag *diag)
 Status integrate(const IntegrationPlan *plan, const double *start, Grid *grid,
                  IntegrationReport *out, Diag *diag)
 {
-    const Method *method = plan->method != NULL ? plan->method : method_for((MethodNeed){0});
+    const Method *method = plan->method != NULL  ? plan->method
+                           : plan->first != NULL ? plan->first
+                                                 : method_for((MethodNeed){0});
     Integration m = {.plan = plan,
                      .grid = grid,
                      .out = out,

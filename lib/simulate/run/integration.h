@@ -29,7 +29,8 @@ typedef struct Segment {
     Events *events;      /* NULL: none */
     Samples *samples;    /* NULL: none */
     Onset *onset;        /* NULL: nothing acts for a short time */
-    const Method *stiff; /* where plan.method is NULL */
+    const Method *stiff; /* where plan.method is NULL; */
+    const Method *joint; /* where that gets no further; NULL: none may */
 } Segment;
 
 /* Which segment goes on from (t, y), where y is of `segment`; `behind` is the instant just behind
@@ -80,7 +81,8 @@ typedef struct IntegrationPlan {
     void (*tell)(void *context, const Segment *segment, int condition, Text *out);
     const Equations
         *in_time; /* whose conditions of t alone are those of all segments; NULL: segment's */
-    const Method *method; /* NULL: dop853 until it finds the problem stiff, then segment.stiff */
+    const Method *method; /* NULL: dop853 until it finds the problem stiff, then segment.stiff, */
+    const Method *first;  /* unless this is there to begin with */
     Control control;
     double from, to;     /* s */
     double every;        /* output step, s */

@@ -103,11 +103,15 @@ static void add_corner(Integration *m, double t, const double *y)
 static Status enter(Integration *m, const Segment *segment, double t, const double *y,
                     bool *changed, Diag *diag)
 {
-    bool is_stiff = m->plan->method == NULL && m->out->method->is_stiff;
+    const Method *method =
+        m->plan->method == NULL && m->out->method->is_stiff ? segment->stiff : NULL;
+
+    if (method != NULL && m->out->method == m->segment.joint && segment->joint != NULL)
+        method = segment->joint;
 
     integration_close_segment(m);
-    if (is_stiff)
-        m->out->method = segment->stiff;
+    if (method != NULL)
+        m->out->method = method;
     integration_open_segment(m, segment);
     motion_window(m->segment.motion, m->low, m->high);
     add_corner(m, t, y);

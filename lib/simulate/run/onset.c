@@ -51,6 +51,7 @@ struct Onset {
     int elements, sources, length;
     /* about the start of a step */
     double t, h;
+    bool is_open;    /* see onset_leave_open() */
     bool is_affine;  /* `at` is known there */
     bool is_first;   /* nothing has been looked at before */
     bool has_pulses; /* there are steep elements, or sources have bent within a step */
@@ -124,6 +125,12 @@ void onset_watch(Onset *o, Turns turns, void *context)
         return;
     o->turns = turns;
     o->context = context;
+}
+
+void onset_leave_open(Onset *o, bool is_open)
+{
+    if (o != NULL)
+        o->is_open = is_open;
 }
 
 void onset_forget(Onset *o)
@@ -437,7 +444,6 @@ static double next_conduction(Onset *o, Stepper *stepper, double end, double *bo
     const double steps = stepper->method->pulse_steps;
     OnsetSearch search = {o, conduction, REACHED, 0, 0, 1, INTERVALS};
 
-    o->is_affine = false;
     if (!stepper_slope(stepper, o->slope) ||
         !steep_arguments(o->steep, o->t, stepper->y, o->at.a) || !find_effects(o, stepper))
         return end;
@@ -681,7 +687,9 @@ double onset_before_step(Onset *o, Stepper *stepper, double end)
         if (stepper->method->sees_little)
             bound = bend_bound(o, end);
         o->h = fmin(o->h, bound);
-        first = next_conduction(o, stepper, end, &bound);
+        o->is_affine = false;
+        if (!(o->is_open && stepper->method->solves_dae))
+            first = next_conduction(o, stepper, end, &bound);
     }
     if (o->sources > 0)
         first = fmin(first, next_unseen(o, stepper, first));

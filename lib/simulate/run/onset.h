@@ -24,6 +24,9 @@ void onset_free(Onset *onset); /* NULL is fine, here and below */
  * source that makes it so acts, whatever it does to rates. `turns` NULL: nobody knows. */
 typedef bool (*Turns)(void *context, double t, const double *y);
 void onset_watch(Onset *onset, Turns turns, void *context);
+/* Whether tolerances of the states leave open what elements do: the search leaves these to a method
+ * that solves for their arguments, and so sees them. */
+void onset_leave_open(Onset *onset, bool is_open);
 /* A step from the stepper's time, at most to `end`: where it has to end instead. Bounds the
  * stepper's steps. */
 double onset_before_step(Onset *onset, Stepper *stepper, double end);

@@ -1,6 +1,7 @@
 /* phase.c: equations of a part of a run */
 #include "simulate/run/phase.h"
 
+#include "algebra/linear.h"
 #include "base/memory.h"
 #include "base/random.h"
 
@@ -9,6 +10,7 @@
 #define UNSOLVED 3   /* times that a value has to be the same */
 #define FAR      1e3 /* what isn't known is taken up to this, of either sign */
 #define FEW      100 /* unknowns up to which radau's dense factors beat bdf's */
+#define OPEN     10  /* exponents that tolerances move by more than this could be anything */
 
 static bool *copy_sides(const bool *closed, int count)
 {
@@ -118,6 +120,47 @@ const Method *phase_stiff_method(const Phase *phase)
 
     return method_for(
         (MethodNeed){.stiff = true, .history = !one_step, .dae = !one_step && is_network});
+}
+
+const Method *phase_joint_method(const Phase *phase)
+{
+    return phase->network != NULL && phase->layout->nz > 0
+               ? method_for((MethodNeed){.stiff = true, .history = true, .dae = true})
+               : NULL;
+}
+
+/* What the tolerances of states move an element's argument by, while none conducts, at most. Their
+ * parts don't cancel: each counts more than the one before. */
+static double moved_by_tolerances(const Phase *phase, double t, const double *y, double rtol,
+                                  double atol)
+{
+    const int elements = steep_elements(phase->steep), sources = steep_sources(phase->steep);
+    double *tolerance = NEW_ARRAY(double, phase->length);
+    double *leaks = NEW_ARRAY(double, elements);
+    Affine at = {.a = NEW_ARRAY(double, elements),
+                 .rate = NEW_ARRAY(double, elements),
+                 .bend = NEW_ARRAY(double, elements),
+                 .by_source = NEW_ARRAY(double, elements *sources)};
+    double most = INFINITY;
+
+    for (int i = 0; i < phase->layout->nx; i++)
+        tolerance[i] = (atol + rtol * fabs(y[i])) * (1 + (double)i / phase->layout->nx);
+    if (steep_linearise(phase->steep, t, y, tolerance, 1, leaks, &at))
+        most = vector_largest(at.rate, elements);
+    MEM_FREE(tolerance, leaks, at.a, at.rate, at.bend, at.by_source);
+    return most;
+}
+
+const Method *phase_first_method(const Phase *phase, double t, const double *y, double rtol,
+                                 double atol)
+{
+    const Method *joint = phase_joint_method(phase);
+    const bool is_open = joint != NULL && phase->steep != NULL &&
+                         steep_elements(phase->steep) > 0 &&
+                         moved_by_tolerances(phase, t, y, rtol, atol) > OPEN;
+
+    onset_leave_open(phase->onset, is_open);
+    return is_open ? joint : NULL;
 }
 
 bool phase_row(Phase *phase, double t, const double *y, RowValues *out)

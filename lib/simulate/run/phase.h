@@ -54,6 +54,15 @@ void phase_free(Phase *phase); /* NULL is fine */
 
 /* what a run goes over to where its equations turn out to be stiff */
 const Method *phase_stiff_method(const Phase *phase);
+/* ... and where that gets no further: what solves the unknowns of a network together with its
+ * states, NULL where it has none. A current that a coil keeps tells the voltage of a diode that
+ * blocks to 1e12 ohm: no tolerance of the current is fine enough for that voltage. */
+const Method *phase_joint_method(const Phase *phase);
+/* What it begins with at (t, y) where nobody named a method: the joint one where tolerances of the
+ * states leave open whether a steep element conducts, NULL: any. Tells the onset.
+ * O(steep_linearise()). */
+const Method *phase_first_method(const Phase *phase, double t, const double *y, double rtol,
+                                 double atol);
 /* Everything at (t, y). False: no solution. */
 bool phase_row(Phase *phase, double t, const double *y, RowValues *out);
 /* The same at a row of a driven run, where x', z, u', lambda and efforts are known: its block, or

@@ -121,7 +121,8 @@ Segment phases_segment(const Phase *phase, Events *events)
                      .events = events,
                      .samples = phase->samples,
                      .onset = phase->onset,
-                     .stiff = phase_stiff_method(phase)};
+                     .stiff = phase_stiff_method(phase),
+                     .joint = phase_joint_method(phase)};
 }
 
 /* --- values --- */

@@ -34,7 +34,8 @@ const char *run_method(int i, const char **brief)
 
     if (i == 0) {
         *brief =
-            "dop853, and once the equations turn out to be stiff radau, or ida on large networks";
+            "dop853, and once the equations turn out to be stiff radau, or ida on large networks "
+            "and where a coil's current alone tells the voltage of a diode";
         return AUTO;
     }
     if (method == NULL)
@@ -183,6 +184,8 @@ static Status integrate_phases(ActiveRun *r, const Setting *setting, const Integ
     IntegrationPlan through = *plan;
     Status status;
 
+    through.first =
+        phase_first_method(r->phase, plan->from, r->begin, plan->control.rtol, plan->control.atol);
     through.choose = slide_choose;
     through.tell = slide_tell;
     through.explain = ends_explain;
