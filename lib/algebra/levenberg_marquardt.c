@@ -88,11 +88,10 @@ static bool find_step(Least *l, double damping)
         return false;
     memcpy(l->weights, l->residual, (size_t)m * sizeof(double));
     lu_solve(l->lu, l->weights);
-    for (int j = 0; j < n; j++) {
-        l->step[j] = 0;
-        for (int i = 0; i < m; i++)
+    memset(l->step, 0, (size_t)n * sizeof(double));
+    for (int i = 0; i < m; i++)
+        for (int j = 0; j < n; j++)
             l->step[j] -= l->jacobian[i * n + j] * l->weights[i];
-    }
     return vector_is_finite(l->step, n);
 }
 
