@@ -5,6 +5,7 @@
  * are held. */
 #include "algebra/levenberg_marquardt.h"
 
+#include "algebra/gram.h"
 #include "algebra/linear.h"
 #include "base/memory.h"
 
@@ -12,6 +13,8 @@
 #include <string.h>
 
 #define ITERATIONS 200
+#define MANY       64    /* rows, from which on sparse factors are tried first */
+#define SOUND      1e-8  /* of its diagonal entry: a pivot that needs no exchange of rows */
 #define RIDGE      1e-15 /* of the largest diagonal entry: keeps redundant rows solvable */
 
 typedef struct Least {
@@ -69,25 +72,54 @@ static double norm_of(const double *v, int n)
     return sqrt(sum);
 }
 
-/* l->step = -J^T (J J^T + damping 1)^-1 r; false when that can't be solved */
-static bool find_step(Least *l, double damping)
+/* what stands on the diagonal beside J J^T */
+static double ridge(double damping, double largest)
 {
-    int m = l->rows->rows, n = l->rows->columns;
+    return damping + RIDGE * fmax(largest, 1e-30);
+}
+
+/* weights = (J J^T + damping 1)^-1 weights by sparse factors; false where rows are too close to
+ * each other for pivots in the order of least filling */
+static bool weigh_sparse(Least *l, double damping)
+{
+    Gram *gram = gram_new(l->jacobian, l->rows->rows, l->rows->columns, NULL);
+    const bool sound = gram_factor(gram, ridge(damping, gram_largest(gram)), SOUND, l->rows->watch);
+
+    if (sound)
+        gram_solve(gram, l->weights);
+    gram_free(gram);
+    return sound;
+}
+
+/* the same by dense ones */
+static bool weigh(Least *l, double damping)
+{
+    int m = l->rows->rows;
     double *a = lu_matrix(l->lu);
     double largest = 0;
 
-    matrix_gram(l->jacobian, m, n, a);
+    matrix_gram(l->jacobian, m, l->rows->columns, a);
     for (int i = 0; i < m; i++)
         for (int j = 0; j < i; j++)
             a[j * m + i] = a[i * m + j];
     for (int i = 0; i < m; i++)
         largest = fmax(largest, a[i * m + i]);
     for (int i = 0; i < m; i++)
-        a[i * m + i] += damping + RIDGE * fmax(largest, 1e-30);
+        a[i * m + i] += ridge(damping, largest);
     if (!lu_factor_watched(l->lu, l->rows->watch))
         return false;
-    memcpy(l->weights, l->residual, (size_t)m * sizeof(double));
     lu_solve(l->lu, l->weights);
+    return true;
+}
+
+/* l->step = -J^T (J J^T + damping 1)^-1 r; false when that can't be solved */
+static bool find_step(Least *l, double damping)
+{
+    int m = l->rows->rows, n = l->rows->columns;
+
+    memcpy(l->weights, l->residual, (size_t)m * sizeof(double));
+    if (!(m >= MANY && weigh_sparse(l, damping)) && !weigh(l, damping))
+        return false;
     memset(l->step, 0, (size_t)n * sizeof(double));
     for (int i = 0; i < m; i++)
         for (int j = 0; j < n; j++)

@@ -2,6 +2,7 @@
 #include "algebra/blocks.h"
 #include "algebra/dense.h"
 #include "algebra/enclosure.h"
+#include "algebra/gram.h"
 #include "algebra/linear.h"
 #include "algebra/rank.h"
 #include "base/memory.h"
@@ -219,11 +220,50 @@ static void threads_leave_the_error_handler_to_who_set_it(void)
 }
 #endif
 
+/* by putting the solution in; a row that is another's multiple has no pivot of its own */
+static void rows_times_rows_are_solved_where_their_pivots_are_sound(void)
+{
+    enum { ROWS = 90, COLUMNS = 100 };
+    double *matrix = NEW_ARRAY(double, ROWS *COLUMNS);
+    uint64_t seed = 5;
+
+    for (int turn = 0; turn < 20; turn++) {
+        const double added = turn % 2 == 0 ? 0 : 0.1;
+        double b[ROWS], x[ROWS], across[COLUMNS] = {0};
+        Gram *gram;
+
+        put_rows(matrix, ROWS, COLUMNS, &seed);
+        for (int i = 0; i < ROWS; i++)
+            x[i] = b[i] = matrix[i * COLUMNS + i] * test_uniform(&seed, -1, 1);
+        gram = gram_new(matrix, ROWS, COLUMNS, NULL);
+        EXPECT(gram_factor(gram, added, 1e-8, NULL));
+        gram_solve(gram, x);
+        gram_free(gram);
+        for (int i = 0; i < ROWS; i++)
+            for (int j = 0; j < COLUMNS; j++)
+                across[j] += matrix[i * COLUMNS + j] * x[i];
+        for (int i = 0; i < ROWS; i++) {
+            double left = added * x[i] - b[i];
+
+            for (int j = 0; j < COLUMNS; j++)
+                left += matrix[i * COLUMNS + j] * across[j];
+            EXPECT(fabs(left) < 1e-9 * matrix[i * COLUMNS + i]);
+        }
+        for (int j = 0; j < COLUMNS; j++)
+            matrix[(turn + 1) * COLUMNS + j] = 3 * matrix[j];
+        gram = gram_new(matrix, ROWS, COLUMNS, NULL);
+        EXPECT(!gram_factor(gram, 0, 1e-8, NULL));
+        gram_free(gram);
+    }
+    mem_free(matrix);
+}
+
 int main(void)
 {
     RUN(blocks_are_what_acts_both_ways);
     RUN(a_match_is_found_where_there_is_one);
     RUN(cholesky_factors_solve);
+    RUN(rows_times_rows_are_solved_where_their_pivots_are_sound);
     RUN(many_rows_have_the_rank_that_they_are_made_of);
 #ifndef COTREE_FAULTS
     RUN(threads_leave_the_error_handler_to_who_set_it);

@@ -1,0 +1,125 @@
+/* gram.c: J J^T row by row, column by column of J, and its factors in Camd's order */
+#include "algebra/gram.h"
+
+#include "algebra/ldl.h"
+#include "base/memory.h"
+
+#include <math.h>
+
+/* J J^T below its diagonal, as rows of J come one after the other */
+struct Gram {
+    int m;
+    LIST(int) row, column;
+    LIST(double) value;
+    double *diagonal;
+    /* entries of J: those of a column from the last row to the first */
+    int *last; /* of each column, plus 1 */
+    LIST(int) of, before;
+    LIST(double) entry;
+    int *met, *at; /* by row: the row, plus 1, that it was last multiplied by, and where that is */
+    LdlOrder *order;
+    Ldl *ldl;
+    int *place_of;
+};
+
+void gram_free(Gram *p)
+{
+    LIST_FREE(p->row);
+    LIST_FREE(p->column);
+    LIST_FREE(p->value);
+    LIST_FREE(p->of);
+    LIST_FREE(p->before);
+    LIST_FREE(p->entry);
+    ldl_free(p->ldl);
+    ldl_order_free(p->order);
+    MEM_FREE(p->diagonal, p->last, p->met, p->at, p->place_of, p);
+}
+
+/* Row i times all before it that share a column with it. */
+static void multiply(Gram *p, int i, const double *row, int nu, double norm)
+{
+    for (int j = 0; j < nu; j++) {
+        const double value = row[j] / norm;
+
+        if (row[j] == 0)
+            continue;
+        p->diagonal[i] += value * value;
+        for (int e = p->last[j] - 1; e >= 0; e = p->before.at[e]) {
+            const int other = p->of.at[e];
+
+            if (p->met[other] != i + 1) {
+                p->met[other] = i + 1;
+                p->at[other] = p->value.count;
+                LIST_PUSH(p->row, other);
+                LIST_PUSH(p->column, i);
+                LIST_PUSH(p->value, 0);
+            }
+            p->value.at[p->at[other]] += value * p->entry.at[e];
+        }
+        LIST_PUSH(p->of, i);
+        LIST_PUSH(p->before, p->last[j] - 1);
+        LIST_PUSH(p->entry, value);
+        p->last[j] = p->of.count;
+    }
+}
+
+static void put_entries(Gram *p)
+{
+    const int count = p->value.count;
+    int *class = NEW_ARRAY(int, p->m), *place = NEW_ARRAY(int, count);
+
+    p->order = ldl_order_new(p->m, class, count, p->row.at, p->column.at, place, p->place_of);
+    p->ldl = ldl_new(p->order);
+    for (int k = 0; k < count; k++)
+        ldl_entries(p->ldl)[place[k]] = p->value.at[k];
+    MEM_FREE(class, place);
+}
+
+Gram *gram_new(const double *matrix, int m, int nu, const double *norm)
+{
+    Gram *p = NEW(Gram);
+
+    p->m = m;
+    p->diagonal = NEW_ARRAY(double, m);
+    p->last = NEW_ARRAY(int, nu);
+    p->met = NEW_ARRAY(int, m);
+    p->at = NEW_ARRAY(int, m);
+    p->place_of = NEW_ARRAY(int, m);
+    for (int i = 0; i < m; i++)
+        multiply(p, i, matrix + (ptrdiff_t)i * nu, nu, norm != NULL ? norm[i] : 1);
+    put_entries(p);
+    return p;
+}
+
+double gram_largest(const Gram *p)
+{
+    double largest = 0;
+
+    for (int i = 0; i < p->m; i++)
+        largest = fmax(largest, p->diagonal[i]);
+    return largest;
+}
+
+bool gram_factor(Gram *p, double added, double least, const Watch *watch)
+{
+    for (int i = 0; i < p->m; i++)
+        ldl_entries(p->ldl)[p->place_of[i]] = p->diagonal[i] + added;
+    if (!ldl_factor(p->ldl, NULL, watch))
+        return false;
+    for (int i = 0; i < p->m; i++)
+        if (!(ldl_pivots(p->ldl)[p->place_of[i]] > least * p->diagonal[i]))
+            return false;
+    return true;
+}
+
+void gram_solve(const Gram *p, double *b)
+{
+    double *x = NEW_ARRAY(double, p->m);
+
+    for (int i = 0; i < p->m; i++)
+        x[p->place_of[i]] = b[i];
+    ldl_solve(p->ldl, x);
+    for (int i = 0; i < p->m; i++)
+        b[i] = x[p->place_of[i]];
+    mem_free(x);
+}

@@ -1,0 +1,21 @@
+/* gram.h: J J^T of many sparse rows, and its sparse factors */
+#ifndef COTREE_ALGEBRA_GRAM_H
+#define COTREE_ALGEBRA_GRAM_H
+
+#include "base/watch.h"
+
+#include <stdbool.h>
+
+typedef struct Gram Gram;
+
+/* Of an m x nu matrix, each row divided by its norm (NULL: by 1). New; gram_free(). O(m nu) beside
+ * products of rows that share a column. */
+Gram *gram_new(const double *matrix, int m, int nu, const double *norm);
+void gram_free(Gram *gram);
+double gram_largest(const Gram *gram); /* on the diagonal */
+/* Factors of it with `added` on its diagonal, without exchange. False where a pivot isn't more than
+ * `least` of its diagonal entry, or the watch says stop. */
+bool gram_factor(Gram *gram, double added, double least, const Watch *watch);
+void gram_solve(const Gram *gram, double *b); /* b becomes the solution */
+
+#endif
