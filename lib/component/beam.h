@@ -46,7 +46,6 @@ void beam_modes(const Instance *instance, bool planar, int modes[SHAPE_FAMILIES]
 Powers beam_powers(const Instance *instance, Arena *arena, Expr value);
 /* of one of its keys */
 Powers beam_key(const Beam *beam, const char *key);
-Powers powers_slope(Arena *arena, const Powers *p); /* by xi */
 Expr powers_at(Arena *arena, const Powers *p, Expr xi);
 int beam_load_powers(const Instance *instance, Arena *arena);
 
@@ -60,11 +59,9 @@ bool beam_bends(const BeamShape *shape);
 
 void beam_station(const Instance *instance, Arena *arena, bool planar, Expr at,
                   const ShapeState *state, Station *out);
-void beam_inertia(const Instance *instance, Arena *arena, bool planar, const ShapeState *state,
-                  ShapeInertia *out);
+void beam_inertia(const Instance *instance, Arena *arena, bool planar, Expr from,
+                  const ShapeState *state, ShapeInertia *out);
 double beam_unit(const Instance *instance, bool planar, int i);
-SectionForce beam_has_section(const Instance *instance, bool planar, const char *name);
-Expr beam_section(const Instance *instance, Arena *arena, bool planar, const char *name, Expr at,
-                  const ShapeState *state);
+const SectionPart *beam_section(bool planar, const char *name);
 
 #endif

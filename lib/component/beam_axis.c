@@ -201,8 +201,7 @@ static void add_load(const Along *along, const Fields *f, int power, ShapeInerti
     for (int d = 0; d <= power; d++)
         density.at[d] = expr_int(along->arena, d == power);
     weights = weights_of(along, &density);
-    out->extent[power] =
-        expr_mul(along->arena, expr_rational(along->arena, 1, power + 1), along->beam->length);
+    out->extent[power] = expr_mul(along->arena, weights.at[0], along->beam->length);
     for (int k = 0; k < 3; k++) {
         out->spread[3 * power + k] = whole(along, &weights, f->p[k], along->limit[0]);
         for (int i = 0; i < count; i++)
@@ -219,6 +218,8 @@ void beam_add_axis(const Along *along, const Powers *density, ShapeInertia *out)
     Graded bias[3], weighed[3];
 
     bias_of(along, &f, bias);
+    out->mass =
+        expr_product(along->arena, (Expr[]){weights.factor, weights.at[0], along->beam->length}, 3);
     weigh(along, &weights, f.p, weighed);
     add_tensor(along, weighed, f.p, &weights, out);
     for (int k = 0; k < 3; k++) {

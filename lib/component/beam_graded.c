@@ -5,32 +5,90 @@
 
 #include <gsl/gsl_integration.h>
 
-/* the points of a Gauss rule and their weights */
+/* the points of a Gauss rule and their weights, from where integrals begin to the end */
 static void take_points(Along *along)
 {
-    gsl_integration_glfixed_table *rule =
-        MEM_GIVEN(gsl_integration_glfixed_table_alloc((size_t)along->length));
+    const size_t count = (size_t)along->point_count;
+    const Expr share = expr_sub(along->arena, expr_int(along->arena, 1), along->from);
+    gsl_integration_glfixed_table *rule = MEM_GIVEN(gsl_integration_glfixed_table_alloc(count));
 
-    along->points = pool_alloc(along->pool, (size_t)along->length * sizeof(double));
-    along->weights = pool_alloc(along->pool, (size_t)along->length * sizeof(double));
-    for (int k = 0; k < along->length; k++)
-        (void)gsl_integration_glfixed_point(0, 1, (size_t)k, &along->points[k], &along->weights[k],
-                                            rule);
+    along->points = pool_alloc(along->pool, count * sizeof(Expr));
+    along->weights = pool_alloc(along->pool, count * sizeof(Expr));
+    for (size_t k = 0; k < count; k++) {
+        double point, weight;
+
+        (void)gsl_integration_glfixed_point(0, 1, k, &point, &weight, rule);
+        along->points[k] = expr_add(along->arena, along->from,
+                                    expr_mul(along->arena, expr_real(along->arena, point), share));
+        along->weights[k] = expr_mul(along->arena, expr_real(along->arena, weight), share);
+    }
     gsl_integration_glfixed_table_free(rule);
 }
 
-Along along_of(const Beam *beam, const ShapeState *state, Pool *pool, Basis basis, int degree)
+/* P_0 .. P_most at each point: (n + 1) next = (2 n + 1) z this - n before, z = 2 xi - 1 */
+static void take_legendre(Along *along, int most)
 {
-    Along along = {
-        .beam = beam, .arena = beam->arena, .pool = pool, .basis = basis, .state = state};
+    Arena *arena = along->arena;
+    const Expr one = expr_int(arena, 1), two = expr_int(arena, 2);
+
+    along->legendre =
+        pool_alloc(along->pool, (size_t)along->point_count * (size_t)(most + 1) * sizeof(Expr));
+    for (int k = 0; k < along->point_count; k++) {
+        Expr *p = along->legendre + (ptrdiff_t)k * (most + 1);
+        const Expr z =
+            expr_hold(arena, expr_sub(arena, expr_mul(arena, two, along->points[k]), one));
+
+        p[0] = one;
+        p[most > 0 ? 1 : 0] = most > 0 ? z : one;
+        for (int n = 1; n < most; n++)
+            p[n + 1] = expr_hold(
+                arena,
+                expr_sub(arena,
+                         expr_product(arena,
+                                      (Expr[]){expr_rational(arena, 2 * n + 1, n + 1), z, p[n]}, 3),
+                         expr_mul(arena, expr_rational(arena, n, n + 1), p[n - 1])));
+    }
+}
+
+Along along_of(const Beam *beam, Expr from, const ShapeState *state, Pool *pool, Basis basis,
+               int degree, int varies)
+{
+    const bool is_whole = expr_is_zero(from);
+    Along along = {.beam = beam,
+                   .arena = beam->arena,
+                   .pool = pool,
+                   .basis = basis,
+                   .state = state,
+                   .from = from,
+                   .length = degree + 1};
 
     for (int k = 0; k < 3; k++)
         along.limit[k] = beam->limit == LIMITLESS ? LIMITLESS : beam->limit - k;
     /* n points are exact up to the degree 2 n - 1 */
-    along.length = basis == BASIS_POINTS ? degree / 2 + 1 : degree + 1;
     if (basis == BASIS_POINTS)
+        along.length = along.point_count = (degree + varies) / 2 + 1;
+    else if (!is_whole)
+        along.point_count = degree + varies / 2 + 1;
+    if (along.point_count > 0)
         take_points(&along);
+    if (!is_whole)
+        take_legendre(&along, degree);
+    along.degree = degree;
     return along;
+}
+
+static Expr at_point(const Along *along, const Polynomial *legendre, const Polynomial *p, int k)
+{
+    const Expr *values = along->legendre + (ptrdiff_t)k * (along->degree + 1);
+    Expr sum = expr_int(along->arena, 0);
+
+    if (along->legendre == NULL)
+        return expr_real(along->arena, polynomial_value(p, expr_value(along->points[k])));
+    for (int m = 0; m < legendre->count; m++)
+        sum =
+            expr_add(along->arena, sum,
+                     expr_mul(along->arena, beam_number(along->arena, legendre->at[m]), values[m]));
+    return sum;
 }
 
 static Expr *parts_new(const Along *along)
@@ -48,13 +106,13 @@ Expr *parts_of(const Along *along, const Polynomial *p)
     Polynomial legendre = {0};
     const Polynomial *from = p;
 
-    if (along->basis == BASIS_LEGENDRE) {
+    if (along->basis == BASIS_LEGENDRE || along->legendre != NULL)
         legendre = legendre_of(p);
+    if (along->basis == BASIS_LEGENDRE)
         from = &legendre;
-    }
     for (int k = 0; k < along->length; k++) {
         if (along->basis == BASIS_POINTS)
-            parts[k] = expr_real(along->arena, polynomial_value(p, along->points[k]));
+            parts[k] = at_point(along, &legendre, p, k);
         else if (k < from->count)
             parts[k] = beam_number(along->arena, from->at[k]);
     }
@@ -169,6 +227,29 @@ static Expr between(const Along *along, const Polynomial *m, const Polynomial *l
     return sum;
 }
 
+/* int P_m P_(m + b) density from where integrals begin */
+static void weigh_beyond(const Along *along, const Powers *density, Weights *out)
+{
+    Arena *arena = along->arena;
+    const int row = out->band + 1;
+
+    for (int m = 0; m < along->length; m++)
+        for (int b = 0; b < row && m + b < along->length; b++) {
+            Expr sum = expr_int(arena, 0);
+
+            for (int k = 0; k < along->point_count; k++) {
+                const Expr *values = along->legendre + (ptrdiff_t)k * (along->degree + 1);
+
+                sum = expr_add(arena, sum,
+                               expr_product(arena,
+                                            (Expr[]){along->weights[k], values[m], values[m + b],
+                                                     powers_at(arena, density, along->points[k])},
+                                            4));
+            }
+            out->at[m * row + b] = expr_hold(arena, sum);
+        }
+}
+
 static void weigh_legendre(const Along *along, const Powers *density, Weights *out)
 {
     Polynomial *legendre = NEW_ARRAY(Polynomial, along->length);
@@ -192,8 +273,7 @@ static Expr weight_of(const Along *along, const Powers *density, int k)
     Expr sum = expr_int(arena, 0);
 
     if (along->basis == BASIS_POINTS)
-        return expr_mul(arena, expr_real(arena, along->weights[k]),
-                        powers_at(arena, density, expr_real(arena, along->points[k])));
+        return expr_mul(arena, along->weights[k], powers_at(arena, density, along->points[k]));
     for (int d = 0; d < density->count; d++)
         sum = expr_add(arena, sum,
                        expr_mul(arena, expr_rational(arena, 1, k + d + 1), density->at[d]));
@@ -206,10 +286,15 @@ Weights weights_of(const Along *along, const Powers *density)
     const Powers even = {1, {one}};
     const bool varies = density->count > 1;
     Weights out = {.factor = varies ? one : density->at[0], .band = density->count - 1};
+    const bool is_beyond = along->basis == BASIS_LEGENDRE && along->legendre != NULL;
 
+    if (is_beyond) /* they are orthogonal over the whole alone */
+        out.band = along->length - 1;
     out.at =
-        pool_alloc(along->pool, (size_t)along->length * (size_t)density->count * sizeof *out.at);
-    if (along->basis == BASIS_LEGENDRE)
+        pool_alloc(along->pool, (size_t)along->length * (size_t)(out.band + 1) * sizeof *out.at);
+    if (is_beyond)
+        weigh_beyond(along, varies ? density : &even, &out);
+    else if (along->basis == BASIS_LEGENDRE)
         weigh_legendre(along, varies ? density : &even, &out);
     else
         for (int k = 0; k < along->length; k++)

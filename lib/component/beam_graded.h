@@ -23,13 +23,19 @@ typedef struct Along {
     Pool *pool;
     Basis basis;
     int length; /* coefficients or points */
-    double *points, *weights;
+    int degree;
+    Expr from;              /* where integrals begin, over 0..1 */
+    Expr *points, *weights; /* of a Gauss rule, NULL where integrals are written out, */
+    int point_count;
+    Expr *legendre; /* and values of Legendre's polynomials there, of which sums are stable */
     const ShapeState *state;
     int limit[3]; /* orders of what the root feels, of its coupling with shapes, of shapes */
 } Along;
 
-/* Of quantities of that degree at most; its arrays are the pool's. */
-Along along_of(const Beam *beam, const ShapeState *state, Pool *pool, Basis basis, int degree);
+/* Of quantities of that degree at most, with densities of that of `varies`; its arrays are the
+ * pool's. */
+Along along_of(const Beam *beam, Expr from, const ShapeState *state, Pool *pool, Basis basis,
+               int degree, int varies);
 
 Expr *parts_of(const Along *along, const Polynomial *p);
 void parts_add(const Along *along, Expr **to, const Expr *parts, Expr scale);

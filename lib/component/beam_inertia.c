@@ -143,39 +143,38 @@ static void spread_load(const Beam *beam, ShapeInertia *out)
     }
 }
 
-void beam_inertia(const Instance *instance, Arena *arena, bool planar, const ShapeState *state,
-                  ShapeInertia *out)
+void beam_inertia(const Instance *instance, Arena *arena, bool planar, Expr from,
+                  const ShapeState *state, ShapeInertia *out)
 {
     const Value *rotary = instance_value(instance, "inertia_per_length");
     const Powers none = {1, {expr_int(arena, 0)}};
     Powers density, J[3] = {none, none, none};
     Beam beam = beam_open(instance, arena, planar);
-    Polynomial one = polynomial_power(0);
+    const bool is_whole = expr_is_zero(from);
     Pool *pool = pool_new(0);
     int degree, turned, varies = 0;
     Along along;
 
+    from = expr_div(arena, from, beam.length);
     find_degrees(&beam, &degree, &turned);
-    along = along_of(&beam, state, pool, BASIS_LEGENDRE, degree);
+    along = along_of(&beam, from, state, pool, BASIS_LEGENDRE, degree, MOST_POWERS - 1);
     clear_all(&along, out);
     density = beam_key(&beam, "mass_per_length");
     for (int k = 0; k < rotary->count && k < 3; k++) {
         J[planar ? 2 : k] = beam_powers(instance, arena, rotary->at[k]);
         varies = J[planar ? 2 : k].count > varies ? J[planar ? 2 : k].count : varies;
     }
-    out->mass = gram(&along, &density, &one, &one, 1);
     spread_load(&beam, out);
     beam_add_axis(&along, &density, out);
-    add_constants(&along, &density, J, out);
+    if (is_whole) /* a part of it has no equations of shapes of its own */
+        add_constants(&along, &density, J, out);
     if (rotary->count > 0) { /* products of up to four angles */
-        const Basis basis = turned <= MOST_EXACT ? BASIS_POWERS : BASIS_POINTS;
+        const Basis basis = is_whole && turned <= MOST_EXACT ? BASIS_POWERS : BASIS_POINTS;
 
-        along = along_of(&beam, state, pool, basis,
-                         4 * turned + (basis == BASIS_POINTS ? varies - 1 : 0));
+        along = along_of(&beam, from, state, pool, basis, 4 * turned, varies - 1);
         beam_add_rotary(&along, J, out);
     }
     finish_block(&along, out);
-    polynomial_free(&one);
     pool_free(pool);
     beam_close(&beam);
 }

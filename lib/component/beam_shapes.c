@@ -50,16 +50,6 @@ Powers beam_key(const Beam *beam, const char *key)
     return beam_powers(beam->instance, beam->arena, instance_scalar(beam->instance, key));
 }
 
-Powers powers_slope(Arena *arena, const Powers *p)
-{
-    Powers out = {1, {expr_int(arena, 0)}};
-
-    for (int k = 1; k < p->count; k++)
-        out.at[k - 1] = expr_mul(arena, expr_int(arena, k), p->at[k]);
-    out.count = p->count > 1 ? p->count - 1 : 1;
-    return out;
-}
-
 Expr powers_at(Arena *arena, const Powers *p, Expr xi)
 {
     Expr sum = expr_int(arena, 0);

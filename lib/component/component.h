@@ -173,11 +173,11 @@ typedef struct ShapeInertia {
     Expr *drive;        /* what else pushes on q, over the user's variables */
 } ShapeInertia;
 
-typedef enum SectionForce {
-    SECTION_UNKNOWN, /* there is none of that name */
-    SECTION_RIGID,   /* no shape tells it */
-    SECTION_TOLD
-} SectionForce;
+typedef struct SectionPart { /* a component of what a section carries, in its axes */
+    const char *name;
+    bool in_plane, in_space, moment;
+    int axis;
+} SectionPart;
 
 typedef struct Deforming {
     int (*count)(const Instance *instance, bool planar);
@@ -189,13 +189,12 @@ typedef struct Deforming {
     /* `at`: along it, from its root; its arrays have room for all shapes */
     void (*station)(const Instance *instance, Arena *arena, bool planar, Expr at,
                     const ShapeState *state, Station *out);
-    void (*inertia)(const Instance *instance, Arena *arena, bool planar, const ShapeState *state,
-                    ShapeInertia *out);
-    /* forces and moments in a section, "bending"; the name ends at its bracket. NULL: it has no
-     * length, and no sections */
-    SectionForce (*has_section)(const Instance *instance, bool planar, const char *name);
-    Expr (*section)(const Instance *instance, Arena *arena, bool planar, const char *name, Expr at,
-                    const ShapeState *state);
+    /* of what is beyond the place `from` along it */
+    void (*inertia)(const Instance *instance, Arena *arena, bool planar, Expr from,
+                    const ShapeState *state, ShapeInertia *out);
+    /* the force or moment in a section that a name means, "bending"; the name ends at its bracket.
+     * NULL in its stead: it has no length, and no sections */
+    const SectionPart *(*section)(bool planar, const char *name);
 } Deforming;
 
 /* --- efforts: forces between two frames or on a joint, and transducers --- */

@@ -150,7 +150,7 @@ static Expr rates_of(const Instance *instance, Arena *arena, const ShapeState *s
     return sum;
 }
 
-static void block_inertia(const Instance *instance, Arena *arena, bool planar,
+static void block_inertia(const Instance *instance, Arena *arena, bool planar, Expr from,
                           const ShapeState *state, ShapeInertia *out)
 {
     enum { LONGEST = 2000 }; /* terms that are written out so that some may cancel */
@@ -159,7 +159,7 @@ static void block_inertia(const Instance *instance, Arena *arena, bool planar,
     const Expr zero = expr_int(arena, 0);
     const int count = given->count;
 
-    (void)planar;
+    (void)planar, (void)from;
     out->mass = out->stored = zero;
 #define CLEAR_ROW(name, entries)                                                                   \
     for (int k = 0; k < (entries); k++)                                                            \

@@ -35,6 +35,7 @@ libcore_la_SOURCES += \
 	lib/formulate/dynamics/efforts.c lib/formulate/dynamics/efforts.h lib/formulate/dynamics/energy.c \
 	lib/formulate/dynamics/loads.c lib/formulate/dynamics/loads.h lib/formulate/dynamics/reactions.c \
 	lib/formulate/dynamics/reactions.h lib/formulate/dynamics/redundancy.c \
+	lib/formulate/dynamics/sections.c lib/formulate/dynamics/sections.h \
 	lib/formulate/dynamics/shapes.c lib/formulate/dynamics/shapes.h \
 	lib/formulate/written/counting.c lib/formulate/written/derivation.c \
 	lib/formulate/written/derivation.h lib/formulate/written/derivation_impl.h \

@@ -254,9 +254,7 @@ static const Instance *bent_part(const State *state, const char *text, const cha
     for (int i = 0; i < (state->planar ? 2 : COUNT(members)); i++)
         if (strcmp(*member, members[i]) == 0)
             return part;
-    return part->row->deforming->has_section(part, state->planar, *member) != SECTION_UNKNOWN
-               ? part
-               : NULL;
+    return part->row->deforming->section(state->planar, *member) != NULL ? part : NULL;
 }
 
 /* b1.v(L/2): a variable of that name, the place as the number that it is now */
@@ -270,12 +268,6 @@ static Status call_deflection(Scope *scope, const Syntax *syntax, const Instance
     if (scope->kind != SCOPE_ASK && scope->kind != SCOPE_OUTPUT && scope->kind != SCOPE_EVENT)
         return diag_at(diag, E_NAME, syntax->place,
                        "%s can be printed, but nothing can depend on it", syntax->text);
-    if (part->row->deforming->has_section(part, scope->state->planar, member) == SECTION_RIGID) {
-        (void)diag_at(diag, E_VALUE, syntax->place, "no shape of %s tells %s", part->name,
-                      syntax->text);
-        diag_hint(diag, "modes= gives it some; what a joint carries there is known without them");
-        return E_VALUE;
-    }
     if (syntax->count != 1 || (expr_kinds(args[0]) & ~(1U << SYMBOL_PARAMETER)) != 0) {
         (void)diag_at(diag, E_VALUE, syntax->place, "%s takes one place along the beam",
                       syntax->text);

@@ -63,6 +63,10 @@ FAMILIES += family_moved
 family_moved_SOURCES = tests/family/family_moved.c tests/family/standing.h tests/family/scenes.h \
 	tests/family/jointed.h tests/family/family.h tests/random.h
 family_moved_LDADD = libcotree.la $(unit_ldadd)
+FAMILIES += family_sections
+family_sections_SOURCES = tests/family/family_sections.c tests/family/family.h tests/family/script.h \
+	tests/unit/session_kit.h tests/unit/test.h tests/random.h
+family_sections_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_sharing
 family_sharing_SOURCES = tests/family/family_sharing.c tests/family/family.h tests/family/script.h
 family_sharing_LDADD = libcotree.la $(unit_ldadd)

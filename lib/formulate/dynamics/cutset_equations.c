@@ -259,19 +259,6 @@ done:
     return status;
 }
 
-static void add_elastic(const System *system, const Elastic *elastic, Loads *loads,
-                        const Vec *alpha, const Vec *a, const Expr *accelerations)
-{
-    Arena *arena = system->arena;
-    const int axes = node_axes(system, elastic->node);
-    const int chain = system->kinematics->frames[elastic->node].chain;
-    const Vec g = vec_express(system, system->origin->gravity, 0, axes);
-
-    elastic_add_motion(system, elastic, loads, vec_sub(arena, a[elastic->node], g), alpha[chain],
-                       accelerations, -1);
-    elastic_add_rest(system, elastic, loads);
-}
-
 static void add_inertia_of(const System *system, Loads *loads, const Mass *mass, Vec g,
                            const Vec *alpha, const Vec *a)
 {
@@ -322,7 +309,8 @@ void loads_add_inertia(const System *system, Loads *loads, const Vec *alpha, con
             done++;
         }
     for (int i = 0; i < system->dynamics->elastics.count; i++)
-        add_elastic(system, &system->dynamics->elastics.at[i], loads, alpha, a, accelerations);
+        elastic_add_inertia(system, &system->dynamics->elastics.at[i], loads, alpha, a,
+                            accelerations);
     mem_free(gravity);
 }
 

@@ -124,10 +124,11 @@ static Vec chord_reaction(System *system, const Instance *joint, bool rotation)
 }
 
 /* everything beyond the branch and the joint itself are in equilibrium */
-static Vec branch_reaction(const System *system, const Tree *tree, int branch, const Sums *sums,
-                           bool rotation, int *chain)
+Vec branch_reaction(const System *system, const Instance *instance, const Sums *sums, bool rotation,
+                    int *chain)
 {
-    int node = tree_far_node(tree, branch);
+    const Tree *tree = system->origin->trees[rotation ? TREE_ROTATION : TREE_TRANSLATION];
+    int node = tree_far_node(tree, instance->edge);
     Vec reaction = (rotation ? sums->torque : sums->force)[node];
 
     *chain = system->kinematics->chains.at[system->kinematics->frames[node].chain].resolve;
@@ -156,28 +157,20 @@ static Expr share_of(System *system, const Instance *joint, ReactionPart part, i
     int chain = 0;
 
     if (tree_has(tree, joint->edge))
-        vector = branch_reaction(system, tree, joint->edge,
-                                 system->shown->recovery->sums[redundant], part.moment, &chain);
+        vector = branch_reaction(system, joint, system->shown->recovery->sums[redundant],
+                                 part.moment, &chain);
     else if (row->told.instance == joint->number)
         vector = vec_neg(system->arena, row_reaction(system, row, part.moment));
     return component(system, joint, part, vector, chain);
 }
 
-/* a row that vanished and on which the component depends, though nothing determines its multiplier;
- * NULL: there is none */
-static const Row *open_row(System *system, const Instance *joint, ReactionPart part)
+const Row *reaction_open_row(const System *system, const double *share, int instance)
 {
     enum { DIGITS = 7 };
     const Recovery *recovery = system->shown->recovery;
-    int rows = system->constraints->redundant_rows.count;
-    double *share = NULL;
+    const int rows = system->constraints->redundant_rows.count;
     const Row *found = NULL;
 
-    if (recovery == NULL || recovery->open_count == 0)
-        return NULL;
-    share = NEW_ARRAY(double, rows);
-    for (int k = 0; k < rows; k++)
-        share[k] = sample_number(recovery->sample, share_of(system, joint, part, k));
     for (int j = 0; j < recovery->open_count && found == NULL; j++) {
         double sum = 0;
         double size = 1;
@@ -188,13 +181,30 @@ static const Row *open_row(System *system, const Instance *joint, ReactionPart p
             sum += term;
             if (fabs(term) > size)
                 size = fabs(term);
-            /* another joint's row says more */
-            if (term != 0 && (found == NULL || found->told.instance == joint->number))
+            /* another part's row says more */
+            if (term != 0 && (found == NULL || found->told.instance == instance))
                 found = &system->constraints->redundant_rows.at[k];
         }
         if (fabs(sum) < size * pow(10, -DIGITS))
             found = NULL;
     }
+    return found;
+}
+
+/* of a component of a joint's */
+static const Row *open_row(System *system, const Instance *joint, ReactionPart part)
+{
+    const Recovery *recovery = system->shown->recovery;
+    const int rows = system->constraints->redundant_rows.count;
+    const Row *found;
+    double *share;
+
+    if (recovery == NULL || recovery->open_count == 0)
+        return NULL;
+    share = NEW_ARRAY(double, rows);
+    for (int k = 0; k < rows; k++)
+        share[k] = sample_number(recovery->sample, share_of(system, joint, part, k));
+    found = reaction_open_row(system, share, joint->number);
     mem_free(share);
     return found;
 }
@@ -225,10 +235,9 @@ Status joint_reaction(System *system, const Instance *joint, ReactionPart part, 
                   chord);
         return E_MISSING;
     }
-    vector =
-        tree_has(tree, joint->edge)
-            ? branch_reaction(system, tree, joint->edge, system->shown->actual, part.moment, &chain)
-            : chord_reaction(system, joint, part.moment);
+    vector = tree_has(tree, joint->edge)
+                 ? branch_reaction(system, joint, system->shown->actual, part.moment, &chain)
+                 : chord_reaction(system, joint, part.moment);
     *out = component(system, joint, part, vector, chain);
     return OK;
 }

@@ -3,6 +3,7 @@
 #define COTREE_FORMULATE_DYNAMICS_REACTIONS_H
 
 #include "formulate/dynamics/loads.h"
+#include "formulate/system/constraints.h"
 #include "formulate/system/sample.h"
 
 /* multipliers of rows that vanished, from virtual branches that carry nothing (redundancy.c) */
@@ -18,6 +19,13 @@ typedef struct Recovery {
 MUST_USE Status actual_build(System *system, Diag *diag);
 /* multipliers of the rows that vanished, from the loads without them */
 void recovery_build(System *system, const Loads *loads);
+
+/* the force or torque that a branch carries from its tail to its head, in the axes of `chain` */
+Vec branch_reaction(const System *system, const Instance *instance, const Sums *sums, bool rotation,
+                    int *chain);
+/* A row that vanished and on which a figure depends, though nothing determines its multiplier; the
+ * figure changes by `share` per unit of each. NULL: there is none. */
+const Row *reaction_open_row(const System *system, const double *share, int instance);
 
 typedef struct ReactionPart { /* a component of a force or a moment */
     bool moment;

@@ -51,35 +51,42 @@ Rotation elastic_inertia(const System *system, const Elastic *elastic)
     return rotation_product(system->arena, &inertia, &back);
 }
 
+Elastic elastic_beyond(const System *system, const Elastic *elastic, Expr from)
+{
+    const Instance *part = &system->origin->instances[elastic->instance];
+    const int count = shapes_of(part), powers = elastic->load_powers;
+    Elastic out = *elastic;
+    ShapeInertia *block = &out.block;
+    ShapeState state = shapes_state(system, part);
+    const Vec w =
+        to_root(system, elastic,
+                system->kinematics->motions[system->kinematics->frames[part->head].chain].w);
+
+    for (int k = 0; k < 3; k++)
+        state.w[k] = w.at[k];
+#define NEW_ROW(name, entries) block->name = new_array(system, entries);
+    SHAPE_ARRAYS_OF_SHAPES(NEW_ROW)
+    SHAPE_ARRAYS_OF_LOAD(NEW_ROW)
+    NEW_ROW(load, 3 * powers)
+    part->row->deforming->inertia(part, system->arena, system->origin->planar, from, &state, block);
+#define HOLD_ROW(name, entries) hold_all(system, block->name, entries);
+    SHAPE_ARRAYS_OF_ROOT(HOLD_ROW)
+    SHAPE_ARRAYS_OF_SHAPES(HOLD_ROW)
+    SHAPE_ARRAYS_OF_LOAD(HOLD_ROW)
+    return out;
+}
+
 void elastics_build(System *system)
 {
     for (int i = 0; i < system->origin->instance_count; i++) {
         const Instance *part = &system->origin->instances[i];
         Elastic elastic = {.instance = i, .node = part->head};
-        ShapeInertia *block = &elastic.block;
-        ShapeState state;
-        int count, powers;
-        Vec w;
 
         if (part->row->deforming == NULL)
             continue;
-        count = shapes_of(part);
-        powers = elastic.load_powers = part->row->deforming->load_powers(part, system->arena);
+        elastic.load_powers = part->row->deforming->load_powers(part, system->arena);
         elastic.first = shapes_first(system, part);
-        state = shapes_state(system, part);
-        w = to_root(system, &elastic,
-                    system->kinematics->motions[system->kinematics->frames[part->head].chain].w);
-        for (int k = 0; k < 3; k++)
-            state.w[k] = w.at[k];
-#define NEW_ROW(name, entries) block->name = new_array(system, entries);
-        SHAPE_ARRAYS_OF_SHAPES(NEW_ROW)
-        SHAPE_ARRAYS_OF_LOAD(NEW_ROW)
-        NEW_ROW(load, 3 * powers)
-        part->row->deforming->inertia(part, system->arena, system->origin->planar, &state, block);
-#define HOLD_ROW(name, entries) hold_all(system, block->name, entries);
-        SHAPE_ARRAYS_OF_ROOT(HOLD_ROW)
-        SHAPE_ARRAYS_OF_SHAPES(HOLD_ROW)
-        SHAPE_ARRAYS_OF_LOAD(HOLD_ROW)
+        elastic = elastic_beyond(system, &elastic, expr_int(system->arena, 0));
         LIST_PUSH(system->dynamics->elastics, elastic);
     }
 }
@@ -141,6 +148,17 @@ void elastic_add_motion(const System *system, const Elastic *elastic, Loads *loa
             put_own(system, elastic, loads, j, expr_mul(arena, b->block[j * count + i], own), sign);
     }
     put(system, elastic, loads, force, torque, sign);
+}
+
+void elastic_add_inertia(const System *system, const Elastic *elastic, Loads *loads,
+                         const Vec *alpha, const Vec *a, const Expr *accelerations)
+{
+    const int chain = system->kinematics->frames[elastic->node].chain;
+    const Vec g = vec_express(system, system->origin->gravity, 0, node_axes(system, elastic->node));
+
+    elastic_add_motion(system, elastic, loads, vec_sub(system->arena, a[elastic->node], g),
+                       alpha[chain], accelerations, -1);
+    elastic_add_rest(system, elastic, loads);
 }
 
 void elastic_add_rest(const System *system, const Elastic *elastic, Loads *loads)

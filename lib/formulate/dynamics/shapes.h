@@ -19,6 +19,11 @@ void elastics_build(System *system);
 /* forces of one motion of the root (a, alpha in the axes of its node) and of u' (NULL: none) */
 void elastic_add_motion(const System *system, const Elastic *elastic, Loads *loads, Vec a,
                         Vec alpha, const Expr *accelerations, int sign);
+/* the same part beyond the place `from` alone, with what it exerts on its root */
+Elastic elastic_beyond(const System *system, const Elastic *elastic, Expr from);
+/* inertia and weight, of accelerations of its root and of speeds */
+void elastic_add_inertia(const System *system, const Elastic *elastic, Loads *loads,
+                         const Vec *alpha, const Vec *a, const Expr *accelerations);
 /* what is left where nothing accelerates, and what pushes */
 void elastic_add_rest(const System *system, const Elastic *elastic, Loads *loads);
 /* what its load= does */

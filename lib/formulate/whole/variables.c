@@ -5,6 +5,7 @@
 #include "component/given.h"
 #include "formulate/dynamics/efforts.h"
 #include "formulate/dynamics/reactions.h"
+#include "formulate/dynamics/sections.h"
 #include "formulate/kinematics/coordinate.h"
 #include "formulate/kinematics/frames.h"
 #include "formulate/kinematics/recursive.h"
@@ -578,12 +579,11 @@ static Status entry_variable(System *system, const char *path, bool *found, Expr
 /* v(0.5): how far the point there has moved along y of the root; bending(0.5): what its section
  * carries; of pictures, y(0.5): where the middle is along y of ground */
 static Status deflection_variable(System *system, const Instance *part, const char *member,
-                                  Expr *out)
+                                  Expr *out, Diag *diag)
 {
     Arena *arena = system->arena;
     const Expr at = expr_real(arena, strtod(strchr(member, '(') + 1, NULL));
-    const Deforming *deforming = part->row->deforming;
-    const ShapeState state = shapes_state(system, part);
+    const SectionPart *section = part->row->deforming->section(system->origin->planar, member);
     const Station *station;
     Expr point[3];
 
@@ -591,10 +591,8 @@ static Status deflection_variable(System *system, const Instance *part, const ch
         *out = point[member[0] - 'x'];
         return OK;
     }
-    if (deforming->has_section(part, system->origin->planar, member) == SECTION_TOLD) {
-        *out = deforming->section(part, arena, system->origin->planar, member, at, &state);
-        return OK;
-    }
+    if (section != NULL)
+        return section_force(system, part, section, at, out, diag);
     station = shapes_point(system, part, at);
     *out = member[0] == 'p'   ? station->angle[2]
            : member[0] == 'u' ? expr_sub(arena, station->position[0], at)
@@ -621,7 +619,7 @@ static Status member_variable(System *system, const char *path, Expr *out, Diag 
     if (instance == NULL)
         return frame_variable(system, node, member, out, diag);
     if (instance->row->deforming != NULL && strchr(member, '(') != NULL)
-        return deflection_variable(system, instance, member, out);
+        return deflection_variable(system, instance, member, out, diag);
     switch (instance->row->family) {
     case FAMILY_BODY:
     case FAMILY_ARM:
