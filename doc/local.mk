@@ -25,6 +25,7 @@ EXTRA_DIST += doc/pictures/list doc/pictures/drawn-andrews.svg \
 	doc/pictures/drawn-loudspeaker.txt \
 	doc/pictures/drawn-lift.txt \
 	doc/pictures/drawn-graph.txt \
+	doc/pictures/drawn-boxes.txt \
 	doc/pictures/drawn-ports.txt doc/pictures/platform.txt doc/pictures/robot-torques.txt
 # what is made stands in the folder of the build
 doc/cotree.pdf doc/cotree.dvi: export TEXINPUTS = doc:$(srcdir)/doc:
@@ -51,6 +52,7 @@ drawn_pictures = \
 	doc/pictures/drawn-loudspeaker.png \
 	doc/pictures/drawn-lift.png \
 	doc/pictures/drawn-graph.png \
+	doc/pictures/drawn-boxes.png \
 	doc/pictures/drawn-ports.png doc/pictures/platform.png doc/pictures/robot-torques.png \
 	doc/pictures/work-andrews_absolute.png doc/pictures/work-bushing.png \
 	doc/pictures/scaling.png doc/pictures/work-double_pendulum.png doc/pictures/work-rectifier.png

@@ -132,6 +132,36 @@ static void dot_edge(const View *view, const Tree *const trees[TREE_KINDS], int 
               branch ? (chord ? "bold" : "solid") : "dashed");
 }
 
+/* whether an edge or a port is there: what has neither isn't drawn */
+static bool is_met(const View *view, int node)
+{
+    const int *edges;
+
+    for (int p = 0; view->terminal != NULL && p < view->terminal->ports.count; p++)
+        if (view->terminal->ports.at[p].node == node)
+            return true;
+    return graph_edges_at(view_graph(view), node, &edges) > 0;
+}
+
+/* An instance is a box with the names of its ports at its border; an arrow goes the way of a port's
+ * motion or voltage. */
+static void dot_boxes(const View *view, const TerminalGraph *terminal, Text *out)
+{
+    static const char *const ways[2][2] = {{"none", "back"}, {"forward", "both"}};
+    int last = -1;
+
+    for (int p = 0; p < terminal->ports.count; p++) {
+        const TerminalPort *port = &terminal->ports.at[p];
+
+        if (port->use != last)
+            text_addf(out, "  u%d [label=\"%s\", shape=box, penwidth=3];\n", port->use,
+                      model_use(view->model, port->use)->name);
+        last = port->use;
+        text_addf(out, "  u%d -> n%d [taillabel=\"%s\", dir=%s, style=dotted];\n", port->use,
+                  port->node, port->name, ways[port->gives][port->takes]);
+    }
+}
+
 void draw_dot(const View *view, Text *out)
 {
     const Graph *graph = view_graph(view);
@@ -143,13 +173,13 @@ void draw_dot(const View *view, Text *out)
         memset(trees, 0, sizeof trees);
     text_add(out, "digraph model {\n  node [shape=circle];\n");
     for (int n = 0; n < graph_node_count(graph); n++) {
-        const int *edges;
-
-        if (graph_edges_at(graph, n, &edges) > 0)
+        if (is_met(view, n))
             text_addf(out, "  n%d [label=\"%s\"%s];\n", n, graph_node(graph, n)->name,
                       graph_node(graph, n)->datum ? ", shape=doublecircle" : "");
     }
     for (int e = 0; e < graph_edge_count(graph); e++)
         dot_edge(view, trees, e, out);
+    if (view->terminal != NULL)
+        dot_boxes(view, view->terminal, out);
     text_add(out, "}\n");
 }

@@ -11,7 +11,6 @@
 #define BORDER      56.0  /* px: around the nodes, for names */
 
 typedef struct Layout {
-    const Tree *tree;
     const Graph *graph;
     const int *nodes;
     int count;
@@ -60,6 +59,19 @@ static void find_distances(Layout *layout, int from, int *queue)
     }
 }
 
+/* pieces that nothing joins: as far as what is joined is at most */
+static void part_pieces(Layout *layout)
+{
+    const int pairs = layout->count * layout->count;
+    double most = 1;
+
+    for (int i = 0; i < pairs; i++)
+        most = fmax(most, layout->apart[i]);
+    for (int i = 0; i < pairs; i++)
+        if (layout->apart[i] < 0)
+            layout->apart[i] = most;
+}
+
 static void sweep(Layout *layout)
 {
     for (int i = 0; i < layout->count; i++) {
@@ -100,16 +112,16 @@ static Point settle(Layout *layout)
     return (Point){high.x - low.x + 2 * BORDER, high.y - low.y + 2 * BORDER};
 }
 
-Status graph_layout(const Tree *tree, const Watch *watch, Point *places, Point *size, Diag *diag)
+Status graph_layout(const Graph *graph, const int *nodes, int count, const Watch *watch,
+                    Point *places, Point *size, Diag *diag)
 {
     enum { MOST_SWEEPS = 300, LEAST_SWEEPS = 20 };
     static const double WORK = 3e7; /* pairs in all sweeps: some tenths of a second */
-    Layout layout = {.tree = tree, .graph = tree_graph(tree)};
-    const int all = graph_node_count(layout.graph);
+    Layout layout = {.graph = graph, .nodes = nodes, .count = count};
+    const int all = graph_node_count(graph);
     int *queue = NULL;
     Status status = OK;
 
-    layout.nodes = tree_nodes(tree, &layout.count);
     if (layout.count > LAYOUT_MOST) {
         (void)diag_set(diag, E_VALUE, "a graph of %d nodes makes no picture", layout.count);
         diag_hint(diag, "draw it as text, or write it as dot and let Graphviz try");
@@ -126,6 +138,7 @@ Status graph_layout(const Tree *tree, const Watch *watch, Point *places, Point *
     begin_on_circle(&layout);
     for (int i = 0; i < layout.count; i++)
         find_distances(&layout, i, queue);
+    part_pieces(&layout);
 
     const double pairs = (double)layout.count * layout.count;
     const int sweeps = (int)fmax(LEAST_SWEEPS, fmin(MOST_SWEEPS, WORK / pairs));

@@ -1,17 +1,17 @@
-/* graph_layout.h: places on paper for the nodes of one domain's graph */
+/* graph_layout.h: places on paper for nodes of a graph */
 #ifndef COTREE_PRESENT_GRAPH_LAYOUT_H
 #define COTREE_PRESENT_GRAPH_LAYOUT_H
 
 #include "base/watch.h"
-#include "graph/tree.h"
+#include "graph/graph.h"
 #include "present/picture.h"
 
 enum { LAYOUT_MOST = 1500 }; /* nodes: more would be no picture */
 
-/* Places, px, of the nodes of a tree, one a node of the graph: as far apart as the graph's
+/* Places, px, of `nodes` in an array of one a node of the graph: as far apart as the graph's
  * paths are long. `size` holds all of them. Fails with E_STOPPED, and with E_VALUE beyond
  * LAYOUT_MOST. O(nodes^2). */
-MUST_USE Status graph_layout(const Tree *tree, const Watch *watch, Point *places, Point *size,
-                             Diag *diag);
+MUST_USE Status graph_layout(const Graph *graph, const int *nodes, int count, const Watch *watch,
+                             Point *places, Point *size, Diag *diag);
 
 #endif

@@ -1,9 +1,11 @@
 /* graph_picture.c: nodes as rings, edges as arrows: branches bold, chords thin
  *
  * Each tree has a panel; where the mechanical ones differ they stand side by side, their nodes in
- * the same places. A domain has its colour and its dashes. */
+ * the same places. A domain has its colour and its dashes. Before the trees of a terminal graph
+ * stands what they are made of: boxes, and all domains outside of them. */
 #include "present/graph_picture.h"
 
+#include "present/black_boxes.h"
 #include "present/graph_layout.h"
 
 #include <math.h>
@@ -18,7 +20,11 @@
 #define GLOW      "#ffd54a"
 
 typedef struct Panel {
-    const Tree *tree;
+    const Graph *graph;
+    const Tree *tree; /* NULL: boxes, of which no edge is a branch or a chord */
+    TreeKind kind;
+    const int *nodes;
+    int node_count;
     const char *caption;
     Point corner, size;
     const Point *places; /* of nodes, in the panel */
@@ -30,10 +36,11 @@ typedef struct GraphPicture {
     double widest; /* px: of panels side by side */
     Lit lit;
     int edge; /* that is lit; -1 */
-    Panel panels[TREE_KINDS];
+    BlackBoxes boxes;
+    Panel panels[TREE_KINDS + 1];
     int count;
-    Point *places[TREE_KINDS];
-    LIST(Point) names; /* low and high corners of those that stand there */
+    Point *places[TREE_KINDS + 1]; /* by panel; NULL: those of the panel before */
+    LIST(Point) names;             /* low and high corners of those that stand there */
     Picture *out;
 } GraphPicture;
 
@@ -90,12 +97,43 @@ static Status find_edge(GraphPicture *picture, const char *name, Diag *diag)
 
 /* --- panels --- */
 
+static Status lay_out(GraphPicture *picture, Panel *panel, Diag *diag)
+{
+    Point **places = &picture->places[picture->count];
+
+    *places = NEW_ARRAY(Point, graph_node_count(panel->graph));
+    panel->places = *places;
+    return graph_layout(panel->graph, panel->nodes, panel->node_count, picture->view->watch,
+                        *places, &panel->size, diag);
+}
+
+static Status add_boxes(GraphPicture *picture, Diag *diag)
+{
+    BlackBoxes *boxes = &picture->boxes;
+    Panel *panel = &picture->panels[picture->count];
+
+    if (picture->view->terminal == NULL || picture->view->terminal->ports.count == 0 ||
+        picture->lit != LIT_NOTHING)
+        return OK;
+    black_boxes_make(picture->view, boxes);
+    *panel = (Panel){.graph = boxes->graph,
+                     .kind = TREE_TRANSLATION,
+                     .nodes = boxes->nodes.at,
+                     .node_count = boxes->nodes.count,
+                     .caption = "instances as boxes"};
+    TRY(lay_out(picture, panel, diag));
+    black_boxes_part(boxes, picture->places[picture->count], &panel->size);
+    black_boxes_set_pins(boxes, panel->places);
+    picture->count++;
+    return OK;
+}
+
 static Status add_panels(GraphPicture *picture, Diag *diag)
 {
     const Tree *trees[TREE_KINDS] = {NULL};
-    const int nodes = graph_node_count(picture->graph);
 
     TRY(view_trees(picture->view, trees, diag));
+    TRY(add_boxes(picture, diag));
 
     const bool both = trees[TREE_TRANSLATION] != NULL && trees[TREE_ROTATION] != NULL &&
                       same_branches(picture->graph, trees[TREE_TRANSLATION], trees[TREE_ROTATION]);
@@ -105,17 +143,18 @@ static Status add_panels(GraphPicture *picture, Diag *diag)
 
         if (trees[k] == NULL || (both && k == TREE_ROTATION) || !is_lit_in(picture, trees[k]))
             continue;
-        *panel = (Panel){.tree = trees[k],
+        *panel = (Panel){.graph = picture->graph,
+                         .tree = trees[k],
+                         .kind = (TreeKind)k,
                          .caption = both && k == TREE_TRANSLATION ? "mechanical"
                                                                   : tree_kind_name((TreeKind)k)};
-        if (k == TREE_ROTATION && picture->count > 0) { /* nodes stand where they do beside */
-            panel->places = picture->panels[picture->count - 1].places;
-            panel->size = picture->panels[picture->count - 1].size;
+        panel->nodes = tree_nodes(trees[k], &panel->node_count);
+        if (k == TREE_ROTATION && picture->count > 0 && panel[-1].kind == TREE_TRANSLATION &&
+            panel[-1].tree != NULL) { /* nodes stand where they do beside */
+            panel->places = panel[-1].places;
+            panel->size = panel[-1].size;
         } else {
-            picture->places[k] = NEW_ARRAY(Point, nodes);
-            panel->places = picture->places[k];
-            TRY(graph_layout(trees[k], picture->view->watch, picture->places[k], &panel->size,
-                             diag));
+            TRY(lay_out(picture, panel, diag));
         }
         panel->size.x = fmax(panel->size.x, 170);
         picture->count++;
@@ -180,36 +219,44 @@ static void make_curve(Point a, Point b, double bend, Point out[BEND + 1])
     }
 }
 
-static bool passes_a_node(const Panel *panel, const Edge *edge, const Point curve[BEND + 1])
+/* half the width and height of what stands at a node: a ring or a box */
+static Point half_of(const GraphPicture *picture, const Panel *panel, int node)
 {
-    int count;
-    const int *nodes = tree_nodes(panel->tree, &count);
+    return panel->tree == NULL && node >= picture->boxes.first
+               ? picture->boxes.boxes.at[node - picture->boxes.first].half
+               : (Point){NODE_SIZE, NODE_SIZE};
+}
 
-    for (int k = 0; k < count; k++) {
-        const Point p = node_at(panel, nodes[k]);
+static bool passes_a_node(const GraphPicture *picture, const Panel *panel, const Edge *edge,
+                          const Point curve[BEND + 1])
+{
+    for (int k = 0; k < panel->node_count; k++) {
+        const Point p = node_at(panel, panel->nodes[k]);
+        const Point half = half_of(picture, panel, panel->nodes[k]);
 
-        if (nodes[k] == edge->tail || nodes[k] == edge->head)
+        if (panel->nodes[k] == edge->tail || panel->nodes[k] == edge->head)
             continue;
         for (int i = 1; i < BEND; i++)
-            if (hypot(curve[i].x - p.x, curve[i].y - p.y) < 2 * NODE_SIZE)
+            if (hypot(fmax(fabs(curve[i].x - p.x) - half.x, 0),
+                      fmax(fabs(curve[i].y - p.y) - half.y, 0)) < NODE_SIZE)
                 return true;
     }
     return false;
 }
 
 /* which of the edges between the same two nodes it is, and how many there are */
-static int place_among(const GraphPicture *picture, const Panel *panel, int e, int *count)
+static int place_among(const Panel *panel, int e, int *count)
 {
-    const Edge *edge = graph_edge(picture->graph, e);
+    const Edge *edge = graph_edge(panel->graph, e);
     const int *edges;
-    const int all = graph_edges_at(picture->graph, edge->tail, &edges);
+    const int all = graph_edges_at(panel->graph, edge->tail, &edges);
     int place = 0;
 
     *count = 0;
     for (int i = 0; i < all; i++) {
-        const Edge *other = graph_edge(picture->graph, edges[i]);
+        const Edge *other = graph_edge(panel->graph, edges[i]);
 
-        if (!graph_edge_in(picture->graph, edges[i], tree_kind(panel->tree)) ||
+        if (!graph_edge_in(panel->graph, edges[i], panel->kind) ||
             (other->tail != edge->head && other->head != edge->head))
             continue;
         if (edges[i] == e)
@@ -222,11 +269,11 @@ static int place_among(const GraphPicture *picture, const Panel *panel, int e, i
 static void find_curve(const GraphPicture *picture, const Panel *panel, int e,
                        Point curve[BEND + 1])
 {
-    static const double tries[] = {0, 26, -26, 52, -52};
-    const Edge *edge = graph_edge(picture->graph, e);
+    static const double tries[] = {0, 26, -26, 52, -52, 80, -80, 110, -110};
+    const Edge *edge = graph_edge(panel->graph, e);
     const Point a = node_at(panel, edge->tail), b = node_at(panel, edge->head);
     int count;
-    const int place = place_among(picture, panel, e, &count);
+    const int place = place_among(panel, e, &count);
 
     if (count > 1) { /* turned, the other side of the line is meant */
         make_curve(a, b, (place - (count - 1) / 2.0) * 30 * (edge->tail < edge->head ? 1 : -1),
@@ -235,7 +282,7 @@ static void find_curve(const GraphPicture *picture, const Panel *panel, int e,
     }
     for (int i = 0; i < COUNT(tries); i++) {
         make_curve(a, b, tries[i], curve);
-        if (!passes_a_node(panel, edge, curve))
+        if (!passes_a_node(picture, panel, edge, curve))
             return;
     }
     make_curve(a, b, 0, curve);
@@ -295,36 +342,72 @@ static Point node_name(const Panel *panel, int node)
 
 static void keep_node_names(GraphPicture *picture, const Panel *panel)
 {
-    int count;
-    const int *nodes = tree_nodes(panel->tree, &count);
-
     picture->names.count = 0;
-    for (int i = 0; i < count; i++) {
-        const Point at = node_name(panel, nodes[i]), ring = node_at(panel, nodes[i]);
-        const int letters = text_width(graph_node(picture->graph, nodes[i])->name);
+    for (int i = 0; i < panel->node_count; i++) {
+        const int node = panel->nodes[i];
+        const Point at = node_name(panel, node), ring = node_at(panel, node);
+        const Point half = half_of(picture, panel, node);
+        const int letters = text_width(graph_node(panel->graph, node)->name);
+
+        LIST_PUSH(picture->names, ((Point){ring.x - half.x, ring.y - half.y}));
+        LIST_PUSH(picture->names, ((Point){ring.x + half.x, ring.y + half.y}));
+        if (half.x > NODE_SIZE) /* its name stands in it */
+            continue;
 
         LIST_PUSH(picture->names, ((Point){at.x, at.y - 0.8 * NODE_TEXT}));
         LIST_PUSH(picture->names, ((Point){at.x + 0.6 * NODE_TEXT * letters, at.y}));
-        LIST_PUSH(picture->names, ((Point){ring.x - NODE_SIZE, ring.y - NODE_SIZE}));
-        LIST_PUSH(picture->names, ((Point){ring.x + NODE_SIZE, ring.y + NODE_SIZE}));
     }
 }
 
 /* --- edges and nodes on paper --- */
 
+/* from its box to where it attaches, or back: the way that its motion or voltage goes */
+static void draw_port(GraphPicture *picture, const Panel *panel, int e)
+{
+    const Edge *edge = graph_edge(panel->graph, e);
+    const TerminalPort *port = black_boxes_port(&picture->boxes, e);
+    const Domain domain = black_boxes_domain(&picture->boxes, e);
+    const char *color = picture_color((int)domain);
+    const Ink head = {.stroke = color, .width = 1.4};
+    const Point pin = black_boxes_pin(&picture->boxes, e, node_at(panel, edge->tail));
+    const Point node = node_at(panel, edge->head);
+    const double length = fmax(hypot(node.x - pin.x, node.y - pin.y), 1e-6);
+    const Point along = {(node.x - pin.x) / length, (node.y - pin.y) / length};
+    const Point from = {pin.x + 4 * along.x, pin.y + 4 * along.y}; /* beside its dot */
+    const Point to = {node.x - (NODE_SIZE + 1) * along.x, node.y - (NODE_SIZE + 1) * along.y};
+    const Point foot = {12 * along.x, 12 * along.y};
+    Text name = {0};
+
+    text_addf(&name, "%s.%s", graph_node(panel->graph, edge->tail)->name, edge->name);
+    picture_of(picture->out, "port", name.at);
+    picture_line(picture->out, (Ink){.stroke = color, .width = 1.2, .dash = dashes[domain]},
+                 (Point[]){from, to}, 2);
+    if (port->gives)
+        picture_arrow(picture->out, head, (Point){to.x - foot.x, to.y - foot.y}, to);
+    if (port->takes)
+        picture_arrow(picture->out, head, (Point){from.x + foot.x, from.y + foot.y}, from);
+    text_free(&name);
+}
+
 static void draw_edge(GraphPicture *picture, const Panel *panel, int e)
 {
-    const Edge *edge = graph_edge(picture->graph, e);
-    const bool branch = tree_has(panel->tree, e);
+    const Edge *edge = graph_edge(panel->graph, e);
+    const bool branch = panel->tree != NULL && tree_has(panel->tree, e);
     const bool lit = picture->lit != LIT_NOTHING && edge_is_lit(picture, panel->tree, e);
     const bool soft = picture->lit != LIT_NOTHING && !lit;
-    const char *color = soft ? SOFT : picture_color((int)edge->domain);
-    const Ink ink = {.stroke = color, .width = branch ? 3.4 : 1.2, .dash = dashes[edge->domain]};
+    const Domain domain =
+        panel->tree != NULL ? edge->domain : black_boxes_domain(&picture->boxes, e);
+    const char *color = soft ? SOFT : picture_color((int)domain);
+    const Ink ink = {.stroke = color, .width = branch ? 3.4 : 1.2, .dash = dashes[domain]};
     Point curve[BEND + 1];
     int last = BEND;
 
     find_curve(picture, panel, e, curve);
-    picture_of(picture->out, branch ? "branch" : "chord", edge->name);
+    picture_of(picture->out,
+               panel->tree == NULL ? "outside"
+               : branch            ? "branch"
+                                   : "chord",
+               edge->name);
     if (lit)
         picture_line(picture->out, (Ink){.stroke = GLOW, .width = 10}, curve, BEND + 1);
 
@@ -341,29 +424,29 @@ static void draw_edge(GraphPicture *picture, const Panel *panel, int e)
 
 static void draw_nodes(GraphPicture *picture, const Panel *panel)
 {
-    int count;
-    const int *nodes = tree_nodes(panel->tree, &count);
-
-    for (int i = 0; i < count; i++) {
-        const Node *node = graph_node(picture->graph, nodes[i]);
-        const Point at = node_at(panel, nodes[i]);
+    for (int i = 0; i < panel->node_count; i++) {
+        const Node *node = graph_node(panel->graph, panel->nodes[i]);
+        const Point at = node_at(panel, panel->nodes[i]);
         const Ink ring = {.stroke = "#222222", .fill = "#ffffff", .width = 1.5};
 
+        if (panel->tree == NULL && panel->nodes[i] >= picture->boxes.first) {
+            black_boxes_draw(&picture->boxes, picture->view, panel->nodes[i], at, picture->out);
+            continue;
+        }
         picture_of(picture->out, "node", node->name);
         picture_circle(picture->out, ring, at, NODE_SIZE);
         if (node->datum)
             picture_circle(picture->out, (Ink){.fill = "#222222"}, at, NODE_SIZE - 3);
-        picture_text(picture->out, "#222222", node_name(panel, nodes[i]), NODE_TEXT, ANCHOR_START,
-                     node->name);
+        picture_text(picture->out, "#222222", node_name(panel, panel->nodes[i]), NODE_TEXT,
+                     ANCHOR_START, node->name);
     }
 }
 
 static void draw_panel(GraphPicture *picture, const Panel *panel)
 {
-    const TreeKind kind = tree_kind(panel->tree);
     Text caption = {0};
 
-    text_addf(&caption, "%s tree", panel->caption);
+    text_addf(&caption, "%s%s", panel->caption, panel->tree != NULL ? " tree" : "");
     picture_of(picture->out, "caption", panel->caption);
     picture_text(picture->out, "#222222", (Point){panel->corner.x + 16, panel->corner.y - 10}, 15,
                  ANCHOR_START, caption.at);
@@ -371,10 +454,13 @@ static void draw_panel(GraphPicture *picture, const Panel *panel)
 
     keep_node_names(picture, panel);
     /* chords first: branches lie over them */
-    for (int pass = 0; pass < 2; pass++)
-        for (int e = 0; e < graph_edge_count(picture->graph); e++)
-            if (graph_edge_in(picture->graph, e, kind) && tree_has(panel->tree, e) == (pass == 1))
+    for (int pass = 0; pass < 2 && panel->tree != NULL; pass++)
+        for (int e = 0; e < graph_edge_count(panel->graph); e++)
+            if (graph_edge_in(panel->graph, e, panel->kind) &&
+                tree_has(panel->tree, e) == (pass == 1))
                 draw_edge(picture, panel, e);
+    for (int e = 0; e < graph_edge_count(panel->graph) && panel->tree == NULL; e++)
+        (black_boxes_port(&picture->boxes, e) != NULL ? draw_port : draw_edge)(picture, panel, e);
     draw_nodes(picture, panel);
 }
 
@@ -400,10 +486,19 @@ static void draw_legend(GraphPicture *picture)
     if (picture->lit != LIT_NOTHING)
         x = put_legend(picture, x, (Ink){.stroke = GLOW, .width = 10},
                        picture->lit == LIT_CIRCUIT ? "circuit" : "cutset");
+    if (picture->boxes.graph != NULL) {
+        picture_arrow(picture->out, (Ink){.stroke = dark, .width = 1.4},
+                      (Point){x, picture->out->height - 16},
+                      (Point){x + 34, picture->out->height - 16});
+        x = put_legend(picture, x, (Ink){.stroke = dark, .width = 1.2},
+                       "way of a port's motion or voltage");
+    }
     for (int i = 0; i < picture->count; i++) {
-        const Domain domain = tree_kind_domain(tree_kind(picture->panels[i].tree));
+        const Domain domain = tree_kind_domain(picture->panels[i].kind);
 
-        if (i > 0 && tree_kind_domain(tree_kind(picture->panels[i - 1].tree)) == domain)
+        if (picture->panels[i].tree == NULL ||
+            (i > 0 && picture->panels[i - 1].tree != NULL &&
+             tree_kind_domain(picture->panels[i - 1].kind) == domain))
             continue;
         x = put_legend(
             picture, x,
@@ -435,7 +530,8 @@ Status graph_picture(const View *view, double widest, Lit lit, const char *edge,
     draw_legend(&picture);
 done:
     LIST_FREE(picture.names);
-    for (int k = 0; k < TREE_KINDS; k++)
-        mem_free(picture.places[k]);
+    black_boxes_free(&picture.boxes);
+    for (int i = 0; i <= TREE_KINDS; i++)
+        mem_free(picture.places[i]);
     return status;
 }

@@ -1,6 +1,8 @@
 libcore_la_SOURCES += \
   lib/present/abbreviate.c \
   lib/present/abbreviate.h \
+  lib/present/black_boxes.c \
+  lib/present/black_boxes.h \
   lib/present/chart.c \
   lib/present/chart.h \
   lib/present/complete.c \

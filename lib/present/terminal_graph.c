@@ -91,15 +91,12 @@ static int datum_of(const Graph *graph, Domain domain)
 }
 
 /* One edge for the trees where the way enters at the same node; a mixed port has two. */
-static void add_port(Collapse *c, int use, const char *name, int node)
+static void add_port_edges(Collapse *c, int use, const char *name, int node,
+                           const int entries[TREE_KINDS])
 {
     const Domain domain = graph_node(c->graph, node)->domain;
-    int entries[TREE_KINDS], made = -1;
+    int made = -1;
 
-    for (int k = 0; k < TREE_KINDS; k++)
-        entries[k] = c->trees[k] != NULL && tree_kind_domain((TreeKind)k) == domain
-                         ? entry_of(c, c->trees[k], use, node)
-                         : -1;
     for (int k = 0; k < TREE_KINDS; k++) {
         const bool is_second = k == TREE_ROTATION && made >= 0;
         Edge edge = {
@@ -127,6 +124,25 @@ static void add_port(Collapse *c, int use, const char *name, int node)
     }
 }
 
+/* `edge` is called leg1.B where `name` is B */
+static void add_port(Collapse *c, int use, const char *name, const char *edge, int node)
+{
+    const Node *at = graph_node(c->graph, node);
+    TerminalPort port = {.use = use, .node = c->node_of[node], .name = name};
+    int entries[TREE_KINDS];
+
+    for (int k = 0; k < TREE_KINDS; k++) {
+        const bool is_spanned = c->trees[k] != NULL && tree_kind_domain((TreeKind)k) == at->domain;
+
+        entries[k] = is_spanned ? entry_of(c, c->trees[k], use, node) : -1;
+        port.gives |= entries[k] >= 0;
+        port.takes |= is_spanned && entries[k] < 0;
+    }
+    LIST_PUSH(c->out->ports, port);
+    if (!at->datum)
+        add_port_edges(c, use, edge, node, entries);
+}
+
 static void add_ports(Collapse *c)
 {
     for (int u = 0; u < model_use_count(c->model); u++) {
@@ -141,8 +157,8 @@ static void add_ports(Collapse *c)
             node = graph_find_node(c->graph, name.at);
             if (node < 0 && use->bound != NULL && use->bound[p] != NULL)
                 node = graph_find_node(c->graph, use->bound[p]);
-            if (node >= 0 && !graph_node(c->graph, node)->datum)
-                add_port(c, u, name.at, node);
+            if (node >= 0)
+                add_port(c, u, port->name, name.at, node);
             text_free(&name);
         }
     }
@@ -181,4 +197,5 @@ void terminal_graph_free(TerminalGraph *terminal)
         tree_free(terminal->trees[k]);
     graph_free(terminal->graph);
     LIST_FREE(terminal->of);
+    LIST_FREE(terminal->ports);
 }

@@ -10,10 +10,18 @@
 #include "graph/tree.h"
 #include "model/model.h"
 
+typedef struct TerminalPort {
+    int use, node;    /* of the new graph; a datum too */
+    const char *name; /* "B"; the model's */
+    bool gives;       /* its motion or voltage comes from the inside, */
+    bool takes;       /* from outside; of a frame the place can do one and the attitude the other */
+} TerminalPort;
+
 typedef struct TerminalGraph {
     Graph *graph;
     Tree *trees[TREE_KINDS]; /* NULL: no edge is of that kind */
     LIST(int) of;            /* by edge: the model's edge, or -1 - use of a port */
+    LIST(TerminalPort) ports;
 } TerminalGraph;
 
 /* Fill what is zeroed; terminal_graph_free() in any case. Fails as model_trees() does. */

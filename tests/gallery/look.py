@@ -365,14 +365,59 @@ def circuit():
     need(lit == {"h10", "s11", "r7", "r6", "h9", "r5", "r4", "h8"}, str(sorted(lit)))
 
 
+def between(line, a, b):
+    """the line joins the two, up to the sizes of a ring and of a port's dot"""
+    return min(math.dist(line[0], a) + math.dist(line[-1], b),
+               math.dist(line[0], b) + math.dist(line[-1], a)) < 14
+
+
 def ports():
-    """collapsed an instance is the edges of its ports; open there is all that is inside"""
+    """collapsed an instance is a box with its ports at its border, and the edges of its ports in
+    the trees; open there is all that is inside"""
     nodes = {}
     for name in ("collapsed", "open"):
         sheet = Sheet(name + ".svg")
         nodes[name] = {g.find("{*}title").text for g in sheet.groups if g.get("class") == "node"}
     need("node p.b" not in nodes["collapsed"] and "node p.b" in nodes["open"], str(nodes))
-    need(nodes["collapsed"] < nodes["open"] or len(nodes["collapsed"]) < len(nodes["open"]), str(nodes))
+    need(len(nodes["collapsed"]) < len(nodes["open"]), str(nodes))
+    need("instance" not in {g.get("class") for g in sheet.groups}, "open there is a box")
+
+    sheet = Sheet("collapsed.svg")
+    rings = {}  # those of the first panel stand first
+    for g in sheet.groups:
+        circles = [e for e in g if local(e) == "circle"]
+        if g.get("class") == "node":
+            rings.setdefault(g.find("{*}title").text.split()[1],
+                             (float(circles[0].get("cx")), float(circles[0].get("cy"))))
+    pins = {}
+    for box_of in ("p", "q"):
+        (group,) = sheet.find("instance " + box_of)
+        corners = sheet.points("instance " + box_of, "polygon")
+        low, high = [[f(c[i] for c in corners) for i in (0, 1)] for f in (min, max)]
+        dots = [(float(e.get("cx")), float(e.get("cy"))) for e in group if local(e) == "circle"]
+        words = ["".join(e.itertext()) for e in group if local(e) == "text"]
+        need(words == [box_of, "A", "B", "supply"], str(words))
+        pins.update({f"{box_of}.{word}": dot for word, dot in zip(words[1:], dots)})
+        for x, y in dots:
+            at_side = x in (low[0], high[0]) and low[1] < y < high[1]
+            need(at_side or (y in (low[1], high[1]) and low[0] < x < high[0]), f"{x}, {y}")
+        for e in group:
+            if local(e) == "text":
+                at = float(e.get("x")), float(e.get("y"))
+                need(all(low[i] < at[i] < high[i] for i in (0, 1)), f"{at} is outside")
+        for node, (x, y) in rings.items():
+            need(not (low[0] < x < high[0] and low[1] < y < high[1]), f"{node} is in {box_of}")
+    # who gives the motion or voltage: the chain of bodies hands it on from ground to the end
+    for port, node, gives in (("p.A", "ground", False), ("p.B", "p.B", True), ("p.supply", "v", False),
+                              ("q.A", "p.B", False), ("q.B", "q.B", True), ("q.supply", "v", False)):
+        line = sheet.points("port " + port, "polyline")
+        need(between(line, pins[port], rings[node]), f"{port} isn't joined to {node}")
+        tip = sheet.points("port " + port, "polygon")[0]
+        to_node = math.dist(tip, rings[node]) < math.dist(tip, pins[port])
+        need(to_node == gives, f"the arrow of {port}")
+    outside = {g.find("{*}title").text for g in sheet.groups if g.get("class") == "outside"}
+    need(outside == {"outside V", "outside c", "outside h3"}, str(outside))
+    apart(sheet.boxes("instance", "node"))
 
 
 def characters():

@@ -11,6 +11,8 @@ echo '--- drawn'
 cotree -q robot.ct -e 'draw collapsed; draw collapsed > "box.svg"; draw circuit h11 collapsed > "lit.svg"'
 grep -c 'leg[123]\.B' box.svg
 grep -c 'leg[123]\.th1' box.svg
+cotree -q robot.ct -e 'draw collapsed > "box.dot"'
+grep '^  u' box.dot
 cotree -q robot.ct -e 'draw open' | grep -c 'leg[123]\.th1'
 echo '--- a way from ground through the inside, and a leg that hangs on another'
 cat >chain.ct <<'END'
