@@ -69,7 +69,8 @@ const Component component_force = {
     .param_count = COUNT(force_params),
     .wrench = force_wrench,
     .help = "A force on the origin of a frame, components in ground axes or, with in=body, in "
-            "those of the frame. Each component may use t, parameters and other variables.",
+            "those of the frame. Each component may use t, parameters and other variables; "
+            "a multiple of an acceleration, as in 3 - 2*m1.x'', is inertia, 2 kg here.",
     .example = "scene planar\nbody m1 mass=2 inertia=0.1\nforce F1 m1 [3*sin(2*t), -m1.vy]\n"
                "simulate 1\nprint m1.x",
     .see = "torque gravity actuator",

@@ -85,6 +85,10 @@ family_edits_SOURCES = tests/family/family_edits.c tests/family/family.h tests/r
 	tests/unit/session_kit.h tests/unit/test.h
 family_edits_LDADD = libcotree.la $(unit_ldadd)
 
+FAMILIES += family_inertial_laws
+family_inertial_laws_SOURCES = tests/family/family_inertial_laws.c tests/family/family.h \
+	tests/family/script.h
+family_inertial_laws_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_walls
 family_walls_SOURCES = tests/family/family_walls.c tests/family/family.h tests/family/script.h
 family_walls_LDADD = libcotree.la $(unit_ldadd)

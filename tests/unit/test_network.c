@@ -162,6 +162,75 @@ static void a_network_may_read_accelerations(void)
     kit_free(&kit);
 }
 
+/* m a = 3 - 2 a moves as if the mass were 2 kg more: p = t^2/2 of 1 kg */
+static void laws_may_hold_accelerations(void)
+{
+    static const char *const scenes[] = {"scene planar\nbody m mass=1 inertia=0.1\n",
+                                         "scene spatial\nbody m mass=1 inertia=[0.1, 0.1, 0.1]\n"};
+    static const char *const laws[] = {"force F m [-2*p'' + 3, 0%s]\n",
+                                       "force F m [3 - m.x'' - p'', 0%s]\n",
+                                       "output a = -2*p''\nforce F m [a + 3, 0%s]\n",
+                                       "arm e ground [-1, 0%s]\nactuator F e m force=3 - 2*p''\n"};
+    static const char *const trees[] = {"joint", "absolute"};
+
+    for (int i = 0; i < COUNT(scenes) * COUNT(laws) * COUNT(trees); i++) {
+        const int spatial = i % COUNT(scenes);
+        const bool joint = i / 2 / COUNT(laws) == 0;
+        char law[120], text[400];
+        Kit kit;
+
+        /* off the joint, the line doesn't push along what the law reads */
+        if (!joint && i / 2 % COUNT(laws) == COUNT(laws) - 1)
+            continue;
+        kit = kit_new();
+        (void)snprintf(law, sizeof law, laws[i / 2 % COUNT(laws)], spatial ? ", 0" : "");
+        (void)snprintf(text, sizeof text,
+                       "%sprismatic p ground m axis=x\n%stree %s\nshow equations\n",
+                       scenes[spatial], law, trees[!joint]);
+        EXPECT_DONE(&kit, text);
+        EXPECT_HOLDS(kit.text, joint ? "p'' = 3" : "3*m.x''");
+        EXPECT_DONE(&kit, "simulate 1 rtol=1e-9\nexpect p ~ 0.5 within 1e-8\n"
+                          "expect p'' ~ 1 within 1e-9\nexpect p.fx ~ 0 within 1e-9\n");
+        kit_free(&kit);
+    }
+}
+
+#define TWO_SLIDERS                                                                                \
+    "scene planar\nbody m mass=1 inertia=0.1\nbody n mass=1 inertia=0.1\n"                         \
+    "prismatic p ground m axis=x\nprismatic h ground n axis=x\nforce G n [cos(t), 0]\n"
+
+static void laws_that_are_no_inertia_are_refused(void)
+{
+    static const char *const cases[][2] = {
+        {"force F m [3 - 2*p''^2, 0]\n", "F pushes with more than a multiple of an acceleration"},
+        {"force F m [3 - h'', 0]\n",
+         "F passes the acceleration of one of p' and h' on to the other one way only"},
+        {"force F m [3 - c*h'', 0]\nforce H n [-d*p'', 0]\n",
+         "F passes the acceleration of one of p' and h' on to the other one way only"},
+        {"force F m [0.1*p.fy, 0]\n", "the law of F reads what follows from all forces"},
+    };
+
+    for (int i = 0; i < COUNT(cases); i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, "c = 0.2\nd = 0.2\n" TWO_SLIDERS);
+        EXPECT_DONE(&kit, cases[i][0]);
+        EXPECT_FAILS(&kit, "simulate 1\n", cases[i][1]);
+        kit_free(&kit);
+    }
+}
+
+/* the way out that is told */
+static void a_network_hands_an_acceleration_on_one_way(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, TWO_SLIDERS "vsource S a 0 n.ax\nresistor R a 0 1\n"
+                                  "force F m [3 - 0.5*R.i, 0]\nsimulate 1 rtol=1e-9\n"
+                                  "expect p ~ 1.5 - 0.5*(1 - cos(1)) within 1e-8\n");
+    kit_free(&kit);
+}
+
 /* the op-amp holds the capacitor at the source: out = -R C E', and the start follows E(0) */
 static void an_equation_without_unknowns_is_differentiated(void)
 {
@@ -372,6 +441,9 @@ int main(void)
     RUN(large_stiff_networks_are_solved_sparse);
     RUN(algebraic_unknowns_are_solved_with_the_states);
     RUN(a_network_may_read_accelerations);
+    RUN(laws_may_hold_accelerations);
+    RUN(laws_that_are_no_inertia_are_refused);
+    RUN(a_network_hands_an_acceleration_on_one_way);
     RUN(an_equation_without_unknowns_is_differentiated);
     RUN(a_start_at_rest_is_that_of_the_states);
     RUN(a_sampled_gain_holds_its_output);

@@ -7,6 +7,7 @@
 #include "formulate/dynamics/composite.h"
 #include "formulate/dynamics/composite_mass.h"
 #include "formulate/dynamics/efforts.h"
+#include "formulate/dynamics/laws.h"
 #include "formulate/dynamics/loads.h"
 #include "formulate/dynamics/shapes.h"
 #include "formulate/kinematics/alike.h"
@@ -385,78 +386,85 @@ done:
     return status;
 }
 
-/* An effort that holds u' pushes with inertia: of a flywheel on a shaft's end, of the liquid before
- * a cylinder. Its slope belongs into M, and what it is at u' = 0 into F. */
-Status effort_inertia(const System *system, const Effort *effort, int speed, Expr *out, Diag *diag)
-{
-    Expr slope = expr_diff(system->arena, effort->value, system->kinematics->accelerations[speed]);
-
-    if ((expr_kinds(slope) & 1U << SYMBOL_ACCELERATION) != 0)
-        return diag_set(diag, E_MODEL, "%s pushes with more than a multiple of an acceleration",
-                        effort->instance->name);
-    *out = expr_neg(system->arena, slope);
-    return OK;
-}
-
-Expr effort_at_rest(const System *system, const Effort *effort)
-{
-    int n = system->kinematics->u.count;
-    Expr *zeros;
-    Expr value = effort->value;
-
-    if ((expr_kinds(value) & 1U << SYMBOL_ACCELERATION) == 0)
-        return value;
-    zeros = NEW_ARRAY(Expr, n);
-    for (int j = 0; j < n; j++)
-        zeros[j] = expr_int(system->arena, 0);
-    value = expr_substitute(system->arena, value, system->kinematics->accelerations, zeros, n);
-    mem_free(zeros);
-    return value;
-}
-
 static Status add_inertia(System *system, const Effort *effort, Diag *diag)
 {
     Arena *arena = system->arena;
     int n = system->kinematics->u.count;
 
-    for (int k = 0; (expr_kinds(effort->value) & 1U << SYMBOL_ACCELERATION) != 0 && k < n; k++) {
-        Expr inertia = NULL;
+    for (int k = 0; law_is_inertial(effort->value) && k < n; k++) {
+        Expr slope = effort->value;
 
-        TRY(effort_inertia(system, effort, k, &inertia, diag));
-        for (int j = 0; j < n && !expr_is_zero(inertia); j++)
-            add_share(system, j, k,
-                      expr_mul(arena, speed_partial(system, effort->displacement, j), inertia));
+        TRY(law_take(system, effort->instance, k, &slope, diag));
+        for (int j = 0; j < n && !expr_is_zero(slope); j++)
+            add_share(
+                system, j, k,
+                expr_neg(arena,
+                         expr_mul(arena, speed_partial(system, effort->displacement, j), slope)));
     }
     return OK;
 }
 
-static bool is_same_number(Expr a, Expr b)
+enum { MOST_SAMPLES = 8, ENOUGH_SAMPLES = 2 }; /* laws may be undefined at some */
+
+/* whether M(j, k) is M(k, j), as far as rounding of what the two speeds move lets tell */
+static bool is_symmetric(const System *system, Sample *const *samples, int j, int k)
 {
-    bool same = a == b;
+    const Expr *mass = system->run.mass;
+    const int n = system->kinematics->u.count;
+    const Expr a = mass[j * n + k], b = mass[k * n + j];
+    int told = a == b ? ENOUGH_SAMPLES : 0;
 
-    for (uint32_t seed = 1; !same && seed <= 2; seed++) {
-        double x = expr_value_somewhere(a, seed);
-        double y = expr_value_somewhere(b, seed);
+    for (int i = 0; i < MOST_SAMPLES && told < ENOUGH_SAMPLES; i++) {
+        const double off = sample_number(samples[i], a) - sample_number(samples[i], b);
+        const double size =
+            sample_number(samples[i], mass[j * n + j]) * sample_number(samples[i], mass[k * n + k]);
 
-        if (!(fabs(x - y) <= 1e-9 * (fabs(x) + fabs(y))))
+        if (fabs(off) > 1e-9 * sqrt(fabs(size)))
             return false;
+        told += !isnan(off) && !isnan(size);
     }
-    return true;
+    return told >= ENOUGH_SAMPLES;
 }
 
-/* a network that hands on accelerations one way only would make M unsymmetric */
+/* a part whose law holds one of two entries of u' */
+static const char *pusher_that_reads(System *system, int j, int k)
+{
+    const Expr *u_dot = system->kinematics->accelerations;
+    Pusher pusher;
+
+    for (int next = 0; system_pusher(system, &next, &pusher);)
+        for (int i = 0; i < pusher.count; i++)
+            if (!expr_is_zero(expr_diff(system->arena, pusher.value[i], u_dot[j])) ||
+                !expr_is_zero(expr_diff(system->arena, pusher.value[i], u_dot[k])))
+                return pusher.name;
+    return "a load";
+}
+
+/* a law that hands on accelerations one way only would make M unsymmetric */
 static Status check_symmetry(System *system, Diag *diag)
 {
     int n = system->kinematics->u.count;
+    Sample *samples[MOST_SAMPLES];
 
+    for (int i = 0; i < MOST_SAMPLES; i++) {
+        samples[i] = sample_new(system, 3 + (uint64_t)i, true);
+        sample_keep_data(samples[i]);
+        samples[i]->others = 1 + (uint32_t)i;
+    }
     for (int j = 0; j < n; j++)
         for (int k = 0; k < j; k++)
-            if (!is_same_number(system->run.mass[j * n + k], system->run.mass[k * n + j])) {
+            if (!is_symmetric(system, samples, j, k)) {
                 (void)diag_set(diag, E_MODEL,
-                               "the network passes the acceleration of one of %s and %s on to "
-                               "the other one way only",
-                               system->kinematics->u.at[k].name, system->kinematics->u.at[j].name);
-                diag_hint(diag, "put a compliance between: a shaft or a rod with k=");
+                               "%s passes the acceleration of one of %s and %s on to the other one "
+                               "way only",
+                               pusher_that_reads(system, j, k), system->kinematics->u.at[k].name,
+                               system->kinematics->u.at[j].name);
+                diag_hint(
+                    diag,
+                    "as inertia the law has to push along what it reads, which trees of "
+                    "joints see best ('tree joint'); else put a compliance between, as a shaft "
+                    "with k=, or let it read the acceleration of a body b through a network: "
+                    "vsource S a 0 b.ax, resistor R a 0 1 and R.i");
                 return E_MODEL;
             }
     return OK;
@@ -486,8 +494,6 @@ Status drive_coordinate(System *system, int drive, Expr *out, Diag *diag)
 
 static Status joint_efforts(System *system, Diag *diag)
 {
-    bool inertia = false;
-
     for (int i = 0; i < system->origin->instance_count; i++) {
         const Instance *instance = &system->origin->instances[i];
         Effort effort;
@@ -497,9 +503,9 @@ static Status joint_efforts(System *system, Diag *diag)
             continue;
         if (instance->row->effort != NULL) {
             TRY(effort_of(system, instance, &effort, diag));
-            add_on_coordinate(system, effort.displacement, effort_at_rest(system, &effort));
             TRY(add_inertia(system, &effort, diag));
-            inertia = inertia || (expr_kinds(effort.value) & 1U << SYMBOL_ACCELERATION) != 0;
+            TRY(law_take(system, instance, TAKE_AT_REST, &effort.value, diag));
+            add_on_coordinate(system, effort.displacement, effort.value);
         }
         if (instance->row->rotor != NULL)
             TRY(add_rotor(system, instance, diag));
@@ -512,27 +518,58 @@ static Status joint_efforts(System *system, Diag *diag)
         if (s != NULL)
             add_on_coordinate(system, s, system->constraints->drives.at[i].effort);
     }
-    if (inertia && system->run.mass == NULL)
+    if (system->dynamics->has_inertial_laws && system->run.mass == NULL)
         TRY(mass_matrix(system));
     if (system->run.mass != NULL)
         take_shares(system);
-    if (inertia)
+    if (system->dynamics->has_inertial_laws)
         TRY(check_symmetry(system, diag));
     return OK;
 }
 
-/* what acts on stations works on shapes */
-static void project_dependent(System *system, const Sums *sums, int speed)
+/* the rows of what hangs beyond each speed; what acts on stations works on shapes */
+static void project(System *system, const Sums *sums, Expr *rows)
 {
     Arena *arena = system->arena;
-    const Dependent *own = &system->kinematics->dependents.at[speed - system->kinematics->u.count];
-    const Expr row = expr_hold(arena, sums_project(system, sums, speed));
+    const int nu = system->kinematics->u.count;
 
-    for (int i = 0; i < own->count; i++) {
-        Expr *force = &system->run.force[own->first + i];
+    for (int j = 0; j < nu; j++)
+        rows[j] = sums_project(system, sums, j);
+    for (int j = nu; j < system->kinematics->speed_count; j++) {
+        const Dependent *own = &system->kinematics->dependents.at[j - nu];
+        const Expr row = expr_hold(arena, sums_project(system, sums, j));
 
-        *force = expr_add(arena, *force, expr_mul(arena, own->factor[i], row));
+        for (int i = 0; i < own->count; i++) {
+            Expr *at = &rows[own->first + i];
+
+            *at = expr_add(arena, *at, expr_mul(arena, own->factor[i], row));
+        }
     }
+    for (int j = 0; j < nu; j++)
+        rows[j] = expr_hold(arena, rows[j]);
+}
+
+/* what laws between frames hold of u' */
+static Status take_inertial_laws(System *system, Diag *diag)
+{
+    const int n = system->kinematics->u.count;
+    Expr *rows = NEW_ARRAY(Expr, n);
+    Status status = OK;
+
+    for (int k = 0; k < n && system->dynamics->has_inertial_laws; k++) {
+        const PoolMark mark = pool_mark(system->pool);
+        Loads loads = loads_new(system);
+
+        CHECK(efforts_add(system, &loads, k, diag));
+        project(system, loads_sum(system, &loads), rows);
+        pool_release(system->pool, mark);
+        for (int j = 0; j < n; j++)
+            add_share(system, j, k, expr_neg(system->arena, rows[j]));
+        CHECK(poll(system->watch));
+    }
+done:
+    mem_free(rows);
+    return status;
 }
 
 static Status check_size(const System *system, Diag *diag)
@@ -550,7 +587,6 @@ Status dynamics_build(System *system, Diag *diag)
 {
     int n = system->kinematics->u.count;
     Loads loads;
-    Sums *sums;
 
     TRY(check_size(system, diag));
     system->run.force = pool_alloc(system->pool, (size_t)n * sizeof(Expr));
@@ -564,14 +600,9 @@ Status dynamics_build(System *system, Diag *diag)
         TRY(mass_matrix(system));
     loads = loads_new(system);
     loads_add_inertia(system, &loads, system->kinematics->alpha0, system->kinematics->a0, NULL);
-    TRY(efforts_add(system, &loads, false, diag));
-    sums = loads_sum(system, &loads);
-    for (int j = 0; j < n; j++)
-        system->run.force[j] = sums_project(system, sums, j);
-    for (int j = n; j < system->kinematics->speed_count; j++)
-        project_dependent(system, sums, j);
-    for (int j = 0; j < n; j++)
-        system->run.force[j] = expr_hold(system->arena, system->run.force[j]);
+    TRY(efforts_add(system, &loads, TAKE_AT_REST, diag));
+    project(system, loads_sum(system, &loads), system->run.force);
+    TRY(take_inertial_laws(system, diag));
     return joint_efforts(system, diag);
 }
 
@@ -585,7 +616,7 @@ Status system_pushes(System *system, Expr *out, Diag *diag)
     system_touch(system);
     mark = pool_mark(system->pool);
     loads = loads_new(system);
-    TRY(efforts_add(system, &loads, false, diag));
+    TRY(efforts_add(system, &loads, TAKE_AT_REST, diag));
     for (int i = 0; i < nodes && none; i++)
         none = vec_is_zero(loads.force[i]) && vec_is_zero(loads.torque[i]);
     for (int j = 0; j < system->kinematics->u.count; j++)
@@ -633,7 +664,7 @@ bool dynamics_lack(System *system, const Expr *acceleration, Expr *out)
     accelerations_build(system, acceleration, alpha, a);
     loads = loads_new(system);
     loads_add_inertia(system, &loads, alpha, a, acceleration);
-    if (efforts_add(system, &loads, false, NULL) == OK) {
+    if (efforts_add(system, &loads, TAKE_AT_REST, NULL) == OK) {
         const Sums *sums = loads_sum(system, &loads);
 
         for (int j = 0; j < nu; j++) {

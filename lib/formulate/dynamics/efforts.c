@@ -1,5 +1,6 @@
 /* efforts.c: what pushes: forces, springs, dampers, actuators, motors */
 #include "formulate/dynamics/efforts.h"
+#include "formulate/dynamics/laws.h"
 #include "formulate/dynamics/loads.h"
 #include "formulate/dynamics/shapes.h"
 #include "formulate/kinematics/coordinate.h"
@@ -11,7 +12,6 @@
 #include "formulate/system/kinematics.h"
 #include "formulate/system/network.h"
 #include "formulate/system/origin.h"
-#include "formulate/system/resolve.h"
 #include "formulate/system/system_impl.h"
 #include "formulate/system/vector.h"
 
@@ -74,7 +74,7 @@ Status effort_of(System *system, const Instance *instance, Effort *out, Diag *di
         TRY(network_across(system, branch, &motion.across, diag));
     }
     effort.value = instance->row->effort(instance, system->arena, &motion);
-    TRY(variables_resolve(system, effort.value, &effort.value, diag));
+    TRY(law_read(system, instance, effort.value, &effort.value, diag));
     *out = effort;
     return OK;
 }
@@ -99,16 +99,18 @@ bool system_line(System *system, int *next, FrameLine *out)
     return false;
 }
 
-Status wrench_of(System *system, const Instance *instance, Vec *force, Vec *torque, int *chain,
-                 Diag *diag)
+Status wrench_of(System *system, const Instance *instance, int take, Vec *force, Vec *torque,
+                 int *chain, Diag *diag)
 {
     bool in_body = false;
 
     instance->row->wrench(instance, system->arena, system->origin->planar, force->at, torque->at,
                           &in_body);
     for (int i = 0; i < 3; i++) {
-        TRY(variables_resolve(system, force->at[i], &force->at[i], diag));
-        TRY(variables_resolve(system, torque->at[i], &torque->at[i], diag));
+        TRY(law_read(system, instance, force->at[i], &force->at[i], diag));
+        TRY(law_read(system, instance, torque->at[i], &torque->at[i], diag));
+        TRY(law_take(system, instance, take, &force->at[i], diag));
+        TRY(law_take(system, instance, take, &torque->at[i], diag));
     }
     *chain = 0;
     if (in_body) {
@@ -127,7 +129,7 @@ static bool find_push(System *system, const Instance *instance, Pusher *out)
 
     *out = (Pusher){.name = instance->name};
     if (instance->row->wrench != NULL &&
-        wrench_of(system, instance, &force, &torque, &chain, NULL) == OK) {
+        wrench_of(system, instance, TAKE_ALL, &force, &torque, &chain, NULL) == OK) {
         out->count = 6;
         memcpy(out->value, force.at, sizeof force.at);
         memcpy(out->value + 3, torque.at, sizeof torque.at);
@@ -190,7 +192,7 @@ void loads_add_effort(System *system, Loads *loads, const Instance *owner, int c
     }
 }
 
-Status efforts_add(System *system, Loads *loads, bool joints, Diag *diag)
+Status efforts_add(System *system, Loads *loads, int take, Diag *diag)
 {
     Arena *arena = system->arena;
 
@@ -202,11 +204,11 @@ Status efforts_add(System *system, Loads *loads, bool joints, Diag *diag)
         int chain;
 
         if (instance->row->wrench != NULL) {
-            TRY(wrench_of(system, instance, &force, &torque, &chain, diag));
+            TRY(wrench_of(system, instance, take, &force, &torque, &chain, diag));
             loads_add_force(system, loads, instance->head, force, chain);
             loads_add_torque(system, loads, instance->head, torque, chain);
         }
-        if (instance->row->effort == NULL || (instance->joint >= 0 && !joints))
+        if (instance->row->effort == NULL || (instance->joint >= 0 && take != TAKE_ALL))
             continue;
         TRY(effort_of(system, instance, &effort, diag));
         if (!effort.is_line) {
@@ -214,12 +216,13 @@ Status efforts_add(System *system, Loads *loads, bool joints, Diag *diag)
                              instance->joint_coordinate, effort.value);
             continue;
         }
+        TRY(law_take(system, instance, take, &effort.value, diag));
         force = vec_hold(arena, vec_scale(arena, expr_hold(arena, effort.value), effort.direction));
         loads_add_force(system, loads, instance->head, force, 0);
         loads_add_force(system, loads, instance->tail, vec_neg(arena, force), 0);
     }
     for (int i = 0; i < system->dynamics->elastics.count; i++)
-        TRY(elastic_add_load(system, &system->dynamics->elastics.at[i], loads, diag));
+        TRY(elastic_add_load(system, &system->dynamics->elastics.at[i], take, loads, diag));
     return OK;
 }
 

@@ -13,19 +13,14 @@ typedef struct Effort {
 } Effort;
 
 MUST_USE Status effort_of(System *system, const Instance *instance, Effort *out, Diag *diag);
-/* what an effort adds to M in the column of a speed, per unit of its coordinate, and what is left
- * of it at u' = 0. E_MODEL where it isn't linear in u'. */
-MUST_USE Status effort_inertia(const System *system, const Effort *effort, int speed, Expr *out,
-                               Diag *diag);
-Expr effort_at_rest(const System *system, const Effort *effort);
 /* Where an inverse run finds the effort of a drive, if that is another coordinate; else NULL. */
 MUST_USE Status drive_coordinate(System *system, int drive, Expr *out, Diag *diag);
 /* wrench of force and torque components: in axes of *chain */
-MUST_USE Status wrench_of(System *system, const Instance *instance, Vec *force, Vec *torque,
-                          int *chain, Diag *diag);
-/* everything that pushes, without inertia and multipliers: springs on joints left out unless
- * `joints` */
-MUST_USE Status efforts_add(System *system, Loads *loads, bool joints, Diag *diag);
+MUST_USE Status wrench_of(System *system, const Instance *instance, int take, Vec *force,
+                          Vec *torque, int *chain, Diag *diag);
+/* everything that pushes, without inertia and multipliers; what pushes on joints' coordinates with
+ * TAKE_ALL alone */
+MUST_USE Status efforts_add(System *system, Loads *loads, int take, Diag *diag);
 /* what a constraint row puts on its two ends: -lambda along its direction */
 void loads_add_row(System *system, Loads *loads, const Row *row, Expr lambda);
 

@@ -1,5 +1,6 @@
 /* energy.c: energies, and the power of sources and losses */
 #include "formulate/dynamics/efforts.h"
+#include "formulate/dynamics/laws.h"
 #include "formulate/dynamics/shapes.h"
 #include "formulate/kinematics/coordinate.h"
 #include "formulate/kinematics/frames.h"
@@ -167,7 +168,7 @@ static void push_wrench(System *system, Terms *terms, const Instance *instance)
     Vec torque;
     int chain;
 
-    if (wrench_of(system, instance, &force, &torque, &chain, NULL) != OK)
+    if (wrench_of(system, instance, TAKE_ALL, &force, &torque, &chain, NULL) != OK)
         return;
     force = vec_express(system, force, chain, resolve_chain);
     torque = vec_express(system, torque, chain, resolve_chain);
@@ -247,7 +248,7 @@ static void push_elastic(System *system, const Elastic *elastic, Terms *terms)
     for (int i = 0; i < part->coord_count - part->pose_count; i++)
         LIST_PUSH(*terms, expr_mul(arena, expr_sub(arena, b->push[i], b->stress[i]),
                                    system->kinematics->u.at[elastic->first + i].symbol));
-    if (elastic_add_load(system, elastic, &loads, NULL) != OK)
+    if (elastic_add_load(system, elastic, TAKE_ALL, &loads, NULL) != OK)
         return;
     LIST_PUSH(*terms, vec_dot(arena, loads.force[node], system->kinematics->frames[node].v));
     LIST_PUSH(*terms, vec_dot(arena, loads.torque[node], system->kinematics->motions[chain].w));

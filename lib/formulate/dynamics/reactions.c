@@ -5,6 +5,7 @@
  * component of a reaction that changes with them, and no other. */
 #include "formulate/dynamics/reactions.h"
 #include "formulate/dynamics/efforts.h"
+#include "formulate/dynamics/laws.h"
 #include "formulate/dynamics/loads.h"
 #include "formulate/kinematics/coordinate.h"
 #include "formulate/kinematics/frames.h"
@@ -60,7 +61,7 @@ Status actual_build(System *system, Diag *diag)
     loads = loads_new(system);
     loads_add_inertia(system, &loads, system->shown->actual_alpha, system->shown->actual_a,
                       system->kinematics->accelerations);
-    TRY(efforts_add(system, &loads, true, diag));
+    TRY(efforts_add(system, &loads, TAKE_ALL, diag));
     TRY(add_rotors(system, &loads, diag));
     for (int k = 0; k < system->constraints->rows.count; k++)
         loads_add_row(system, &loads, &system->constraints->rows.at[k],

@@ -3,6 +3,7 @@
  * What is beyond the cut is in equilibrium with its inertia: weight and load of the beam there, and
  * what its frames there carry, those at the cut among them. */
 #include "formulate/dynamics/sections.h"
+#include "formulate/dynamics/laws.h"
 #include "formulate/dynamics/reactions.h"
 #include "formulate/dynamics/shapes.h"
 #include "formulate/kinematics/frames.h"
@@ -84,7 +85,7 @@ static Status add_beam(System *system, const Instance *part, Expr at, Wrench *to
 
     elastic_add_inertia(system, &beyond, &loads, system->shown->actual_alpha,
                         system->shown->actual_a, system->kinematics->accelerations);
-    TRY(elastic_add_load(system, &beyond, &loads, diag));
+    TRY(elastic_add_load(system, &beyond, TAKE_ALL, &loads, diag));
     to->force =
         vec_add(system->arena, to->force, vec_express(system, loads.force[part->head], axes, root));
     to->moment = vec_add(system->arena, to->moment,

@@ -1,10 +1,10 @@
 /* shapes.c: local blocks of parts that deform */
 #include "formulate/dynamics/shapes.h"
+#include "formulate/dynamics/laws.h"
 #include "formulate/kinematics/frames.h"
 #include "formulate/kinematics/recursive.h"
 #include "formulate/system/dynamics.h"
 #include "formulate/system/origin.h"
-#include "formulate/system/resolve.h"
 #include "formulate/system/system_impl.h"
 #include "formulate/system/vector.h"
 
@@ -171,26 +171,30 @@ void elastic_add_rest(const System *system, const Elastic *elastic, Loads *loads
         put_own(system, elastic, loads, i, expr_sub(system->arena, b->push[i], b->bias[i]), 1);
 }
 
-Status elastic_add_load(System *system, const Elastic *elastic, Loads *loads, Diag *diag)
+Status elastic_add_load(System *system, const Elastic *elastic, int take, Loads *loads, Diag *diag)
 {
+    const Instance *instance = &system->origin->instances[elastic->instance];
     Arena *arena = system->arena;
     const ShapeInertia *b = &elastic->block;
-    const int count = shapes_of(&system->origin->instances[elastic->instance]);
+    const int count = shapes_of(instance);
     const Frame *frame = &system->kinematics->frames[elastic->node];
     const Rotation back = rotation_transpose(&frame->zero);
 
     for (int i = 0; i < count; i++) {
         Expr drive;
 
-        TRY(variables_resolve(system, b->drive[i], &drive, diag));
+        TRY(law_read(system, instance, b->drive[i], &drive, diag));
+        TRY(law_take(system, instance, take, &drive, diag));
         put_own(system, elastic, loads, i, drive, 1);
     }
     for (int p = 0; p < elastic->load_powers; p++) {
         const Vec spread = vector_at(b->spread + (ptrdiff_t)3 * p);
         Vec load = vector_at(b->load + (ptrdiff_t)3 * p);
 
-        for (int k = 0; k < 3; k++)
-            TRY(variables_resolve(system, load.at[k], &load.at[k], diag));
+        for (int k = 0; k < 3; k++) {
+            TRY(law_read(system, instance, load.at[k], &load.at[k], diag));
+            TRY(law_take(system, instance, take, &load.at[k], diag));
+        }
         load = vec_express(system, load, 0, frame->chain);
         load = vec_hold(arena, rotation_apply(arena, &back, load));
         put(system, elastic, loads, vec_scale(arena, b->extent[p], load),

@@ -27,7 +27,8 @@ void elastic_add_inertia(const System *system, const Elastic *elastic, Loads *lo
 /* what is left where nothing accelerates, and what pushes */
 void elastic_add_rest(const System *system, const Elastic *elastic, Loads *loads);
 /* what its load= does */
-MUST_USE Status elastic_add_load(System *system, const Elastic *elastic, Loads *loads, Diag *diag);
+MUST_USE Status elastic_add_load(System *system, const Elastic *elastic, int take, Loads *loads,
+                                 Diag *diag);
 Expr elastic_kinetic(const System *system, const Elastic *elastic);
 /* components in the axes of the root's chain of a vector of its frame */
 Vec elastic_vector(const System *system, const Elastic *elastic, const Expr in_root[3]);

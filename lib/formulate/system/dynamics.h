@@ -23,7 +23,8 @@ typedef struct Dynamics {
     LIST(struct Elastic) elastics;
     bool writes_out;    /* false: entries of M and F are too long, and are shown as definitions */
     LIST(Entry) shares; /* of parts in M, beside what the masses make it */
-    Expr *pushes;       /* in F, of parts on coordinates, one a speed */
+    bool has_inertial_laws; /* some hold u': what is linear in it is among the shares */
+    Expr *pushes;           /* in F, of parts on coordinates, one a speed */
     struct CompositeMass *composite_mass; /* NULL: M is run as it is written */
 } Dynamics;
 

@@ -65,23 +65,13 @@ Sample *sample_new(const System *system, uint64_t seed, bool vary)
     return sample;
 }
 
-static double symbol_value(void *context, Expr symbol)
+void sample_keep_data(Sample *sample)
 {
-    const Sample *sample = context;
-    const System *system = sample->system;
+    const Origin *origin = sample->system->origin;
 
-    if (expr_symbol_number(symbol) < sample->count &&
-        !isnan(sample->value[expr_symbol_number(symbol)]))
-        return sample->value[expr_symbol_number(symbol)];
-    for (int i = 0; i < system->constraints->counted.count; i++)
-        if (system->constraints->counted.at[i].told.symbol == symbol)
-            return 0;
-    return NAN;
-}
-
-double sample_number(Sample *sample, Expr e)
-{
-    return expr_is_number(e) ? expr_value(e) : expr_evaluate(e, symbol_value, sample);
+    for (int i = 0; i < origin->parameters.count; i++)
+        if (expr_name(origin->parameters.at[i].symbol)[0] == '#')
+            put(sample, origin->parameters.at[i].symbol, origin->parameters.at[i].value);
 }
 
 static double some_value(void *context, Expr symbol)
@@ -92,6 +82,25 @@ static double some_value(void *context, Expr symbol)
     x *= 2246822519U;
     x ^= x >> 13;
     return 0.7 + 0.6 * (double)x / 4294967296.0;
+}
+
+static double symbol_value(void *context, Expr symbol)
+{
+    Sample *sample = context;
+    const System *system = sample->system;
+
+    if (expr_symbol_number(symbol) < sample->count &&
+        !isnan(sample->value[expr_symbol_number(symbol)]))
+        return sample->value[expr_symbol_number(symbol)];
+    for (int i = 0; i < system->constraints->counted.count; i++)
+        if (system->constraints->counted.at[i].told.symbol == symbol)
+            return 0;
+    return sample->others != 0 ? some_value(&sample->others, symbol) : NAN;
+}
+
+double sample_number(Sample *sample, Expr e)
+{
+    return expr_is_number(e) ? expr_value(e) : expr_evaluate(e, symbol_value, sample);
 }
 
 double expr_value_somewhere(Expr e, uint32_t seed)

@@ -29,7 +29,7 @@ typedef LIST(Expr) Summands;
 void elastic_mass_terms(const System *system, const Elastic *elastic, int j, int k,
                         Summands *terms);
 void elastic_force_terms(const System *system, const Elastic *elastic, int j, Summands *terms);
-MUST_USE Status elastic_load_terms(System *system, const Elastic *elastic, int j, Summands *terms,
-                                   Diag *diag);
+MUST_USE Status elastic_load_terms(System *system, const Elastic *elastic, int j, int take,
+                                   Summands *terms, Diag *diag);
 
 #endif

@@ -5,6 +5,7 @@
  * factors. v_j and w_j are the velocity and angular velocity of a body per unit of u_j. */
 #include "formulate/written/expanded.h"
 #include "formulate/dynamics/efforts.h"
+#include "formulate/dynamics/laws.h"
 #include "formulate/dynamics/shapes.h"
 #include "formulate/kinematics/coordinate.h"
 #include "formulate/kinematics/frames.h"
@@ -70,20 +71,71 @@ static void push_term(Terms *terms, TermKind kind, int instance, Expr value)
     LIST_PUSH(*terms, (Term){.kind = kind, .edge = -1, .instance = instance, .value = value});
 }
 
-/* what an effort on a joint adds to M */
+/* distance of two frames as a reader would write it */
+static Expr length_shown(const System *system, const Instance *instance)
+{
+    FrameSum way = framesum_way(system, instance->tail, instance->head);
+
+    return expr_sqrt(system->arena, expr_fold(system->arena, framesum_dot(system, way, way)));
+}
+
+static Status push_effort(System *system, const Instance *instance, int j, int take, Terms *terms,
+                          Diag *diag)
+{
+    Arena *arena = system->arena;
+    Effort effort;
+
+    TRY(effort_of(system, instance, &effort, diag));
+    if (effort.is_line) {
+        Expr length = length_shown(system, instance);
+        Motion1 motion = {length, NULL, expr_int(arena, 0), expr_int(arena, 0)};
+
+        TRY(system_rate_of(system, length, &motion.rate, diag));
+        effort.value = instance->row->effort(instance, arena, &motion);
+        TRY(law_read(system, instance, effort.value, &effort.value, diag));
+        effort.displacement = length;
+    }
+    TRY(law_take(system, instance, take, &effort.value, diag));
+    push_term(terms, TERM_EFFORT, instance->number,
+              expr_mul(arena, effort.value, speed_partial(system, effort.displacement, j)));
+    return OK;
+}
+
+static Status push_wrench(System *system, const Instance *instance, int j, int take, Terms *terms,
+                          Diag *diag)
+{
+    int own = system->kinematics->frames[instance->head].chain;
+    Vec force;
+    Vec torque;
+    int chain;
+
+    TRY(wrench_of(system, instance, take, &force, &torque, &chain, diag));
+    push_term(terms, TERM_FORCE, instance->number,
+              framesum_dot(system, framesum_of(system, chain, force),
+                           partial_velocity(system, instance->head, j)));
+    push_term(terms, TERM_TORQUE, instance->number,
+              framesum_dot(system, framesum_of(system, chain, torque),
+                           framesum_of(system, own, partial_turn(system, own, j))));
+    return OK;
+}
+
+/* what a law that holds u' adds to M */
 static Status push_inertia_of(System *system, const Instance *instance, int j, int k, Terms *terms,
                               Diag *diag)
 {
-    Effort effort;
-    Expr inertia;
+    const int first = terms->count;
 
-    if (instance->row->effort == NULL || instance->joint < 0)
+    if (!system->dynamics->has_inertial_laws)
         return OK;
-    TRY(effort_of(system, instance, &effort, diag));
-    TRY(effort_inertia(system, &effort, k, &inertia, diag));
-    if (!expr_is_zero(inertia))
-        push_term(terms, TERM_ROTOR, instance->number,
-                  expr_mul(system->arena, speed_partial(system, effort.displacement, j), inertia));
+    if (instance->row->effort != NULL)
+        TRY(push_effort(system, instance, j, k, terms, diag));
+    if (instance->row->wrench != NULL)
+        TRY(push_wrench(system, instance, j, k, terms, diag));
+    for (int i = first; i < terms->count; i++)
+        terms->at[i] = (Term){.kind = TERM_ROTOR,
+                              .edge = -1,
+                              .instance = instance->number,
+                              .value = expr_neg(system->arena, terms->at[i].value)};
     return OK;
 }
 
@@ -93,6 +145,18 @@ static void push_shapes(System *system, const Elastic *elastic, Summands *summan
     push_term(terms, TERM_SHAPES, elastic->instance,
               expr_sum(system->arena, summands->at, summands->count));
     LIST_FREE(*summands);
+}
+
+/* what the load of a beam adds to M where its law holds u' */
+static Status push_inertial_load(System *system, const Elastic *elastic, int j, int k,
+                                 Summands *terms, Diag *diag)
+{
+    const int first = terms->count;
+    const Status status = elastic_load_terms(system, elastic, j, k, terms, diag);
+
+    for (int i = first; i < terms->count; i++)
+        terms->at[i] = expr_neg(system->arena, terms->at[i]);
+    return status;
 }
 
 static Status mass_terms(System *system, int j, int k, Terms *terms, Diag *diag)
@@ -118,6 +182,8 @@ static Status mass_terms(System *system, int j, int k, Terms *terms, Diag *diag)
         Summands summands = {0};
 
         elastic_mass_terms(system, elastic, j, k, &summands);
+        if (system->dynamics->has_inertial_laws)
+            TRY(push_inertial_load(system, elastic, j, k, &summands, diag));
         push_shapes(system, elastic, &summands, terms);
     }
     for (int i = 0; i < system->origin->instance_count; i++) {
@@ -169,52 +235,6 @@ static void push_inertia(const System *system, int j, bool apart, Terms *terms)
     }
 }
 
-/* distance of two frames as a reader would write it */
-static Expr length_shown(const System *system, const Instance *instance)
-{
-    FrameSum way = framesum_way(system, instance->tail, instance->head);
-
-    return expr_sqrt(system->arena, expr_fold(system->arena, framesum_dot(system, way, way)));
-}
-
-static Status push_effort(System *system, const Instance *instance, int j, Terms *terms, Diag *diag)
-{
-    Arena *arena = system->arena;
-    Effort effort;
-
-    TRY(effort_of(system, instance, &effort, diag));
-    if (effort.is_line) {
-        Expr length = length_shown(system, instance);
-        Motion1 motion = {length, NULL, expr_int(arena, 0), expr_int(arena, 0)};
-
-        TRY(system_rate_of(system, length, &motion.rate, diag));
-        effort.value = instance->row->effort(instance, arena, &motion);
-        TRY(variables_resolve(system, effort.value, &effort.value, diag));
-        effort.displacement = length;
-    }
-    push_term(terms, TERM_EFFORT, instance->number,
-              expr_mul(arena, effort_at_rest(system, &effort),
-                       speed_partial(system, effort.displacement, j)));
-    return OK;
-}
-
-static Status push_wrench(System *system, const Instance *instance, int j, Terms *terms, Diag *diag)
-{
-    int own = system->kinematics->frames[instance->head].chain;
-    Vec force;
-    Vec torque;
-    int chain;
-
-    TRY(wrench_of(system, instance, &force, &torque, &chain, diag));
-    push_term(terms, TERM_FORCE, instance->number,
-              framesum_dot(system, framesum_of(system, chain, force),
-                           partial_velocity(system, instance->head, j)));
-    push_term(terms, TERM_TORQUE, instance->number,
-              framesum_dot(system, framesum_of(system, chain, torque),
-                           framesum_of(system, own, partial_turn(system, own, j))));
-    return OK;
-}
-
 /* what the second rate of `e` is at u' = 0 */
 static Status second_rate_at_rest(System *system, Expr e, Expr *out, Diag *diag)
 {
@@ -247,7 +267,7 @@ static Status push_elastic(System *system, const Elastic *elastic, int j, Terms 
     Status status;
 
     elastic_force_terms(system, elastic, j, &summands);
-    status = elastic_load_terms(system, elastic, j, &summands, diag);
+    status = elastic_load_terms(system, elastic, j, TAKE_AT_REST, &summands, diag);
     push_shapes(system, elastic, &summands, terms);
     return status;
 }
@@ -259,9 +279,9 @@ static Status push_forces(System *system, int j, bool apart, Terms *terms, Diag 
         const Instance *instance = &system->origin->instances[i];
 
         if (instance->row->wrench != NULL)
-            TRY(push_wrench(system, instance, j, terms, diag));
+            TRY(push_wrench(system, instance, j, TAKE_AT_REST, terms, diag));
         if (instance->row->effort != NULL)
-            TRY(push_effort(system, instance, j, terms, diag));
+            TRY(push_effort(system, instance, j, TAKE_AT_REST, terms, diag));
         TRY(push_rotor(system, instance, j, terms, diag));
     }
     for (int i = 0; i < system->dynamics->elastics.count; i++)

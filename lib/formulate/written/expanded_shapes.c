@@ -98,14 +98,14 @@ void elastic_force_terms(const System *system, const Elastic *elastic, int j, Su
     LIST_PUSH(*terms, expr_sub(arena, b->push[own], b->bias[own]));
 }
 
-Status elastic_load_terms(System *system, const Elastic *elastic, int j, Summands *terms,
+Status elastic_load_terms(System *system, const Elastic *elastic, int j, int take, Summands *terms,
                           Diag *diag)
 {
     const int node = elastic->node, chain = system->kinematics->frames[node].chain;
     const int resolve = system->kinematics->chains.at[chain].resolve;
     Loads loads = loads_new(system);
 
-    TRY(elastic_add_load(system, elastic, &loads, diag));
+    TRY(elastic_add_load(system, elastic, take, &loads, diag));
     LIST_PUSH(*terms, framesum_dot(system, framesum_of(system, resolve, loads.force[node]),
                                    partial_velocity(system, node, j)));
     LIST_PUSH(*terms, framesum_dot(system, framesum_of(system, resolve, loads.torque[node]),
