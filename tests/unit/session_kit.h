@@ -284,13 +284,6 @@ UNUSED static void kit_expect_refused(const Refusal *wrong)
     "revolute h ground p\n"                                                                        \
     "init h = 60 deg, h' = 0\n"
 
-/* the lines fail, with this in the message */
-#define EXPECT_FAILS(kit, lines, part)                                                             \
-    do {                                                                                           \
-        EXPECT(kit_do(kit, lines) != CT_OK);                                                       \
-        EXPECT_HOLDS((kit)->error.message, part);                                                  \
-    } while (0)
-
 /* the text of a drawing in a format; new, ct_free() */
 UNUSED static ct_status kit_draw(Kit *kit, const char *line, const char *format, char **out)
 {

@@ -235,6 +235,16 @@ static void sampled_control_moves_a_mass_in_parabolas(void)
     kit_free(&kit);
 }
 
+static void nobody_waits_for_endless_samples(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "gain c1 a 0 of=2 k=1 period=1e-300\nresistor R1 a 0 5\n");
+    EXPECT_FAILS(&kit, "simulate 1\n", "would be sampled 1e+300 times in 1 s");
+    EXPECT_DONE(&kit, "set c1.period = 0.01\nsimulate 1\n");
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(blocks_of_signals_answer_a_step);
@@ -250,5 +260,6 @@ int main(void)
     RUN(sampled_controllers_take_differences);
     RUN(sampled_transfer_function_goes_by_the_trapezoidal_rule);
     RUN(sampled_control_moves_a_mass_in_parabolas);
+    RUN(nobody_waits_for_endless_samples);
     return test_end();
 }

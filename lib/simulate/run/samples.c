@@ -5,7 +5,8 @@
 
 #include <math.h>
 
-#define SAME 1e-9 /* of a period: instants nearer than that are one */
+#define MOST_SAMPLES 1e9  /* of a run: they alone take minutes */
+#define SAME         1e-9 /* of a period: instants nearer than that are one */
 
 typedef struct SampledState {
     int state; /* in x */
@@ -80,6 +81,22 @@ void samples_free(Samples *s)
         return;
     probe_free(s->next);
     MEM_FREE(s->at, s);
+}
+
+Status samples_check(const Samples *s, double duration, Diag *diag)
+{
+    for (int i = 0; s != NULL && i < s->count; i++) {
+        const SampledState *sample = &s->at[i];
+
+        if (duration / sample->period <= MOST_SAMPLES)
+            continue;
+        (void)diag_set(diag, E_VALUE, "%s would be sampled %.3g times in %g s",
+                       system_x(s->layout->system, sample->state)->name, duration / sample->period,
+                       duration);
+        diag_hint(diag, "period= is far too short for that run");
+        return E_VALUE;
+    }
+    return OK;
 }
 
 double samples_next(const Samples *s, double t)

@@ -16,6 +16,9 @@ typedef struct Samples Samples;
 MUST_USE Status samples_new(const Layout *layout, Parameters *parameters, Motion *motion,
                             Host *host, Samples **out, Diag *diag);
 void samples_free(Samples *samples); /* NULL is fine, here and below */
+/* Refuse a run of that duration in which something would be sampled more often than anybody waits
+ * for: E_VALUE. */
+MUST_USE Status samples_check(const Samples *samples, double duration, Diag *diag);
 /* the first instant behind t, of all of them; INFINITY: there is none */
 double samples_next(const Samples *samples, double t);
 /* Replace what is due at t in y = (q, u, x, ..). *due: something was. E_SOLVER where the equations

@@ -353,6 +353,7 @@ static Status go(ActiveRun *r, const Setting *setting, const RunOptions *given, 
     CHECK(method_in_time(&options, &method, diag));
     report(setting->watch, "compiling", -1);
     CHECK(active_run_prepare(r, diag));
+    CHECK(samples_check(r->phase->samples, options.duration, diag));
     phases_tolerance(r->phases, options.atol);
     plan = plan_of(r, setting, &options, method, r->events);
     plan.asks = given->rtol > 0 || given->atol > 0;
@@ -468,14 +469,11 @@ done:
 static Status check_driven(const ActiveRun *r, Diag *diag)
 {
     int left = r->phase->layout->nu - r->result->start.row_count;
-    int drivers = 0;
 
-    for (int k = 0; k < r->phase->layout->m; k++)
-        drivers += system_constraint(r->system, k)->is_driver;
     if (left == 0)
         return OK;
-    (void)diag_set(diag, E_MODEL, "%d freedom%s left: %d driver%s %d more", left,
-                   left == 1 ? " is" : "s are", drivers, drivers == 1 ? " wants" : "s want", left);
+    (void)diag_set(diag, E_MODEL, "%d freedom%s left that no driver moves", left,
+                   left == 1 ? " is" : "s are");
     diag_hint(diag, "add a driver for each, or use `simulate`");
     return E_MODEL;
 }
