@@ -272,11 +272,11 @@ static double random_value(void *context, Expr symbol)
 enum { TRIES = 6 };
 static const double EQUAL = 1e-9; /* of the larger of two numbers: far above rounding */
 
-/* whether a and b are one function; *out: a, at the last place */
+/* whether a and b are one function; where no place tells, they are not taken for one */
 static bool same_function(const State *state, Expr a, Expr b)
 {
     State place = *state; /* its number alone tells places apart */
-    bool same = true;
+    bool same = true, is_told = a == b;
 
     for (int i = 0; i < TRIES && same; i++) {
         double x, y;
@@ -285,8 +285,9 @@ static bool same_function(const State *state, Expr a, Expr b)
         x = expr_evaluate(a, random_value, &place);
         y = expr_evaluate(b, random_value, &place);
         same = (isnan(x) && isnan(y)) || fabs(x - y) <= EQUAL * fmax(1, fmax(fabs(x), fabs(y)));
+        is_told = is_told || !isnan(x);
     }
-    return same;
+    return same && is_told;
 }
 
 static bool is_negative(const State *state, Expr e)

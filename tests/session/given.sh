@@ -240,6 +240,10 @@ internal u'' + B.fx
 internal v'' + 3*u'' + B.fy
 give B.x = u, B.y = v, B.theta = 0, A.fx = 0, e.i = 0"
 two "unknown u, v
+internal u'' + sqrt(u - 50)*v'' + B.fx
+internal v'' + 3*sqrt(u - 50)*u'' + B.fy
+give B.x = u, B.y = v, B.theta = 0, A.fx = 0, e.i = 0"
+two "unknown u, v
 internal v'' + B.fy
 internal u'' + B.fx
 give B.x = u, B.y = v, B.theta = 0, A.fx = 0, e.i = 0"
