@@ -53,6 +53,8 @@ static int times(const char *text, const char *word)
 {
     int count = 0;
 
+    if (text == NULL)
+        return -1;
     for (const char *at = strstr(text, word); at != NULL; at = strstr(at + 1, word))
         count++;
     return count;
