@@ -33,6 +33,7 @@ static void circle(const char *svg, const char *name, double out[2])
 {
     const char *at = strstr(part(svg, name), "<circle cx=\"");
 
+    out[0] = out[1] = NAN;
     EXPECT(at != NULL && sscanf(at, "<circle cx=\"%lf\" cy=\"%lf\"", &out[0], &out[1]) == 2);
 }
 
