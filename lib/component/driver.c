@@ -1,13 +1,26 @@
-/* driver.c: a coordinate that follows a given function of time */
+/* driver.c: a coordinate that follows time, and one that follows others: gears, racks, cams,
+ * differentials
+ *
+ * q = f(t), or q = f(c1, c2, ..), is one row of the constraints, q - f. Its multiplier is the
+ * effort on q along that coordinate; of a coupler -df/dc of it acts on each c, so that it does no
+ * work. */
 #include "component/component_rows.h"
 
 /* clang-format off */
-static const Param params[] = {
+static const Param driver_params[] = {
     {"value", PARAM_LAW, "m|rad", NULL, "what the coordinate follows: an expression of t and parameters", 0},
 };
 
-static const Member members[] = {
+static const Member driver_members[] = {
     {"effort", NULL, "force or torque that the driver takes, along the coordinate", 0},
+};
+
+static const Param coupler_params[] = {
+    {"value", PARAM_LAW, "m|rad", NULL, "what the coordinate is: an expression of other joints' coordinates", 0},
+};
+
+static const Member coupler_members[] = {
+    {"effort", NULL, "force or torque on the coordinate, along it", 0},
 };
 /* clang-format on */
 
@@ -23,14 +36,14 @@ const Component component_driver = {
     .domain = DOMAIN_MECHANICAL,
     .places = PLACES_COORDINATE,
     .brief = "prescribes a coordinate as a function of time",
-    .params = params,
-    .param_count = COUNT(params),
+    .params = driver_params,
+    .param_count = COUNT(driver_params),
     .translation = BRANCH_NEVER,
     .rotation = BRANCH_NEVER,
     .preference = 90,
     .prescribed = prescribed,
-    .members = members,
-    .member_count = COUNT(members),
+    .members = driver_members,
+    .member_count = COUNT(driver_members),
     .help = "Makes a coordinate of a joint or a body follow an expression of t. Its effort is the "
             "force or torque that this takes. With by= another coordinate or a source supplies "
             "the motion instead, in inverse runs.",
@@ -38,4 +51,30 @@ const Component component_driver = {
                "arm pin rod [-1/2, 0]\nrevolute h1 ground pin\ndriver D1 h1 = 2*pi*t\n"
                "inverse 1 every=0.1\nprint D1.effort",
     .see = "inverse kinematics motor",
+};
+
+const Component component_coupler = {
+    .name = "coupler",
+    .family = FAMILY_COUPLER,
+    .domain = DOMAIN_MECHANICAL,
+    .places = PLACES_COORDINATE,
+    .brief = "gears, racks, cams: a coordinate as a function of others",
+    .params = coupler_params,
+    .param_count = COUNT(coupler_params),
+    .translation = BRANCH_NEVER,
+    .rotation = BRANCH_NEVER,
+    .preference = 90,
+    .prescribed = prescribed,
+    .members = coupler_members,
+    .member_count = COUNT(coupler_members),
+    .help =
+        "Ties the coordinate of a joint to those of other joints, without play or elasticity: "
+        "gears (coupler C1 h2 = -20/60*h1), a rack (s = 0.03*h1), a differential "
+        "(h3 = (h1 + h2)/2), a cam (s = table(\"cam.csv\", h1)). One freedom less for each. Its "
+        "effort acts on the coordinate, and what follows from it on the others; it does no "
+        "work. The bearings are the joints': they feel what acts on their own coordinate.",
+    .example = "scene planar\nbody a inertia=1 mass=1; body b inertia=3 mass=1\n"
+               "revolute h1 ground a; revolute h2 ground b\ncoupler C1 h2 = -h1/2\n"
+               "actuator T1 h1 torque=7\nsimulate 1\nprint h1, h2, C1.effort",
+    .see = "driver gear screw",
 };
