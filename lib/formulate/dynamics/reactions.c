@@ -150,8 +150,9 @@ static Expr component(const System *system, const Instance *joint, ReactionPart 
 }
 
 /* the component per unit of the multiplier of a row that vanished */
-static Expr share_of(System *system, const Instance *joint, ReactionPart part, int redundant)
+static Expr share_of(System *system, const Instance *joint, const void *wanted, int redundant)
 {
+    const ReactionPart part = *(const ReactionPart *)wanted;
     const Tree *tree = system->origin->trees[part.moment ? TREE_ROTATION : TREE_TRANSLATION];
     const Row *row = &system->constraints->redundant_rows.at[redundant];
     Vec vector = vec_zero(system->arena);
@@ -165,7 +166,8 @@ static Expr share_of(System *system, const Instance *joint, ReactionPart part, i
     return component(system, joint, part, vector, chain);
 }
 
-const Row *reaction_open_row(const System *system, const double *share, int instance)
+/* whose multiplier is open, and with it the sum of shares[k] by multiplier k; NULL: nothing is */
+static const Row *open_row(const System *system, const double *shares, int instance)
 {
     enum { DIGITS = 7 };
     const Recovery *recovery = system->shown->recovery;
@@ -177,7 +179,7 @@ const Row *reaction_open_row(const System *system, const double *share, int inst
         double size = 1;
 
         for (int k = 0; k < rows; k++) {
-            double term = share[k] * recovery->open[k * recovery->open_count + j];
+            double term = shares[k] * recovery->open[k * recovery->open_count + j];
 
             sum += term;
             if (fabs(term) > size)
@@ -192,21 +194,21 @@ const Row *reaction_open_row(const System *system, const double *share, int inst
     return found;
 }
 
-/* of a component of a joint's */
-static const Row *open_row(System *system, const Instance *joint, ReactionPart part)
+const Row *reaction_open_row(System *system, const Instance *part, RowShare *share,
+                             const void *wanted)
 {
     const Recovery *recovery = system->shown->recovery;
     const int rows = system->constraints->redundant_rows.count;
     const Row *found;
-    double *share;
+    double *shares;
 
     if (recovery == NULL || recovery->open_count == 0)
         return NULL;
-    share = NEW_ARRAY(double, rows);
+    shares = NEW_ARRAY(double, rows);
     for (int k = 0; k < rows; k++)
-        share[k] = sample_number(recovery->sample, share_of(system, joint, part, k));
-    found = reaction_open_row(system, share, joint->number);
-    mem_free(share);
+        shares[k] = sample_number(recovery->sample, share(system, part, wanted, k));
+    found = open_row(system, shares, part->number);
+    mem_free(shares);
     return found;
 }
 
@@ -223,7 +225,7 @@ Status joint_reaction(System *system, const Instance *joint, ReactionPart part, 
         *out = expr_int(system->arena, 0);
         return OK;
     }
-    open = open_row(system, joint, part);
+    open = reaction_open_row(system, joint, share_of, &part);
     if (open != NULL) {
         const char *chord = system->origin->instances[open->told.instance].name;
 

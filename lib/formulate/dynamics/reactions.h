@@ -23,9 +23,13 @@ void recovery_build(System *system, const Loads *loads);
 /* the force or torque that a branch carries from its tail to its head, in the axes of `chain` */
 Vec branch_reaction(const System *system, const Instance *instance, const Sums *sums, bool rotation,
                     int *chain);
-/* A row that vanished and on which a figure depends, though nothing determines its multiplier; the
- * figure changes by `share` per unit of each. NULL: there is none. */
-const Row *reaction_open_row(const System *system, const double *share, int instance);
+/* what a figure of a part, `wanted`, changes by per unit of the multiplier of a row that vanished
+ */
+typedef Expr RowShare(System *system, const Instance *part, const void *wanted, int redundant);
+/* A row that vanished and on which the figure depends, though nothing determines its multiplier.
+ * NULL: there is none. */
+const Row *reaction_open_row(System *system, const Instance *part, RowShare *share,
+                             const void *wanted);
 
 typedef struct ReactionPart { /* a component of a force or a moment */
     bool moment;

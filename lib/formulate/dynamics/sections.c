@@ -121,26 +121,19 @@ static Expr component(System *system, const Instance *part, const SectionPart *w
     return in_section(arena, section, wanted->moment ? moment : force).at[wanted->axis];
 }
 
-/* whose multiplier is open, and the section's force with it; NULL: nothing is */
-static const Row *open_row(System *system, const Instance *part, const SectionPart *wanted, Expr at)
+typedef struct Wanted {
+    const SectionPart *part;
+    Expr at;
+} Wanted;
+
+/* per unit of the multiplier of a row that vanished */
+static Expr share_of(System *system, const Instance *part, const void *wanted, int redundant)
 {
-    const Recovery *recovery = system->shown->recovery;
-    const int rows = system->constraints->redundant_rows.count;
-    const Row *found;
-    double *share;
+    const Wanted *section = wanted;
+    Wrench own = {vec_zero(system->arena), vec_zero(system->arena)};
 
-    if (recovery == NULL || recovery->open_count == 0)
-        return NULL;
-    share = NEW_ARRAY(double, rows);
-    for (int k = 0; k < rows; k++) {
-        Wrench own = {vec_zero(system->arena), vec_zero(system->arena)};
-
-        add_frames(system, part, at, recovery->sums[k], &own);
-        share[k] = sample_number(recovery->sample, component(system, part, wanted, at, own));
-    }
-    found = reaction_open_row(system, share, part->number);
-    mem_free(share);
-    return found;
+    add_frames(system, part, section->at, system->shown->recovery->sums[redundant], &own);
+    return component(system, part, section->part, section->at, own);
 }
 
 Status section_force(System *system, const Instance *part, const SectionPart *wanted, Expr at,
@@ -150,7 +143,7 @@ Status section_force(System *system, const Instance *part, const SectionPart *wa
     const Row *open;
 
     TRY(actual_build(system, diag));
-    open = open_row(system, part, wanted, at);
+    open = reaction_open_row(system, part, share_of, &(Wanted){wanted, at});
     if (open != NULL) {
         (void)diag_set(diag, E_MISSING, "what the sections of %s carry isn't determined",
                        part->name);
