@@ -129,26 +129,43 @@ TreesAnswer trees_way(TreesModel *trees, int number, const char names[][TREES_NA
     return answer;
 }
 
-TreesAnswer trees_run(TreesModel *trees, const char names[][TREES_NAME], const double *q,
-                      const double *u, int n, double *out)
+/* What a run solves, where rows that may be dropped are kept for their multipliers: accelerations,
+ * then multipliers. */
+static TreesAnswer solve(TreesModel *trees, const int *rows, int row_count, const double *y,
+                         double *out)
 {
+    const int n = system_nu(trees->system);
     Numbers *numbers = NULL;
     Motion *motion = NULL;
-    int *order = order_of(trees, names, n);
-    double *y = state(order, q, u, n);
     TreesAnswer answer = TREES_FAILED;
     Solved solved;
 
     if (numbers_new(trees->layout, &trees->parameters, &numbers, NULL) == OK) {
-        motion = motion_new(numbers_equations(numbers), &(MotionOptions){.tolerance = 1e-9});
-        if (motion_solve(motion, 0, y, &solved))
+        motion =
+            motion_new(numbers_equations(numbers),
+                       &(MotionOptions){.rows = rows, .row_count = row_count, .tolerance = 1e-9});
+        if (motion_solve(motion, 0, y, &solved)) {
+            memcpy(out, solved.acceleration, (size_t)n * sizeof(double));
+            if (row_count > 0)
+                memcpy(out + n, solved.multipliers, (size_t)row_count * sizeof(double));
             answer = TREES_FOUND;
-        for (int j = 0; j < n && answer == TREES_FOUND; j++)
-            out[j] = solved.acceleration[order[j]];
+        }
     }
     motion_free(motion);
     numbers_free(numbers);
-    MEM_FREE(order, y);
+    return answer;
+}
+
+TreesAnswer trees_run(TreesModel *trees, const char names[][TREES_NAME], const double *q,
+                      const double *u, int n, double *out)
+{
+    int *order = order_of(trees, names, n);
+    double *y = state(order, q, u, n), *found = NEW_ARRAY(double, n);
+    const TreesAnswer answer = solve(trees, NULL, 0, y, found);
+
+    for (int j = 0; j < n && answer == TREES_FOUND; j++)
+        out[j] = found[order[j]];
+    MEM_FREE(order, y, found);
     return answer;
 }
 
@@ -189,30 +206,20 @@ TreesAnswer trees_torques(TreesModel *trees, int number, const char names[][TREE
 TreesAnswer trees_driven(TreesModel *trees, const char names[][TREES_NAME], const double *q,
                          const double *u, int n, double *out)
 {
-    Numbers *numbers = NULL;
-    Motion *motion = NULL;
     int *order = order_of(trees, names, n), *rows = NEW_ARRAY(int, n);
-    double *y = state(order, q, u, n);
+    double *y = state(order, q, u, n), *found = NEW_ARRAY(double, 2 * n);
     TreesAnswer answer = TREES_FAILED;
-    Solved solved;
 
     for (int k = 0; k < n; k++)
         rows[k] = k;
-    if (system_m(trees->system) == n &&
-        numbers_new(trees->layout, &trees->parameters, &numbers, NULL) == OK) {
-        motion = motion_new(numbers_equations(numbers),
-                            &(MotionOptions){.rows = rows, .row_count = n, .tolerance = 1e-9});
-        if (motion_solve(motion, 0, y, &solved))
-            answer = TREES_FOUND;
-        for (int k = 0; k < n && answer == TREES_FOUND; k++) {
-            const char *driver =
-                system_instance_name(trees->system, system_constraint(trees->system, k)->instance);
+    if (system_m(trees->system) == n)
+        answer = solve(trees, rows, n, y, found);
+    for (int k = 0; k < n && answer == TREES_FOUND; k++) {
+        const char *driver =
+            system_instance_name(trees->system, system_constraint(trees->system, k)->instance);
 
-            out[atoi(driver + 1)] = -solved.multipliers[k];
-        }
+        out[atoi(driver + 1)] = -found[n + k];
     }
-    motion_free(motion);
-    numbers_free(numbers);
-    MEM_FREE(order, rows, y);
+    MEM_FREE(order, rows, y, found);
     return answer;
 }
