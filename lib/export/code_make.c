@@ -271,10 +271,9 @@ static void add_linear_network(Code *code)
 static bool add_prescribed(Code *code)
 {
     const Layout *l = code->layout;
-    Expr *rows = NEW_ARRAY(Expr, 3 * l->nu);
+    Expr *rows = NEW_ARRAY(Expr, 2 * l->nu);
 
-    code->is_explicit = l->m == l->nu && system_pushes(l->system, rows + 2 * l->nu, NULL) == OK &&
-                        system_prescribed(l->system, rows + 2 * l->nu, rows, rows + l->nu);
+    code->is_explicit = l->m == l->nu && system_prescribed(l->system, rows, rows + l->nu);
     if (code->is_explicit)
         code_add_function(code, "accelerations", "u', which is prescribed, and lambda", rows,
                           2 * l->nu, 1);

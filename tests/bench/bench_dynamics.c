@@ -239,10 +239,9 @@ static double evaluation_inverse(Motion *motion, const System *system)
 static void count_inverse(System *system, const char *name)
 {
     const int nu = system_nu(system);
-    Expr *told = NEW_ARRAY(Expr, 3 * nu), *pushes = told + 2 * nu;
+    Expr *told = NEW_ARRAY(Expr, 2 * nu);
 
-    if (system_pushes(system, pushes, NULL) == OK &&
-        system_prescribed(system, pushes, told, told + nu)) {
+    if (system_prescribed(system, told, told + nu)) {
         const OpCount ops = expr_count_beside(told, 2 * nu, 1U << SYMBOL_PARAMETER);
 
         line(name, "inverse_operations", (double)(ops.add + ops.mul), "ops");

@@ -9,7 +9,7 @@
 
 /* u' (nu) and lambda (m), in the cheapest of the ways there are: by M, by one pass along the trees,
  * or by one over groups of bodies (along_trees.h). False: some speed has no row of its own, or
- * something else holds. `pushes` as system_pushes() has it. */
-bool system_prescribed(System *view, const Expr *pushes, Expr *acceleration, Expr *multiplier);
+ * something else holds. */
+bool system_prescribed(System *view, Expr *acceleration, Expr *multiplier);
 
 #endif

@@ -15,29 +15,36 @@ static bool is_known_early(const Layout *l, const Expr *told)
     return true;
 }
 
-Status elimination_choose(const Layout *l, Told *by, Expr **out, Diag *diag)
+/* where no row holds the speeds */
+static Status choose_free(const Layout *l, Told *by, Expr *told, Diag *diag)
 {
     const Reading *r = system_run(l->system);
-    Expr *told = NEW_ARRAY(Expr, 2 * l->nu), *pushes = NEW_ARRAY(Expr, 2 * l->nu);
-    Expr *force = pushes + l->nu;
+    Expr *pushes = NEW_ARRAY(Expr, 2 * l->nu), *force = pushes + l->nu;
     Status status = OK;
 
-    *out = told;
-    *by = TOLD_NOT;
-    if (l->nu == 0 || (l->m > 0 && l->m != l->nu))
-        goto done;
     CHECK(system_pushes(l->system, pushes, diag));
     for (int j = 0; j < l->nu; j++) {
         pushes[j] = layout_on_surfaces(l, pushes[j]);
         force[j] = layout_on_surfaces(l, r->force[j]);
     }
-    if (l->m == 0)
-        *by = system_accelerations(l->system, force, pushes, told, told + l->nu);
-    else if (l->surface_count == 0 && system_prescribed(l->system, pushes, told, told + l->nu))
-        *by = TOLD_PRESCRIBED;
-    if (*by != TOLD_NOT && !is_known_early(l, told))
-        *by = TOLD_NOT;
+    *by = system_accelerations(l->system, force, pushes, told, told + l->nu);
 done:
     mem_free(pushes);
     return status;
+}
+
+Status elimination_choose(const Layout *l, Told *by, Expr **out, Diag *diag)
+{
+    Expr *told = NEW_ARRAY(Expr, 2 * l->nu);
+
+    *out = told;
+    *by = TOLD_NOT;
+    if (l->nu > 0 && l->m == 0)
+        TRY(choose_free(l, by, told, diag));
+    else if (l->nu > 0 && l->m == l->nu && l->surface_count == 0 &&
+             system_prescribed(l->system, told, told + l->nu))
+        *by = TOLD_PRESCRIBED;
+    if (*by != TOLD_NOT && !is_known_early(l, told))
+        *by = TOLD_NOT;
+    return OK;
 }
