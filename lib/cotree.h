@@ -60,6 +60,8 @@ typedef struct ct_hooks {
     const char *const *(*setting)(void *context, int i);
     bool unicode; /* Greek letters, dots, superscripts in what is shown */
     int columns;  /* width to wrap shown text to; 0: never */
+    /* that shown numbers are in: "mm deg rpm"; the caller's, as long as the session; NULL: SI */
+    const char *units;
 } ct_hooks;
 
 const char *ct_version(void); /* "0.1.0" */
@@ -260,7 +262,8 @@ char *ct_unit(const ct_session *session, const ct_expression *expression);
 /* The same in units of a list, "mm deg": in *size what a value in SI is divided by to be in it. */
 char *ct_unit_in(const ct_session *session, const ct_expression *expression, const char *units,
                  double *size);
-bool ct_is_unit(const char *name); /* one that such a list may hold */
+/* whether a text is such a list: of units, no two of one dimension */
+ct_status ct_check_units(const char *units, ct_error *error);
 /* The value of a key that is a time, as every=, in s; `name` is what messages call it. */
 ct_status ct_duration(ct_session *session, const ct_expression *expression, const char *name,
                       double *value, ct_error *error);

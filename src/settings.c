@@ -52,18 +52,8 @@ static ct_status set_units(const SettingRow *row, void *value, const char *text,
     (void)row;
     if (strlen(text) >= SETTING_UNITS)
         return error_say(error, "that are too many units");
-    for (const char *at = text; strcmp(text, "SI") != 0 && *at != '\0'; at += strspn(at, " ")) {
-        const size_t length = strcspn(at, " ");
-        char *name = copy_piece(at, length);
-        const bool is_unit = ct_is_unit(name);
-
-        if (!is_unit)
-            (void)error_say(error, "'%s' is no unit; SI alone takes your choice back", name);
-        free(name);
-        if (!is_unit)
-            return CT_FAILED;
-        at += length;
-    }
+    if (strcmp(text, "SI") != 0 && ct_check_units(text, error) != CT_OK)
+        return CT_FAILED;
     memcpy(value, text, strlen(text) + 1);
     return CT_OK;
 }

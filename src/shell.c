@@ -60,7 +60,8 @@ void shell_set_width(Shell *shell, int columns)
                       .find_file = hook_find_file,
                       .setting = hook_setting,
                       .unicode = shell->unicode,
-                      .columns = columns};
+                      .columns = columns,
+                      .units = shell->settings.units};
 
     ct_session_hooks(shell->session, &hooks);
 }

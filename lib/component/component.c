@@ -32,6 +32,18 @@ int component_param(const Component *row, const char *name)
     return -1;
 }
 
+char *param_unit(const Param *param, bool on_angle)
+{
+    const char *unit = param->unit;
+    const char *bar = unit != NULL ? strchr(unit, '|') : NULL;
+
+    if (unit == NULL)
+        return NULL;
+    if (bar != NULL && on_angle)
+        return mem_text(bar + 1, strlen(bar + 1));
+    return mem_text(unit, bar != NULL ? (size_t)(bar - unit) : strlen(unit));
+}
+
 int component_source(const Component *row)
 {
     for (int i = 0; i < row->param_count; i++)

@@ -55,6 +55,10 @@ typedef struct Param {
     int use; /* of ParamUse */
 } Param;
 
+/* the unit that counts: "N/m|N*m" is the first on a length, the second on an angle; new string,
+ * NULL: any */
+char *param_unit(const Param *param, bool on_angle);
+
 typedef struct Value {
     bool given; /* by the user, not the fallback */
     int count;  /* entries of `at` */

@@ -497,6 +497,30 @@ static size_t find_listed(const char *units, Dimension wanted, const char **name
     return 0;
 }
 
+Status unit_list_check(const char *units, Diag *diag)
+{
+    for (const char *at = units + strspn(units, " "); *at != '\0'; at += strspn(at, " ")) {
+        const int length = (int)strcspn(at, " ");
+        const char *first;
+        size_t first_length;
+        Unit unit;
+
+        if (!find_part(at, (size_t)length, &unit)) {
+            diag_set(diag, E_UNIT, "'%.*s' is no unit; SI alone takes your choice back", length,
+                     at);
+            return E_UNIT;
+        }
+        first_length = find_listed(units, unit.dimension, &first, &unit);
+        if (first != at) {
+            diag_set(diag, E_UNIT, "%.*s and %.*s are units of the same: numbers are shown in one",
+                     (int)first_length, first, length, at);
+            return E_UNIT;
+        }
+        at += length;
+    }
+    return OK;
+}
+
 double dimension_print_in(Text *text, Dimension dimension, const char *units)
 {
     static const struct {

@@ -44,6 +44,8 @@ void dimension_print(Text *text, Dimension dimension);
 /* The same in the units of a list, "mm deg rpm": one of that dimension, or of lengths, times and
  * angles one for each, deg/s. What a number in SI is to be divided by. */
 double dimension_print_in(Text *text, Dimension dimension, const char *units);
+/* Whether a text is such a list, of units of different dimensions: E_UNIT says why not. */
+MUST_USE Status unit_list_check(const char *units, Diag *diag);
 /* every unit name without prefix, for completion: call with 0, 1, ... until NULL */
 const char *unit_name(int i);
 const char *unit_prefix(int i); /* likewise; the first is "" */

@@ -26,28 +26,21 @@ done:
     return status;
 }
 
-/* the unit that counts here: "N/m|N*m" is the first on a length, the second on an angle */
 static Status check_unit(const Scope *scope, const Wanted *wanted, const Syntax *syntax, Diag *diag)
 {
     ParamKind kind = wanted->param->kind;
-    const char *unit = wanted->param->unit;
-    const char *bar = unit != NULL ? strchr(unit, '|') : NULL;
-    char *first;
+    char *unit;
     Status status;
 
     if (kind == PARAM_LIST_LAWS)
         return unit_check_alike(scope, syntax, "added", diag);
-    if (unit == NULL || kind == PARAM_ROTATION)
+    if (wanted->param->unit == NULL || kind == PARAM_ROTATION)
         return OK;
     if (kind == PARAM_AXIS || kind == PARAM_AXES)
         return check_axes(scope, wanted, syntax, diag);
-    if (bar == NULL)
-        return unit_check(scope, syntax, unit, wanted->param->name, diag);
-    if (wanted->on_angle)
-        return unit_check(scope, syntax, bar + 1, wanted->param->name, diag);
-    first = mem_text(unit, (size_t)(bar - unit));
-    status = unit_check(scope, syntax, first, wanted->param->name, diag);
-    mem_free(first);
+    unit = param_unit(wanted->param, wanted->on_angle);
+    status = unit_check(scope, syntax, unit, wanted->param->name, diag);
+    mem_free(unit);
     return status;
 }
 

@@ -82,31 +82,55 @@ static void add_ends(Table *table, const View *view, const Instance *instance)
     }
 }
 
-static void add_values(Table *table, const Instance *instance)
+/* "[0, 0, 1]", "2 kg", "L4 m": numbers in the units of the page, formulas in SI */
+static void add_value(Text *out, const View *view, const Value *value, const char *si)
+{
+    Text unit = {0}, entries = {0};
+    bool is_numbers = true;
+    double size = 1;
+
+    for (int k = 0; k < value->count; k++)
+        is_numbers = is_numbers && expr_is_number(value->at[k]);
+    if (si != NULL && is_numbers)
+        size = view_unit(view, si, &unit);
+    else if (si != NULL)
+        text_add(&unit, si);
+    for (int k = 0; k < value->count; k++) {
+        Text number = {0};
+        char *entry = size == 1 ? expr_text(value->at[k]) : NULL;
+
+        if (entry == NULL)
+            text_number(&number, expr_value(value->at[k]) / size, 10);
+        layout_item(&entries, entry != NULL ? entry : number.at);
+        mem_free(entry);
+        text_free(&number);
+    }
+    if (entries.length > 0)
+        text_addf(out, value->count > 1 ? "[%s]" : "%s", entries.at);
+    if (value->word != NULL)
+        text_add(out, value->word);
+    if (unit.length > 0 && strcmp(unit.at, "1") != 0)
+        text_addf(out, " %s", unit.at);
+    text_free(&entries);
+    text_free(&unit);
+}
+
+static void add_values(Table *table, const View *view, const Instance *instance)
 {
     for (int i = 0; i < instance->row->param_count; i++) {
         const Param *param = &instance->row->params[i];
         const Value *value = &instance->values[i];
+        char *unit = param_unit(param, instance->on_angle);
         Text text = {0};
 
-        for (int k = 0; k < value->count; k++) {
-            char *entry = expr_text(value->at[k]);
-
-            layout_item(&text, entry);
-            mem_free(entry);
-        }
-        if (value->word != NULL)
-            text_add(&text, value->word);
         /* long defaults tell nothing: no turn, no further moments */
-        if (text.length > 0 && (value->given || value->count <= 3)) {
-            const bool plain = param->unit == NULL || strcmp(param->unit, "1") == 0;
-
+        if (value->word != NULL || (value->count > 0 && (value->given || value->count <= 3))) {
+            add_value(&text, view, value, unit);
             table_cell(table, param->name);
-            table_cellf(table, value->count > 1 ? "[%s]%s%s%s" : "%s%s%s%s", text.at,
-                        plain ? "" : " ", plain ? "" : param->unit,
-                        value->given ? "" : "  (not said)");
+            table_cellf(table, "%s%s", text.at, value->given ? "" : "  (not said)");
         }
         text_free(&text);
+        mem_free(unit);
     }
 }
 
@@ -115,15 +139,18 @@ static const char *coordinate_unit(CoordinateKind kind)
     return kind == COORDINATE_LENGTH ? "m" : kind == COORDINATE_PARAMETER ? "1" : "rad";
 }
 
-static void add_variable(Text *out, const char *name, const char *unit)
+static void add_variable(Text *out, const View *view, const char *name, const char *si)
 {
-    Text item = {0};
+    Text item = {0}, unit = {0};
 
     text_add(&item, name);
-    if (unit != NULL && strcmp(unit, "1") != 0)
-        text_addf(&item, " [%s]", unit);
+    if (si != NULL)
+        (void)view_unit(view, si, &unit);
+    if (unit.length > 0 && strcmp(unit.at, "1") != 0)
+        text_addf(&item, " [%s]", unit.at);
     layout_item(out, item.at);
     text_free(&item);
+    text_free(&unit);
 }
 
 static bool is_own_coordinate(const Instance *instance, const char *name)
@@ -145,8 +172,8 @@ static void add_variables(Text *out, const View *view, const Instance *instance)
 
         text_addf(&rate, "%s'", instance->coord[c]);
         text_addf(&rate_unit, "%s/s", unit);
-        add_variable(&items, instance->coord[c], unit);
-        add_variable(&items, rate.at, rate_unit.at);
+        add_variable(&items, view, instance->coord[c], unit);
+        add_variable(&items, view, rate.at, rate_unit.at);
         text_free(&rate);
         text_free(&rate_unit);
     }
@@ -156,7 +183,8 @@ static void add_variables(Text *out, const View *view, const Instance *instance)
 
         text_addf(&name, "%s.%s", instance->name, member->name);
         if (!is_own_coordinate(instance, name.at))
-            add_variable(&items, name.at, model_member_unit(view->model, instance, member->name));
+            add_variable(&items, view, name.at,
+                         model_member_unit(view->model, instance, member->name));
         text_free(&name);
     }
     if (items.length > 0)
@@ -182,7 +210,7 @@ static void print_instance(Text *out, const View *view, const Instance *instance
         table_cell(&table, coordinates.at);
     }
     text_free(&coordinates);
-    add_values(&table, instance);
+    add_values(&table, view, instance);
     table_print(out, &table, 2);
     table_free(&table);
     layout_words(out, view->page.columns, "sign: ", conventions[instance->row->family]);
@@ -204,7 +232,7 @@ static bool print_parameter(Text *out, const View *view, const char *name)
         text_addf(out, "%s: parameter, %s = ", name, name);
         if (!expr_is_number(definition))
             text_addf(out, "%s = ", text);
-        text_number(out, model_parameter_value(view->model, symbol), 10);
+        view_quantity(view, name, model_parameter_value(view->model, symbol), 10, out);
         text_char(out, '\n');
         mem_free(text);
         return true;
@@ -349,8 +377,9 @@ static bool print_variable(Text *out, const View *view, const char *name)
     int index;
 
     if (model_coordinate(view->model, name, &owner, &index)) {
-        text_addf(out, "%s: coordinate of %s, in %s\n", name, owner->name,
-                  coordinate_unit(owner->coord_kind[index]));
+        text_addf(out, "%s: coordinate of %s, in ", name, owner->name);
+        (void)view_unit(view, coordinate_unit(owner->coord_kind[index]), out);
+        text_char(out, '\n');
         return true;
     }
     owner = model_owner(view->model, name, &wanted);
@@ -361,8 +390,11 @@ static bool print_variable(Text *out, const View *view, const char *name)
         if (strcmp(member->name, wanted) == 0) {
             const char *unit = model_member_unit(view->model, owner, wanted);
 
-            text_addf(out, "%s: of %s, %s", name, owner->name, member->meaning);
-            text_addf(out, unit != NULL ? "; in %s\n" : "\n", unit);
+            text_addf(out, "%s: of %s, %s%s", name, owner->name, member->meaning,
+                      unit != NULL ? "; in " : "");
+            if (unit != NULL)
+                (void)view_unit(view, unit, out);
+            text_char(out, '\n');
             return true;
         }
     return false;

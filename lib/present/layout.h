@@ -12,6 +12,7 @@ typedef struct Page {
     int columns; /* 0: never wrap */
     bool unicode;
     Notation notation;
+    const char *units; /* that numbers are in: "mm deg rpm"; NULL: SI */
 } Page;
 
 /* `lead` and `body` with a line end; the body is wrapped before + and - (outside brackets

@@ -17,7 +17,8 @@ Status show_params(const View *view, const Selection *selection, Text *out, Diag
         char *text = expr_text(definition);
         Text value = {0};
 
-        text_number(&value, model_parameter_value(view->model, symbol), 10);
+        view_quantity(view, expr_name(symbol), model_parameter_value(view->model, symbol), 10,
+                      &value);
         table_cell(&table, expr_name(symbol));
         table_cellf(&table, "= %s", value.at);
         table_cell(&table, expr_is_number(definition) ? "" : text);

@@ -448,6 +448,37 @@ void view_equations(Text *out, const View *view, EquationList *equations)
     equations_free(equations);
 }
 
+double view_unit(const View *view, const char *si, Text *out)
+{
+    Text chosen = {0};
+    Unit unit;
+    size_t fault;
+    double size = 1;
+
+    if (view->page.units != NULL && unit_parse(si, strlen(si), &unit, &fault))
+        size =
+            dimension_print_in(&chosen, dimension_without_angle(unit.dimension), view->page.units);
+    text_add(out, size == 1 ? si : chosen.at);
+    text_free(&chosen);
+    return size;
+}
+
+void view_quantity(const View *view, const char *name, double value, int digits, Text *out)
+{
+    static const Dimension none;
+    Dimension dimension;
+    Text unit = {0};
+    double size = 1;
+
+    if (model_text_dimension(view->model, name, &dimension) &&
+        memcmp(&dimension, &none, sizeof none) != 0)
+        size = dimension_print_in(&unit, dimension_without_angle(dimension),
+                                  view->page.units != NULL ? view->page.units : "");
+    text_number(out, value / size, digits);
+    text_addf(out, unit.length > 0 ? " %s" : "%s", unit.length > 0 ? unit.at : "");
+    text_free(&unit);
+}
+
 void view_value(EquationList *equations, char *name, Expr e)
 {
     Equation equation = {.lead = NULL, .left = {0}, .right = {0}};

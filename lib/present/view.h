@@ -80,6 +80,12 @@ void view_value(EquationList *equations, char *name, Expr e);
  * column -1: of a vector */
 char *view_entry_name(const View *view, const char *text, const char *letter, int row, int column);
 
+/* Append the unit in which the page shows what has such a unit in SI ("N*m"): what its value in SI
+ * is to be divided by. */
+double view_unit(const View *view, const char *si, Text *out);
+/* The value in SI of a variable or parameter, with a unit where it has one: "30 deg". */
+void view_quantity(const View *view, const char *name, double value, int digits, Text *out);
+
 /* begin and end of what latex aligns; nothing in other notations */
 void view_open(Text *out, const View *view);
 void view_close(Text *out, const View *view);

@@ -19,13 +19,30 @@ static const char *at_words(char *buffer, size_t size, const double *at)
     return buffer;
 }
 
+/* The unit that two sides are shown in, with a blank in front; "" where neither has one. What their
+ * values are to be divided by. */
+static double shown_unit(const ct_session *session, const Syntax *left, const Syntax *right,
+                         Text *out)
+{
+    const char *units = session->hooks.units != NULL ? session->hooks.units : "";
+    Text unit = {0};
+    double size = session_shown_unit(session, left, units, &unit);
+
+    if (unit.length == 0)
+        size = session_shown_unit(session, right, units, &unit);
+    text_add(out, unit.length > 0 ? " " : "");
+    text_add(out, unit.length > 0 ? unit.at : "");
+    text_free(&unit);
+    return size;
+}
+
 static Status expect_near(ct_session *session, const Statement *s, const Syntax *left,
                           const double *at, Diag *diag)
 {
     double value, expected, tolerance = 0;
     char when[48];
     Status status;
-    Text text = {0};
+    Text text = {0}, unit = {0};
 
     CHECK(session_value_at(session, left, at, &value, diag));
     CHECK(session_value_at(session, s->near_value, at, &expected, diag));
@@ -42,13 +59,17 @@ static Status expect_near(ct_session *session, const Statement *s, const Syntax 
         status = diag_at(diag, E_EXPECT, undefined->place, "%s is undefined%s", text.at,
                          at_words(when, sizeof when, at));
     } else if (!(fabs(value - expected) <= tolerance)) {
+        const double size = shown_unit(session, left, s->near_value, &unit);
+
         syntax_print(&text, left);
         status = diag_at(diag, E_EXPECT, left->place,
-                         "%s is %.15g%s, expected %.15g within %.3g: off by %.3g", text.at, value,
-                         at_words(when, sizeof when, at), expected, tolerance, value - expected);
+                         "%s is %.15g%s%s, expected %.15g%s within %.3g%s: off by %.3g%s", text.at,
+                         value / size, unit.at, at_words(when, sizeof when, at), expected / size,
+                         unit.at, tolerance / size, unit.at, (value - expected) / size, unit.at);
     }
 done:
     text_free(&text);
+    text_free(&unit);
     return status;
 }
 
@@ -58,19 +79,22 @@ static Status expect_condition(ct_session *session, const Syntax *condition, con
     double holds, left, right;
     char when[48];
     Status status;
-    Text text = {0};
+    Text text = {0}, unit = {0};
 
     CHECK(session_value_at(session, condition, at, &holds, diag));
     if (holds != 0 && !isnan(holds))
         goto done;
     syntax_print(&text, condition);
     if (is_comparison(condition)) {
+        const double size = shown_unit(session, condition->args[0], condition->args[1], &unit);
+
         CHECK(session_value_at(session, condition->args[0], at, &left, diag));
         CHECK(session_value_at(session, condition->args[1], at, &right, diag));
         status = isfinite(left) && isfinite(right)
                      ? diag_at(diag, E_EXPECT, condition->place,
-                               "%s does not hold%s: left is %.15g, right is %.15g", text.at,
-                               at_words(when, sizeof when, at), left, right)
+                               "%s does not hold%s: left is %.15g%s, right is %.15g%s", text.at,
+                               at_words(when, sizeof when, at), left / size, unit.at, right / size,
+                               unit.at)
                      : diag_at(diag, E_EXPECT, condition->place,
                                "%s does not hold%s: its %s side is undefined", text.at,
                                at_words(when, sizeof when, at), isfinite(left) ? "right" : "left");
@@ -80,6 +104,7 @@ static Status expect_condition(ct_session *session, const Syntax *condition, con
     }
 done:
     text_free(&text);
+    text_free(&unit);
     return status;
 }
 

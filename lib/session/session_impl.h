@@ -281,6 +281,11 @@ MUST_USE Status spectrum_rows(ct_session *session, const Formula *formulas, int 
 MUST_USE Status session_value_at(ct_session *session, const Syntax *syntax, const double *at,
                                  double *out, Diag *diag);
 
+/* Append the unit of an expression in units of a list ("" for SI), nothing where its dimension
+ * isn't known: what its value in SI is to be divided by. */
+double session_shown_unit(const ct_session *session, const Syntax *syntax, const char *units,
+                          Text *out);
+
 /* A number made of numbers, parameters and functions of runs; the same of a time. */
 MUST_USE Status session_number(ct_session *session, const Syntax *syntax, double *out, Diag *diag);
 MUST_USE Status session_instant(ct_session *session, const Syntax *at, double *out, Diag *diag);

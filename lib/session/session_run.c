@@ -402,28 +402,36 @@ static const Variable *unknown_at(const System *system, int i)
 }
 
 /* every coordinate, speed and network unknown at the start */
-static void print_configuration(Text *out, const Run *start)
+static void print_configuration(Text *out, const View *view, const Run *start)
 {
     const System *system = result_system(start->result);
     const int count = system_n(system) + system_nu(system) + system_nx(system) + system_nz(system);
     Expr *items = NEW_ARRAY(Expr, count);
     double *values = NEW_ARRAY(double, count);
     Table table = table_for("ll");
+    Text angle = {0};
+    const bool in_radians = view_unit(view, "rad", &angle) == 1;
     Diag ignored;
 
     for (int i = 0; i < count; i++)
         items[i] = unknown_at(system, i)->symbol;
     if (result_reader_values(start->reader, items, count, values, &ignored) == OK) {
         for (int i = 0; i < count; i++) {
-            table_cell(&table, unknown_at(system, i)->name);
-            if (i < system_n(system) && unknown_at(system, i)->is_angle)
-                table_cellf(&table, "%.9g rad (%.6g deg)", values[i], values[i] * 180 / M_PI);
+            const Variable *unknown = unknown_at(system, i);
+            Text value = {0};
+
+            view_quantity(view, unknown->name, values[i], 9, &value);
+            table_cell(&table, unknown->name);
+            if (i < system_n(system) && unknown->is_angle && in_radians)
+                table_cellf(&table, "%s (%.6g deg)", value.at, values[i] * 180 / M_PI);
             else
-                table_cellf(&table, "%.9g", values[i]);
+                table_cell(&table, value.at);
+            text_free(&value);
         }
         table_print(out, &table, 0);
     }
     table_free(&table);
+    text_free(&angle);
     mem_free(items);
     mem_free(values);
 }
@@ -433,13 +441,14 @@ char *ct_report(ct_session *session)
     SESSION_CALL(session, NULL);
 
     Text text = {0};
+    const View view = session_view(session);
     const int count = session->runs.count;
     char name[32];
 
     if (session->told != NULL) {
         session->told(session, &text);
     } else if (session->start_is_later && session->start.result != NULL) {
-        print_configuration(&text, &session->start);
+        print_configuration(&text, &view, &session->start);
     } else if (count > 0) {
         (void)snprintf(name, sizeof name, "run%d", count);
         report_print(&text, session->runs.at[count - 1].result, name);

@@ -241,7 +241,8 @@ View session_view(const ct_session *session)
                   .freedoms = session_freedoms(session),
                   .page = {.columns = session->hooks.columns,
                            .unicode = session->hooks.unicode,
-                           .notation = session->hooks.unicode ? NOTATION_UNICODE : NOTATION_TEXT},
+                           .notation = session->hooks.unicode ? NOTATION_UNICODE : NOTATION_TEXT,
+                           .units = session->hooks.units},
                   .watch = &session->watch};
 }
 

@@ -53,21 +53,22 @@ static bool is_energy(const Syntax *syntax)
     return false;
 }
 
-/* the unit of an expression in units of a list; nothing where its dimension isn't known */
-static void add_unit(const ct_session *session, const Syntax *syntax, const char *units,
-                     double *size, Text *out)
+double session_shown_unit(const ct_session *session, const Syntax *syntax, const char *units,
+                          Text *out)
 {
     static const Dimension none;
     Dimension dimension = none;
+    double size;
 
     if (!model_dimension(session->model, syntax, &dimension) ||
         memcmp(&dimension, &none, sizeof none) == 0)
-        return;
-    *size = dimension_print_in(out, dimension_without_angle(dimension), units);
+        return 1;
+    size = dimension_print_in(out, dimension_without_angle(dimension), units);
     if (strcmp(out->at, "N*m") == 0 && is_energy(syntax)) {
         text_free(out);
         text_char(out, 'J');
     }
+    return size;
 }
 
 char *ct_unit_in(const ct_session *session, const ct_expression *expression, const char *units,
@@ -77,8 +78,7 @@ char *ct_unit_in(const ct_session *session, const ct_expression *expression, con
 
     Text unit = {0};
 
-    *size = 1;
-    add_unit(session, syntax_of(expression), units, size, &unit);
+    *size = session_shown_unit(session, syntax_of(expression), units, &unit);
     return unit.length > 0 ? text_done(&unit) : NULL;
 }
 
@@ -89,11 +89,12 @@ char *ct_unit(const ct_session *session, const ct_expression *expression)
     return ct_unit_in(session, expression, "", &size);
 }
 
-bool ct_is_unit(const char *name)
+ct_status ct_check_units(const char *units, ct_error *error)
 {
-    Unit unit;
+    Diag diag = {0};
+    const Status status = unit_list_check(units, &diag);
 
-    return unit_find(name, &unit);
+    return session_report(status, &diag, error);
 }
 
 ct_status ct_duration(ct_session *session, const ct_expression *expression, const char *name,
@@ -377,10 +378,9 @@ void session_unit(const ct_session *session, const char *name, Text *out)
     Pool *pool = pool_new(0);
     Syntax *syntax = NULL;
     Diag ignored = {0};
-    double size;
 
     if (syntax_parse_expression(name, pool, &syntax, &ignored) == OK)
-        add_unit(session, syntax, "", &size, out);
+        (void)session_shown_unit(session, syntax, "", out);
     pool_free(pool);
 }
 

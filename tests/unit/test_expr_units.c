@@ -136,8 +136,26 @@ static void every_unit_is_found_and_is_listed(void)
     EXPECT(!dimension_same(angle, (Dimension){{1, 0, -1, 0, 0, 0}}));
 }
 
+/* numbers are shown in one unit of a dimension, so that a list has one of each */
+static void a_list_has_one_unit_of_a_dimension(void)
+{
+    static const char *const good[] = {"", "mm", "deg mm rpm", " kN  ms ", "Hz rpm"};
+    static const char *const wrong[] = {"mm km", "m deg s rad", "J Nm", "mm mm", "mm m/s", "SI"};
+    Diag diag;
+
+    for (int i = 0; i < COUNT(good); i++)
+        EXPECT(unit_list_check(good[i], &diag) == OK);
+    for (int i = 0; i < COUNT(wrong); i++)
+        EXPECT(unit_list_check(wrong[i], &diag) == E_UNIT);
+    EXPECT(unit_list_check("m deg s rad", &diag) == E_UNIT);
+    EXPECT(strstr(diag.message, "deg and rad") != NULL);
+    EXPECT(unit_list_check("mm m/s", &diag) == E_UNIT);
+    EXPECT(strstr(diag.message, "'m/s' is no unit") != NULL);
+}
+
 int main(void)
 {
+    RUN(a_list_has_one_unit_of_a_dimension);
     RUN(units_have_their_factors);
     RUN(compound_units_multiply);
     RUN(faults_are_located);

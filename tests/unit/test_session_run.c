@@ -400,8 +400,8 @@ static void an_expectation_holds_or_says_by_how_much_not(void)
     EXPECT(kit.error.status == CT_UNMET && kit.error.column == 8);
     EXPECT_HOLDS(kit.error.message, "h is 1.047197551196");
     EXPECT_HOLDS(kit.error.message, "at t = 0");
-    EXPECT_HOLDS(kit.error.message, "expected 1 within 0.001");
-    EXPECT_HOLDS(kit.error.message, "off by 0.0472");
+    EXPECT_HOLDS(kit.error.message, "expected 1 rad within 0.001 rad");
+    EXPECT_HOLDS(kit.error.message, "off by 0.0472 rad");
     EXPECT(kit_do(&kit, "expect model.n == 2") == CT_UNMET);
     EXPECT_HOLDS(kit.error.message, "left is 1, right is 2");
     EXPECT(kit_do(&kit, "expect 0*h") == CT_UNMET);
