@@ -12,9 +12,8 @@
 static Model *bench_model(const char *text)
 {
     Model *model = model_new();
-    size_t next = 0;
 
-    while (next < strlen(text)) {
+    for (size_t next = 0; text[0] != '\0'; text += next, next = 0) {
         Statement *statement = NULL;
         Diag diag = {0};
         Status status = statement_parse(text, 1, (SyntaxOptions){0}, &next, &statement, &diag);

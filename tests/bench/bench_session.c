@@ -141,6 +141,28 @@ static void folder_bench(const char *folder, const char *program)
     free(entries);
 }
 
+/* Seconds to apply the statements that make `links` links; negative: one was refused. */
+static double apply(int links)
+{
+    Text text = {0};
+    double took;
+
+    text_add(&text, "scene planar\nL = 1\n");
+    for (int i = 0; i < links; i++) {
+        text_addf(&text, "k%d = %d*L\nbody b%d mass=k%d\narm p%d b%d [L, 0]\n", i, i, i, i, i, i);
+        text_addf(&text, i > 0 ? "revolute h%d p%d b%d\n" : "revolute h%d ground b%d\n", i,
+                  i > 0 ? i - 1 : i, i);
+        text_addf(&text, "init h%d = 0.1\n", i);
+    }
+    took = bench_now();
+    Model *model = bench_model(text.at);
+
+    took = model != NULL ? bench_now() - took : -1;
+    model_free(model);
+    text_free(&text);
+    return took;
+}
+
 int main(int argc, char **argv)
 {
     static const char *const folders[] = {"paper", "reference"};
@@ -150,6 +172,8 @@ int main(int argc, char **argv)
         return 2;
     }
     bench_line("shell.start", program_median(argv[2], "-e", "quit") * 1e3, "ms");
+    bench_line("apply.500_links", apply(500) * 1e3, "ms");
+    bench_line("apply.4000_links", apply(4000) * 1e3, "ms");
     for (int i = 0; i < COUNT(folders); i++) {
         Text folder = {0};
 

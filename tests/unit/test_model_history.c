@@ -1,8 +1,6 @@
 /* test_model_history.c: undo, redo, save; the scripts that have to run as they stand */
 #include "test_model.h"
 
-#include <time.h>
-
 /* --- random sessions --- */
 
 /* Statements that make sense now and then: names clash, are missing, are used or not. */
@@ -397,38 +395,6 @@ static void scripts_build_their_models(void)
     }
 }
 
-/* --- cost --- */
-
-static double seconds_to_apply(int count)
-{
-    Model *model = model_of("scene planar\nL = 1");
-    Text text = {0};
-    clock_t start;
-    double seconds;
-
-    for (int i = 0; i < count; i++)
-        text_addf(&text,
-                  "k%d = %d*L\nbody b%d mass=k%d\narm p%d b%d [L, 0]\nrevolute h%d %s%d b%d\n"
-                  "init h%d = 0.1\n",
-                  i, i, i, i, i, i, i, i > 0 ? "p" : "b", i > 0 ? i - 1 : 1, i > 0 ? i : 0, i);
-    start = clock();
-    EXPECT(apply_text(model, "body b1x mass=1", NULL) == OK);
-    (void)!apply_text(model, text.at, NULL);
-    seconds = (double)(clock() - start) / CLOCKS_PER_SEC;
-    text_free(&text);
-    model_free(model);
-    return seconds;
-}
-
-static void statements_cost_about_the_same_however_many_there_are(void)
-{
-    double few = seconds_to_apply(500);
-    double many = seconds_to_apply(4000);
-
-    /* eight times the statements: far below the 64 times of a scan over all names */
-    EXPECT(many < 24 * few + 0.05);
-}
-
 int main(void)
 {
     RUN(undo_and_redo_pass_the_same_states);
@@ -441,6 +407,5 @@ int main(void)
     RUN(shortened_verbs_are_saved_in_full);
     RUN(redefined_parameters_are_saved_where_they_are_needed);
     RUN(scripts_build_their_models);
-    RUN(statements_cost_about_the_same_however_many_there_are);
     return test_end();
 }
