@@ -115,8 +115,12 @@ family_derivation_LDADD = libcotree.la $(unit_ldadd)
 
 FAMILIES += family_beam_laws
 family_beam_laws_SOURCES = tests/family/family_beam_laws.c tests/family/family.h tests/family/script.h \
-	tests/unit/session_kit.h tests/unit/test.h tests/random.h
+	tests/family/shapes.h 	tests/unit/session_kit.h tests/unit/test.h tests/random.h
 family_beam_laws_LDADD = libcotree.la $(unit_ldadd)
+FAMILIES += family_flexible_arms
+family_flexible_arms_SOURCES = tests/family/family_flexible_arms.c tests/family/family.h \
+	tests/family/script.h tests/family/shapes.h tests/unit/session_kit.h tests/unit/test.h
+family_flexible_arms_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_beam_machines
 family_beam_machines_SOURCES = tests/family/family_beam_machines.c tests/family/family.h tests/family/script.h \
 	tests/unit/session_kit.h tests/unit/test.h tests/random.h
