@@ -7,6 +7,7 @@
 #include "base/memory.h"
 #include "formulate/solved/along_trees.h"
 #include "formulate/solved/price.h"
+#include "formulate/system/shown.h"
 #include "formulate/system/system_impl.h"
 
 #include <string.h>
@@ -103,18 +104,17 @@ static bool offer_along(Search *search)
            offer(search);
 }
 
-Told system_accelerations(System *system, const Expr *force, const Expr *pushes, Expr *acceleration,
-                          Expr *excess)
+/* F, pushes, u' and excess in one array */
+static Told eliminate(System *system, Expr *all)
 {
     const int n = system_nu(system);
-    Search search = {.system = system, .pushes = pushes, .n = n, .least = MOST_OPERATIONS};
+    Search search = {.system = system, .pushes = all + n, .n = n, .least = MOST_OPERATIONS};
     Groups *groups = NULL;
     Told told = TOLD_NOT;
 
-    system_touch(system);
-    search.best = NEW_ARRAY(Expr, 4 * n);
-    search.tried = search.best + 2 * n;
-    if (through_mass(system, force, search.tried, search.tried + n) && offer(&search))
+    search.best = all + 2 * n;
+    search.tried = NEW_ARRAY(Expr, 2 * n);
+    if (through_mass(system, all, search.tried, search.tried + n) && offer(&search))
         told = TOLD_BY_MASS;
     if (n <= MOST_SPEEDS_ALONG && search.least >= WORTH)
         groups = groups_new(system);
@@ -125,8 +125,29 @@ Told system_accelerations(System *system, const Expr *force, const Expr *pushes,
             told = TOLD_ALONG;
     }
     groups_free(groups);
-    memcpy(acceleration, search.best, (size_t)n * sizeof(Expr));
-    memcpy(excess, search.best + n, (size_t)n * sizeof(Expr));
-    mem_free(search.best);
+    mem_free(search.tried);
     return told;
+}
+
+Told system_accelerations(System *system, const Expr *force, const Expr *pushes, Expr *acceleration,
+                          Expr *excess)
+{
+    Shown *shown = system->shown;
+    const int n = system_nu(system);
+    const size_t size = (size_t)n * sizeof(Expr);
+
+    system_touch(system);
+    if (shown->eliminated == NULL || memcmp(shown->eliminated, force, size) != 0 ||
+        memcmp(shown->eliminated + n, pushes, size) != 0) {
+        Expr *all = NEW_ARRAY(Expr, 4 * n);
+
+        memcpy(all, force, size);
+        memcpy(all + n, pushes, size);
+        shown->told = eliminate(system, all);
+        mem_free(shown->eliminated);
+        shown->eliminated = all;
+    }
+    memcpy(acceleration, shown->eliminated + 2 * n, size);
+    memcpy(excess, shown->eliminated + 3 * n, size);
+    return shown->told;
 }

@@ -19,6 +19,8 @@ typedef struct Shown {
     Vec *actual_alpha;          /* of chains */
     Expr *turn_rates;           /* of angles that count turns; as entries */
     Expr power;                 /* that sources give and losses take */
+    Expr *eliminated;           /* u' in symbols, the last told (accelerations.c); NULL: none yet */
+    int told;                   /* how it was */
     LIST(Switch) switches;
     LIST(Expr) surfaces; /* where they jump, in the state */
     int switches_of_time;
