@@ -32,8 +32,8 @@ static const char declarations[] =
     "    MODEL_OUTPUTS = $OUTPUTS,\n    MODEL_CONDITIONS = $CONDITIONS,\n"
     "    MODEL_LARGEST = $LARGEST,\n"
     "    MODEL_WORK = $WORK\n};\n"
-    "enum { MODEL_OK, MODEL_SINGULAR, MODEL_NO_SOLUTION, MODEL_IMPULSE }; /* what functions return "
-    "*/\n\n"
+    "enum { MODEL_OK, MODEL_SINGULAR, MODEL_NO_SOLUTION, MODEL_IMPULSE, MODEL_LOST }; /* what "
+    "functions return */\n\n"
     "#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n"
     "/* the parameters' values, with model_prepare() */\nvoid model_parameters(real *p);\n"
     "/* what follows from parameters alone: after a parameter has changed */\n"
@@ -55,9 +55,9 @@ static const char modes_declaration[] =
     "there, "
     "too */\n"
     "int model_exchange(real *p, real t, const real *y, real *s, real h, real *work);\n"
-    "/* network states onto what the sides ask of them, as impulses would put them, of which "
-    "sources "
-    "give none;\n * *moved: how far, of 1 and the largest */\n"
+    "/* network states onto what the sides ask of them, as impulses would put them; MODEL_IMPULSE: "
+    "which\n * a source would have to give; MODEL_LOST: what was stored would be nowhere. *moved: "
+    "how far, of 1\n * and the largest of the kind */\n"
     "int model_meet(const real *p, real t, real *y, real *work, real *moved);\n"
     "/* one step, in pieces where a switch goes over, with the classical Runge-Kutta method */\n"
     "int model_step(real *p, real t, real step, real *y, real *s, real *work);\n";
@@ -528,7 +528,7 @@ static void add_projection(const Code *code, Text *out)
     text_add(&firsts, "-1");
     add_with(&body, projection, "$FIRSTS", firsts.at);
     add_with(out, body.at, "$PROJECTED",
-             code_has_modes(code) ? "model_meet(p, t, y, work, work)" : "MODEL_OK");
+             code_has_modes(code) ? "model_drifted(p, t, y, work)" : "MODEL_OK");
     add_with(out, step, "$STEP",
              code_has_modes(code) ? "static int model_smooth_step" : "int model_step");
     text_free(&firsts);
@@ -541,6 +541,23 @@ static void add_lines(Text *out, const char *const *lines)
         text_add(out, *lines);
 }
 
+/* of each state of networks: the first that is a current, a voltage ... as it is */
+static void add_kinds(const Layout *l, Text *out)
+{
+    text_add(out, "static const int model_kind[] = {");
+    for (int i = 0; i < l->nx; i++) {
+        const char *kind = strrchr(system_x(l->system, i)->name, '.');
+        const char *other = NULL;
+        int k = -1;
+
+        do
+            other = strrchr(system_x(l->system, ++k)->name, '.');
+        while (k < i && (kind == NULL || other == NULL || strcmp(kind, other) != 0));
+        text_addf(out, "%d, ", k);
+    }
+    text_add(out, "0};\n");
+}
+
 /* what goes through modes of ideal switches: after what eliminates */
 static void add_modes(const Code *code, Text *out)
 {
@@ -549,6 +566,7 @@ static void add_modes(const Code *code, Text *out)
     for (int i = 0; i < code->modes.gives.count; i++)
         text_addf(out, "%d, ", code->modes.gives.at[i]);
     text_add(out, "0};\n");
+    add_kinds(code->layout, out);
     add_lines(out, shared_text_modes_c);
 }
 

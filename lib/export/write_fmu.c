@@ -64,6 +64,10 @@ static void add_tables(const Code *code, Text *out)
     add_numbers(out, "int", "fmu_quaternion", quaternions.at, quaternions.count);
     LIST_FREE(quaternions);
     mem_free(numbers);
+    text_add(out, "static const char *const fmu_state_name[] = {"); /* of networks */
+    for (int i = 0; i < code->layout->nx; i++)
+        text_addf(out, "\"%s\", ", system_x(code->layout->system, i)->name);
+    text_add(out, "0};\n");
     add_events(code, out);
     text_add(out, "#endif\n\n#endif\n");
 }

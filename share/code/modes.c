@@ -266,52 +266,137 @@ static int model_mode_solve(const real *p, real t, const real *y, real *s, real 
     return tries < most || MODEL_IS_LINEAR ? MODEL_OK : MODEL_NO_SOLUTION;
 }
 
-/* States onto what the mode asks of them, as impulses would put them: charges of cutsets and fluxes
- * of circuits stay. *moved: how far, of 1 and the largest state; it may be the first of `work`. */
-int model_meet(const real *p, real t, real *y, real *work, real *moved)
+/* By what impulses would move states onto what the mode asks of them: r->zero. */
+static int model_jump(const real *p, real t, const real *y, const ModelRoom *r)
 {
-    const int n = MODEL_MODES_N;
-    const ModelRoom r = model_room(work);
-    real largest = 0, through = 0, across = 0, far = 0;
     int i, unused = 0, status;
 
     for (i = 0; i < MODEL_S; i++)
-        r.zero[i] = 0;
-    model_modes(p, t, y, r.zero, r.a);
-    model_mode_rates(p, t, y, r.zero, r.d);
-    model_mode_shares(p, t, y, r.zero, r.c);
-    model_edges(p, t, y, r.zero, r.edges);
-    model_reduce(&r, R(HUGE_VAL), r.old, &unused);
-    status = model_eliminate(r.a, n, r.x, r.rest);
+        r->zero[i] = 0;
+    model_modes(p, t, y, r->zero, r->a);
+    model_mode_rates(p, t, y, r->zero, r->d);
+    model_mode_shares(p, t, y, r->zero, r->c);
+    model_edges(p, t, y, r->zero, r->edges);
+    model_reduce(r, R(HUGE_VAL), r->old, &unused);
+    status = model_eliminate(r->a, MODEL_MODES_N, r->x, r->rest);
+    for (i = 0; status == MODEL_OK && i < MODEL_MODES_N; i++)
+        r->zero[MODEL_MODES_FIRST + i] = r->x[i];
+    return status;
+}
+
+/* r->zero: where the jump leads, against y, from states that are moved by their sizes: one of them,
+ * or all (-1). */
+static int model_jump_from(const real *p, real t, const real *y, const real *size, int only,
+                           const ModelRoom *r)
+{
+    real move[MODEL_X + 1];
+    int i, status;
+
+    for (i = 0; i < MODEL_Y; i++)
+        r->at[i] = y[i];
+    for (i = 0; i < MODEL_X; i++) {
+        const real part = R(0.6180339887498949) * R(i + 1); /* no two moved alike */
+
+        move[i] = only < 0    ? size[i] * (part - R(floor(part)) + R(0.5))
+                  : only == i ? size[i]
+                              : R(0);
+        r->at[MODEL_Q + MODEL_U + i] += move[i];
+    }
+    status = model_jump(p, t, r->at, r);
+    for (i = 0; i < MODEL_X; i++)
+        r->zero[i] += move[i];
+    return status;
+}
+
+/* Whether a state jumps to where it would from anywhere, and moves nothing else by that: what it
+ * stored is gone. */
+static int model_is_lost(const real *p, real t, const real *y, const real *jump, const real *size,
+                         const ModelRoom *r)
+{
+    const real small = R(sizeof(real) > 4 ? 1e-6 : 1e-3);
+    int follows[MODEL_X + 1];
+    int i, k;
+
+    if (model_jump_from(p, t, y, size, -1, r) != MODEL_OK)
+        return 1;
+    for (i = 0; i < MODEL_X; i++)
+        follows[i] = !(R(fabs(jump[i])) > small * size[i]) ||
+                     R(fabs(r->zero[i] - jump[i])) > small * size[i];
+    for (k = 0; k < MODEL_X; k++) {
+        if (!follows[k] && model_jump_from(p, t, y, size, k, r) != MODEL_OK)
+            return 1;
+        for (i = 0; i < MODEL_X && !follows[k]; i++)
+            follows[k] = R(fabs(r->zero[i] - jump[i])) > small * size[i];
+        if (!follows[k])
+            return 1;
+    }
+    return 0;
+}
+
+/* Of each state 1 and the largest of its kind. */
+static void model_sizes(const real *y, real *size)
+{
+    int i, k;
+
+    for (i = 0; i < MODEL_X; i++) {
+        size[i] = 1;
+        for (k = 0; k < MODEL_X; k++)
+            if (model_kind[k] == model_kind[i] &&
+                !(R(fabs(y[MODEL_Q + MODEL_U + k])) < size[i] - 1))
+                size[i] = 1 + R(fabs(y[MODEL_Q + MODEL_U + k]));
+    }
+}
+
+/* whether sources give a part of impulses that move states by r->zero */
+static int model_is_given(const real *p, real t, const real *y, const ModelRoom *r)
+{
+    real largest[2] = {0, 0};
+    int i, is = 0;
+
+    model_edges(p, t, y, r->zero, r->edges + 2 * MODEL_EDGES);
+    for (i = 0; i < 2 * MODEL_EDGES; i++) {
+        r->edges[i] = R(fabs(r->edges[2 * MODEL_EDGES + i] - r->edges[i]));
+        if (r->edges[i] > largest[i % 2])
+            largest[i % 2] = r->edges[i];
+    }
+    for (i = 0; i < 2 * MODEL_EDGES; i++)
+        is |= model_gives[i] && r->edges[i] > R(1e-3) * largest[i % 2];
+    return is;
+}
+
+/* States onto what the mode asks of them, as impulses would put them: charges of cutsets and fluxes
+ * of circuits stay; it tells where they can't. *moved: how far, of 1 and the largest state of its
+ * kind; it may be the first of `work`. */
+int model_meet(const real *p, real t, real *y, real *work, real *moved)
+{
+    const ModelRoom r = model_room(work);
+    real jump[MODEL_X + MODEL_U + 1], size[MODEL_X + 1], far = 0;
+    int i, status = model_jump(p, t, y, &r);
+
     if (status != MODEL_OK)
         return status;
-    for (i = 0; i < n; i++)
-        r.zero[MODEL_MODES_FIRST + i] = r.x[i];
-    model_edges(p, t, y, r.zero, r.edges + 2 * MODEL_EDGES);
-    for (i = 0; i < 2 * MODEL_EDGES; i++) {
-        real *impulse = &r.edges[i];
-
-        *impulse = R(fabs(r.edges[2 * MODEL_EDGES + i] - *impulse));
-        if (*impulse > (i % 2 == 0 ? through : across))
-            *(i % 2 == 0 ? &through : &across) = *impulse;
-    }
+    model_sizes(y, size);
+    for (i = 0; i < MODEL_X + MODEL_U; i++)
+        jump[i] = i < MODEL_X ? r.zero[i] : r.zero[i + MODEL_Z];
     for (i = 0; i < MODEL_X; i++)
-        if (R(fabs(y[MODEL_Q + MODEL_U + i])) > largest)
-            largest = R(fabs(y[MODEL_Q + MODEL_U + i]));
-    for (i = 0; i < MODEL_X; i++)
-        if (R(fabs(r.zero[i])) > far * (1 + largest))
-            far = R(fabs(r.zero[i])) / (1 + largest);
-    for (i = 0; i < MODEL_X; i++)
-        y[MODEL_Q + MODEL_U + i] += r.zero[i];
-    for (i = MODEL_X + MODEL_Z; i < MODEL_MODES_N && i < MODEL_X + MODEL_Z + MODEL_U; i++)
-        y[MODEL_Q - MODEL_X - MODEL_Z + i] += r.zero[i];
+        if (R(fabs(jump[i])) > far * size[i])
+            far = R(fabs(jump[i])) / size[i];
+    if (far > R(sizeof(real) > 4 ? 1e-6 : 1e-3))
+        status = !MODEL_IS_LINEAR || model_is_given(p, t, y, &r) ? MODEL_IMPULSE
+                 : model_is_lost(p, t, y, jump, size, &r)        ? MODEL_LOST
+                                                                 : MODEL_OK;
+    for (i = 0; i < MODEL_X + MODEL_U; i++)
+        y[i < MODEL_X ? MODEL_Q + MODEL_U + i : MODEL_Q + i - MODEL_X] += jump[i];
     *moved = far;
-    if (!(far > (sizeof(real) > 4 ? 1e-6 : 1e-3)))
-        return MODEL_OK;
-    for (i = 0; i < 2 * MODEL_EDGES; i++)
-        if (model_gives[i] && r.edges[i] > R(1e-3) * (i % 2 == 0 ? through : across))
-            return MODEL_IMPULSE;
-    return MODEL_IS_LINEAR ? MODEL_OK : MODEL_IMPULSE;
+    return status;
+}
+
+/* the same of states that an integration has left off the mode: no impulse has */
+static int model_drifted(const real *p, real t, real *y, real *work)
+{
+    const int status = model_meet(p, t, y, work, work);
+
+    return status == MODEL_IMPULSE || status == MODEL_LOST ? MODEL_OK : status;
 }
 
 /* --- which mode --- */

@@ -18,7 +18,7 @@ enum { ROUNDS = 100 };  /* in which one event may set off others */
 
 FmuStatus fmu_fail(Fmu *fmu, FmuStatus status, const char *text, double value)
 {
-    char line[240];
+    char line[300];
 
     (void)snprintf(line, sizeof line, "%s at t = %.9g s (%.6g)", text, fmu->now.t, value);
     fmu_say(fmu, status, line);
@@ -322,7 +322,7 @@ static FmuStatus project(Fmu *fmu, int *moved)
     if (drift(fmu) <= PROJECTED)
         return FMU_OK;
     status = model_project(now->p, now->t, now->y, fmu->work);
-    if (status != MODEL_OK && status != MODEL_IMPULSE) /* it drifted: no impulse has */
+    if (status != MODEL_OK)
         return fmu_fail(fmu, FMU_ERROR, "the constraints can't be met", drift(fmu));
     now->is_solved = 0;
     *moved = 1;
@@ -564,16 +564,59 @@ static void put_sides(Fmu *fmu)
     model_prepare(fmu->now.p);
 }
 
-/* Which are closed from here on; states as these ask, unless that takes an impulse of a source. */
+/* how far the state of networks goes that goes furthest; which */
+static double jump_of(const FmuNumbers *now, const double *was, int *which)
+{
+    double most = 0;
+    int i;
+
+    for (i = 0; i < MODEL_X; i++) {
+        const double jump = fabs(now->y[MODEL_Q + MODEL_U + i] - was[MODEL_Q + MODEL_U + i]);
+
+        if (jump > most) {
+            most = jump;
+            *which = i;
+        }
+    }
+    return most;
+}
+
+/* States onto the mode; fails where that takes an impulse that nothing gives or takes, but for what
+ * diodes that are found late have gone beyond 0. */
+static FmuStatus meet(Fmu *fmu, double beyond, int *moved)
+{
+    FmuNumbers *now = &fmu->now;
+    double was[MODEL_Y + 1], far;
+    char line[240];
+    int status, which = 0;
+
+    memcpy(was, now->y, MODEL_Y * sizeof(double));
+    status = model_meet(now->p, now->t, now->y, fmu->work, &far);
+    *moved |= far > PROJECTED;
+    if (status == MODEL_SINGULAR)
+        return fmu_fail(fmu, FMU_ERROR, "the equations are singular", now->y[0]);
+    if (status == MODEL_OK || !now->has_start || jump_of(now, was, &which) <= LATE * beyond)
+        return FMU_OK;
+    (void)snprintf(
+        line, sizeof line,
+        "%.80s would jump from %.6g to %.6g, which %s (Ron= and Roff= make it a fast change)",
+        fmu_state_name[which], was[MODEL_Q + MODEL_U + which], now->y[MODEL_Q + MODEL_U + which],
+        status == MODEL_IMPULSE ? "takes an impulse of a source" : "nothing takes over");
+    return fmu_fail(fmu, FMU_ERROR, line, far);
+}
+
+/* Which are closed from here on, and states as these ask. */
 static FmuStatus exchange(Fmu *fmu, int *changes, int *moved)
 {
     FmuNumbers *now = &fmu->now;
     const double unit = 1 + fabs(now->t);
-    double margin[FMU_SWITCHES + 1], h, far;
+    double margin[FMU_SWITCHES + 1] = {0}, h, beyond = 0;
     int k, ended = 0, any = 0, status = MODEL_OK;
 
     if (now->has_start && !*changes && margins(fmu, margin, &ended) != FMU_OK)
         return FMU_DISCARD;
+    for (k = 0; k < FMU_SWITCHES; k++)
+        beyond = larger(beyond, -margin[k]);
     for (h = NEAR * unit; status == MODEL_OK && !any; h *= 10) {
         status = model_exchange(now->p, now->t, now->y, now->s, h, fmu->work);
         for (k = 0; k < FMU_SWITCHES; k++)
@@ -590,11 +633,8 @@ static FmuStatus exchange(Fmu *fmu, int *changes, int *moved)
                         now->y[0]);
     for (k = 0; k < FMU_SWITCHES; k++)
         now->side[FMU_SIDES + k] = now->p[MODEL_CLOSED + k] > 0.5 ? 1 : -1;
-    status = model_meet(now->p, now->t, now->y, fmu->work, &far);
-    if (status != MODEL_OK && (status != MODEL_IMPULSE || now->has_start))
-        return fmu_fail(fmu, FMU_ERROR, "what ideal switches do would take an impulse of a source",
-                        far);
-    *moved |= far > PROJECTED;
+    if (meet(fmu, beyond, moved) != FMU_OK)
+        return FMU_ERROR;
     *changes |= any;
     if (margins(fmu, margin, &ended) != FMU_OK)
         return FMU_DISCARD;
