@@ -247,6 +247,9 @@ bool formula_needs_run(const Formula *formula); /* or is made of numbers and par
  * where no run is needed */
 MUST_USE Status formula_value(ct_session *session, const Formula *formula, Run *source,
                               const double *at, double *out, Diag *diag);
+/* how far it moves where what it is made of does by a rounding */
+MUST_USE Status formula_rounding(ct_session *session, const Formula *formula, Run *source,
+                                 const double *at, double *out, Diag *diag);
 /* 0 in the place of a value, found by formula_value() or formula_rows(), that rounding alone made:
  * it is no larger than it moves where what it is made of does by a rounding */
 bool formula_may_be_rounding(const Syntax *item, double value); /* it is small enough to look */

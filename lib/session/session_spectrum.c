@@ -4,7 +4,7 @@
  * Its mean stands at 0 Hz; the rest goes through the window of Hann, of mean 1, so that a tone of
  * whole periods shows its amplitude. Tones above half the rate of samples would fold down among the
  * others: samples of two numbers without a common factor fold them to different places, so numbers
- * are raised until two spectra agree. */
+ * are raised until two spectra agree. An amplitude that rounding alone may have made is 0. */
 #include "session/session_impl.h"
 
 #include <gsl/gsl_fft_real.h>
@@ -105,6 +105,29 @@ static double difference(const double *coarse, const double *fine, int bins, int
     return worst;
 }
 
+/* 0 in the place of a column's amplitudes that are no larger than rounding leaves the samples open:
+ * by how much is asked at some instants, at distances that no tone of whole periods has */
+static Status round_amplitudes(ct_session *session, const Formula *formula, Run *grid, Run *source,
+                               double *column, int bins, int stride, Diag *diag)
+{
+    enum { ASKED = 16 };
+    static const double golden = 0.6180339887498949; /* (sqrt(5) - 1)/2, far from any fraction */
+    const double *rows = result_times(grid->result);
+    const double span = rows[result_rows(grid->result) - 1] - rows[0];
+    double most = 0;
+
+    for (int i = 0; i < ASKED; i++) {
+        const double at = rows[0] + span * (i * golden - floor(i * golden));
+        double open;
+
+        TRY(formula_rounding(session, formula, source, &at, &open, diag));
+        most = fmax(most, open);
+    }
+    for (int k = 0; k < bins; k++, column += stride)
+        *column = *column > most ? *column : 0;
+    return OK;
+}
+
 Status spectrum_rows(ct_session *session, const Formula *formulas, int columns, Run *grid,
                      Run *source, double **values, int *rows, Diag *diag)
 {
@@ -142,6 +165,9 @@ Status spectrum_rows(ct_session *session, const Formula *formulas, int columns, 
         text_free(&line);
     }
     *rows = (counts[i] + 1) / 2;
+    for (int c = 0; c < columns; c++)
+        CHECK(round_amplitudes(session, &formulas[c], grid, source, fine + c + 1, *rows,
+                               columns + 1, diag));
     *values = fine;
     fine = NULL;
 done:

@@ -216,8 +216,8 @@ bool formula_may_be_rounding(const Syntax *item, double value)
     return value != 0 && fabs(value) * (is_shown_in ? item->unit.factor : 1) <= LOOKED_AT;
 }
 
-Status formula_round(ct_session *session, const Formula *formula, Run *source, const double *at,
-                     double *value, Diag *diag)
+Status formula_rounding(ct_session *session, const Formula *formula, Run *source, const double *at,
+                        double *out, Diag *diag)
 {
     const int count = formula->leaves.count;
     double *values = NEW_ARRAY(double, count), *open = NEW_ARRAY(double, count);
@@ -240,11 +240,21 @@ Status formula_round(ct_session *session, const Formula *formula, Run *source, c
         most += fabs(join(formula, values) - here);
         values[i] = held;
     }
-    if (fabs(*value) <= NO_DIGIT * most)
-        *value = 0;
+    *out = most;
 done:
     MEM_FREE(values, open);
     return status;
+}
+
+Status formula_round(ct_session *session, const Formula *formula, Run *source, const double *at,
+                     double *value, Diag *diag)
+{
+    double open;
+
+    TRY(formula_rounding(session, formula, source, at, &open, diag));
+    if (fabs(*value) <= NO_DIGIT * open)
+        *value = 0;
+    return OK;
 }
 
 Run *formula_grid(ct_session *session, const Formula *formulas, int count, Run *source)

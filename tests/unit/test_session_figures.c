@@ -184,6 +184,29 @@ static void a_tone_shows_its_amplitude(void)
     }
 }
 
+/* between the lines of a tone there is nothing: no roundings of its samples, nor of large numbers
+ * that it is the difference of */
+static void rounding_is_no_tone(void)
+{
+    static const char *const tones[] = {"spectrum(3*sin(2*pi*5*t))", "spectrum(E1.v)",
+                                        "spectrum(E1.v) [mV]",
+                                        "spectrum((1e6 + sin(2*pi*5*t)) - 1e6)"};
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "vsource E1 a 0 3 V*sin(2*pi*5 Hz*t)\nresistor R1 a 0 10 ohm\nsimulate 2");
+    for (size_t i = 0; i < sizeof tones / sizeof tones[0]; i++) {
+        EXPECT(amplitude(&kit, tones[i], 5) > 0.99);
+        EXPECT(amplitude(&kit, tones[i], 4.5) > 0.49); /* of the window */
+        for (int k = 0; k < 9; k++)
+            EXPECT_NEAR(amplitude(&kit, tones[i], 0.5 * k), 0, 0);
+        for (int k = 12; k < 200; k++)
+            EXPECT_NEAR(amplitude(&kit, tones[i], 0.5 * k), 0, 0);
+    }
+    /* what is small without being rounding stays */
+    EXPECT_NEAR(amplitude(&kit, "spectrum(sin(2*pi*5*t) + 1e-12*sin(2*pi*9*t))", 9), 1e-12, 1e-14);
+    kit_free(&kit);
+}
+
 /* 0.5 cos 2t + sin 2t over ten periods, in a unit, of one run among two */
 static void a_swing_has_one_line(void)
 {
@@ -239,6 +262,7 @@ static void a_spectrum_stands_where_it_can(void)
 int main(void)
 {
     RUN(a_tone_shows_its_amplitude);
+    RUN(rounding_is_no_tone);
     RUN(a_swing_has_one_line);
     RUN(a_ball_has_the_tones_of_parabolas);
     RUN(a_spectrum_stands_where_it_can);
