@@ -65,6 +65,7 @@ typedef struct ct_hooks {
 } ct_hooks;
 
 const char *ct_version(void); /* "0.1.0" */
+double ct_clock(void);        /* s, that goes forward only; since when doesn't matter */
 ct_session *
 ct_session_new(const ct_hooks *hooks); /* hooks are copied, NULL: none; new; ct_session_free() */
 void ct_session_free(ct_session *session);

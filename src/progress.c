@@ -1,28 +1,20 @@
 /* progress.c: what long work is doing, on a terminal and after a second only */
 #include "progress.h"
 
+#include "cotree.h"
 #include "interrupt.h"
 
 #include <stdio.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 static const double PATIENCE = 1; /* s before the first word */
 static const double PAUSE = 0.1;  /* s between two */
 
-double progress_clock(void)
-{
-    struct timespec now;
-
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 void progress_begin(Progress *progress, bool allowed)
 {
     *progress = (Progress){.allowed = allowed && isatty(STDERR_FILENO)};
-    progress->began = progress->phase_began = progress_clock();
+    progress->began = progress->phase_began = ct_clock();
 }
 
 static void put_duration(double seconds)
@@ -41,7 +33,7 @@ void progress_show(Progress *progress, const char *phase, double fraction)
     if (!progress->allowed)
         return;
 
-    double now = progress_clock();
+    double now = ct_clock();
 
     if (strncmp(phase, progress->phase, sizeof progress->phase - 1) != 0) {
         snprintf(progress->phase, sizeof progress->phase, "%s", phase);

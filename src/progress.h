@@ -13,7 +13,6 @@ typedef struct Progress {
     double last;
 } Progress;
 
-double progress_clock(void); /* s, monotonic */
 void progress_begin(Progress *progress, bool allowed);
 /* fraction 0..1, or below 0 where unknown; cheap when called often */
 void progress_show(Progress *progress, const char *phase, double fraction);

@@ -236,10 +236,10 @@ static ct_status carry_out(Shell *shell, const ct_statement *statement, ct_error
 
 static ct_status command_time(Call *call, ct_error *error)
 {
-    const double began = progress_clock();
+    const double began = ct_clock();
     const ct_status status = carry_out(call->shell, ct_rest(call->statement), error);
 
-    remark("time: %.3g s", progress_clock() - began);
+    remark("time: %.3g s", ct_clock() - began);
     return status;
 }
 

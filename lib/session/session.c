@@ -2,6 +2,7 @@
 #include "session/session_impl.h"
 
 #include "algebra/dense.h"
+#include "base/clock.h"
 
 #include "config.h"
 
@@ -11,6 +12,11 @@
 const char *ct_version(void)
 {
     return PACKAGE_VERSION;
+}
+
+double ct_clock(void)
+{
+    return clock_now();
 }
 
 void ct_free(void *piece)

@@ -5,13 +5,13 @@
  * it found is told, and put into the model as statements. */
 #include "session/session_impl.h"
 
+#include "base/clock.h"
 #include "formulate/whole/tree_search.h"
 #include "language/verbs.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { MOST_ROWS = 8 };
 #define PATIENCE 10.0 /* s */
@@ -32,20 +32,12 @@ typedef struct TreesSought {
     Watch watch; /* that stops at either */
 } TreesSought;
 
-static double seconds(void)
-{
-    struct timespec now;
-
-    (void)clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 static bool stop(void *context)
 {
     TreesSought *search = context;
 
     search->is_stopped = search->is_stopped || poll(&search->session->watch) != OK;
-    search->is_late = search->is_late || seconds() - search->began > PATIENCE;
+    search->is_late = search->is_late || clock_now() - search->began > PATIENCE;
     return search->is_stopped || search->is_late;
 }
 
@@ -215,7 +207,7 @@ static Status open_search(TreesSought *search, Diag *diag)
 {
     Model *model = search->session->model;
 
-    search->began = seconds();
+    search->began = clock_now();
     search->watch = (Watch){.context = search, .stop = stop, .progress = progress};
     search->mark = arena_mark(model_arena(model));
     TRY(model_scene(model, &search->scene, diag));

@@ -5,24 +5,16 @@
 #ifndef COTREE_TESTS_BENCH_H
 #define COTREE_TESTS_BENCH_H
 
+#include "base/clock.h"
+
 #include <malloc.h>
 #include <stdio.h>
-#include <time.h>
 
 /* What a round frees serves the next one, as in a session that goes on: it is not for each to give
  * memory back to the system and ask for it again. */
 __attribute__((constructor)) static void bench_keep_memory(void)
 {
     (void)mallopt(M_TOP_PAD, 1 << 26);
-}
-
-/* seconds on a clock that only goes forward */
-__attribute__((unused)) static double bench_now(void)
-{
-    struct timespec now;
-
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
 __attribute__((unused)) static void bench_line(const char *name, double value, const char *unit)
@@ -35,9 +27,9 @@ __attribute__((unused)) static void bench_line(const char *name, double value, c
     do {                                                                                           \
         (seconds) = 1e300;                                                                         \
         for (int try_ = 0; try_ < (tries); try_++) {                                               \
-            double begin_ = bench_now();                                                           \
+            double begin_ = clock_now();                                                           \
             __VA_ARGS__;                                                                           \
-            double took_ = bench_now() - begin_;                                                   \
+            double took_ = clock_now() - begin_;                                                   \
             (seconds) = took_ < (seconds) ? took_ : (seconds);                                     \
         }                                                                                          \
     } while (0)

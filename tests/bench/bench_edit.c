@@ -81,7 +81,7 @@ done:
 /* The equations and the programs that a run steps with: seconds. */
 static double form(const Model *model, System **system)
 {
-    const double began = bench_now();
+    const double began = clock_now();
     Layout *layout = NULL;
     Parameters parameters = {.value = parameter, .context = (void *)model};
     Numbers *numbers = NULL;
@@ -93,7 +93,7 @@ static double form(const Model *model, System **system)
         layout = layout_new(*system);
         status = numbers_new(layout, &parameters, &numbers, &diag);
     }
-    took = bench_now() - began;
+    took = clock_now() - began;
     if (status != OK)
         printf("# %s\n", diag.message);
     numbers_free(numbers);

@@ -81,11 +81,11 @@ static void bench_ladder(const char *scripts, int sections)
         System *system = NULL;
         Result *result = NULL;
         Diag diag = {0};
-        double began = bench_now();
+        double began = clock_now();
 
         if (model != NULL && form_system(model, &system, &diag) == OK &&
             system_run(system) != NULL) {
-            formulation = fmin(formulation, bench_now() - began);
+            formulation = fmin(formulation, clock_now() - began);
             if (run_simulate(system, &setting, &options, &result, NULL, &diag) == OK) {
                 const RunReport *report = result_report(result);
 
@@ -122,14 +122,14 @@ static void bench_diodes(const char *scripts, int count)
         System *system = NULL;
         Result *result = NULL;
         Diag diag = {0};
-        double began = bench_now();
+        double began = clock_now();
 
         if (model != NULL && form_system(model, &system, &diag) == OK &&
             system_run(system) != NULL) {
-            formulation = fmin(formulation, bench_now() - began);
-            began = bench_now();
+            formulation = fmin(formulation, clock_now() - began);
+            began = clock_now();
             if (run_equilibrium(system, &setting, &result, NULL, &diag) == OK)
-                point = fmin(point, bench_now() - began);
+                point = fmin(point, clock_now() - began);
         }
         if (result == NULL)
             printf("# %d diodes: %s\n", count, diag.message);
@@ -166,12 +166,12 @@ static double time_of(System *system, const Setting *setting, const char *method
         .duration = 1, .every = 0.01, .rtol = 1e-6, .atol = 1e-9, .method = method};
     Result *result = NULL;
     Diag diag = {0};
-    double began = bench_now();
+    double began = clock_now();
 
     if (run_simulate(system, setting, &options, &result, NULL, &diag) != OK)
         printf("# %s: %s\n", method, diag.message);
     result_free(result);
-    return bench_now() - began;
+    return clock_now() - began;
 }
 
 /* the same run by both methods, one after the other, so that their ratio holds on any machine */
@@ -463,14 +463,14 @@ typedef struct Taken {
 /* what a command that writes `path` takes; the table is handed on where it is wanted */
 static Taken take(const char *command, const char *path, const Table *exact, Table *out)
 {
-    double began = bench_now();
+    double began = clock_now();
     Taken taken = {NAN, NAN};
     Table table;
 
     (void)remove(path);
     if (!shell(command))
         (void)printf("# %s\n", command);
-    taken.seconds = bench_now() - began;
+    taken.seconds = clock_now() - began;
     table = read_table(path);
     if (exact != NULL)
         taken.error = error_of(exact, &table);

@@ -48,10 +48,10 @@ static double formulate(const char *path)
         Model *model = model_of(path);
         System *system = NULL;
         Diag diag;
-        double began = bench_now();
+        double began = clock_now();
         bool made =
             model != NULL && form_system(model, &system, &diag) == OK && system_run(system) != NULL;
-        double took = bench_now() - began;
+        double took = clock_now() - began;
 
         system_free(system);
         model_free(model);
@@ -70,7 +70,7 @@ static double program_time(const char *program, const char *flag, const char *wh
     pid_t child;
 
     (void)fflush(stdout); /* or the child prints what is pending once more */
-    began = bench_now();
+    began = clock_now();
     child = fork();
     if (child == 0) {
         if (freopen("/dev/null", "w", stdout) != NULL && freopen("/dev/null", "w", stderr) != NULL)
@@ -79,7 +79,7 @@ static double program_time(const char *program, const char *flag, const char *wh
     }
     if (child < 0 || waitpid(child, &ended, 0) != child || ended != 0)
         return -1;
-    return bench_now() - began;
+    return clock_now() - began;
 }
 
 static int compare_times(const void *a, const void *b)

@@ -95,12 +95,12 @@ static double form(Model *model, System **before)
     System *system = NULL;
     Diag diag = {0};
     Status status;
-    const double began = bench_now();
+    const double began = clock_now();
 
     status = model_scene(model, &scene, &diag);
     if (status == OK && (before == NULL || *before == NULL || !system_follows(*before, &scene)))
         status = system_new_view(&scene, &options, &system, &diag);
-    const double took = bench_now() - began;
+    const double took = clock_now() - began;
 
     if (status != OK)
         printf("# %s\n", diag.message);

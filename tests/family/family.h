@@ -15,6 +15,7 @@
 #define COTREE_TESTS_FAMILY_H
 
 #include "../random.h"
+#include "base/clock.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -24,7 +25,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 /* what became of a member: REFUSED is an error or a mark where one may be; it is counted */
 typedef enum Verdict { AGREES, REFUSED, DISAGREES } Verdict;
@@ -104,23 +104,15 @@ static Verdict family_member(const Family *family, uint64_t seed, int number, Me
     return family->run(member);
 }
 
-static double family_clock(void)
-{
-    struct timespec now;
-
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 /* whether the family keeps its claim: over so many members, or for so many seconds */
 static bool family_run(const Family *family, uint64_t seed, int members, double seconds)
 {
     static Member member;
-    const double end = family_clock() + seconds;
+    const double end = clock_now() + seconds;
     int count[3] = {0}, number = 0;
     double worst = 0;
 
-    for (; seconds > 0 ? family_clock() < end : number < members; number++) {
+    for (; seconds > 0 ? clock_now() < end : number < members; number++) {
         const Verdict verdict = family_member(family, seed, number, &member);
 
         count[verdict]++;

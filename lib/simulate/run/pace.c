@@ -1,19 +1,13 @@
 /* pace.c: a run that keeps up with the clock */
 #include "simulate/run/pace.h"
 
+#include "base/clock.h"
+
 #include <math.h>
 #include <time.h>
 
 #define LOOK  0.02  /* s: between looks whether to stop */
 #define WHOLE 0.999 /* of a step, but for rounding */
-
-double pace_now(void)
-{
-    struct timespec now;
-
-    (void)clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static void sleep_for(double duration)
 {
@@ -25,7 +19,7 @@ static void sleep_for(double duration)
 
 Pace pace_begin(double step, double from)
 {
-    const double now = pace_now();
+    const double now = clock_now();
 
     return (Pace){.step = step, .began = now, .from = from, .last = now, .before = from};
 }
@@ -33,7 +27,7 @@ Pace pace_begin(double step, double from)
 void pace_wait(Pace *pace, double t, const Watch *watch)
 {
     const double due = pace->began + (t - pace->from);
-    const double now = pace_now(), took = now - pace->last, length = t - pace->before;
+    const double now = clock_now(), took = now - pace->last, length = t - pace->before;
     double left;
 
     if (length < WHOLE * pace->step)
@@ -44,8 +38,8 @@ void pace_wait(Pace *pace, double t, const Watch *watch)
     }
     pace->late += took > length;
     pace->behind = fmax(pace->behind, now - due);
-    while ((left = due - pace_now()) > 0 && poll(watch) == OK)
+    while ((left = due - clock_now()) > 0 && poll(watch) == OK)
         sleep_for(fmin(left, LOOK));
-    pace->last = pace_now();
+    pace->last = clock_now();
     pace->before = t;
 }

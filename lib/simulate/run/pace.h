@@ -20,8 +20,6 @@ typedef struct Pace {
     int64_t late;           /* steps that took longer than they are */
 } Pace;
 
-/* the clock, s; since when doesn't matter */
-double pace_now(void);
 /* The run begins now, at `from`. */
 Pace pace_begin(double step, double from);
 /* A step ended at t: wait for the clock. Returns early when `watch` asks to stop. */

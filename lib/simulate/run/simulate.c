@@ -1,6 +1,7 @@
 /* simulate.c: runs: forward, resumed, driven */
 #include "simulate/run/run.h"
 
+#include "base/clock.h"
 #include "base/memory.h"
 #include "simulate/equations/causes.h"
 #include "simulate/run/begin.h"
@@ -239,7 +240,7 @@ static void fill_report(ActiveRun *r, const IntegrationReport *integration,
     r->result->report.step = options->step;
     r->result->report.most = options->most;
     r->result->report.stopped = stopped;
-    r->result->report.wall = pace_now() - began;
+    r->result->report.wall = clock_now() - began;
 }
 
 /* how much accuracy is lost there is not known: a run of check=on measures it */
@@ -346,7 +347,7 @@ static Status go(ActiveRun *r, const Setting *setting, const RunOptions *given, 
     Pace pace = {0};
     int first = skip_first ? r->result->grid.count - 1 : 0;
     Status status = OK;
-    double began = pace_now();
+    double began = clock_now();
 
     CHECK(complete_options(r, given, &options, diag));
     CHECK(find_method(options.method, &method, diag));
@@ -388,7 +389,7 @@ static Status go(ActiveRun *r, const Setting *setting, const RunOptions *given, 
                                 plan.to, diag);
     if (active_run_balance(r, NULL) != OK)
         r->result->report.energy_drift = NAN;
-    r->result->report.wall = pace_now() - began;
+    r->result->report.wall = clock_now() - began;
 done:
     events_free(again);
     return status;
@@ -680,7 +681,7 @@ static Status refuse_idle(const RunOptions *given, Diag *diag)
 static Status drive(ActiveRun *r, const Setting *setting, const RunOptions *given, Diag *diag)
 {
     RunOptions options;
-    double began = pace_now();
+    double began = clock_now();
     Status status = OK;
 
     CHECK(complete_options(r, given, &options, diag));
@@ -702,7 +703,7 @@ static Status drive(ActiveRun *r, const Setting *setting, const RunOptions *give
         CHECK(positions(r, setting, &options, diag));
     }
 done:
-    r->result->report.wall = pace_now() - began;
+    r->result->report.wall = clock_now() - began;
     return status;
 }
 
