@@ -356,9 +356,11 @@ static void offer_methods(TypedLine *line)
 
 void offer_notations(TypedLine *line)
 {
-    for (Notation i = NOTATION_TEXT; i < NOTATIONS; i++)
-        if (notation_row(i)->word != NULL)
-            offer(line, notation_row(i)->word);
+    const Topic *topic = line->before.count > 1 ? topic_find(line->before.at[1]) : NULL;
+    const char *word;
+
+    for (int i = 0; (word = topic_notation(topic, i)) != NULL; i++)
+        offer(line, word);
 }
 /* --- which of them --- */
 

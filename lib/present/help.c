@@ -293,6 +293,18 @@ static void add_overview(Text *out)
     text_free(&names);
 }
 
+/* its line, and the notations where it has several */
+static void add_topic(Text *out, const Topic *topic)
+{
+    const char *notation;
+
+    text_addf(out, "show %s - %s\n", topic->name, topic->brief);
+    for (int i = 1; (notation = topic_notation(topic, i)) != NULL; i++)
+        text_addf(out, "%s%s", i == 1 ? "\nAlso as " : ", ", notation);
+    if (topic_notation(topic, 1) != NULL)
+        text_addf(out, ": show %s as %s\n", topic->name, topic_notation(topic, 1));
+}
+
 bool help_print(Text *out, const char *word)
 {
     const HelpTopic *about;
@@ -308,7 +320,7 @@ bool help_print(Text *out, const char *word)
         text_addf(out, "%s - %s\n\n", about->name, about->brief);
         about->write(out);
     } else if ((topic = topic_find(word)) != NULL)
-        text_addf(out, "show %s - %s\n", topic->name, topic->brief);
+        add_topic(out, topic);
     else
         known = add_function(out, word) || add_quantity(out, word) || add_unit(out, word) ||
                 add_key(out, word) ||

@@ -8,41 +8,41 @@
 
 /* clang-format off */
 static const Topic topics[] = {
-    {"graph",        "nodes and edges of the linear graph",                NEED_MODEL,  BEHIND_NOTHING, show_graph},
-    {"nodes",        "frames and terminals",                               NEED_MODEL,  BEHIND_NOTHING, show_nodes},
-    {"edges",        "edges, their ends, and where they stand in the trees", NEED_MODEL, BEHIND_EDGES,  show_edges},
-    {"tree",         "branches and chords of each tree",                   NEED_MODEL,  BEHIND_NOTHING, show_tree},
-    {"incidence",    "incidence matrix: +1 where an edge starts, -1 where it ends", NEED_MODEL, BEHIND_EDGES, show_incidence},
-    {"circuits",     "fundamental circuits, one a chord",                  NEED_MODEL,  BEHIND_EDGES,   show_circuits},
-    {"cutsets",      "fundamental cutsets, one a branch",                  NEED_MODEL,  BEHIND_EDGES,   show_cutsets},
-    {"coordinates",  "coordinates and network unknowns, in their order",   NEED_SYSTEM, BEHIND_NOTHING, show_coordinates},
-    {"constraints",  "constraint equations; velocity, acceleration: their rates", NEED_SYSTEM, BEHIND_LEVEL, show_constraints},
-    {"jacobian",     "derivatives of the constraints by the coordinates",  NEED_SYSTEM, BEHIND_NUMBERS, show_jacobian},
-    {"mass",         "mass matrix M",                                      NEED_SYSTEM, BEHIND_NUMBERS, show_mass},
-    {"forces",       "right side F of the motion equations",               NEED_SYSTEM, BEHIND_NUMBERS, show_forces},
-    {"equations",    "all equations, row by row",                          NEED_SYSTEM, BEHIND_NOTHING, show_equations},
-    {"network",      "electrical equations, and those of other scalar domains", NEED_SYSTEM, BEHIND_NOTHING, show_network},
-    {"outputs",      "outputs and their expressions",                      NEED_MODEL,  BEHIND_NOTHING, show_outputs},
-    {"params",       "parameters and their values",                        NEED_MODEL,  BEHIND_NOTHING, show_params},
-    {"structure",    "sizes, instances, where M and the jacobian are not zero",  NEED_RUNNING, BEHIND_NOTHING, show_structure},
-    {"run",          "report of the last run",                             NEED_RUN,    BEHIND_NOTHING, show_run},
-    {"runs",         "all runs: what ran, from when to when, in how many steps", NEED_MODEL, BEHIND_NOTHING, show_runs},
-    {"init",         "initial values and guesses that were given",         NEED_MODEL,  BEHIND_NOTHING, show_init},
-    {"settings",     "how the session computes and prints",                NEED_MODEL,  BEHIND_NOTHING, show_settings},
-    {"program",      "what a run evaluates, what is hoisted, kept, skipped", NEED_RUNNING, BEHIND_NOTHING, show_program},
-    {"state",        "a linear network as x' = A x + B u",                 NEED_MODEL,  BEHIND_NOTHING, show_state},
-    {"linear",       "matrices of the last linearisation",                 NEED_LINEAR, BEHIND_NOTHING, show_linear},
-    {"transfer",     "transfer functions of the last linearisation",       NEED_LINEAR, BEHIND_PAIR,    show_transfer},
-    {"thevenin",     "a linear network between two terminals: source and impedance", NEED_MODEL, BEHIND_ITEMS, show_thevenin},
-    {"norton",       "the same: source and admittance",                    NEED_MODEL,  BEHIND_ITEMS,   show_norton},
-    {"derivation",   "how an equation came about, step by step",           NEED_SYSTEM, BEHIND_ENTRY,   show_derivation},
-    {"events",       "events, and when they happened in the last run",     NEED_MODEL,  BEHIND_NOTHING, show_events},
+    {"graph",        "nodes and edges of the linear graph",                NEED_MODEL,  BEHIND_NOTHING, AS_TEXT,     show_graph},
+    {"nodes",        "frames and terminals",                               NEED_MODEL,  BEHIND_NOTHING, AS_TEXT,     show_nodes},
+    {"edges",        "edges, their ends, and where they stand in the trees", NEED_MODEL, BEHIND_EDGES,  AS_TEXT,     show_edges},
+    {"tree",         "branches and chords of each tree",                   NEED_MODEL,  BEHIND_NOTHING, AS_TEXT,     show_tree},
+    {"incidence",    "incidence matrix: +1 where an edge starts, -1 where it ends", NEED_MODEL, BEHIND_EDGES, AS_TEXT,     show_incidence},
+    {"circuits",     "fundamental circuits, one a chord",                  NEED_MODEL,  BEHIND_EDGES,   AS_TEXT,     show_circuits},
+    {"cutsets",      "fundamental cutsets, one a branch",                  NEED_MODEL,  BEHIND_EDGES,   AS_TEXT,     show_cutsets},
+    {"coordinates",  "coordinates and network unknowns, in their order",   NEED_SYSTEM, BEHIND_NOTHING, AS_TEXT,     show_coordinates},
+    {"constraints",  "constraint equations; velocity, acceleration: their rates", NEED_SYSTEM, BEHIND_LEVEL, AS_FORMULAS, show_constraints},
+    {"jacobian",     "derivatives of the constraints by the coordinates",  NEED_SYSTEM, BEHIND_NUMBERS, AS_FORMULAS, show_jacobian},
+    {"mass",         "mass matrix M",                                      NEED_SYSTEM, BEHIND_NUMBERS, AS_FORMULAS, show_mass},
+    {"forces",       "right side F of the motion equations",               NEED_SYSTEM, BEHIND_NUMBERS, AS_FORMULAS, show_forces},
+    {"equations",    "all equations, row by row",                          NEED_SYSTEM, BEHIND_NOTHING, AS_FORMULAS, show_equations},
+    {"network",      "electrical equations, and those of other scalar domains", NEED_SYSTEM, BEHIND_NOTHING, AS_FORMULAS, show_network},
+    {"outputs",      "outputs and their expressions",                      NEED_MODEL,  BEHIND_NOTHING, AS_FORMULAS, show_outputs},
+    {"params",       "parameters and their values",                        NEED_MODEL,  BEHIND_NOTHING, AS_TEXT,     show_params},
+    {"structure",    "sizes, instances, where M and the jacobian are not zero",  NEED_RUNNING, BEHIND_NOTHING, AS_TEXT,     show_structure},
+    {"run",          "report of the last run",                             NEED_RUN,    BEHIND_NOTHING, AS_TEXT,     show_run},
+    {"runs",         "all runs: what ran, from when to when, in how many steps", NEED_MODEL, BEHIND_NOTHING, AS_TEXT,     show_runs},
+    {"init",         "initial values and guesses that were given",         NEED_MODEL,  BEHIND_NOTHING, AS_TEXT,     show_init},
+    {"settings",     "how the session computes and prints",                NEED_MODEL,  BEHIND_NOTHING, AS_TEXT,     show_settings},
+    {"program",      "what a run evaluates, what is hoisted, kept, skipped", NEED_RUNNING, BEHIND_NOTHING, AS_TEXT,     show_program},
+    {"state",        "a linear network as x' = A x + B u",                 NEED_MODEL,  BEHIND_NOTHING, AS_NUMBERS,  show_state},
+    {"linear",       "matrices of the last linearisation",                 NEED_LINEAR, BEHIND_NOTHING, AS_NUMBERS,  show_linear},
+    {"transfer",     "transfer functions of the last linearisation",       NEED_LINEAR, BEHIND_PAIR,    AS_NUMBERS,  show_transfer},
+    {"thevenin",     "a linear network between two terminals: source and impedance", NEED_MODEL, BEHIND_ITEMS, AS_FORMULAS, show_thevenin},
+    {"norton",       "the same: source and admittance",                    NEED_MODEL,  BEHIND_ITEMS,   AS_FORMULAS, show_norton},
+    {"derivation",   "how an equation came about, step by step",           NEED_SYSTEM, BEHIND_ENTRY,   AS_STORY,    show_derivation},
+    {"events",       "events, and when they happened in the last run",     NEED_MODEL,  BEHIND_NOTHING, AS_TEXT,     show_events},
 };
 /* clang-format on */
 
 /* `show transfer OUT IN symbolic`: of a linear network as it is */
-static const Topic symbolic_transfer = {"transfer", "", NEED_MODEL, BEHIND_ITEMS,
-                                        show_symbolic_transfer};
+static const Topic symbolic_transfer = {"transfer",   "",          NEED_MODEL,
+                                        BEHIND_ITEMS, AS_FORMULAS, show_symbolic_transfer};
 
 const Topic *topic_find(const char *name)
 {
@@ -55,6 +55,16 @@ const Topic *topic_find(const char *name)
 const Topic *topic_at(int i)
 {
     return i >= 0 && i < COUNT(topics) ? &topics[i] : NULL;
+}
+
+const char *topic_notation(const Topic *topic, int i)
+{
+    const unsigned written = topic != NULL ? topic->written : AS_FORMULAS;
+
+    for (Notation n = NOTATION_TEXT; n < NOTATIONS; n++)
+        if (notation_row(n)->word != NULL && (written & 1U << n) != 0 && i-- == 0)
+            return notation_row(n)->word;
+    return NULL;
 }
 
 /* whether the last operand is that word */
@@ -93,10 +103,42 @@ static bool has_formula(const Model *model, const Statement *statement)
     return false;
 }
 
+/* that behind `as`, one of the topic's; without `as` it stays */
+static Status read_notation(const Statement *statement, const Topic *topic, Notation *out,
+                            Diag *diag)
+{
+    Notation notation;
+    const char *word;
+    Text words = {0};
+    bool is_known;
+
+    if (statement->as == NULL)
+        return OK;
+    is_known = notation_find(statement->as, &notation);
+    if (is_known && (topic == NULL || (topic->written & 1U << notation) != 0)) {
+        *out = notation;
+        return OK;
+    }
+    for (int i = 0; (word = topic_notation(topic, i)) != NULL; i++)
+        layout_item(&words, word);
+    if (is_known) {
+        diag_at(diag, E_NAME, statement->as_place, "'show %s' is not written as %s", topic->name,
+                statement->as);
+        diag_hint(diag, "only as %s", words.at);
+    } else {
+        diag_at(diag, E_NAME, statement->as_place, "no notation is called '%s'", statement->as);
+        diag_hint(diag, "one of %s", words.at);
+    }
+    text_free(&words);
+    return E_NAME;
+}
+
 Status show_need(const Model *model, const Statement *statement, Need *need, Diag *diag)
 {
     const Topic *topic = find_topic(statement);
+    Notation ignored;
 
+    TRY(read_notation(statement, topic, &ignored, diag));
     if (statement->operands.count == 0) {
         diag_at(diag, E_SYNTAX, statement->verb_place, "'show' needs a topic");
         diag_hint(diag, "show graph, tree, coordinates, constraints, mass, forces, equations ...; "
@@ -327,17 +369,7 @@ Status show(const View *view, const Statement *statement, Text *out, Diag *diag)
     const Topic *topic = find_topic(statement);
     Status status = OK;
 
-    if (statement->as != NULL && !notation_find(statement->as, &in_notation.page.notation)) {
-        Text words = {0};
-
-        for (Notation i = NOTATION_TEXT; i < NOTATIONS; i++)
-            if (notation_row(i)->word != NULL)
-                text_addf(&words, "%s%s", i > 0 ? ", " : "", notation_row(i)->word);
-        diag_at(diag, E_NAME, statement->as_place, "no notation is called '%s'", statement->as);
-        diag_hint(diag, "one of %s", words.at);
-        text_free(&words);
-        return E_NAME;
-    }
+    TRY(read_notation(statement, topic, &in_notation.page.notation, diag));
     if (topic != NULL)
         return show_topic(&in_notation, topic, statement, out, diag);
     for (int i = 0; status == OK && i < statement->operands.count; i++) {

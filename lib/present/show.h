@@ -27,6 +27,14 @@ typedef enum Behind { /* what may stand behind a topic */
                       BEHIND_ITEMS    /* two: terminals, or an output and an input */
 } Behind;
 
+/* notations that a topic is written in, a bit each */
+typedef enum Written {
+    AS_TEXT = 1U << NOTATION_TEXT,
+    AS_STORY = AS_TEXT | 1U << NOTATION_LATEX,
+    AS_NUMBERS = AS_STORY | 1U << NOTATION_C | 1U << NOTATION_MATLAB,
+    AS_FORMULAS = (1U << NOTATIONS) - 1
+} Written;
+
 typedef struct Selection {
     int numbers[2]; /* from 1 */
     int number_count;
@@ -43,11 +51,14 @@ typedef struct Topic {
     const char *brief;
     Need need;
     Behind behind;
+    Written written;
     Status (*show)(const View *view, const Selection *selection, Text *out, Diag *diag);
 } Topic;
 
 const Topic *topic_find(const char *name); /* NULL: none */
 const Topic *topic_at(int i);              /* 0, 1, ... until NULL */
+/* word i of the notations that it is written in, of NULL any: 0, 1, ... until NULL */
+const char *topic_notation(const Topic *topic, int i);
 
 /* What the statement `show ...` needs; a variable (`show h9.fx`) needs equations, the name of a
  * part (`show R1`) only the model. */

@@ -211,8 +211,6 @@ Status show_derivation(const View *view, const Selection *selection, Text *out, 
     Story story = {.view = view, .out = out};
     bool any = false;
 
-    if (view_kind(view) == NOTATION_SOURCE || view_kind(view) == NOTATION_OUTLINE)
-        return diag_set(diag, E_VALUE, "a derivation is written as text or as latex");
     if (item == NULL)
         return tell_all(&story, diag);
     if (item->kind == SYNTAX_NUMBER)
