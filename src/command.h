@@ -14,6 +14,7 @@ typedef struct Call {
     ct_session *session; /* the shell's */
     const ct_statement *statement;
     FILE *out;
+    int columns; /* of the screen that `out` goes to; 0: it goes to a file or a pipe */
 } Call;
 
 typedef ct_status CommandFunction(Call *call, ct_error *error);

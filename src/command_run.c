@@ -175,12 +175,11 @@ typedef struct TableColumns {
     char **labels; /* names with units */
 } TableColumns;
 
-static void put_table(const Call *call, const TableColumns *table)
+/* a column is as wide as its widest entry; new */
+static int *column_widths(const TableColumns *table, int digits)
 {
-    int digits = call->shell->settings.digits;
     int *widths = copy_check(calloc((size_t)table->columns + 1, sizeof *widths));
 
-    /* a column is as wide as its widest entry */
     for (int j = 0; j < table->columns; j++) {
         widths[j] = (int)strlen(table->labels[j]);
         for (int i = 0; i < table->rows; i++) {
@@ -191,16 +190,55 @@ static void put_table(const Call *call, const TableColumns *table)
                 widths[j] = width;
         }
     }
-    for (int j = 0; j < table->columns; j++)
-        fprintf(call->out, "%s%*s", j > 0 ? "  " : "", widths[j], table->labels[j]);
+    return widths;
+}
+
+/* behind the columns from `from` on that fit beside the first one, at least one */
+static int block_end(const Call *call, const TableColumns *table, const int *widths, int from)
+{
+    int room = call->columns - widths[0], to = from;
+
+    if (call->columns == 0)
+        return table->columns;
+    while (to < table->columns && (room -= widths[to] + 2) >= 0)
+        to++;
+    return to > from || from == table->columns ? to : from + 1;
+}
+
+/* the first column, and those from `from` up to `to` */
+static void put_block(const Call *call, const TableColumns *table, const int *widths, int from,
+                      int to)
+{
+    fprintf(call->out, "%*s", widths[0], table->labels[0]);
+    for (int j = from; j < to; j++)
+        fprintf(call->out, "  %*s", widths[j], table->labels[j]);
     fputc('\n', call->out);
-    for (int i = 0; i < table->rows; i++)
-        for (int j = 0; j < table->columns; j++) {
-            fputs(j > 0 ? "  " : "", call->out);
-            put_number(call->out, widths[j], digits, table->values[i * table->columns + j]);
-            if (j == table->columns - 1)
-                fputc('\n', call->out);
+    for (int i = 0; i < table->rows; i++) {
+        const double *row = table->values + (size_t)i * (size_t)table->columns;
+
+        put_number(call->out, widths[0], call->shell->settings.digits, row[0]);
+        for (int j = from; j < to; j++) {
+            fputs("  ", call->out);
+            put_number(call->out, widths[j], call->shell->settings.digits, row[j]);
         }
+        fputc('\n', call->out);
+    }
+}
+
+/* in blocks of columns where it is wider than the screen, each with the first one */
+static void put_table(const Call *call, const TableColumns *table)
+{
+    int *widths = column_widths(table, call->shell->settings.digits);
+    int from = 1;
+
+    do {
+        const int to = block_end(call, table, widths, from);
+
+        if (from > 1)
+            fputc('\n', call->out);
+        put_block(call, table, widths, from, to);
+        from = to;
+    } while (from < table->columns);
     free(widths);
 }
 

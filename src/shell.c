@@ -151,10 +151,11 @@ static ct_status command(Shell *shell, const Command *row, const ct_statement *s
 
     /* lines are broken for a screen only: files and pipes are for programs */
     terminal_size(&rows, &columns);
-    shell_set_width(shell, file == NULL && isatty(STDOUT_FILENO) ? columns : 0);
+    columns = file == NULL && isatty(STDOUT_FILENO) ? columns : 0;
+    shell_set_width(shell, columns);
     paper_open(&paper);
 
-    Call call = {shell, shell->session, statement, paper.out};
+    Call call = {shell, shell->session, statement, paper.out, columns};
     ct_status status = row->run(&call, error);
     char *text = paper_close(&paper);
 

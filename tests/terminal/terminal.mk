@@ -10,6 +10,7 @@ terminal_tests = \
     tests/terminal/interrupt_line.exp \
     tests/terminal/interrupt_run.exp \
     tests/terminal/student.exp \
+    tests/terminal/table_blocks.exp \
     tests/terminal/paste.exp \
     tests/terminal/paste_returns.exp \
     tests/terminal/recover.exp \
