@@ -433,8 +433,9 @@ ct_status ct_project(ct_evaluator *evaluator, const double *p, const double *t, 
  * ct_partial_derivatives() leaves the other arrays as they are. ct_derivatives() lets s follow from
  * p, t and y, at which it must be the solution: so those of `derivative` by CT_STATE are the matrix
  * of the linearised equations. By CT_STATE or CT_PARAMETERS; CT_FAILED where the solution is
- * singular. Constraints that repeat each other leave multipliers, and so these, undetermined: there
- * a model with `derivatives` is refused. */
+ * singular. Where constraints repeat each other, derivatives hold along what the constraints allow,
+ * as sums of columns; entries that depend on multipliers which are not determined are NAN, with
+ * CT_FAILED. */
 ct_status ct_partial_derivatives(ct_evaluator *evaluator, int function, ct_part by, const double *p,
                                  const double *t, const double *y, const double *s, double *values);
 ct_status ct_derivatives(ct_evaluator *evaluator, int function, ct_part by, const double *p,

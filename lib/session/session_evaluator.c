@@ -15,6 +15,7 @@
 enum { MOST_STEPS = 200, MOST_HALVES = 60, MOST_SWEEPS = 20, CONFIRMED = 3 };
 #define LEAST_PIVOT 1e-14 /* over the largest: below, equations are singular */
 #define SAME_ROW    1e-10 /* of independence: rows closer to others repeat them */
+#define OPEN        1e-7  /* of slopes: entries that constraints don't determine */
 #define NEAR        1e-9  /* of s: a Newton step after which they converge quadratically */
 #define ON          1e-13 /* what constraints may be off */
 
@@ -486,7 +487,29 @@ ct_status ct_partial_derivatives(ct_evaluator *e, int function, ct_part by, cons
     return CT_OK;
 }
 
-/* ds of a lane, entries of s by those of the part, in e->slope_of_s: R_s ds = -R_x */
+/* A direction, in e->step, in which s may move and the residual stays, of constraints that repeat
+ * each other: what the least solution takes off one at random. */
+static bool find_open_direction(ct_evaluator *e, const double *a)
+{
+    const int n = e->model->ns, w = n + 1;
+    double *open = e->step, *held = e->old;
+
+    for (int i = 0; i < n; i++)
+        open[i] = 1 + fmod(i * 0.6180339887498949, 1); /* no two alike */
+    for (int i = 0; i < n; i++) {
+        held[i] = 0;
+        for (int j = 0; j < n; j++)
+            held[i] += a[i * w + j] * open[j];
+    }
+    if (!solver_solve(&e->all, held))
+        return false;
+    for (int i = 0; i < n; i++)
+        open[i] -= held[i];
+    return true;
+}
+
+/* ds of a lane, entries of s by those of the part, in e->slope_of_s: R_s ds = -R_x. Where
+ * constraints repeat each other it is the least one. */
 static bool find_solution_slopes(ct_evaluator *e, ct_part by, int lane)
 {
     const ct_model *model = e->model;
@@ -502,7 +525,7 @@ static bool find_solution_slopes(ct_evaluator *e, ct_part by, int lane)
         a[of_s->row[k] * w + of_s->column[k]] = lanes_root(lanes_s, k, lane);
     for (int i = 0; i < n; i++)
         a[i * w + n] = 1; /* becomes one over what the row is scaled by */
-    if (!solver_factor(&e->all))
+    if (!solver_factor(&e->all) || (model->is_redundant && !find_open_direction(e, e->all.rows)))
         return false;
     memset(ds, 0, (size_t)(n * columns) * sizeof(double));
     for (int k = 0; k < of_x->count; k++)
@@ -517,6 +540,31 @@ static bool find_solution_slopes(ct_evaluator *e, ct_part by, int lane)
             ds[i * columns + column] = e->trial[i];
     }
     return true;
+}
+
+/* Entries of a function that move with what its constraints leave open have no derivatives. */
+static bool lose_open_entries(const ct_evaluator *e, const ModelFunction *f, const Lanes *of_s,
+                              int columns, int lane, double *values)
+{
+    const Slopes *slopes = &f->slopes[CT_SOLUTION];
+    bool none = true;
+
+    for (int k = 0, next; k < slopes->count; k = next) {
+        const int row = slopes->row[k];
+        double sum = 0, size = 0;
+
+        for (next = k; next < slopes->count && slopes->row[next] == row; next++) {
+            const double slope = lanes_root(of_s, next, lane);
+
+            sum += slope * e->step[slopes->column[next]];
+            size += fabs(slope);
+        }
+        if (fabs(sum) <= OPEN * size)
+            continue;
+        lose(e, values + (size_t)row * columns * e->model->lanes, columns, lane);
+        none = false;
+    }
+    return none;
 }
 
 ct_status ct_derivatives(ct_evaluator *e, int function, ct_part by, const double *p,
@@ -550,6 +598,10 @@ ct_status ct_derivatives(ct_evaluator *e, int function, ct_part by, const double
                 values[(of_s->row[k] * columns + c) * lanes + lane] +=
                     slope * e->slope_of_s[of_s->column[k] * columns + c];
         }
+        if (model->is_redundant)
+            all =
+                lose_open_entries(e, f, e->slopes[function][CT_SOLUTION], columns, lane, values) &&
+                all;
     }
     return all ? CT_OK : CT_FAILED;
 }
@@ -563,7 +615,7 @@ static void open_solvers(ct_evaluator *e)
     for (int g = 0; g < model->group_count; g++)
         solver_open(&e->groups[g], model->groups[g].count, model->is_redundant);
     if (model->functions.at[model->residual].has_slopes)
-        solver_open(&e->all, model->ns, false);
+        solver_open(&e->all, model->ns, model->is_redundant);
     if (model->m > 0)
         solver_open(&e->nearest, model->nu + model->m, model->is_redundant);
 }

@@ -268,13 +268,6 @@ static Status make(Making *making, const Exported *what, const ct_model_options 
     making->code = code;
     CHECK(code_form(what, code, diag));
     CHECK(code_add_states(code, what, 0, diag));
-    if (making->wanted != NULL && code->is_redundant) {
-        status = diag_set(diag, E_MODEL,
-                          "constraints repeat each other, so that multipliers, and "
-                          "what depends on them, have no derivatives");
-        diag_hint(diag, "'check' tells which");
-        goto done;
-    }
     take_inputs(making);
     take_numbers(making);
     take_structure(making);

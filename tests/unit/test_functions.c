@@ -1,5 +1,6 @@
 /* test_functions.c: a model as functions of numbers, for programs: against closed forms, the
  * session's own values, difference quotients, and itself in other lanes and threads */
+#include "../random.h"
 #include "session_kit.h"
 
 #include <threads.h>
@@ -32,6 +33,21 @@ typedef struct Lab {
     "arm c1 c [-0.3, 0]; arm c2 c [0.3, 0]; arm g ground [0.9, 0]\n"                               \
     "revolute h1 ground a1; revolute h2 a2 b1; revolute h3 b2 c2; revolute h4 g c1\n"              \
     "init h1 = 1.1, h1' = 3\n"
+/* one crank too many: hinges of the coupler repeat each other */
+#define PARALLEL                                                                                   \
+    "scene planar; gravity [0, -9.81]; m = 2; body a mass=m inertia=1; body b mass=1 inertia=1\n"  \
+    "body d mass=1 inertia=1; body c mass=1 inertia=1; arm gb ground [1, 0]\n"                     \
+    "arm gd ground [2, 0]; arm a1 a [0, 1]; arm b1 b [0, 1]; arm d1 d [0, 1]\n"                    \
+    "arm cb c [1, 0]; arm cd c [2, 0]; revolute h1 ground a; revolute h2 gb b\n"                   \
+    "revolute h3 gd d; revolute h4 a1 c; revolute h5 b1 cb; revolute h6 d1 cd\n"                   \
+    "tree h1 h2 h3 h4; output push = h5.fx + 2*h6.fx; output share = h5.fx; init h1 = 0.4\n"
+#define IN_SPACE                                                                                   \
+    "gravity [0, -9.81, 0]; m = 2; body a mass=m inertia=[1, 2, 3]\n"                              \
+    "body b mass=1 inertia=[1, 1, 2]; body c mass=1 inertia=[2, 1, 1]\n"                           \
+    "arm a2 a [1, 0, 0]; arm b2 b [0, 1, 0]; arm c0 c [0, -1, 0]; arm a1 a [-0.2, 0, 0]\n"         \
+    "arm g2 ground [1.2, 0, 0]; revolute j1 ground a1 axis=z; revolute j2 a2 b axis=z\n"           \
+    "revolute j3 c0 b2 axis=z; revolute j4 g2 c axis=z; tree absolute\n"                           \
+    "output high = a.wz; output share = j2.fz; init j1 = 0.2; guess a.x = 0.2\n"
 #define RECTIFIER                                                                                  \
     "vsource E a 0 2 + sin(t); Is = 1e-9; diode D a b Is=Is; resistor R b 0 100\n"                 \
     "capacitor C b 0 1 uF; init C.v = 1\n"
@@ -210,6 +226,110 @@ static void derivatives_are_quotients(void)
     }
 }
 
+/* a state on the constraints, what follows from it, and the derivatives of that by the state */
+typedef struct Place {
+    double y[ROOM], values[ROOM + 2], slopes[(ROOM + 2) * ROOM];
+} Place;
+
+/* Moved by numbers at random, as far as constraints let it. */
+static void move(Lab *lab, const double *from, double far, uint64_t *seed, Place *out)
+{
+    const int derivative = ct_model_function(lab->model, "derivative", NULL, NULL),
+              outputs = ct_model_function(lab->model, "outputs", NULL, NULL);
+
+    double moved = HUGE_VAL;
+
+    while (moved > 5 * far) { /* rows that all but repeat each other may lead it anywhere */
+        for (int i = 0; i < lab->ny; i++)
+            lab->y[i] = from[i] + test_uniform(seed, -far, far);
+        EXPECT(ct_project(lab->evaluator, lab->p, lab->t, lab->y) == CT_OK);
+        moved = 0;
+        for (int i = 0; i < lab->ny; i++)
+            moved = fmax(moved, fabs(lab->y[i] - from[i]));
+    }
+    memcpy(out->y, lab->y, sizeof out->y);
+    EXPECT(ct_rates(lab->evaluator, lab->p, lab->t, lab->y, lab->s, out->values) == CT_OK);
+    ct_evaluate(lab->evaluator, outputs, lab->p, lab->t, lab->y, lab->s, out->values + lab->ny);
+    EXPECT(ct_derivatives(lab->evaluator, derivative, CT_STATE, lab->p, lab->t, lab->y, lab->s,
+                          out->slopes) == CT_OK);
+    /* the second output is a share of what repeats, which nothing determines */
+    EXPECT(ct_derivatives(lab->evaluator, outputs, CT_STATE, lab->p, lab->t, lab->y, lab->s,
+                          out->slopes + lab->ny * lab->ny) == CT_FAILED);
+    EXPECT(isnan(out->slopes[(lab->ny + 1) * lab->ny]));
+}
+
+/* From place to place on the constraints accelerations, and what follows from them, differ as the
+ * derivatives there say. */
+static void redundant_constraints_leave_accelerations_theirs(void)
+{
+    static const char *const models[] = {PARALLEL, IN_SPACE};
+    const double far = 1e-4;
+    uint64_t seed = 11;
+
+    for (int k = 0; k < 20; k++) {
+        Lab lab = lab_new(models[k / 10], "derivative outputs", 1);
+        double start[ROOM];
+        static Place at[2];
+
+        move(&lab, memcpy(start, lab.y, sizeof start), 0.1, &seed, &at[0]);
+        move(&lab, at[0].y, far, &seed, &at[1]);
+        for (int row = 0; row <= lab.ny; row++) { /* of the rates, then the first output */
+            const double wanted = (at[1].values[row] - at[0].values[row]) / far;
+            double sum = 0;
+
+            for (int i = 0; i < lab.ny; i++)
+                sum += (at[0].slopes[row * lab.ny + i] + at[1].slopes[row * lab.ny + i]) / 2 *
+                       (at[1].y[i] - at[0].y[i]) / far;
+            EXPECT_NEAR(sum, wanted, 1e-6 * (10 + fabs(wanted)));
+        }
+        lab_free(&lab);
+    }
+}
+
+/* The residual at random states, where nothing of it is 0: it has a function's derivatives by p, y
+ * and s alike. */
+static void slopes_of_the_residual_are_quotients(void)
+{
+    static const char *const models[] = {SWINGING, ARM, FOUR_BAR, RECTIFIER, TURNING, PARALLEL};
+    uint64_t seed = 5;
+
+    for (int k = 0; k < 5 * (int)(sizeof models / sizeof *models); k++) {
+        Lab lab = lab_new(models[k / 5], "residual", 1);
+        int rows = 0;
+        const int residual = ct_model_function(lab.model, "residual", &rows, NULL);
+
+        for (int i = 0; i < lab.ny; i++)
+            lab.y[i] += test_uniform(&seed, -0.1, 0.1);
+        for (int i = 0; i < lab.ns; i++)
+            lab.s[i] += test_uniform(&seed, -1, 1);
+        for (ct_part part = CT_PARAMETERS; part <= CT_SOLUTION; part++) {
+            double slopes[ROOM * ROOM], ends[2][ROOM];
+            double *const numbers[] = {lab.p, lab.y, lab.s};
+            const int size = ct_model_size(lab.model, part);
+
+            EXPECT(ct_partial_derivatives(lab.evaluator, residual, part, lab.p, lab.t, lab.y, lab.s,
+                                          slopes) == CT_OK);
+            for (int i = 0; i < size; i++) {
+                double *number = &numbers[part][i];
+                const double was = *number, h = 1e-5 * (was != 0 ? fabs(was) : 1);
+
+                for (int side = 0; side < 2; side++) {
+                    *number = was + (2 * side - 1) * h;
+                    ct_evaluate(lab.evaluator, residual, lab.p, lab.t, lab.y, lab.s, ends[side]);
+                }
+                *number = was;
+                for (int row = 0; row < rows; row++) {
+                    const double wanted = (ends[1][row] - ends[0][row]) / (2 * h);
+
+                    EXPECT_NEAR(slopes[row * size + i], wanted,
+                                1e-6 * (1 + fabs(wanted)) + 1e-11 * fabs(ends[0][row]) / h);
+                }
+            }
+        }
+        lab_free(&lab);
+    }
+}
+
 /* each lane another state: what is found in one is what is found alone */
 static void lanes_dont_know_of_each_other(void)
 {
@@ -299,13 +419,6 @@ static void what_there_isnt_is_refused(void)
         {SWINGING, {.derivatives = "mass mess"}, "no function 'mess'"},
         {SWINGING, {.lanes = 3}, "1, 2, 4 or 8 lanes"},
         {"k = 2", {.lanes = 1}, "no equations yet"},
-        {"scene planar; body a mass=1 inertia=1; body b mass=1 inertia=1\n"
-         "body d mass=1 inertia=1; body c mass=1 inertia=1; arm gb ground [1, 0]\n"
-         "arm gd ground [2, 0]; arm a1 a [0, 1]; arm b1 b [0, 1]; arm d1 d [0, 1]\n"
-         "arm cb c [1, 0]; arm cd c [2, 0]; revolute h1 ground a; revolute h2 gb b\n"
-         "revolute h3 gd d; revolute h4 a1 c; revolute h5 b1 cb; revolute h6 d1 cd",
-         {.derivatives = "outputs"},
-         "constraints repeat each other"},
     };
 
     for (int i = 0; i < (int)(sizeof wrong / sizeof *wrong); i++) {
@@ -380,6 +493,8 @@ int main(void)
     RUN(a_pendulum_is_as_its_formula_says);
     RUN(solutions_are_the_sessions);
     RUN(derivatives_are_quotients);
+    RUN(redundant_constraints_leave_accelerations_theirs);
+    RUN(slopes_of_the_residual_are_quotients);
     RUN(lanes_dont_know_of_each_other);
     RUN(a_state_is_put_onto_the_constraints);
     RUN(a_lane_without_a_solution_says_so);
