@@ -221,6 +221,20 @@ static bool knows_its_error(const Sundials *s, double reached, double last)
     return order > 1 || reached - s->base.t >= LONG_BEFORE * last;
 }
 
+/* One step from what the constraints leave of the last point, without a history: Newton's method
+ * finds no way from that of a steep element, no step passes where the last point is off the
+ * manifold by more than the tolerance, and what is off by less is no consistent start. */
+static int begin_anew(Ida *d, double end, double *reached, Diag *diag)
+{
+    Stepper *stepper = &d->s.base;
+    const Ode *ode = stepper->ode;
+
+    if ((ode->project != NULL && !ode->project(ode->context, stepper->t, stepper->y)) ||
+        start(stepper, stepper->t, stepper->y, diag) != OK)
+        return IDA_CONV_FAIL;
+    return advance(&d->s, end, reached);
+}
+
 /* Whether the step just taken shows that steps get nowhere: they are shorter than time resolves. */
 static bool gets_nowhere(const Stepper *stepper, int code, double reached)
 {
@@ -257,17 +271,16 @@ static Status step(Stepper *stepper, double end, Diag *diag)
         TRY(start(stepper, before, stepper->y, diag));
     }
     code = advance(s, end, &reached);
-    /* Newton's method finds no way from the history of a steep element: from consistent values it
-     * does */
-    if (code == IDA_CONV_FAIL && start(stepper, before, stepper->y, diag) == OK) {
+    if (code == IDA_CONV_FAIL || code == IDA_ERR_FAIL) {
         stepper->stuck = stuck;
-        code = advance(s, end, &reached);
+        if (code == IDA_ERR_FAIL)
+            stepper->next = BEGIN * last;
+        code = begin_anew(d, end, &reached, diag);
     }
-    if (code >= 0 && !knows_its_error(s, reached, last) &&
-        start(stepper, before, stepper->y, diag) == OK) {
+    if (code >= 0 && !knows_its_error(s, reached, last)) {
         stepper->stuck = stuck;
         stepper->next = BEGIN * (reached - before);
-        code = advance(s, end, &reached);
+        code = begin_anew(d, end, &reached, diag);
     }
     if (stepper->ode->dae.has_rate != NULL && gets_nowhere(stepper, code, reached))
         code = jump(d, end, &reached, diag);
