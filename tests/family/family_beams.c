@@ -9,7 +9,7 @@
 
 #define COUNT(array) ((int)(sizeof(array) / sizeof *(array)))
 
-enum { CELLS = 80, TERMS = 4, FAMILIES_OF_SHAPES = 4, MOST = FAMILIES_OF_SHAPES * TERMS };
+enum { CELLS = 160, TERMS = 4, FAMILIES_OF_SHAPES = 4, MOST = FAMILIES_OF_SHAPES * TERMS };
 
 static const char *const bases[] = {"legendre", "taylor", "chebyshev"};
 static const char *const letters[FAMILIES_OF_SHAPES] = {"u", "v", "w", "phi"};

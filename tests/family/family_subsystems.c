@@ -323,20 +323,21 @@ static Verdict parts_and_subsystems_agree(Member *member)
     static const char run[] = "simulate 0.3 every=0.3 rtol=1e-10 atol=1e-11\n";
     static Story s;
     Kit flat = kit_new(), made = kit_new(), saved = kit_new();
-    bool same;
+    bool same, stands = false; /* a run that meets a singular position may be refused */
 
     draw_story(member, &s);
     same = runs(member, &flat, s.flat.text) && runs(member, &made, s.made.text) &&
            same_equations(member, &flat, &made) &&
            again(member, &made, &saved, member->number % 2 == 0) &&
-           same_equations(member, &flat, &saved) && runs(member, &flat, run) &&
-           runs(member, &saved, run) && same_motion(member, &s, &flat, &saved);
+           same_equations(member, &flat, &saved);
+    if (same && kit_do(&flat, run) == CT_OK)
+        stands = same = runs(member, &saved, run) && same_motion(member, &s, &flat, &saved);
     if (!same || member->told)
         tell(member, "--- flat\n%s--- made\n%s", s.flat.text, s.made.text);
     kit_free(&flat);
     kit_free(&made);
     kit_free(&saved);
-    return same ? AGREES : DISAGREES;
+    return !same ? DISAGREES : stands ? AGREES : REFUSED;
 }
 
 /* --- robots of many legs --- */
@@ -585,7 +586,7 @@ static Verdict platforms_are_derived_alike(Member *member)
 int main(int argc, char **argv)
 {
     static const Family families[] = {
-        {"parts_and_subsystems_agree", 20, 0, 0, parts_and_subsystems_agree},
+        {"parts_and_subsystems_agree", 20, 0.05, 0, parts_and_subsystems_agree},
         {"legs_are_derived_alike", 6, 0, 0, legs_are_derived_alike},
         {"platforms_are_derived_alike", 6, 1, 0, platforms_are_derived_alike},
     };

@@ -418,7 +418,7 @@ static char *text_of(const TreeCase *c)
         if (joint->stiffness > 0)
             text_addf(&text, "spring k%d %s k=%.17g d=%.17g\n", i, c->name[joint->first],
                       joint->stiffness, joint->damping);
-        if (body->push[0] != 0) {
+        if (body->push[0] != 0 || body->push[1] != 0 || body->push[2] != 0) {
             text_addf(&text, "force f%d b%d ", i, i);
             vector_text(&text, body->push, c->is_planar);
             text_add(&text, "\n");
