@@ -60,7 +60,7 @@ class _Figures(ctypes.Structure):
                 ('rtol', c_double), ('atol', c_double), ('steps', c_int64), ('rejected', c_int64),
                 ('evaluations', c_int64), ('position_residual', c_double),
                 ('velocity_residual', c_double), ('energy_drift', c_double),
-                ('energy_swing', c_double), ('global_error', c_double), ('wall', c_double),
+                ('energy_scale', c_double), ('global_error', c_double), ('wall', c_double),
                 ('stopped', c_bool)]
 
 

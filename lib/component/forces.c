@@ -235,9 +235,11 @@ const Component component_actuator = {
     .members = effort_members,
     .member_count = COUNT(effort_members),
     .check = actuator_check,
-    .help = "Between two frames: force= along their line, positive pushes the tip away from the "
-            "tail. On a joint: force= on a slide, torque= on a hinge, positive the way that the "
-            "coordinate counts. Any expression of t, parameters and variables.",
+    .help =
+        "Between two frames: force= along their line, positive pushes the tip away from the "
+        "tail. On a joint: force= on a slide, torque= on a hinge, positive the way that the "
+        "coordinate counts. Any expression of t, parameters and variables: force=-5*sign(s1') is "
+        "dry friction, which also holds at rest.",
     .example = "scene planar\nbody wheel mass=1 inertia=0.1\nrevolute h1 ground wheel\n"
                "actuator a1 h1 torque=2*(1 - h1) - 0.5*h1'\nsimulate 5\nprint h1, a1.effort",
     .see = "spring motor force",

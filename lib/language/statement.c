@@ -447,7 +447,7 @@ Status statement_check_version(const Statement *statement, Diag *diag)
         if (s->row.room == ROOM_LATER) {
             (void)diag_at(diag, E_MISSING, s->verb_place, "'%s' comes with a later version",
                           s->verb);
-            diag_hint(diag, "%s", s->row.brief);
+            diag_hint(diag, "until then %s", s->row.help);
             return E_MISSING;
         }
     }

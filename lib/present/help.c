@@ -154,7 +154,10 @@ static void add_verb(Text *out, const Verb *verb)
 
     text_addf(out, "%s - %s\n", verb->name, verb->brief);
     if (verb->room == ROOM_LATER) {
-        text_add(out, "\nComes with a later version.\n");
+        text_addf(&line, "It comes with a later version. Until then %s", verb->help);
+        text_char(out, '\n');
+        add_paragraphs(out, line.at);
+        text_free(&line);
         return;
     }
     verb_usage(&line, verb);

@@ -116,7 +116,9 @@ static void add_texinfo_verb(Text *out, const Verb *verb)
     add_texinfo(out, verb->brief);
     text_add(out, ".\n");
     if (verb->room == ROOM_LATER) {
-        text_add(out, "It comes with a later version.\n");
+        text_add(out, "It comes with a later version. Until then ");
+        add_texinfo(out, verb->help);
+        text_char(out, '\n');
         return;
     }
     verb_usage(&usage, verb);

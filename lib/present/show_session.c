@@ -129,7 +129,7 @@ static void add_work(Table *table, const RunReport *report)
 /* whether there is a drift to tell, as against what moved: both are numbers */
 static bool tells_energy(const RunReport *report)
 {
-    return report->energy_swing > 0 && isfinite(report->energy_swing) &&
+    return report->energy_scale > 0 && isfinite(report->energy_scale) &&
            !isnan(report->energy_drift);
 }
 
@@ -141,7 +141,7 @@ static void add_quality(Table *table, const RunReport *report)
     table_cellf(table, "%.2g", report->velocity_residual);
     if (tells_energy(report)) {
         table_cell(table, "energy drift");
-        table_cellf(table, "%.2g J of %.3g J", report->energy_drift, report->energy_swing);
+        table_cellf(table, "%.2g J of %.3g J", report->energy_drift, report->energy_scale);
     }
     if (!isnan(report->global_error)) {
         table_cell(table, "global error");
@@ -225,7 +225,7 @@ void report_line(Text *out, const Result *result, const char *name)
                   report->steps == 1 ? "" : "s", (long long)report->evaluations);
     if (tells_energy(report))
         text_addf(out, "; energy drift %.2g J of %.3g J", report->energy_drift,
-                  report->energy_swing);
+                  report->energy_scale);
     text_char(out, '\n');
 }
 

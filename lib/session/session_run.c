@@ -384,7 +384,7 @@ bool ct_run_figures(const ct_session *session, int run, ct_figures *out)
                         .position_residual = report->position_residual,
                         .velocity_residual = report->velocity_residual,
                         .energy_drift = report->energy_drift,
-                        .energy_swing = report->energy_swing,
+                        .energy_scale = report->energy_scale,
                         .global_error = report->global_error,
                         .wall = report->wall,
                         .stopped = report->stopped};

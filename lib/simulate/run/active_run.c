@@ -310,7 +310,7 @@ Status active_run_balance(ActiveRun *r, Diag *diag)
 {
     const Grid *grid = &r->result->grid;
     double *energies = NEW_ARRAY(double, 2 * grid->count);
-    double first = 0, drift = 0, stored = 0, most = 0, least = INFINITY, largest = -INFINITY;
+    double first = 0, drift = 0, stored = 0, most = 0, largest = 0;
     bool is_known = true;
     Status status = OK;
 
@@ -327,11 +327,10 @@ Status active_run_balance(ActiveRun *r, Diag *diag)
         stored = fmax(stored, fmax(value[0], fabs(value[1])));
         most = fmax(most, fabs(work));
         is_known = is_known && isfinite(balance);
-        least = fmin(least, value[0]);
         largest = fmax(largest, value[0]);
     }
     r->result->report.energy_drift = is_known ? drift : (double)NAN;
-    r->result->report.energy_swing = grid->count > 0 ? largest - least : 0;
+    r->result->report.energy_scale = largest;
     if (is_known)
         CHECK(judge_balance(r, (Balance){drift, stored, most}, diag));
 done:
