@@ -2,9 +2,10 @@
  *
  * What moves frames becomes a block, mass q'' = force: the coefficients of the efforts at these
  * frames have to be the transposed Jacobian of their motion, or the ports would make power of
- * nothing. Every other unknown becomes a part of its own in the network. `unknown` and `give` make
- * parts, so that their names are there; what these hold is told when all lines are read
- * (model_given_end.c). */
+ * nothing. A frame in through= that is given no motion is free: its motion is unknowns of its own,
+ * which the efforts that are given there move. Every other unknown becomes a part of its own in the
+ * network. `unknown` and `give` make parts, so that their names are there; what these hold is told
+ * when all lines are read (model_given_end.c). */
 #include "model/model_given.h"
 #include "component/component_rows.h"
 #include "language/verbs.h"
@@ -14,6 +15,7 @@
 
 const char *const given_motions[GIVEN_POSE] = {"x", "y", "z", "theta"};
 const char *const given_efforts[GIVEN_EFFORTS] = {"fx", "fy", "fz", "tx", "ty", "tz"};
+static const char *const given_flows[] = {"i", "v"};
 
 bool verb_gives(const Statement *s)
 {
@@ -47,7 +49,7 @@ static Statements read_lines(const char *body)
 {
     Statements out = {0};
 
-    if (strstr(body, "unknown") == NULL)
+    if (strstr(body, "give") == NULL)
         return out;
     for (const char *line = body; *line != '\0';) {
         const size_t length = strcspn(line, "\n");
@@ -93,9 +95,9 @@ static int motion_given(const Subsystem *subsystem, const char *path, int *port)
 typedef struct Scan {
     const Subsystem *subsystem;
     Statements lines;
-    LIST(const char *) names; /* of unknowns */
+    LIST(const char *) names; /* of unknowns, and "A.x" of free frames */
     bool *moves;
-    bool *frames; /* by port: its motion is given */
+    bool *frames, *free; /* by port: its motion is given */
 } Scan;
 
 static bool mark_all(Scan *scan, const Syntax *syntax, int primes)
@@ -109,8 +111,47 @@ static bool mark_all(Scan *scan, const Syntax *syntax, int primes)
     return more;
 }
 
-/* What stands in a frame's motion moves it, and what accelerates in one equation with that. */
-static void mark_moving(Scan *scan)
+/* frames in through= that are given no motion */
+static void mark_free(Scan *scan, const State *state)
+{
+    for (int p = 0; p < scan->subsystem->port_count; p++) {
+        const Port *port = &scan->subsystem->ports[p];
+
+        scan->free[p] = port->is_frame && port->is_through && !scan->frames[p];
+        for (int k = 0; k < GIVEN_POSE && scan->free[p]; k++) {
+            Text name = {0};
+
+            if (!given_moves(state, k))
+                continue;
+            text_addf(&name, "%s.%s", port->name, given_motions[k]);
+            scan->moves[scan->names.count] = true;
+            LIST_PUSH(scan->names, pool_text(state->pool, name.at, name.length));
+            text_free(&name);
+        }
+    }
+}
+
+/* what accelerates in one equation with what moves a frame, or in the effort that moves a free one
+ */
+static bool mark_beside(Scan *scan, const Statement *s)
+{
+    bool moves = false, more = false;
+    int port;
+
+    for (int k = 0; k < scan->names.count && s->row.number == VERB_internal; k++)
+        moves = moves || (scan->moves[k] && holds(s->operands.at[0].value, scan->names.at[k], 2));
+    if (moves)
+        more = mark_all(scan, s->operands.at[0].value, 2);
+    for (int p = 0; p < s->pairs.count; p++) {
+        (void)motion_given(scan->subsystem, s->pairs.at[p].name, &port);
+        if (port >= 0 && scan->free[port])
+            more = mark_all(scan, s->pairs.at[p].value, 2) || more;
+    }
+    return more;
+}
+
+/* What stands in a frame's motion moves it, and what accelerates with that. */
+static void mark_moving(Scan *scan, const State *state)
 {
     bool more = true;
     int port;
@@ -121,18 +162,18 @@ static void mark_moving(Scan *scan)
                 (void)mark_all(scan, scan->lines.at[i]->pairs.at[p].value, 0);
                 scan->frames[port] = true;
             }
+    if (scan->lines.count > 0)
+        mark_free(scan, state);
     while (more) {
         more = false;
-        for (int i = 0; i < scan->lines.count; i++) {
-            const Statement *s = scan->lines.at[i];
-            bool moves = false;
-
-            for (int k = 0; k < scan->names.count && s->row.number == VERB_internal; k++)
-                moves = moves ||
-                        (scan->moves[k] && holds(s->operands.at[0].value, scan->names.at[k], 2));
-            more = (moves && mark_all(scan, s->operands.at[0].value, 2)) || more;
-        }
+        for (int i = 0; i < scan->lines.count; i++)
+            more = mark_beside(scan, scan->lines.at[i]) || more;
     }
+}
+
+bool given_moves(const State *state, int motion)
+{
+    return motion != (state->planar ? 2 : 3);
 }
 
 const char *given_name(State *state, const Use *use, const char *name)
@@ -141,6 +182,8 @@ const char *given_name(State *state, const Use *use, const char *name)
     const char *own;
 
     text_addf(&text, "%s.%s", use->name, name);
+    if (strchr(name, '.') != NULL)
+        text.at[strlen(use->name) + 1 + strcspn(name, ".")] = '_';
     own = state_text(state, text.at);
     text_free(&text);
     return own;
@@ -157,9 +200,11 @@ void given_begin(State *state, int use, const char *body)
              scan.lines.at[i]->row.number == VERB_unknown && k < scan.lines.at[i]->operands.count;
              k++)
             LIST_PUSH(scan.names, scan.lines.at[i]->operands.at[k].value->text);
-    scan.moves = NEW_ARRAY(bool, scan.names.count + 1);
+    const int unknowns = scan.names.count;
+    scan.moves = NEW_ARRAY(bool, unknowns + ports * GIVEN_POSE + 1);
     scan.frames = NEW_ARRAY(bool, ports + 1);
-    mark_moving(&scan);
+    scan.free = NEW_ARRAY(bool, ports + 1);
+    mark_moving(&scan, state);
     pool_keep(state->pool, equations, sizeof *equations);
     equations->moving = pool_alloc(state->pool, sizeof(char *) * ((size_t)scan.names.count + 1));
     equations->frames = pool_alloc(state->pool, sizeof(int) * ((size_t)ports + 1));
@@ -167,14 +212,15 @@ void given_begin(State *state, int use, const char *body)
         if (scan.moves[k])
             equations->moving[equations->moving_count++] =
                 given_name(state, &state->uses.at[use], scan.names.at[k]);
+    equations->free_count = scan.names.count - unknowns;
     for (int p = 0; p < ports; p++)
-        if (scan.frames[p])
+        if (scan.frames[p] || scan.free[p])
             equations->frames[equations->frame_count++] = p;
     for (int i = 0; i < scan.lines.count; i++)
         statement_free(scan.lines.at[i]);
     LIST_FREE(scan.lines);
     LIST_FREE(scan.names);
-    MEM_FREE(scan.moves, scan.frames);
+    MEM_FREE(scan.moves, scan.frames, scan.free);
 }
 
 /* --- parts --- */
@@ -256,6 +302,14 @@ static void add_frame(State *state, const Use *use, int port, int tail, int numb
     at->at[0] = expr_int(state->arena, number);
 }
 
+static Status is_taken(const Use *use, const char *name, Place place, Diag *diag)
+{
+    (void)diag_at(diag, E_NAME, place, "'%s' is the name of a part that stands for these equations",
+                  name + strlen(use->name) + 1);
+    diag_hint(diag, "choose another one for yours");
+    return E_NAME;
+}
+
 /* whether the user left the name of a part that is made of equations */
 static Status name_is_left(const State *state, const Use *use, const char *name, Place place,
                            Diag *diag)
@@ -265,10 +319,7 @@ static Status name_is_left(const State *state, const Use *use, const char *name,
     if (state_thing(state, name) == NULL &&
         find_word(equations->moving, equations->moving_count, name) < 0)
         return OK;
-    (void)diag_at(diag, E_NAME, place, "'%s' is the name of a part that stands for these equations",
-                  name + strlen(use->name) + 1);
-    diag_hint(diag, "choose another one for yours");
-    return E_NAME;
+    return is_taken(use, name, place, diag);
 }
 
 /* the block and its coordinates, then the frames that it moves */
@@ -281,6 +332,9 @@ static Status add_block(State *state, const Use *use, Place place, Diag *diag)
     Instance *block;
 
     TRY(name_is_left(state, use, name, place, diag));
+    for (int k = equations->moving_count - equations->free_count; k < equations->moving_count; k++)
+        if (state_thing(state, equations->moving[k]) != NULL)
+            return is_taken(use, equations->moving[k], place, diag);
     block = draft.part = part_new(state, &component_block, false);
     block->name = name;
     block->given = new_given(state, (int)count, equations->frame_count);
@@ -317,6 +371,7 @@ static void add_equation(State *state, Equations *equations, Equation of)
 static Status add_unknowns(State *state, const Use *use, const Statement *s, Diag *diag)
 {
     Equations *equations = use->equations;
+    const char **free = equations->moving + equations->moving_count - equations->free_count;
 
     for (int i = 0; i < s->operands.count; i++) {
         const Operand *operand = &s->operands.at[i];
@@ -326,6 +381,8 @@ static Status add_unknowns(State *state, const Use *use, const Statement *s, Dia
 
         if (!moves || equations->block == NULL)
             TRY(name_is_free(state, name, operand->place, diag));
+        if (find_word(free, equations->free_count, name) >= 0)
+            return is_taken(use, name, operand->place, diag);
         if (subsystem_port(use->subsystem, name + strlen(use->name) + 1) >= 0)
             return diag_at(diag, E_NAME, operand->place, "%s is a port",
                            name + strlen(use->name) + 1);
@@ -347,32 +404,16 @@ static Status given_twice(const Use *use, const Equation *equation, const Pair *
             continue;
         if (e->is_motion == equation->is_motion && e->member == equation->member)
             return diag_at(diag, E_VALUE, pair->name_place, "%s is given twice", pair->name);
-        if (e->is_motion == equation->is_motion)
+        if (port->is_frame && e->is_motion == equation->is_motion)
             continue;
-        (void)diag_at(diag, E_VALUE, pair->name_place, "both motion and effort of %s are given",
+        (void)diag_at(diag, E_VALUE, pair->name_place,
+                      port->is_frame ? "both motion and effort of %s are given"
+                                     : "both voltage and current of %s are given",
                       port->name);
         diag_hint(diag, "a port hands out one of the two and takes the other");
         return E_VALUE;
     }
     return OK;
-}
-
-/* of a terminal: what is given of it follows from through= */
-static Status terminal_given(const Port *port, const Pair *pair, const char *member, Diag *diag)
-{
-    const char *wanted = port->is_through ? "v" : "i";
-
-    if (strcmp(member, wanted) == 0)
-        return OK;
-    (void)diag_at(diag, E_VALUE, pair->name_place,
-                  port->is_through ? "%s gives its voltage, and takes the current"
-                                   : "%s takes its voltage, and gives the current",
-                  port->name);
-    diag_hint(diag,
-              port->is_through ? "give %s.v = EXPR; without through=[%s] it is the other way round"
-                               : "give %s.i = EXPR; with through=[%s] it is the other way round",
-              port->name, port->name);
-    return E_VALUE;
 }
 
 static Status read_target(const Use *use, const Pair *pair, Equation *out, Diag *diag)
@@ -393,18 +434,18 @@ static Status read_target(const Use *use, const Pair *pair, Equation *out, Diag 
     }
     port = &use->subsystem->ports[out->port];
     out->is_motion = port->is_frame && find_word(given_motions, GIVEN_POSE, member) >= 0;
-    if (!port->is_frame) {
-        TRY(terminal_given(port, pair, member, diag));
-        return given_twice(use, out, pair, diag);
-    }
-    out->member = out->is_motion ? find_word(given_motions, GIVEN_POSE, member)
-                                 : find_word(given_efforts, GIVEN_EFFORTS, member);
+    out->member = out->is_motion   ? find_word(given_motions, GIVEN_POSE, member)
+                  : port->is_frame ? find_word(given_efforts, GIVEN_EFFORTS, member)
+                                   : find_word(given_flows, COUNT(given_flows), member);
     if (out->member >= 0)
         return given_twice(use, out, pair, diag);
-    status = diag_at(diag, E_NAME, pair->name_place, "%s is nothing that a frame gives",
-                     member[0] != '\0' ? member : port->name);
-    diag_hint(diag, "its motion is %s.x %s.y %s.z %s.theta, its effort %s.fx .. %s.tz", port->name,
-              port->name, port->name, port->name, port->name, port->name);
+    status =
+        diag_at(diag, E_NAME, pair->name_place, "%s is nothing that a %s gives",
+                member[0] != '\0' ? member : port->name, port->is_frame ? "frame" : "terminal");
+    diag_hint(diag,
+              port->is_frame ? "its motion is %s.x %s.y %s.z %s.theta, its effort %s.fx .. %s.tz"
+                             : "its voltage is %s.v, its current %s.i",
+              port->name, port->name, port->name, port->name, port->name, port->name);
     return status;
 }
 
@@ -446,6 +487,7 @@ static Status part_given(State *state, const Use *use, const Equation *e, Instan
     const Port *port = &use->subsystem->ports[e->port];
     const char *own = given_name(state, use, port->name);
     const char *at = use->bound[e->port] != NULL ? use->bound[e->port] : own;
+    const bool moves = e->is_motion || (port->is_frame && port->is_through); /* or is free */
     const bool turns = e->member >= 3;
     const Component *load = turns ? &component_torque : &component_force;
     const Instance *there;
@@ -453,17 +495,23 @@ static Status part_given(State *state, const Use *use, const Equation *e, Instan
     Text name = {0};
 
     *out = NULL;
+    if (moves && !e->is_motion && turns && !state->planar) {
+        (void)diag_at(diag, E_VALUE, place, "%s keeps the axes of ground, so no moment moves it",
+                      port->name);
+        diag_hint(diag, "let it stand in frames= alone, and bind it in 'use'");
+        return E_VALUE;
+    }
     text_addf(&name, "%s_%s", own, !port->is_frame ? "source" : turns ? "torque" : "force");
     there = state_part(state, name.at);
-    if ((!port->is_frame || !e->is_motion) && (there == NULL || there->row != load))
+    if ((!port->is_frame || !moves) && (there == NULL || there->row != load))
         CHECK(name_is_left(state, use, name.at, place, diag));
-    if (!port->is_frame && !port->is_through && e->value->kind == SYNTAX_NUMBER &&
+    if (!port->is_frame && e->member == 0 && e->value->kind == SYNTAX_NUMBER &&
         strtod(e->value->text, NULL) == 0)
         (void)state_terminal(state, at, DOMAIN_ELECTRICAL); /* it only looks */
     else if (!port->is_frame)
-        *out = add_part(state, port->is_through ? &component_vsource : &component_isource, name.at,
+        *out = add_part(state, e->member == 0 ? &component_isource : &component_vsource, name.at,
                         -1, -1, at);
-    else if (!e->is_motion)
+    else if (!moves)
         *out = loading_part(state, load, name.at, at);
     else if (state_part(state, own) == NULL) /* of a definition whose end isn't read */
         add_frame(state, use, e->port, state->datum[DOMAIN_MECHANICAL], 0);
@@ -512,6 +560,8 @@ Status given_add(State *state, int use, const Statement *s, const Statement *fro
 {
     Equations *equations = state->uses.at[use].equations;
 
+    if (equations->free_count > 0 && equations->block == NULL)
+        TRY(add_block(state, &state->uses.at[use], from->place, diag));
     switch (s->row.number) {
     case VERB_unknown:
         return add_unknowns(state, &state->uses.at[use], s, diag);

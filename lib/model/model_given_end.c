@@ -22,7 +22,7 @@ typedef struct Ending {
     Diag *diag;
 } Ending;
 
-/* --- ports at rest --- */
+/* --- ports whose motion is told --- */
 
 static void put(Ending *ending, Expr from, Expr to)
 {
@@ -41,32 +41,77 @@ static Expr variable(const Ending *ending, const char *head, const char *member)
     return symbol;
 }
 
-/* A.x and the like are numbers where A rests, and so are their rates */
-static Status rest_ports(Ending *ending)
+/* the members of a frame: which motion (-1: a turn that there isn't), and how many times derived */
+static const struct {
+    const char *name;
+    int motion, order;
+} members[] = {
+    {".x", 0, 0},       {".y", 1, 0},       {".z", 2, 0},       {".theta", 3, 0},  {".vx", 0, 1},
+    {".vy", 1, 1},      {".vz", 2, 1},      {".wx", -1, 1},     {".wy", -1, 1},    {".wz", 3, 1},
+    {".x'", 0, 1},      {".y'", 1, 1},      {".z'", 2, 1},      {".theta'", 3, 1}, {".ax", 0, 2},
+    {".ay", 1, 2},      {".az", 2, 2},      {".x''", 0, 2},     {".y''", 1, 2},    {".z''", 2, 2},
+    {".theta''", 3, 2}, {".alphax", -1, 2}, {".alphay", -1, 2}, {".alphaz", 3, 2},
+};
+
+/* a motion of a free frame, derived so many times */
+static Expr free_motion(const Ending *ending, int port, int motion, int order)
 {
-    static const char *const resting[] = {".vx",  ".vy",      ".vz",     ".ax",     ".ay",
-                                          ".az",  ".wx",      ".wy",     ".wz",     ".x'",
-                                          ".y'",  ".z'",      ".theta'", ".x''",    ".y''",
-                                          ".z''", ".theta''", ".alphax", ".alphay", ".alphaz"};
-    static const char *const members[GIVEN_POSE] = {".x", ".y", ".z", ".theta"};
+    static const char *const primes[] = {"", "'", "''"};
+    Text name = {0};
+    Expr out = expr_int(ending->state->arena, 0);
+
+    text_addf(&name, "%s.%s", ending->use->subsystem->ports[port].name,
+              motion < 0 ? "" : given_motions[motion]);
+    if (motion >= 0 && given_moves(ending->state, motion))
+        out = variable(ending, given_name(ending->state, ending->use, name.at), primes[order]);
+    text_free(&name);
+    return out;
+}
+
+/* a frame in through= that is given no motion */
+static bool is_free(const Ending *ending, int port)
+{
+    const Port *p = &ending->use->subsystem->ports[port];
+
+    for (const Equation *e = ending->equations->first; e != NULL; e = e->next)
+        if (e->kind == EQUATION_GIVES && e->port == port && e->is_motion)
+            return false;
+    return p->is_frame && p->is_through;
+}
+
+/* A.x and the like are numbers where A rests, and so are their rates; of a free frame they are
+ * unknowns */
+static Status put_ports(Ending *ending)
+{
     const Use *use = ending->use;
 
     for (int p = 0; p < use->subsystem->port_count; p++) {
-        Expr pose[GIVEN_POSE];
+        const Port *port = &use->subsystem->ports[p];
+        Expr pose[GIVEN_POSE], zero = expr_int(ending->state->arena, 0);
         const char *frame = use->bound[p];
 
-        if (!use->subsystem->ports[p].is_frame || frame == NULL)
+        if (is_free(ending, p))
+            for (int k = 0; k < COUNT(members); k++)
+                put(ending,
+                    variable(ending, given_name(ending->state, use, port->name), members[k].name),
+                    free_motion(ending, p, members[k].motion, members[k].order));
+        if (!port->is_frame || frame == NULL)
             continue;
         if (given_rests(ending->state, frame, pose)) {
-            for (int k = 0; k < GIVEN_POSE; k++)
-                put(ending, variable(ending, frame, members[k]), pose[k]);
-            for (int k = 0; k < COUNT(resting); k++)
-                put(ending, variable(ending, frame, resting[k]), expr_int(ending->state->arena, 0));
+            for (int k = 0; k < COUNT(members); k++)
+                put(ending, variable(ending, frame, members[k].name),
+                    members[k].order == 0 ? pose[members[k].motion] : zero);
         } else if (ending->equations->moving_count > 0) {
             (void)diag_set(ending->diag, E_MODEL,
                            "%s=%s moves, and equations that move frames want %s at rest",
-                           use->subsystem->ports[p].name, frame, use->subsystem->ports[p].name);
-            diag_hint(ending->diag, "bind it to ground, or to an arm on ground");
+                           port->name, frame, port->name);
+            diag_hint(ending->diag,
+                      "bind it to ground, or to an arm on ground; or let %s move %s as well, "
+                      "through=[%s] in its first line and 'give %s.fx = ..' the effort there: then "
+                      "%s %s.%s %s joins them",
+                      use->subsystem->name, port->name, port->name, port->name,
+                      ending->state->planar ? "weld w" : "spherical s", use->name, port->name,
+                      frame);
             return E_MODEL;
         }
     }
@@ -237,10 +282,11 @@ static Status check_ports(const Ending *ending)
     }
     for (int f = 0; f < equations->frame_count; f++)
         for (int k = 0; k < GIVEN_POSE; k++) {
-            const bool wanted = ending->state->planar ? k != 2 : k != 3;
+            const bool wanted = given_moves(ending->state, k);
             const char *name = subsystem->ports[equations->frames[f]].name;
 
-            if (!wanted || is_told(equations, equations->frames[f], k))
+            if (!wanted || is_free(ending, equations->frames[f]) ||
+                is_told(equations, equations->frames[f], k))
                 continue;
             (void)diag_at(ending->diag, E_MODEL, equations->last->place, "%s.%s isn't given", name,
                           given_motions[k]);
@@ -307,6 +353,8 @@ static bool is_negative(const State *state, Expr e)
 /* its motion (else zero) */
 static Expr motion_of(const Ending *ending, int frame, int motion)
 {
+    if (is_free(ending, ending->equations->frames[frame]))
+        return free_motion(ending, ending->equations->frames[frame], motion, 0);
     for (const Equation *e = ending->equations->first; e != NULL; e = e->next)
         if (e->kind == EQUATION_GIVES && e->is_motion && e->member == motion &&
             e->port == ending->equations->frames[frame])
@@ -527,10 +575,44 @@ static Status check_no_motion(const Ending *ending)
     return OK;
 }
 
+/* what moves a free frame: its effort is the one that is given there, or none */
+static Equation *free_row(const Ending *ending, int frame, int motion)
+{
+    static const int effort_of[GIVEN_POSE] = {0, 1, 2, 5};
+    const int port = ending->equations->frames[frame], effort = effort_of[motion];
+    Equation *row = pool_alloc(ending->state->pool, sizeof *row);
+
+    *row = *ending->equations->last;
+    row->e = ending->efforts.at[frame * GIVEN_EFFORTS + effort];
+    for (const Equation *e = ending->equations->first; e != NULL; e = e->next)
+        if (e->kind == EQUATION_GIVES && e->port == port && e->member == effort) {
+            row->place = e->place;
+            row->e = expr_sub(ending->state->arena, row->e, e->e);
+        }
+    return row;
+}
+
+/* the rows of free frames behind the others, as their unknowns are */
+static Status read_free(const Ending *ending, Given *given, const Equation **rows)
+{
+    int next = given->count - ending->equations->free_count;
+
+    for (int f = 0; f < ending->equations->frame_count; f++)
+        for (int k = 0; k < GIVEN_POSE; k++) {
+            if (!is_free(ending, ending->equations->frames[f]) || !given_moves(ending->state, k))
+                continue;
+            rows[next] = free_row(ending, f, k);
+            TRY(read_row(ending, rows[next], next, given));
+            next++;
+        }
+    return OK;
+}
+
 static Status tell_block(Ending *ending)
 {
     Equations *equations = ending->equations;
     const int count = equations->moving_count;
+    const int own = count - equations->free_count;
     const Equation **rows;
     Given *given;
     int found = 0;
@@ -543,19 +625,20 @@ static Status tell_block(Ending *ending)
     for (const Equation *e = equations->first; e != NULL; e = e->next) {
         if (!is_moving_row(ending, e))
             continue;
-        if (found < count)
+        if (found < own)
             TRY(read_row(ending, e, found, given));
-        rows[found < count ? found : count] = e;
+        rows[found < own ? found : own] = e;
         found++;
     }
-    if (found != count) {
+    if (found != own) {
         (void)diag_at(ending->diag, E_MODEL, equations->last->place,
-                      "%d unknown%s frames, and %d equation%s second derivatives or efforts", count,
-                      count == 1 ? " moves" : "s move", found,
+                      "%d unknown%s frames, and %d equation%s second derivatives or efforts", own,
+                      own == 1 ? " moves" : "s move", found,
                       found == 1 ? " holds their" : "s hold their");
         diag_hint(ending->diag, "each of them needs its equation of motion");
         return E_MODEL;
     }
+    TRY(read_free(ending, given, rows));
     TRY(check_mass(ending, given, rows));
     tell_kinds(ending, given);
     pool_keep(ending->state->pool, equations->block, sizeof *equations->block);
@@ -624,7 +707,7 @@ static Status end_all(Ending *ending)
         LIST_PUSH(ending->once, ending->efforts.at[i]);
     TRY(read_all(ending));
     ending->at_use = true;
-    TRY(rest_ports(ending));
+    TRY(put_ports(ending));
     ending->at_use = false;
     tell_orders(ending);
     put_variables(ending);

@@ -430,6 +430,8 @@ const Subsystem *state_subsystem(const State *state, const char *name, int *defi
 int subsystem_port(const Subsystem *subsystem, const char *name);                        /* -1 */
 /* Refuse a name inside an instance where something is to be attached, unless it is a port of it. */
 MUST_USE Status use_check_reach(const State *state, const char *name, Place place, Diag *diag);
+/* Refuse "leg1.A" where leg1 is told what its port A is. */
+MUST_USE Status use_check_bound(const State *state, const char *name, Place place, Diag *diag);
 /* the line that a rebuilt state has in the place of this one: that of the outermost use */
 int line_root(const State *state, int line);
 

@@ -81,8 +81,16 @@ static Status port_place(const Renaming *r, int port, const char **out)
     const char *const *bound = &use->bound[port];
 
     *out = *bound;
+    if (use->is_trial && use->subsystem->ports[port].is_frame && !r->gives &&
+        use->subsystem->ports[port].is_through && state_thing(r->state, own) == NULL) {
+        (void)diag_at(r->diag, E_NAME, r->statement->place, "nothing before this line makes %s",
+                      use->subsystem->ports[port].name);
+        diag_hint(r->diag,
+                  "arm %s BODY [..] does, and needs no through=", use->subsystem->ports[port].name);
+        return E_NAME;
+    }
     if (*bound != NULL || !use->is_trial || !use->subsystem->ports[port].is_frame ||
-        state_thing(r->state, own) != NULL)
+        use->subsystem->ports[port].is_through || state_thing(r->state, own) != NULL)
         return OK;
     own = state_text(r->state, own);
     TRY(place_frame(r, own, r->diag));

@@ -78,15 +78,9 @@ static Status read_port(const Header *h, const Syntax *syntax, const char *key)
         return E_NAME;
     }
     port = subsystem_port(subsystem, name);
-    if (is_through && port >= 0 && !subsystem->ports[port].is_frame) {
+    if (is_through && port >= 0) {
         subsystem->ports[port].is_through = true;
         return OK;
-    }
-    if (is_through && port >= 0) {
-        (void)diag_at(h->diag, E_NAME, syntax->place, "%s is a frame, and through= names terminals",
-                      name);
-        diag_hint(h->diag, "a frame that the inside makes needs no word: arm %s BODY [..]", name);
-        return E_NAME;
     }
     if (port >= 0)
         return diag_at(h->diag, E_NAME, syntax->place, "the port %s is named twice", name);
@@ -96,7 +90,7 @@ static Status read_port(const Header *h, const Syntax *syntax, const char *key)
     return OK;
 }
 
-/* those of one key; terminals come before those that are through, which may name some of them */
+/* those of one key; ports come before those that are through, which may name some of them */
 static Status read_ports(const Header *h, const Statement *statement, const char *key)
 {
     for (int i = 0; i < statement->pairs.count; i++) {

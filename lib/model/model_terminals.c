@@ -89,6 +89,7 @@ static Status not_a_frame(const PartDraft *draft, const char *name, Place place)
     Suggest suggest = suggest_for(name);
     Text what = {0};
 
+    TRY(use_check_bound(state, name, place, draft->diag));
     if (thing != NULL) {
         name_describe(state, thing, &what);
         (void)diag_at(draft->diag, E_NAME, place, "%s is %s, not a frame", name, what.at);
@@ -259,6 +260,8 @@ static Status next_terminal(PartDraft *draft, int which)
         names_find(draft->state->terminals, name) >= 0)
         CHECK(use_check_reach(draft->state, name, operand->place, draft->diag));
     else if (name == NULL || (strchr(name, '.') != NULL && draft->state->inside < 0)) {
+        if (name != NULL)
+            CHECK(use_check_bound(draft->state, name, operand->place, draft->diag));
         status = diag_at(draft->diag, E_NAME, operand->place, "a terminal is expected here");
         diag_hint(draft->diag, "a terminal is any new name, or 0 for the reference");
         goto done;

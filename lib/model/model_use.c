@@ -51,6 +51,26 @@ Status use_check_reach(const State *state, const char *name, Place place, Diag *
     return E_NAME;
 }
 
+Status use_check_bound(const State *state, const char *name, Place place, Diag *diag)
+{
+    const int around = state_use_around(state, name);
+    const Use *use = around >= 0 ? &state->uses.at[around] : NULL;
+    const int port =
+        use != NULL ? subsystem_port(use->subsystem, name + strlen(use->name) + 1) : -1;
+
+    if (port < 0 || use->bound[port] == NULL || state->inside >= 0)
+        return OK;
+    (void)diag_at(diag, E_NAME, place, "%s is given from outside: it is %s", name,
+                  use->bound[port]);
+    if (use->subsystem->ports[port].is_frame)
+        diag_hint(diag, "write %s", use->bound[port]);
+    else
+        diag_hint(diag,
+                  "write %s; with through=[%s] in its first line %s would have one of its own",
+                  use->bound[port], use->subsystem->ports[port].name, use->subsystem->name);
+    return E_NAME;
+}
+
 /* Of a vector, which has a value for each instance, that of one. */
 static Status value_for(const Pair *pair, int which, int count, Syntax *out, Diag *diag)
 {
@@ -453,7 +473,11 @@ static Status read_pair(UseDraft *d, const Pair *pair)
     if (port >= 0 && subsystem->ports[port].is_through) {
         (void)diag_at(d->diag, E_NAME, pair->name_place, "%s gives %s itself: it isn't bound",
                       subsystem->name, pair->name);
-        diag_hint(d->diag, "it is reached as %s.%s", d->use.name, pair->name);
+        diag_hint(d->diag,
+                  subsystem->ports[port].is_frame
+                      ? "it is reached as %s.%s; weld NAME %s.%s FRAME joins it to another"
+                      : "it is reached as %s.%s; vsource NAME %s.%s TERMINAL 0 joins it to another",
+                  d->use.name, pair->name, d->use.name, pair->name);
         return E_NAME;
     }
     TRY(value_for(pair, d->which, d->count, value, d->diag));
@@ -478,8 +502,9 @@ static Status check_bound(const UseDraft *d)
                       "use %s %s needs %s=", d->subsystem->name, d->use.name, port->name);
         diag_hint(d->diag,
                   port->is_frame ? "%s is a frame that is given from outside: %s=FRAME"
-                                 : "%s is a terminal that is given from outside: %s=TERMINAL",
-                  port->name, port->name);
+                                 : "%s is a terminal that is given from outside: %s=TERMINAL; "
+                                   "with through=[%s] in the first line of %s it is %s.%s",
+                  port->name, port->name, port->name, d->subsystem->name, d->use.name, port->name);
         return E_VALUE;
     }
     return OK;

@@ -199,6 +199,83 @@ equilibrium > "rest.txt"
 expect n.b.z ~ -2*9.81/30 within 1e-9
 END
 cotree -q stage.ct && echo held
+echo '--- duals: a port in through= that is given an effort or a current, another that is given a voltage'
+cat >base.ct <<'END'
+scene planar
+gravity [0, -9.81]
+subsystem pendulum frames=[A, B] through=[A]
+  m = 2; J = 0.3; L = 0.7; g = 9.81
+  unknown th
+  internal (J + m*L^2)*th'' + m*L*(cos(th)*A.x'' + sin(th)*A.ay) + m*g*L*sin(th) \
+    + L*cos(th)*B.fx + L*sin(th)*B.fy + B.tz
+  give A.fx = -m*(A.x'' + L*cos(th)*th'' - L*sin(th)*th'^2) - B.fx
+  give A.fy = -m*(A.y'' + L*sin(th)*th'' + L*cos(th)*th'^2) - m*g - B.fy
+  give B.x = A.x + L*sin(th), B.y = A.y - L*cos(th), B.theta = th
+end
+body cart mass=3 inertia=0.1
+arm post ground [0.4, -1]
+prismatic s ground cart axis=[0.8, 0.6, 0]
+END
+cat >dual.ct <<'END'
+use pendulum p
+weld w p.A cart
+spring k p.B post k=30 length=0.2
+init s = 0.2, p.th = 1, p.th' = 2
+simulate 1 rtol=1e-11 atol=1e-13
+print s, p.th, s', p.th', p.A.x, p.B.y, p.A_y, w.fx, w.fy, w.tz
+END
+cat >parts.ct <<'END'
+body bob mass=2 inertia=0.3
+arm top bob [0, 0.7]
+revolute th cart top
+spring k bob post k=30 length=0.2
+init s = 0.2, th = 1, th' = 2
+simulate 1 rtol=1e-11 atol=1e-13
+print s, th, s', th', cart.x, bob.y, cart.y, -th.fx, -th.fy, -th.tz
+END
+cotree -q base.ct parts.ct >parts.out
+for tree in 'tree joint' 'tree absolute' 'form augmented'; do
+    cotree -q base.ct -e "$tree" dual.ct >dual.out
+    cmp_numbers parts.out dual.out
+done
+cat >loose.ct <<'END'
+subsystem mount frames=[A] through=[A]
+  give A.fx = -50*A.x - 3*A.vx, A.fy = 2 - 50*A.y, A.fz = -50*(A.z - 1)
+end
+use mount m
+body b mass=2 inertia=[1, 1, 1]
+spherical j m.A b
+init b.x = 0.3, b.z = 1, b.wz = 1
+simulate 1 rtol=1e-10 atol=1e-12
+keep x = b.x
+keep y = b.y
+expect x ~ 0.3*exp(-0.75)*(cos(sqrt(25 - 0.5625)) + 0.75/sqrt(25 - 0.5625)*sin(sqrt(25 - 0.5625))) within 1e-8
+expect y ~ 0.04*(1 - cos(5)) within 1e-8
+expect b.z ~ 1 within 1e-12
+expect b.wz ~ 1 within 1e-12
+END
+cotree -q loose.ct && echo held
+cat >currents.ct <<'END'
+subsystem coil through=[e]
+  unknown i1
+  internal 2*i1' + 5*i1 - e.v
+  give e.i = i1
+end
+subsystem battery terminals=[o]
+  unknown z
+  internal z - o.i
+  give o.v = 5 + 0.5*z
+end
+use coil a
+use battery b o=n
+resistor R n a.e 1
+init a.i1 = 0
+simulate 1 rtol=1e-11 atol=1e-13
+expect a.i1 ~ 5/6.5*(1 - exp(-6.5/2)) within 1e-9
+expect R.i ~ a.i1 within 1e-9
+expect n.v ~ 5 - 0.5*R.i within 1e-9
+END
+cotree -q currents.ct && echo held
 echo '--- wrong'
 try() {
     printf '%s\n' "$1" >wrong.ct
@@ -323,4 +400,30 @@ give A.fx = 0, B.fx = 0, e.i = e_source"
 two "unknown A_force
 internal A_force' - A.x
 give A.fx = -3*A_force, B.fx = 0, e.i = 0"
+two "unknown u
+internal u'' + 50*(u - A.x) + B.fx
+give B.x = u, B.y = 0, B.theta = 0
+give A.fx = 50*(u - A.x), e.i = 0" "body m mass=1 inertia=1
+prismatic p ground m axis=x
+use s x A=m e=n"
+try "scene spatial
+subsystem s frames=[A] through=[A]
+give A.fx = 1, A.tz = 2
+end"
+try "scene planar
+subsystem s frames=[A] through=[A]
+A_x = 3
+give A.fx = -A_x*A.x
+end"
+try "scene planar
+subsystem s frames=[A] through=[A]
+unknown A_theta
+internal A_theta - 2
+give A.fx = -A_theta
+end"
+try "scene planar
+subsystem s frames=[A] through=[A]
+body b mass=1 inertia=1
+revolute h A b
+end"
 true

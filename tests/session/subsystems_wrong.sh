@@ -50,7 +50,6 @@ try "$made; l1.L = 3"
 try "$made L=c*1; c = l1.L"
 try 'subsystem leg frames=[A]'
 try 'subsystem s frames=[A, A]'
-try 'subsystem s frames=[A] through=[A]'
 try 'subsystem s frames=[ground]'
 try 'subsystem s ports=[A]'
 try 'subsystem s frames=[A]
