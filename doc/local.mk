@@ -18,7 +18,7 @@ EXTRA_DIST += doc/pictures/list doc/pictures/drawn-andrews.svg \
 	doc/pictures/drawn-four-bar.txt \
 	doc/pictures/drawn-serial.txt \
 	doc/pictures/drawn-spatial.txt \
-	doc/pictures/drawn-crane.txt \
+	doc/pictures/drawn-crane.txt doc/pictures/drawn-bent.txt \
 	doc/pictures/drawn-top.txt \
 	doc/pictures/drawn-pendulum.txt \
 	doc/pictures/drawn-microphone.txt \
@@ -45,7 +45,7 @@ drawn_pictures = \
 	doc/pictures/drawn-four-bar.png \
 	doc/pictures/drawn-serial.png \
 	doc/pictures/drawn-spatial.png \
-	doc/pictures/drawn-crane.png \
+	doc/pictures/drawn-crane.png doc/pictures/drawn-bent.png \
 	doc/pictures/drawn-top.png \
 	doc/pictures/drawn-pendulum.png \
 	doc/pictures/drawn-microphone.png \

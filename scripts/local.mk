@@ -42,6 +42,7 @@ EXTRA_DIST += scripts/tours/bouncing-ball.ct scripts/tours/first-hour.ct \
 
 # machines with motors, coils and controllers, and the motions that they are held to
 EXTRA_DIST += \
+	scripts/machines/bent-crank.ct \
 	scripts/machines/crane.ct \
 	scripts/machines/loudspeaker.ct \
 	scripts/machines/maglev.ct \
