@@ -36,6 +36,23 @@ static double shown_unit(const ct_session *session, const Syntax *left, const Sy
     return size;
 }
 
+/* a reference that was wrapped, as an arctangent is, beside an angle that was counted on */
+static void hint_turns(double off, double tolerance, const Text *unit, Diag *diag)
+{
+    const double pi = acos(-1), turns = round(off / (2 * pi));
+    Unit told;
+    size_t fault;
+
+    if (turns == 0 || !(fabs(off - 2 * pi * turns) <= tolerance) || unit->length < 2 ||
+        !unit_parse(unit->at + 1, unit->length - 1, &told, &fault))
+        return;
+    for (int k = 0; k < 6; k++)
+        if (told.dimension.power[k] != (k == 5))
+            return;
+    diag_hint(diag, "that is %.15g whole turn%s: angles are counted on where an arctangent jumps",
+              fabs(turns), fabs(turns) == 1 ? "" : "s");
+}
+
 static Status expect_near(ct_session *session, const Statement *s, const Syntax *left,
                           const double *at, Diag *diag)
 {
@@ -66,6 +83,7 @@ static Status expect_near(ct_session *session, const Statement *s, const Syntax 
                          "%s is %.15g%s%s, expected %.15g%s within %.3g%s: off by %.3g%s", text.at,
                          value / size, unit.at, at_words(when, sizeof when, at), expected / size,
                          unit.at, tolerance / size, unit.at, (value - expected) / size, unit.at);
+        hint_turns(value - expected, tolerance, &unit, diag);
     }
 done:
     text_free(&text);

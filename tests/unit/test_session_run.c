@@ -400,6 +400,11 @@ static void an_expectation_holds_or_says_by_how_much_not(void)
     EXPECT_HOLDS(kit.error.message, "at t = 0");
     EXPECT_HOLDS(kit.error.message, "expected 1 rad within 0.001 rad");
     EXPECT_HOLDS(kit.error.message, "off by 0.0472 rad");
+    EXPECT(strstr(kit.error.hint, "turn") == NULL);
+    EXPECT(kit_do(&kit, "expect h ~ 60 deg + 4*pi within 1e-9 at 0") == CT_UNMET);
+    EXPECT_HOLDS(kit.error.hint, "that is 2 whole turns");
+    EXPECT(kit_do(&kit, "expect h' ~ -2*pi within 1e-9 at 0") == CT_UNMET);
+    EXPECT(strstr(kit.error.hint, "turn") == NULL);
     EXPECT(kit_do(&kit, "expect model.n == 2") == CT_UNMET);
     EXPECT_HOLDS(kit.error.message, "left is 1, right is 2");
     EXPECT(kit_do(&kit, "expect 0*h") == CT_UNMET);
