@@ -190,7 +190,8 @@ const Component component_input = {
     .help = "A voltage source that a program sets which runs the model by the library "
             "(ct_simulate): at multiples of the period it is asked for a value, which is held to "
             "the next one. A controller or an interface to other hardware is tried so. In the "
-            "shell nobody sets it: it keeps the initial value.",
+            "shell nobody sets it: it keeps the initial value. In an FMU it is an input, which the "
+            "importer sets when it likes.",
     .example = "input U1 a 0 period=10 ms initial=2\nresistor R1 a 0 1 kohm\nsimulate 1\n"
                "print R1.i",
     .see = "gain pid vsource",

@@ -66,6 +66,7 @@ typedef struct CodeLive {
     LIST(CodeLevel) targets;
     LIST(int) places;  /* of targets that are states themselves, in y; else -1 */
     LIST(int) samples; /* states that are sampled */
+    LIST(int) held;    /* states that an importer holds: inputs */
     Expr *seeds;       /* the direction: 1 + ny + ns symbols */
     int tangents[4];   /* functions: of each group, or of what modes have in its place */
     bool *depends;     /* by model parameter: it follows from others */

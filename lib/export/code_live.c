@@ -148,7 +148,9 @@ static Status add_samples(Code *code, Diag *diag)
     for (int i = 0; (own = system_sample(system, i)) != NULL; i++) {
         Expr e;
 
-        if (own->period == NULL)
+        if (own->is_input)
+            LIST_PUSH(code->live.held, own->state);
+        if (own->period == NULL || own->is_input)
             continue;
         CHECK(code_resolve(code, own->next, &e, "what is sampled", diag));
         LIST_PUSH(next, e);
@@ -377,5 +379,6 @@ void code_live_free(CodeLive *live)
     LIST_FREE(live->targets);
     LIST_FREE(live->places);
     LIST_FREE(live->samples);
+    LIST_FREE(live->held);
     MEM_FREE(live->seeds, live->depends);
 }

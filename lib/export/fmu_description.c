@@ -16,7 +16,7 @@ typedef struct Described { /* a variable of the interface */
     int i; /* in its group */
     int reference;
     char *name;
-    bool is_output;
+    bool is_output, is_input;
     int place;           /* in the list, from 1 */
     char *unit;          /* NULL: none, or it isn't known */
     Dimension dimension; /* of that */
@@ -29,7 +29,7 @@ typedef struct Description {
     LIST(Described) variables;
     LIST(int) outputs; /* in their order: places in `variables` */
     Names *names;      /* of variables, by their places there */
-    int states;
+    int states;        /* inputs among them */
 } Description;
 
 static void put_escaped(Text *out, const char *text)
@@ -97,6 +97,16 @@ static void add_variable(Description *d, Group group, int i, int reference, cons
     LIST_PUSH(d->variables, variable);
 }
 
+static bool is_input(const Description *d, int state)
+{
+    const Layout *l = d->code->layout;
+    bool is = false;
+
+    for (int k = 0; k < d->code->live.held.count; k++)
+        is = is || d->code->live.held.at[k] == state - l->n - l->nu;
+    return is;
+}
+
 static const char *state_name(const Description *d, int i)
 {
     const Layout *l = d->code->layout;
@@ -104,6 +114,18 @@ static const char *state_name(const Description *d, int i)
     return i < l->n           ? system_q(l->system, i)->name
            : i < l->n + l->nu ? system_u(l->system, i - l->n)->name
                               : system_x(l->system, i - l->n - l->nu)->name;
+}
+
+/* a state, or an input, which has the name of its part: "U1" */
+static void add_state(Description *d, int i, int reference)
+{
+    const char *name = state_name(d, i);
+    Text part = {0};
+
+    text_add_n(&part, name, is_input(d, i) ? (size_t)(strrchr(name, '.') - name) : strlen(name));
+    add_variable(d, GROUP_Y, i, reference, part.at, name);
+    d->variables.at[d->variables.count - 1].is_input = is_input(d, i);
+    text_free(&part);
 }
 
 /* what was asked for: a state or parameter itself, if it is one */
@@ -133,10 +155,12 @@ static void list_variables(Description *d)
         add_variable(d, GROUP_P, i, reference++, expr_name(code->parameters.at[i]),
                      expr_name(code->parameters.at[i]));
     for (int i = 0; i < d->states; i++)
-        add_variable(d, GROUP_Y, i, reference++, state_name(d, i), state_name(d, i));
-    for (int i = 0; i < d->states; i++) {
+        add_state(d, i, reference++);
+    for (int i = 0; i < d->states; i++, reference++) {
+        if (is_input(d, i))
+            continue;
         text_addf(&name, "der(%s)", state_name(d, i));
-        add_variable(d, GROUP_RATE, i, reference++, name.at, state_name(d, i));
+        add_variable(d, GROUP_RATE, i, reference, name.at, state_name(d, i));
         text_free(&name);
     }
     for (int i = 0; i < code->outputs.count; i++)
@@ -169,6 +193,8 @@ static void put_kind(Description *d, const Described *v)
                          "initial=\"calculated\"");
     else if (v->group == GROUP_P)
         text_add(d->out, " causality=\"parameter\" variability=\"tunable\" initial=\"exact\"");
+    else if (v->is_input)
+        text_add(d->out, " causality=\"input\" variability=\"continuous\"");
     else
         text_addf(d->out, " causality=\"%s\" variability=\"continuous\" initial=\"%s\"", causality,
                   v->group == GROUP_Y ? "exact" : "calculated");
@@ -317,7 +343,8 @@ static void put_structure(Description *d)
 
     text_add(d->out, "  <ModelStructure>\n");
     for (int i = 0; i < COUNT(parts); i++) {
-        const bool any = parts[i].group == GROUP_OUT ? d->outputs.count > 0 : d->states > 0;
+        const bool any = parts[i].group == GROUP_OUT ? d->outputs.count > 0
+                                                     : d->states > d->code->live.held.count;
 
         if (is_2 && any)
             text_addf(d->out, "    <%s>\n", parts[i].name);

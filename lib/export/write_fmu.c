@@ -44,6 +44,19 @@ static void add_events(const Code *code, Text *out)
     MEM_FREE(first, count, action, level);
 }
 
+/* by state: whether it is an input */
+static void add_inputs(const Code *code, Text *out)
+{
+    const Layout *l = code->layout;
+    const int states = l->n + l->nu + l->nx;
+    int *is_input = NEW_ARRAY(int, states);
+
+    for (int i = 0; i < code->live.held.count; i++)
+        is_input[l->n + l->nu + code->live.held.at[i]] = 1;
+    add_numbers(out, "int", "fmu_is_input", is_input, states);
+    mem_free(is_input);
+}
+
 static void add_tables(const Code *code, Text *out)
 {
     const CodeLive *live = &code->live;
@@ -59,6 +72,7 @@ static void add_tables(const Code *code, Text *out)
         numbers[i] = live->sides.at[i].is_floor;
     add_numbers(out, "int", "fmu_is_floor", numbers, live->timed);
     add_numbers(out, "int", "fmu_sample", live->samples.at, live->samples.count);
+    add_inputs(code, out);
     for (int first; (first = system_quaternion(code->layout->system, quaternions.count)) >= 0;)
         LIST_PUSH(quaternions, first);
     add_numbers(out, "int", "fmu_quaternion", quaternions.at, quaternions.count);
@@ -116,12 +130,13 @@ static void write_header(const Code *code, const Exported *what, const char *tok
               "    FMU_SIDES = %d,\n    FMU_SWITCHES = %d, /* ideal ones */\n    FMU_TIMED = %d, "
               "/* of those, that are of time alone */\n"
               "    FMU_EVENTS_COUNT = %d,\n    FMU_TARGETS = %d, /* that events give values to */\n"
-              "    FMU_FOLLOWS_TIME = %d,\n    FMU_SAMPLES = %d,\n    FMU_QUATERNIONS = %d,\n    "
+              "    FMU_FOLLOWS_TIME = %d,\n    FMU_SAMPLES = %d,\n    FMU_INPUTS = %d,\n    "
+              "FMU_QUATERNIONS = %d,\n    "
               "FMU_ROWS = %d,\n",
               token, FMU_TOLERANCE, !what->only_simulation, !what->only_exchange,
               model_parameter_count(code->view->model), live->first, live->sides.count,
               code->modes.ideals.count, live->timed, live->events.count, live->targets.count,
-              follows_time(code), live->samples.count, quaternions, rows);
+              follows_time(code), live->samples.count, live->held.count, quaternions, rows);
     text_addf(out,
               "    FMU_SPACE = 2 * (FMU_ROWS + 2) * (FMU_ROWS + 2) + %d\n};\n"
               "enum { FMU_MARKS, FMU_STOPS, FMU_SETS };          /* what events do */\n"

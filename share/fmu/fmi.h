@@ -224,16 +224,16 @@ FUNCTION(FMI(SetTime), (FmiInstance instance, double t))
 FUNCTION(FMI(SetContinuousStates), (FmiInstance instance, const double x[], size_t count))
 {
     TAKE(FMU_CONTINUOUS | FMU_EVENTS);
-    IS_SIZE(count, FMU_STATES);
-    fmu_set_states(fmu, x);
+    IS_SIZE(count, FMU_CONTINUOUS_STATES);
+    fmu_set_continuous(fmu, x);
     return FMI(OK);
 }
 
 FUNCTION(FMI_RATES, (FmiInstance instance, double rates[], size_t count))
 {
     TAKE(COMPUTED);
-    IS_SIZE(count, FMU_STATES);
-    return (FmiStatus)fmu_rates(fmu, rates);
+    IS_SIZE(count, FMU_CONTINUOUS_STATES);
+    return (FmiStatus)fmu_continuous_rates(fmu, rates);
 }
 
 FUNCTION(FMI(GetEventIndicators), (FmiInstance instance, double indicators[], size_t count))
@@ -246,8 +246,8 @@ FUNCTION(FMI(GetEventIndicators), (FmiInstance instance, double indicators[], si
 FUNCTION(FMI(GetContinuousStates), (FmiInstance instance, double x[], size_t count))
 {
     TAKE(COMPUTED);
-    IS_SIZE(count, FMU_STATES);
-    memcpy(x, fmu->now.y, FMU_STATES * sizeof(double));
+    IS_SIZE(count, FMU_CONTINUOUS_STATES);
+    fmu_continuous(fmu, x);
     return FMI(OK);
 }
 
@@ -257,7 +257,7 @@ FUNCTION(FMI(GetNominalsOfContinuousStates),
     size_t i;
 
     TAKE(ALWAYS);
-    IS_SIZE(count, FMU_STATES);
+    IS_SIZE(count, FMU_CONTINUOUS_STATES);
     for (i = 0; i < count; i++)
         nominals[i] = 1;
     return FMI(OK);

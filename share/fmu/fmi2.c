@@ -153,7 +153,7 @@ FUNCTION(fmi2GetReal, (fmi2Component instance, const fmi2ValueReference referenc
 FUNCTION(fmi2SetReal, (fmi2Component instance, const fmi2ValueReference references[], size_t count,
                        const fmi2Real values[]))
 {
-    TAKE(FMU_INSTANTIATED | FMU_INITIALISING | FMU_EVENTS | FMU_STEPPING);
+    TAKE(ANY);
     return set_all(fmu, references, count, values);
 }
 
@@ -215,7 +215,8 @@ FUNCTION(fmi2SetRealInputDerivatives,
     (void)references;
     (void)orders;
     (void)values;
-    return count == 0 ? fmi2OK : (fmi2Status)fmu_fail(fmu, FMU_ERROR, "there are no inputs", 0);
+    return count == 0 ? fmi2OK
+                      : (fmi2Status)fmu_fail(fmu, FMU_ERROR, "inputs are held over a step", 0);
 }
 
 FUNCTION(fmi2GetRealOutputDerivatives,

@@ -1,7 +1,7 @@
 /* fmi3.c: the Functional Mock-up Interface, version 3.0: model exchange and co-simulation
  *
  * Types and functions are those that the standard names (fmi-standard.org), declared here. There
- * are no clocks, arrays, inputs or variables but real ones. */
+ * are no clocks, arrays or variables but real ones. */
 #include <stddef.h>
 
 #include <stdbool.h>
@@ -189,7 +189,7 @@ FUNCTION(fmi3GetFloat64, (fmi3Instance instance, const fmi3ValueReference refere
 FUNCTION(fmi3SetFloat64, (fmi3Instance instance, const fmi3ValueReference references[],
                           size_t count, const fmi3Float64 values[], size_t valueCount))
 {
-    TAKE(FMU_INSTANTIATED | FMU_INITIALISING | FMU_EVENTS | FMU_STEPPING);
+    TAKE(ANY);
     IS_SIZE(valueCount, count);
     return set_all(fmu, references, count, values);
 }
@@ -362,7 +362,7 @@ FUNCTION(fmi3GetNumberOfContinuousStates, (fmi3Instance instance, size_t *count)
 {
     TAKE(ALWAYS);
     (void)fmu;
-    *count = FMU_STATES;
+    *count = FMU_CONTINUOUS_STATES;
     return fmi3OK;
 }
 

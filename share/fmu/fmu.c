@@ -132,13 +132,19 @@ FmuStatus fmu_set(Fmu *fmu, unsigned reference, double value)
     const int at = (int)reference;
     const int is_parameter = at >= FMU_FIRST_PARAMETER && at < FMU_FIRST_STATE;
     const int is_state = at >= FMU_FIRST_STATE && at < FMU_FIRST_RATE;
+    const int is_input = is_state && fmu_is_input[at - FMU_FIRST_STATE];
 
     if (reference >= FMU_VARIABLES)
         return fmu_fail(fmu, FMU_ERROR, "no variable has that value reference", reference);
-    if (is_parameter && !fmu_depends[at - FMU_FIRST_PARAMETER]) {
+    if (is_input && now->mode == FMU_CONTINUOUS) {
+        now->y[at - FMU_FIRST_STATE] = value; /* nothing happens before event mode */
+        now->is_solved = 0;
+        return FMU_OK;
+    }
+    if (is_parameter && now->mode != FMU_CONTINUOUS && !fmu_depends[at - FMU_FIRST_PARAMETER]) {
         now->p[at - FMU_FIRST_PARAMETER] = value;
         prepare(fmu);
-    } else if (is_state && (now->mode & (FMU_INSTANTIATED | FMU_INITIALISING)) != 0)
+    } else if (is_input || (is_state && (now->mode & (FMU_INSTANTIATED | FMU_INITIALISING)) != 0))
         now->y[at - FMU_FIRST_STATE] = value;
     else
         return fmu_fail(fmu, FMU_ERROR, "this variable can't be set here", reference);
@@ -167,6 +173,40 @@ FmuStatus fmu_rates(Fmu *fmu, double *rates)
         model_derivative(fmu->now.p, fmu->now.t, fmu->now.y, fmu->now.s, fmu->work);
         memcpy(rates, fmu->work, FMU_STATES * sizeof(double));
     }
+    return status;
+}
+
+void fmu_set_continuous(Fmu *fmu, const double *x)
+{
+    int i;
+
+    for (i = 0; i < FMU_STATES; i++)
+        if (!fmu_is_input[i])
+            fmu->now.y[i] = *x++;
+    fmu->now.is_solved = 0;
+}
+
+static void take_continuous(const double *all, double *x)
+{
+    int i;
+
+    for (i = 0; i < FMU_STATES; i++)
+        if (!fmu_is_input[i])
+            *x++ = all[i];
+}
+
+void fmu_continuous(const Fmu *fmu, double *x)
+{
+    take_continuous(fmu->now.y, x);
+}
+
+FmuStatus fmu_continuous_rates(Fmu *fmu, double *rates)
+{
+    double all[FMU_STATES + 1];
+    const FmuStatus status = fmu_rates(fmu, all);
+
+    if (status == FMU_OK)
+        take_continuous(all, rates);
     return status;
 }
 

@@ -24,8 +24,9 @@ typedef enum FmuMode {
     FMU_FAILED = 64
 } FmuMode;
 
-enum { /* numbers in each array */
-       FMU_STATES = MODEL_Q + MODEL_U + MODEL_X,
+enum {                                           /* numbers in each array */
+       FMU_STATES = MODEL_Q + MODEL_U + MODEL_X, /* with inputs, whose rates are 0 */
+       FMU_CONTINUOUS_STATES = FMU_STATES - FMU_INPUTS,
        FMU_SEEDS = 1 + MODEL_Y + MODEL_S,       /* of a direction (dt, dy, ds), behind s */
        FMU_MEASURES = FMU_SIDES + FMU_SWITCHES, /* of what is jumped at, then margins of diodes */
        FMU_INDICATORS = FMU_MEASURES - FMU_TIMED,
@@ -87,6 +88,10 @@ FmuStatus fmu_set(Fmu *fmu, unsigned reference, double value);
 void fmu_set_time(Fmu *fmu, double t);
 void fmu_set_states(Fmu *fmu, const double *y);
 FmuStatus fmu_rates(Fmu *fmu, double *rates);
+/* the same of those that are no inputs, which an importer has */
+void fmu_set_continuous(Fmu *fmu, const double *x);
+void fmu_continuous(const Fmu *fmu, double *x);
+FmuStatus fmu_continuous_rates(Fmu *fmu, double *rates);
 FmuStatus fmu_indicators(Fmu *fmu, double *out);
 /* s, the rates and what is asked for along a direction in states and time; results at s + MODEL_S
  */

@@ -18,6 +18,7 @@ INITIALS = {  # by causality and variability: what `initial` may be, the default
     ("local", "continuous"): ("calculated", "exact", "approx"),
     ("output", "continuous"): ("calculated", "exact", "approx"),
     ("independent", "continuous"): (None,),
+    ("input", "continuous"): (None,),
 }
 
 
@@ -65,7 +66,7 @@ class Description:
             initial = v.get("initial", allowed[0])
             self.expect(initial in allowed, f"{name}: initial {initial}")
             has_start = self.value(v).get("start") is not None
-            self.expect(has_start == (initial in ("exact", "approx")),
+            self.expect(has_start == (initial in ("exact", "approx") or causality == "input"),
                         f"{name}: a start, or none, and initial {initial}")
             self.expect(causality != "independent" or v.get("initial") is None,
                         f"{name}: is the independent variable and has an initial value")

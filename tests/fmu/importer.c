@@ -87,6 +87,14 @@ static void copy(char *out, size_t size, const char *text)
     snprintf(out, size, "%s", text != NULL ? text : "");
 }
 
+static void push(unsigned **list, int *count, unsigned value)
+{
+    *list = realloc(*list, (size_t)(*count + 1) * sizeof **list);
+    if (*list == NULL)
+        fail("no memory", "");
+    (*list)[(*count)++] = value;
+}
+
 static void read_variable(Unit *unit, const char *const *at)
 {
     Variable *v;
@@ -103,6 +111,8 @@ static void read_variable(Unit *unit, const char *const *at)
     copy(v->causality, sizeof v->causality, attribute(at, "causality"));
     copy(v->variability, sizeof v->variability, attribute(at, "variability"));
     copy(v->initial, sizeof v->initial, attribute(at, "initial"));
+    if (strcmp(v->causality, "input") == 0)
+        push(&unit->inputs, &unit->input_count, v->reference);
 }
 
 static void read_value(Unit *unit, const char *const *at)
@@ -112,14 +122,6 @@ static void read_value(Unit *unit, const char *const *at)
     v->has_start = attribute(at, "start") != NULL;
     v->start = v->has_start ? strtod(attribute(at, "start"), NULL) : 0;
     v->derivative = attribute(at, "derivative") != NULL ? atoi(attribute(at, "derivative")) : 0;
-}
-
-static void push(unsigned **list, int *count, unsigned value)
-{
-    *list = realloc(*list, (size_t)(*count + 1) * sizeof **list);
-    if (*list == NULL)
-        fail("no memory", "");
-    (*list)[(*count)++] = value;
 }
 
 static const Variable *by_place(const Unit *unit, int place)
@@ -237,6 +239,7 @@ void unit_close(Unit *unit)
     dlclose(unit->library);
     free(unit->variables);
     free(unit->states);
+    free(unit->inputs);
     free(unit->rates);
     free(unit->outputs);
     free(unit->path);
