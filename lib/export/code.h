@@ -8,8 +8,9 @@
  * a Program is (compile/lower.h): so they compute what a run computes.
  *
  * A live one goes through events by itself: behind the parameters stand the signs of what equations
- * jump at, so that they are smooth between events, and behind s a direction (dt, dy, ds), along
- * which functions `tangent_...` are derivatives. */
+ * jump at, so that they are smooth between events, and behind s a direction (dt, dy, ds, dp), along
+ * which functions `tangent_...` are derivatives: `tangent_p_...` by parameters, the others by the
+ * rest. */
 #ifndef COTREE_EXPORT_CODE_H
 #define COTREE_EXPORT_CODE_H
 
@@ -67,9 +68,10 @@ typedef struct CodeLive {
     LIST(int) places;  /* of targets that are states themselves, in y; else -1 */
     LIST(int) samples; /* states that are sampled */
     LIST(int) held;    /* states that an importer holds: inputs */
-    Expr *seeds;       /* the direction: 1 + ny + ns symbols */
-    int tangents[4];   /* functions: of each group, or of what modes have in its place */
-    bool *depends;     /* by model parameter: it follows from others */
+    Expr *seeds;       /* the direction: 1 + ny + ns symbols, then one a model parameter */
+    int seed_count;
+    int tangents[2][4]; /* functions: of each group, or of what modes have in its place; by p */
+    bool *depends;      /* by model parameter: it follows from others */
 } CodeLive;
 
 /* an ideal switch, whose side is a parameter (code_modes.c) */

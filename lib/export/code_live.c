@@ -261,6 +261,23 @@ static int directions(const Code *code, int most, Expr *symbols, Expr *rates)
     return count;
 }
 
+/* model parameters; those that follow from others move as their own seeds say */
+static Expr along_parameters(const Code *code, Expr e)
+{
+    const Model *model = code->view->model;
+    const int count = model_parameter_count(model);
+    Expr *symbols = NEW_ARRAY(Expr, count);
+
+    for (int i = 0; i < count; i++) {
+        Expr definition;
+
+        symbols[i] = model_parameter(model, i, &definition);
+    }
+    e = expr_diff_along(code->arena, e, symbols, code->live.seeds + 1 + code->ny + code->ns, count);
+    mem_free(symbols);
+    return e;
+}
+
 static Expr along(const Code *code, Expr e, int most)
 {
     const int room = 1 + code->ny + code->ns;
@@ -272,8 +289,8 @@ static Expr along(const Code *code, Expr e, int most)
     return e;
 }
 
-/* the same of all entries of a function */
-static void add_tangent(Code *code, const char *of, const char *name, const char *what)
+/* the same of all entries of a function; by parameters */
+static void add_tangent(Code *code, const char *of, const char *name, const char *what, bool by_p)
 {
     const CodeFunction *f = NULL;
     Expr *entries;
@@ -287,15 +304,19 @@ static void add_tangent(Code *code, const char *of, const char *name, const char
 
     entries = NEW_ARRAY(Expr, rows);
     for (int i = 0; i < rows; i++)
-        entries[i] = along(code, code->roots.at[first + i], code->ns);
+        entries[i] = by_p ? along_parameters(code, code->roots.at[first + i])
+                          : along(code, code->roots.at[first + i], code->ns);
     code_add_function(code, name, what, entries, rows, 1);
     mem_free(entries);
 }
 
-/* what rows [A | b] lack when all but the group's unknowns move */
-static void add_rows_tangent(Code *code, const CodeGroup *group, int function, int number)
+/* what rows [A | b] lack when all but the group's unknowns move, or parameters */
+static void add_rows_tangent(Code *code, const CodeGroup *group, int function, int number,
+                             bool by_p)
 {
-    static const char *const names[] = {"tangent_1", "tangent_2", "tangent_3", "tangent_4"};
+    static const char *const names[2][4] = {
+        {"tangent_1", "tangent_2", "tangent_3", "tangent_4"},
+        {"tangent_p_1", "tangent_p_2", "tangent_p_3", "tangent_p_4"}};
     const CodeFunction f = code->functions.at[function];
     Expr *entries = NEW_ARRAY(Expr, group->count);
 
@@ -308,19 +329,20 @@ static void add_rows_tangent(Code *code, const CodeGroup *group, int function, i
                 expr_sub(code->arena, lack,
                          expr_mul(code->arena, row[k],
                                   code->layout->symbols[code->layout->rates + group->first + k]));
-        entries[i] = along(code, lack, group->first);
+        entries[i] = by_p ? along_parameters(code, lack) : along(code, lack, group->first);
     }
-    code->live.tangents[number] =
-        code_add_function(code, names[number], "right sides for derivatives along a direction",
-                          entries, group->count, 1);
+    code->live.tangents[by_p][number] = code_add_function(
+        code, names[by_p][number], "right sides for derivatives along a direction", entries,
+        group->count, 1);
     mem_free(entries);
 }
 
 void code_live_tangents(Code *code)
 {
-    const int count = 1 + code->ny + code->ns;
+    const int count = 1 + code->ny + code->ns + model_parameter_count(code->view->model);
 
     code->live.seeds = NEW_ARRAY(Expr, count);
+    code->live.seed_count = count;
     for (int i = 0; i < count; i++) {
         char name[24];
 
@@ -328,15 +350,24 @@ void code_live_tangents(Code *code)
         code->live.seeds[i] = expr_symbol(code->arena, pool_text(code->texts, name, strlen(name)),
                                           SYMBOL_ACCELERATION);
     }
-    for (int g = 0; g < code->group_count; g++)
-        add_rows_tangent(code, &code->groups[g], code->groups[g].function, g);
-    for (int k = 0; code_has_modes(code) && k < COUNT(code->modes.functions); k++)
-        add_rows_tangent(code, &code->groups[code->modes.group], code->modes.functions[k], 2 + k);
-    add_tangent(code, "accelerations", "tangent_accelerations", "derivatives of u'");
-    add_tangent(code, "derivative", "tangent_derivative", "derivatives of the rates");
-    add_tangent(code, "outputs", "tangent_outputs", "derivatives of outputs");
-    add_tangent(code, "indicators", "tangent_indicators", "derivatives of what is jumped at");
-    add_tangent(code, "targets", "tangent_targets", "derivatives of what events give values to");
+    for (int by_p = 0; by_p < 2; by_p++) {
+        for (int g = 0; g < code->group_count; g++)
+            add_rows_tangent(code, &code->groups[g], code->groups[g].function, g, by_p);
+        for (int k = 0; code_has_modes(code) && k < COUNT(code->modes.functions); k++)
+            add_rows_tangent(code, &code->groups[code->modes.group], code->modes.functions[k],
+                             2 + k, by_p);
+    }
+    add_tangent(code, "accelerations", "tangent_accelerations", "derivatives of u'", false);
+    add_tangent(code, "derivative", "tangent_derivative", "derivatives of the rates", false);
+    add_tangent(code, "outputs", "tangent_outputs", "derivatives of outputs", false);
+    add_tangent(code, "indicators", "tangent_indicators", "derivatives of what is jumped at",
+                false);
+    add_tangent(code, "targets", "tangent_targets", "derivatives of what events give values to",
+                false);
+    add_tangent(code, "accelerations", "tangent_p_accelerations", "those of u' by parameters",
+                true);
+    add_tangent(code, "derivative", "tangent_p_derivative", "those of the rates", true);
+    add_tangent(code, "outputs", "tangent_p_outputs", "those of outputs", true);
 }
 
 /* --- parameters --- */
@@ -369,6 +400,9 @@ void code_live_relations(Code *code)
     }
     code_add_function(code, "relations", "parameters from those that follow from none", values,
                       count, 1);
+    for (int i = 0; i < count; i++)
+        values[i] = along_parameters(code, values[i]);
+    code_add_function(code, "tangent_relations", "their derivatives", values, count, 1);
     MEM_FREE(symbols, values);
 }
 

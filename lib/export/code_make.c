@@ -172,7 +172,7 @@ static void add_inputs(Code *code)
                 (CodeInput){identifier(code->texts, taken, expr_name(l->symbols[at])),
                             parts[part].array, parts[part].place + i};
         }
-    for (int i = 0; code->live.is_wanted && i < 1 + code->ny + code->ns; i++)
+    for (int i = 0; i < code->live.seed_count; i++)
         LIST_PUSH(code->inputs,
                   (CodeInput){identifier(code->texts, taken, expr_name(code->live.seeds[i])),
                               CODE_S, code->ns + i});
@@ -508,7 +508,7 @@ static Status lower(Code *code, Diag *diag)
 {
     const Layout *l = code->layout;
     const int own = code->parameters.count + l->count;
-    const int seeds = code->live.is_wanted ? 1 + code->ny + code->ns : 0;
+    const int seeds = code->live.seed_count;
     Expr *inputs = NEW_ARRAY(Expr, own + seeds);
     Status status;
 

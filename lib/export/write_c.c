@@ -302,7 +302,7 @@ static void add_rows(const Code *code, Text *out)
 
 static void add_tangent_declarations(Text *out)
 {
-    text_add(out, "/* s[MODEL_S]: dt, dy, and ds, which it sets */\n"
+    text_add(out, "/* s[MODEL_S]: dt, dy, ds, which it sets, and dp */\n"
                   "int model_tangent(const real *p, real t, const real *y, real *s, real *work);\n"
                   "/* A x = b, from rows [A | b] */\n"
                   "int model_solve_rows(real *a, int n, real *x, real *work);\n");
@@ -314,20 +314,26 @@ static void add_mode_tangent(const Code *code, Text *out)
     static const char *const rows[] = {"a", "d", "c"};
     const int functions[] = {code->groups[code->modes.group].function, code->modes.functions[0],
                              code->modes.functions[1]};
-    const int tangents[] = {code->live.tangents[code->modes.group], code->live.tangents[2],
-                            code->live.tangents[3]};
+    const int *const by_rest = code->live.tangents[0], *const by_p = code->live.tangents[1];
+    const int tangents[][2] = {{by_rest[code->modes.group], by_p[code->modes.group]},
+                               {by_rest[2], by_p[2]},
+                               {by_rest[3], by_p[3]}};
 
     text_add(out,
              "\nstatic int model_mode_tangent(const real *p, real t, const real *y, const real "
-             "*s, real *ds,\n                              real *work)\n{\n"
+             "*s, real *ds,\n                              int moves, real *work)\n{\n"
              "    const int n = MODEL_MODES_N;\n    const ModelRoom r = model_room(work);\n"
              "    int i, unused = 0, status;\n\n");
     for (int k = 0; k < COUNT(rows); k++)
         text_addf(out,
                   "    model_%s(p, t, y, s, r.%s);\n    model_%s(p, t, y, s, r.old);\n"
-                  "    for (i = 0; i < n; i++)\n        r.%s[i * (n + 1) + n] = r.old[i];\n",
+                  "    for (i = 0; i < n; i++)\n        r.%s[i * (n + 1) + n] = r.old[i];\n"
+                  "    if (moves)\n        model_%s(p, t, y, s, r.old);\n"
+                  "    for (i = 0; moves && i < n; i++)\n        r.%s[i * (n + 1) + n] += "
+                  "r.old[i];\n",
                   code->functions.at[functions[k]].name, rows[k],
-                  code->functions.at[tangents[k]].name, rows[k]);
+                  code->functions.at[tangents[k][0]].name, rows[k],
+                  code->functions.at[tangents[k][1]].name, rows[k]);
     text_add(out, "    model_reduce(&r, 0, r.old, &unused);\n"
                   "    status = model_eliminate(r.a, n, r.x, r.rest);\n"
                   "    for (i = 0; i < n; i++)\n        ds[MODEL_MODES_FIRST + i] = r.x[i];\n"
@@ -337,19 +343,23 @@ static void add_mode_tangent(const Code *code, Text *out)
 /* ds along a direction in t and y, behind which it is put: code_live.c */
 static void add_tangent(const Code *code, Text *out)
 {
-    const int first = code->ns + 1 + code->ny;
+    const int first = code->ns + 1 + code->ny, own = 1 + code->ny + code->ns;
 
     if (code_has_modes(code))
         add_mode_tangent(code, out);
     text_add(out, "\nint model_tangent(const real *p, real t, const real *y, real *s, real *work)\n"
-                  "{\n    int i, status = MODEL_OK;\n\n    (void)i, (void)work;\n");
+                  "{\n    int i, moves = 0, status = MODEL_OK;\n\n    (void)work;\n");
+    text_addf(out,
+              "    for (i = 0; i < %d; i++) /* parameters */\n"
+              "        moves |= s[%d + i] > 0 || s[%d + i] < 0;\n",
+              code->live.seed_count - own, code->ns + own, code->ns + own);
     for (int g = 0; g < code->group_count; g++) {
         const CodeGroup *group = &code->groups[g];
         const int rows = group->count * (group->count + 1);
 
         if (code_has_modes(code) && g == code->modes.group) {
             text_addf(out,
-                      "    status = model_mode_tangent(p, t, y, s, s + %d, work);\n"
+                      "    status = model_mode_tangent(p, t, y, s, s + %d, moves, work);\n"
                       "    if (status != MODEL_OK)\n        return status;\n",
                       first);
             continue;
@@ -357,14 +367,24 @@ static void add_tangent(const Code *code, Text *out)
         text_addf(out,
                   "    model_%s(p, t, y, s, work);\n    model_%s(p, t, y, s, work + %d);\n"
                   "    for (i = 0; i < %d; i++)\n        work[i * %d + %d] = work[%d + i];\n"
+                  "    if (moves)\n        model_%s(p, t, y, s, work + %d);\n"
+                  "    for (i = 0; moves && i < %d; i++)\n        work[i * %d + %d] += work[%d + "
+                  "i];\n"
                   "    status = model_eliminate(work, %d, s + %d, work + %d);\n"
                   "    if (status != MODEL_OK)\n        return status;\n",
                   code->functions.at[group->function].name,
-                  code->functions.at[code->live.tangents[g]].name, rows, group->count,
+                  code->functions.at[code->live.tangents[0][g]].name, rows, group->count,
+                  group->count + 1, group->count, rows,
+                  code->functions.at[code->live.tangents[1][g]].name, rows, group->count,
                   group->count + 1, group->count, rows, group->count, first + group->first, rows);
     }
     if (code->is_explicit)
-        text_addf(out, "    model_tangent_accelerations(p, t, y, s, s + %d);\n",
+        text_addf(out,
+                  "    model_tangent_accelerations(p, t, y, s, s + %d);\n"
+                  "    if (moves)\n        model_tangent_p_accelerations(p, t, y, s, work);\n"
+                  "    for (i = 0; moves && i < MODEL_U + MODEL_M; i++)\n"
+                  "        s[%d + i] += work[i];\n",
+                  first + code->layout->nx + code->layout->nz,
                   first + code->layout->nx + code->layout->nz);
     text_add(out, "    return status;\n}\n"
                   "\nint model_solve_rows(real *a, int n, real *x, real *work)\n{\n"

@@ -238,10 +238,11 @@ FmuStatus fmu_indicators(Fmu *fmu, double *out)
     return status;
 }
 
-FmuStatus fmu_direction(Fmu *fmu, double dt, const double *dy)
+/* the same along parameters, too, of which those follow that do; NULL: none moves */
+static FmuStatus direction(Fmu *fmu, double dt, const double *dy, const double *dp)
 {
     FmuNumbers *now = &fmu->now;
-    double *seed = now->s + MODEL_S;
+    double *seed = now->s + MODEL_S, *last = seed + 1 + MODEL_Y + MODEL_S;
     const FmuStatus status = solve(fmu);
 
     if (status != FMU_OK)
@@ -249,9 +250,19 @@ FmuStatus fmu_direction(Fmu *fmu, double dt, const double *dy)
     memset(seed, 0, FMU_SEEDS * sizeof(double));
     seed[0] = dt;
     memcpy(seed + 1, dy, FMU_STATES * sizeof(double));
+    if (dp != NULL) {
+        memcpy(last, dp, FMU_PARAMETERS * sizeof(double));
+        model_tangent_relations(now->p, now->t, now->y, now->s, fmu->work);
+        memcpy(last, fmu->work, FMU_PARAMETERS * sizeof(double));
+    }
     if (model_tangent(now->p, now->t, now->y, now->s, fmu->work) != MODEL_OK)
         return fmu_fail(fmu, FMU_DISCARD, "the equations are singular", now->y[0]);
     return FMU_OK;
+}
+
+FmuStatus fmu_direction(Fmu *fmu, double dt, const double *dy)
+{
+    return direction(fmu, dt, dy, NULL);
 }
 
 FmuStatus fmu_derivatives(Fmu *fmu, const unsigned *unknowns, size_t unknown_count,
@@ -260,24 +271,40 @@ FmuStatus fmu_derivatives(Fmu *fmu, const unsigned *unknowns, size_t unknown_cou
 {
     FmuNumbers *now = &fmu->now;
     double dy[FMU_STATES + 1], rates[MODEL_Y + 1], outputs[MODEL_OUTPUTS + 1];
-    double dt = 0;
+    double dt = 0, dp[FMU_PARAMETERS + 1];
+    int k, moves = 0;
     FmuStatus status;
     size_t i;
 
     memset(dy, 0, sizeof dy);
+    memset(dp, 0, sizeof dp);
     for (i = 0; i < known_count; i++) {
         if (knowns[i] == 0)
             dt += seed[i];
         else if (knowns[i] >= FMU_FIRST_STATE && knowns[i] < FMU_FIRST_RATE)
             dy[knowns[i] - FMU_FIRST_STATE] += seed[i];
-        else
-            return fmu_fail(fmu, FMU_ERROR, "derivatives are by states and time", knowns[i]);
+        else if (knowns[i] < FMU_FIRST_STATE && !fmu_depends[knowns[i] - FMU_FIRST_PARAMETER]) {
+            dp[knowns[i] - FMU_FIRST_PARAMETER] += seed[i];
+            moves = 1;
+        } else
+            return fmu_fail(
+                fmu, FMU_ERROR,
+                "derivatives are by time, states, inputs and parameters that can be set",
+                knowns[i]);
     }
-    status = fmu_direction(fmu, dt, dy);
+    status = direction(fmu, dt, dy, moves ? dp : NULL);
     if (status != FMU_OK)
         return status;
     model_tangent_derivative(now->p, now->t, now->y, now->s, rates);
     model_tangent_outputs(now->p, now->t, now->y, now->s, outputs);
+    if (moves) {
+        model_tangent_p_derivative(now->p, now->t, now->y, now->s, fmu->work);
+        for (k = 0; k < FMU_STATES; k++)
+            rates[k] += fmu->work[k];
+        model_tangent_p_outputs(now->p, now->t, now->y, now->s, fmu->work);
+        for (k = 0; k < MODEL_OUTPUTS; k++)
+            outputs[k] += fmu->work[k];
+    }
     for (i = 0; i < unknown_count; i++) {
         if (unknowns[i] >= FMU_FIRST_RATE && unknowns[i] < FMU_FIRST_OUTPUT)
             out[i] = rates[unknowns[i] - FMU_FIRST_RATE];

@@ -27,7 +27,7 @@ typedef enum FmuMode {
 enum {                                           /* numbers in each array */
        FMU_STATES = MODEL_Q + MODEL_U + MODEL_X, /* with inputs, whose rates are 0 */
        FMU_CONTINUOUS_STATES = FMU_STATES - FMU_INPUTS,
-       FMU_SEEDS = 1 + MODEL_Y + MODEL_S,       /* of a direction (dt, dy, ds), behind s */
+       FMU_SEEDS = 1 + MODEL_Y + MODEL_S + FMU_PARAMETERS, /* (dt, dy, ds, dp), behind s */
        FMU_MEASURES = FMU_SIDES + FMU_SWITCHES, /* of what is jumped at, then margins of diodes */
        FMU_INDICATORS = FMU_MEASURES - FMU_TIMED,
        /* value references: time, then */
@@ -93,8 +93,7 @@ void fmu_set_continuous(Fmu *fmu, const double *x);
 void fmu_continuous(const Fmu *fmu, double *x);
 FmuStatus fmu_continuous_rates(Fmu *fmu, double *rates);
 FmuStatus fmu_indicators(Fmu *fmu, double *out);
-/* s, the rates and what is asked for along a direction in states and time; results at s + MODEL_S
- */
+/* s along a direction in time and states, behind s */
 FmuStatus fmu_direction(Fmu *fmu, double dt, const double *dy);
 /* of unknowns by knowns, times the seed of each of these */
 FmuStatus fmu_derivatives(Fmu *fmu, const unsigned *unknowns, size_t unknown_count,

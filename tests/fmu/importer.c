@@ -113,6 +113,8 @@ static void read_variable(Unit *unit, const char *const *at)
     copy(v->initial, sizeof v->initial, attribute(at, "initial"));
     if (strcmp(v->causality, "input") == 0)
         push(&unit->inputs, &unit->input_count, v->reference);
+    if (strcmp(v->causality, "parameter") == 0)
+        push(&unit->parameters, &unit->parameter_count, v->reference);
 }
 
 static void read_value(Unit *unit, const char *const *at)
@@ -240,6 +242,7 @@ void unit_close(Unit *unit)
     free(unit->variables);
     free(unit->states);
     free(unit->inputs);
+    free(unit->parameters);
     free(unit->rates);
     free(unit->outputs);
     free(unit->path);

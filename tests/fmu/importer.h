@@ -30,8 +30,8 @@ typedef struct Unit {
     unsigned *states, *rates; /* references, in the order of the model's structure */
     unsigned *outputs;
     int output_count;
-    unsigned *inputs;
-    int input_count;
+    unsigned *inputs, *parameters;
+    int input_count, parameter_count;
     void *library;
     int messages; /* said so far of errors */
     char said[400];

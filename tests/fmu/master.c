@@ -492,44 +492,49 @@ static void interleaved(Unit *unit)
     instance_free(&b);
 }
 
-/* states, then inputs */
-static void put_knowns(Run *run, const double *values)
-{
-    const Unit *unit = run->in.unit;
+/* what derivatives are by: states and inputs in continuous time, parameters in event mode */
+typedef struct Knowns {
+    unsigned *references;
+    int states, count;
+} Knowns;
 
-    expect_ok(instance_set_states(&run->in, values), &run->in, "SetContinuousStates");
-    if (unit->input_count > 0)
-        expect_ok(instance_set(&run->in, unit->inputs, unit->input_count, values + run->n),
+static void put_knowns(Run *run, const Knowns *knowns, const double *values)
+{
+    const int others = knowns->count - knowns->states;
+
+    if (knowns->states > 0)
+        expect_ok(instance_set_states(&run->in, values), &run->in, "SetContinuousStates");
+    if (others > 0)
+        expect_ok(instance_set(&run->in, knowns->references + knowns->states, others,
+                               values + knowns->states),
                   &run->in, "SetReal");
 }
 
-/* derivatives against differences of two sides */
-static void derivatives(Run *run)
+/* derivatives of rates and outputs against differences of two sides */
+static void derivatives_by(Run *run, const Knowns *knowns)
 {
     Unit *unit = run->in.unit;
-    const int n = run->n, all = n + unit->output_count, known = n + unit->input_count;
+    const int n = run->n, all = n + unit->output_count, known = knowns->count;
     unsigned *unknowns = calloc((size_t)all + 1, sizeof *unknowns);
-    unsigned *knowns = calloc((size_t)known + 1, sizeof *knowns);
     double *up = numbers(all), *down = numbers(all), *exact = numbers(all);
     double *from = numbers(known), *at = numbers(known), *seed_of = numbers(known);
     const double h = 1e-6;
 
     for (int i = 0; i < all; i++)
         unknowns[i] = i < n ? unit->rates[i] : unit->outputs[i - n];
-    for (int i = 0; i < known; i++) {
-        knowns[i] = i < n ? unit->states[i] : unit->inputs[i - n];
-        seed_of[i] = 2 * random_number() - 1;
-    }
-    expect_ok(instance_get(&run->in, knowns, known, from), &run->in, "GetReal");
+    expect_ok(instance_get(&run->in, knowns->references, known, from), &run->in, "GetReal");
+    for (int i = 0; i < known; i++)
+        seed_of[i] = (2 * random_number() - 1) * (i < knowns->states ? 1 : fmin(1, fabs(from[i])));
     for (int side = -1; side <= 1; side += 2) {
         for (int i = 0; i < known; i++)
             at[i] = from[i] + side * h * seed_of[i];
-        put_knowns(run, at);
+        put_knowns(run, knowns, at);
         expect_ok(instance_get(&run->in, unknowns, all, side > 0 ? up : down), &run->in, "GetReal");
     }
-    put_knowns(run, from);
-    expect_ok(instance_derivative(&run->in, unknowns, all, knowns, known, seed_of, exact), &run->in,
-              "GetDirectionalDerivative");
+    put_knowns(run, knowns, from);
+    expect_ok(
+        instance_derivative(&run->in, unknowns, all, knowns->references, known, seed_of, exact),
+        &run->in, "GetDirectionalDerivative");
     for (int i = 0; i < all; i++) {
         const double about = (up[i] - down[i]) / (2 * h);
         const double size = 1 + fabs(exact[i]) + fabs(up[i]) * 1e-3;
@@ -537,8 +542,33 @@ static void derivatives(Run *run)
         if (!(fabs(about - exact[i]) <= 1e-5 * size))
             complain("a derivative", run->t, exact[i], about);
     }
-    free(unknowns), free(knowns), free(up), free(down), free(exact), free(from), free(at);
-    free(seed_of);
+    free(unknowns), free(up), free(down), free(exact), free(from), free(at), free(seed_of);
+}
+
+static void derivatives(Run *run)
+{
+    const Unit *unit = run->in.unit;
+    Knowns knowns = {calloc((size_t)(run->n + unit->input_count) + 1, sizeof(unsigned)), run->n,
+                     run->n + unit->input_count};
+
+    if (knowns.references == NULL)
+        exit(1);
+    for (int i = 0; i < knowns.count; i++)
+        knowns.references[i] = i < run->n ? unit->states[i] : unit->inputs[i - run->n];
+    derivatives_by(run, &knowns);
+    free(knowns.references);
+}
+
+/* An instance of its own, whose events have nothing to put back when parameters were others. */
+static void derivatives_by_parameters(Unit *unit)
+{
+    const Knowns knowns = {unit->parameters, 0, unit->parameter_count};
+    Run run = run_new(unit, 1e-6);
+
+    run_begin(&run);
+    expect_ok(instance_enter_events(&run.in), &run.in, "EnterEventMode");
+    derivatives_by(&run, &knowns);
+    run_free(&run);
 }
 
 /* what a simulator may do between two steps leaves no trace */
@@ -661,6 +691,8 @@ int main(int argc, char **argv)
             interleaved(unit);
         if (unit->has_exchange)
             disturbed(unit);
+        if (unit->has_exchange && unit->has_derivatives)
+            derivatives_by_parameters(unit);
     } else {
         const Reference r = reference_read(argv[3]);
         const double tolerance = strtod(argv[4], NULL);
