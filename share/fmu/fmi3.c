@@ -124,9 +124,13 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
                                          fmi3LogMessageCallback log,
                                          fmi3IntermediateUpdateCallback update)
 {
-    (void)resources, (void)visible, (void)eventModeUsed, (void)earlyReturnAllowed, (void)required;
+    Fmu *fmu = instantiate(name, token, FMU_CO_SIMULATION, 1, loggingOn, environment, log);
+
+    (void)resources, (void)visible, (void)eventModeUsed, (void)required;
     (void)count, (void)update;
-    return instantiate(name, token, FMU_CO_SIMULATION, 1, loggingOn, environment, log);
+    if (fmu != NULL)
+        fmu->may_return_early = earlyReturnAllowed;
+    return fmu;
 }
 
 EXPORTED fmi3Instance fmi3InstantiateScheduledExecution(
@@ -388,7 +392,8 @@ FUNCTION(fmi3DoStep,
     (void)noSetPrior;
     status = fmu_do_step(fmu, from, step);
     *eventHandlingNeeded = false;
-    *earlyReturn = *terminate = fmu->now.is_stopped != 0;
+    *terminate = fmu->now.is_stopped != 0;
+    *earlyReturn = *terminate && fmu->may_return_early;
     *lastSuccessfulTime = fmu->now.t;
     return (fmi3Status)status;
 }

@@ -62,7 +62,8 @@ typedef struct FmuNumbers {
 typedef struct Fmu {
     FmuNumbers now;
     int is_cosimulation, is_logging;
-    int has_no_state; /* an error has left nothing to go on with */
+    int may_return_early; /* from a step that an event ends, in version 3 */
+    int has_no_state;     /* an error has left nothing to go on with */
     char *name;
     void (*logger)(void); /* of the version's type, called by fmu_say() */
     void *environment;

@@ -453,10 +453,12 @@ int instance_do_step(Instance *in, double t, double step, bool *ends, double *re
 
     *ends = false;
     *reached = t + step;
-    if (in->unit->version == 3)
-        return CALL(in->unit, "DoStep",
-                    (void *, double, double, bool, bool *, bool *, bool *, double *))(
+    if (in->unit->version == 3) {
+        status = CALL(in->unit, "DoStep",
+                      (void *, double, double, bool, bool *, bool *, bool *, double *))(
             in->handle, t, step, true, &wants, ends, &early, reached);
+        return early ? ERROR : status; /* which was not allowed when it was made */
+    }
     status = CALL(in->unit, "DoStep", (void *, double, double, int))(in->handle, t, step, 1);
     if (status != DISCARD)
         return status;
