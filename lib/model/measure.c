@@ -522,10 +522,28 @@ static Measure of_entry(const MeasureWalk *w, const Syntax *call)
     return out;
 }
 
+/* what a beam tells at a place, which is a length */
+static Status at_place(const MeasureWalk *w, const Syntax *call, const char *unit,
+                       const Measure *args, Measure *out)
+{
+    Text text = {0};
+
+    *out = measure_of_unit(unit);
+    if (call->count != 1 || !args[0].has_units || measures_fit(args[0], measure_of_unit("m")))
+        return OK;
+    measure_print(&text, args[0]);
+    (void)diag_at(w->diag, E_UNIT, call->args[0]->place, "%s takes a place in m, not %s",
+                  call->text, text.at);
+    diag_hint(w->diag, SI_HINT);
+    text_free(&text);
+    return E_UNIT;
+}
+
 static Status call(const MeasureWalk *w, const Syntax *syntax, Measure *out)
 {
     const Thing *thing = state_thing(w->scope->state, syntax->text);
     const char *rule = find_rule(syntax->text);
+    const char *unit = place_unit(w->scope->state, syntax->text + run_prefix(syntax->text));
     Measure *args = NEW_ARRAY(Measure, syntax->count);
     Status status = OK;
 
@@ -534,6 +552,8 @@ static Status call(const MeasureWalk *w, const Syntax *syntax, Measure *out)
     *out = of_entry(w, syntax);
     if (rule != NULL)
         CHECK(by_rule(w, syntax, rule, args, out));
+    else if (unit != NULL)
+        CHECK(at_place(w, syntax, unit, args, out));
     else if (thing != NULL && thing->kind == THING_DEFINITION)
         CHECK(by_law(w, syntax, thing->index, args, out));
     *out = rate_of(*out, syntax->primes);

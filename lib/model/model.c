@@ -671,6 +671,11 @@ const char *model_member_unit(const Model *model, const Instance *part, const ch
     return member_unit(ask(model).state, part, member);
 }
 
+const char *model_place_unit(const Model *model, const char *text)
+{
+    return place_unit(ask(model).state, text);
+}
+
 Status model_check_alike(const Model *model, const Syntax *left, const Syntax *right, Diag *diag)
 {
     const Scope scope = ask(model);

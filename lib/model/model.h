@@ -203,6 +203,9 @@ bool model_dimension(const Model *model, const Syntax *syntax, Dimension *out);
 bool model_text_dimension(const Model *model, const char *text, Dimension *out);
 /* the unit in SI of a member of one of its instances, "effort"; NULL */
 const char *model_member_unit(const Model *model, const Instance *part, const char *member);
+/* of what a beam tells at a place along it, by the text before its bracket, "b1.v"; NULL: nothing
+ */
+const char *model_place_unit(const Model *model, const char *text);
 /* two that are compared */
 MUST_USE Status model_check_alike(const Model *model, const Syntax *left, const Syntax *right,
                                   Diag *diag);

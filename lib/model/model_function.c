@@ -257,6 +257,20 @@ static const Instance *bent_part(const State *state, const char *text, const cha
     return part->row->deforming->section(state->planar, *member) != NULL ? part : NULL;
 }
 
+const char *place_unit(const State *state, const char *text)
+{
+    const char *member;
+    const Instance *part = bent_part(state, text, &member);
+    const SectionPart *section =
+        part != NULL ? part->row->deforming->section(state->planar, member) : NULL;
+
+    if (part == NULL)
+        return NULL;
+    if (section != NULL)
+        return section->moment ? "N*m" : "N";
+    return strcmp(member, "phi") == 0 ? "rad" : "m";
+}
+
 /* b1.v(L/2): a variable of that name, the place as the number that it is now */
 static Status call_deflection(Scope *scope, const Syntax *syntax, const Instance *part,
                               const char *member, const Expr *args, Expr *out, Diag *diag)

@@ -308,6 +308,9 @@ MUST_USE Status measure_of(const Scope *scope, const Syntax *syntax, Measure *ou
 Measure measure_of_unit(const char *unit);
 /* of a member of a part, as it stands there; NULL: it has none, or there is no such member */
 const char *member_unit(const State *state, const Instance *part, const char *name);
+/* of what a beam tells at a place along it, by the text before its bracket, "b1.v"; NULL: it
+ * tells no such thing */
+const char *place_unit(const State *state, const char *text);
 /* of a variable by its own name, without primes */
 Measure variable_measure(const State *state, const Instance *own, const char *name);
 bool measure_same(Measure a, Measure b);

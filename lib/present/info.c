@@ -161,6 +161,26 @@ static bool is_own_coordinate(const Instance *instance, const char *name)
     return false;
 }
 
+/* of a beam: how far it bends at a place, and what it carries there */
+static void add_places(Text *items, const View *view, const Instance *instance)
+{
+    static const char *const names[] = {"u",       "v",        "w",        "phi",
+                                        "axial",   "shear",    "sheary",   "shearz",
+                                        "bending", "bendingy", "bendingz", "torsion"};
+
+    for (int i = 0; i < COUNT(names); i++) {
+        Text name = {0};
+        const char *unit;
+
+        text_addf(&name, "%s.%s", instance->name, names[i]);
+        unit = model_place_unit(view->model, name.at);
+        text_add(&name, "(x)");
+        if (unit != NULL)
+            add_variable(items, view, name.at, unit);
+        text_free(&name);
+    }
+}
+
 static void add_variables(Text *out, const View *view, const Instance *instance)
 {
     Text items = {0};
@@ -187,6 +207,7 @@ static void add_variables(Text *out, const View *view, const Instance *instance)
                          model_member_unit(view->model, instance, member->name));
         text_free(&name);
     }
+    add_places(&items, view, instance);
     if (items.length > 0)
         layout_items(out, view->page.columns, "can be asked for: ", items.at);
     text_free(&items);

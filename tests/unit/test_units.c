@@ -392,6 +392,36 @@ static void the_unit_of_an_item_is_told_where_it_is_known(void)
     kit_free(&kit);
 }
 
+/* deflections and turns, forces and moments of a section, of the last run and of a run by name */
+static void what_a_beam_tells_at_a_place_has_its_unit(void)
+{
+    static const struct {
+        const char *item, *unit;
+    } told[] = {
+        {"b1.u(0.5)", "m"},        {"b1.v(0.5)", "m"},       {"b1.w(L)", "m"},
+        {"b1.phi(1)", "rad"},      {"b1.axial(0)", "N"},     {"b1.sheary(0)", "N"},
+        {"b1.shearz(0)", "N"},     {"b1.torsion(0)", "N*m"}, {"b1.bendingy(0)", "N*m"},
+        {"b1.bendingz(0)", "N*m"}, {"run1.b1.w(1)", "m"},    {"max(b1.bendingy(0))", "N*m"},
+        {"2*b1.w(1)/L", ""},       {"b1.bending(0)", ""},
+    };
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "L = 1 m\nbeam b1 length=L mass_per_length=2 EIz=100 EIy=50 GJ=10 "
+                      "inertia_per_length=[0.1, 0, 0] "
+                      "modes=[0, 2, 2, 1]\nweld w1 ground b1\nsimulate 0.01");
+    for (size_t i = 0; i < sizeof told / sizeof told[0]; i++)
+        expect_unit(&kit, told[i].item, told[i].unit);
+    expect_refused(&kit, "print b1.w(1) [N]", "b1.w(1) is in m", 15);
+    expect_refused(&kit, "print b1.w(1 kg)", "b1.w takes a place in m, not kg", 12);
+    expect_refused(&kit, "print b1.w(1) + b1.axial(1)", "m and N can't be added", 17);
+    EXPECT_DONE(&kit, "print b1.w(500 mm) [mm]");
+    EXPECT_DONE(&kit, "info b1");
+    EXPECT_HOLDS(kit.text, "b1.w(x) [m]");
+    EXPECT_HOLDS(kit.text, "b1.bendingy(x) [N*m]");
+    EXPECT_LACKS(kit.text, "b1.bending(x)");
+    kit_free(&kit);
+}
+
 /* rows of A and B are rates of states, of C and D outputs; columns states and inputs */
 static void entries_of_linear_equations_have_units_of_their_own(void)
 {
@@ -450,6 +480,7 @@ int main(void)
     RUN(a_law_or_output_is_held_to_its_dimension_where_it_is_used);
     RUN(a_change_of_dimension_reformulates_nothing);
     RUN(the_unit_of_an_item_is_told_where_it_is_known);
+    RUN(what_a_beam_tells_at_a_place_has_its_unit);
     RUN(entries_of_linear_equations_have_units_of_their_own);
     RUN(deep_laws_end);
     RUN(nested_laws_take_no_longer_than_they_are_long);
