@@ -107,8 +107,8 @@ MUST_USE Status linear_check_pairs(const Linear *linear, Diag *diag);
 /* a line a mode; what moves on lines of its own where that is wider than the page (0: never) */
 /* a number of which `error` is open: six digits, or those that are known, one at least */
 void linear_known(Text *out, double value, double error);
-void linear_latex(Text *out, double value, int digits); /* 1.5 \cdot 10^{-9} */
-void modes_print(const Modes *modes, int columns, Text *out);
+void linear_latex(Text *out, double value, int digits);            /* 1.5 \cdot 10^{-9} */
+void modes_print(const View *view, const Modes *modes, Text *out); /* or why there are none */
 
 /* what an event of the model does, in words: "stops", "s1' = -0.8*s1'" */
 void event_print(Text *out, const Event *event);

@@ -113,6 +113,34 @@ static void add_names(Table *table, const char *title, char *const *names, int c
     text_free(&text);
 }
 
+/* why the equations have no state, of the parts that there are */
+static void print_why_empty(const Model *model, Text *out)
+{
+    Text drivers = {0};
+    bool has_body = false, has_joint = false, has_network = false;
+
+    for (int i = 0; i < model_count(model); i++) {
+        const Instance *part = model_instance(model, i);
+
+        has_body = has_body || part->row->family == FAMILY_BODY;
+        has_joint = has_joint || (part->row->family == FAMILY_JOINT && !part->is_virtual &&
+                                  part->coord_count > 0);
+        has_network = has_network || part->scalar_count > 0;
+        if (part->row->family == FAMILY_DRIVER)
+            layout_item(&drivers, part->name);
+    }
+    if (drivers.length > 0)
+        text_addf(out, "drivers prescribe all motion (%s)", drivers.at);
+    else if (has_body)
+        text_add(out, has_joint ? "the joints together leave no motion free"
+                                : "no joint leaves a motion free");
+    if (has_network)
+        text_addf(out, "%snothing in the network stores energy", has_body ? ", and " : "");
+    if (!has_body && !has_network)
+        text_add(out, "there are no bodies and no network");
+    text_free(&drivers);
+}
+
 void linear_print(const View *view, const Linear *linear, Text *out)
 {
     const NotationKind kind = view_kind(view);
@@ -122,6 +150,14 @@ void linear_print(const View *view, const Linear *linear, Text *out)
         table_cell(&table, "about");
         table_cellf(&table, "t = %.6g s", linear->at);
         add_names(&table, "states", linear->state_names, linear->states);
+        if (linear->states == 0) {
+            Text why = {0};
+
+            print_why_empty(view->model, &why);
+            table_cell(&table, "states");
+            table_cellf(&table, "none: %s", why.at);
+            text_free(&why);
+        }
         if (linear->is_shifted) {
             table_cell(&table, "");
             table_cell(&table, "less what jumps with the inputs");
@@ -282,7 +318,7 @@ static void print_shapes(const Table *figures, char *const *shapes, int columns,
     text_free(&lines);
 }
 
-void modes_print(const Modes *modes, int columns, Text *out)
+void modes_print(const View *view, const Modes *modes, Text *out)
 {
     static const char *const titles[] = {"mode", "eigenvalue [1/s]", "omega [rad/s]", "f [Hz]",
                                          "damping"};
@@ -290,7 +326,11 @@ void modes_print(const Modes *modes, int columns, Text *out)
     char **shapes;
 
     if (modes->count == 0) {
-        text_add(out, "no modes: nothing is free to move\n");
+        Text why = {0};
+
+        print_why_empty(view->model, &why);
+        layout_words(out, view->page.columns, "no modes: ", why.at);
+        text_free(&why);
         return;
     }
     shapes = NEW_ARRAY(char *, modes->count + 1);
@@ -301,7 +341,7 @@ void modes_print(const Modes *modes, int columns, Text *out)
         add_figures(&figures, &modes->at[i], i + 1);
         shapes[i + 1] = shape_text(modes, &modes->at[i]);
     }
-    print_shapes(&figures, shapes, columns, out);
+    print_shapes(&figures, shapes, view->page.columns, out);
     add_doubts(modes, out);
     for (int i = 0; i <= modes->count; i++)
         mem_free(shapes[i]);

@@ -262,7 +262,9 @@ void session_remark_linear(ct_session *session)
 
 static void tell_modes(const ct_session *session, Text *out)
 {
-    modes_print(session->modes, session->hooks.columns, out);
+    const View view = session_view(session);
+
+    modes_print(&view, session->modes, out);
 }
 
 Status session_modes(ct_session *session, const Statement *s, Diag *diag)
@@ -316,6 +318,11 @@ static Status mode_entry(const ct_session *session, int entry, const int *index,
         (void)diag_set(diag, E_MISSING, "there are no modes yet");
         diag_hint(diag, "'modes' finds them");
         return E_MISSING;
+    }
+    if (session->modes->count == 0) {
+        (void)diag_set(diag, E_VALUE, "there are no modes");
+        diag_hint(diag, "'modes' tells why");
+        return E_VALUE;
     }
     if (count != 1 || index[0] < 1 || index[0] > session->modes->count)
         return diag_set(diag, E_VALUE, "there %s %d mode%s, counted from 1",

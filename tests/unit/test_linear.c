@@ -195,13 +195,39 @@ static void what_falls_over_has_a_negative_damping(void)
     kit_free(&kit);
 }
 
-static void what_cannot_move_has_no_modes(void)
+static void what_cannot_move_has_no_modes_and_says_why(void)
 {
-    Kit kit = kit_new();
+#define FIXED    "scene planar\nbody b mass=1 inertia=1\nweld w ground b\n"
+#define RESISTOR "vsource V a 0 1\nresistor R a 0 1\n"
+    static const struct {
+        const char *model, *why;
+    } cases[] = {
+        {PENDULUM "driver D1 h = 60 deg\n", "drivers prescribe all motion (D1)"},
+        {PENDULUM "driver D1 h = 60 deg\n" RESISTOR,
+         "drivers prescribe all motion (D1), and nothing in the"},
+        {FIXED, "no joint leaves a motion free"},
+        {FIXED "revolute h ground b\n", "the joints together leave no motion free"},
+        {RESISTOR, "nothing in the network stores energy"},
+        {"scene planar\n", "there are no bodies and no network"},
+    };
 
-    EXPECT_DONE(&kit, PENDULUM "driver D1 h = 60 deg\nmodes\n");
-    EXPECT_HOLDS(kit.text, "no modes");
-    kit_free(&kit);
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        Kit kit = kit_new();
+        char line[120];
+
+        EXPECT_DONE(&kit, cases[i].model);
+        EXPECT_DONE(&kit, "modes");
+        (void)snprintf(line, sizeof line, "no modes: %s", cases[i].why);
+        EXPECT_HOLDS(kit.text, line);
+        EXPECT_DONE(&kit, "linearize");
+        (void)snprintf(line, sizeof line, "states  none: %s", cases[i].why);
+        EXPECT_HOLDS(kit.text, line);
+        EXPECT_FAILS(&kit, "print modes.omega(1)", "there are no modes");
+        EXPECT_HOLDS(kit.error.hint, "'modes' tells why");
+        kit_free(&kit);
+    }
+#undef FIXED
+#undef RESISTOR
 }
 
 /* --- linear equations --- */
@@ -658,7 +684,7 @@ int main(void)
     RUN(shapes_tell_what_moves_with_and_against);
     RUN(a_series_circuit_has_its_poles);
     RUN(what_falls_over_has_a_negative_damping);
-    RUN(what_cannot_move_has_no_modes);
+    RUN(what_cannot_move_has_no_modes_and_says_why);
     RUN(the_motor_arm_is_linear_as_by_hand);
     RUN(an_instant_of_a_run_is_where_it_is_then);
     RUN(modes_of_no_rest_say_whose_they_are);
