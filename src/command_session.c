@@ -300,7 +300,12 @@ static ct_status command_history(Call *call, ct_error *error)
 
 static ct_status command_set(Call *call, ct_error *error)
 {
-    return settings_apply(&call->shell->settings, call->statement, error);
+    const Settings old = call->shell->settings;
+    const ct_status status = settings_apply(&call->shell->settings, call->statement, error);
+
+    if (status == CT_OK && !call->shell->quiet)
+        settings_tell_dropped(&old, &call->shell->settings);
+    return status;
 }
 
 static ct_status command_quit(Call *call, ct_error *error)

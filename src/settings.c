@@ -131,12 +131,12 @@ bool settings_own(const ct_statement *statement)
     return find(name_set(statement, &value)) != NULL;
 }
 
-/* the value, with what stands behind it as in `set units deg mm` */
-static char *value_text(const ct_statement *statement, const ct_expression *value)
+/* the value, with what stands behind it as in `set units deg mm`, `count` of them */
+static char *value_text(const ct_statement *statement, const ct_expression *value, int count)
 {
     char *text = copy_text("");
 
-    for (int i = 1; value != NULL; i++) {
+    for (int i = 1; value != NULL && i <= count; i++) {
         char *next = copy_check(ct_expression_text(value));
         char *both = copy_format("%s%s%s", text, i > 1 ? " " : "", next);
 
@@ -148,22 +148,62 @@ static char *value_text(const ct_statement *statement, const ct_expression *valu
     return text;
 }
 
+void settings_tell_dropped(const Settings *old, const Settings *settings)
+{
+    const char *before = old->units, *after = settings->units;
+    char *both = copy_text(strcmp(after, "SI") != 0 ? after : "");
+    char *dropped = copy_text("");
+
+    for (const char *at = before; strcmp(before, "SI") != 0 && *at != '\0'; at += *at == ' ') {
+        const int length = (int)strcspn(at, " ");
+        char *more = copy_format("%s %.*s", both, length, at);
+        ct_error ignored;
+
+        /* a unit that fits among the others has none of its kind there */
+        if (*both != '\0' && ct_check_units(more, &ignored) == CT_OK) {
+            char *longer =
+                copy_format("%s%s%.*s", dropped, *dropped != '\0' ? " " : "", length, at);
+
+            free(dropped);
+            dropped = longer;
+        }
+        free(more);
+        at += length;
+    }
+    if (*dropped != '\0')
+        remark("no longer shown in %s: 'set units %s %s' has both", dropped, after, dropped);
+    free(both);
+    free(dropped);
+}
+
 ct_status settings_apply(Settings *settings, const ct_statement *statement, ct_error *error)
 {
     const ct_expression *value = NULL;
     const SettingRow *row = find(name_set(statement, &value));
+    const int count = ct_operand_count(statement) > 1 ? ct_operand_count(statement) - 1 : 1;
+    Settings after = *settings;
+    ct_status status = CT_OK;
 
-    if (value == NULL || (ct_operand_count(statement) > 2 && row->set != set_units))
-        return ct_error_at(statement, NULL, error, "'%s' is set to one value: set %s VALUE",
-                           row->words[0], row->words[0]);
+    if (value == NULL || (count > 1 && row->set != set_units)) {
+        ct_error_at(statement, NULL, error, "'%s' is set to %s: set %s %s", row->words[0],
+                    row->set == set_units ? "words" : "one value", row->words[0],
+                    row->set == set_units ? "mm deg" : "VALUE");
+        return CT_FAILED;
+    }
 
-    char *text = value_text(statement, value);
-    ct_error why;
-    ct_status status = row->set(row, (char *)settings + row->at, text, &why);
+    /* one more at a time: the last one is at fault */
+    for (int i = 1; i <= count && status == CT_OK; i++) {
+        char *text = value_text(statement, value, i);
+        ct_error why;
 
-    if (status != CT_OK)
-        status = ct_error_at(statement, value, error, "%s", why.message);
-    free(text);
+        status = row->set(row, (char *)&after + row->at, text, &why);
+        if (status != CT_OK)
+            status = ct_error_at(statement, i > 1 ? ct_operand(statement, i) : value, error, "%s",
+                                 why.message);
+        free(text);
+    }
+    if (status == CT_OK)
+        *settings = after;
     return status;
 }
 

@@ -480,15 +480,23 @@ void dimension_print(Text *text, Dimension dimension)
 
 /* --- units of the user's choice --- */
 
-/* the first of a list's units that has that dimension; the length of its name, 0 where there is
- * none
- */
-static size_t find_listed(const char *units, Dimension wanted, const char **name, Unit *unit)
+/* J, Wh and their multiples are of energies; other units of that dimension are of torques */
+static bool is_of_energy(const char *name, size_t length)
+{
+    return (length > 0 && name[length - 1] == 'J') ||
+           (length > 1 && name[length - 2] == 'W' && name[length - 1] == 'h');
+}
+
+/* the first of a list's units that has that dimension, of energies or of what else has it; the
+ * length of its name, 0 where there is none */
+static size_t find_listed(const char *units, Dimension wanted, bool of_energy, const char **name,
+                          Unit *unit)
 {
     for (const char *at = units + strspn(units, " "); *at != '\0'; at += strspn(at, " ")) {
         const size_t length = strcspn(at, " ");
 
-        if (find_part(at, length, unit) && memcmp(&unit->dimension, &wanted, sizeof wanted) == 0) {
+        if (is_of_energy(at, length) == of_energy && find_part(at, length, unit) &&
+            memcmp(&unit->dimension, &wanted, sizeof wanted) == 0) {
             *name = at;
             return length;
         }
@@ -510,7 +518,8 @@ Status unit_list_check(const char *units, Diag *diag)
                      at);
             return E_UNIT;
         }
-        first_length = find_listed(units, unit.dimension, &first, &unit);
+        first_length =
+            find_listed(units, unit.dimension, is_of_energy(at, (size_t)length), &first, &unit);
         if (first != at) {
             diag_set(diag, E_UNIT, "%.*s and %.*s are units of the same: numbers are shown in one",
                      (int)first_length, first, length, at);
@@ -519,6 +528,17 @@ Status unit_list_check(const char *units, Diag *diag)
         at += length;
     }
     return OK;
+}
+
+double energy_print_in(Text *text, const char *units)
+{
+    static const Dimension energy = {{2, 1, -2, 0, 0, 0}};
+    const char *name = "J";
+    Unit unit = {.factor = 1};
+    const size_t length = find_listed(units, energy, true, &name, &unit);
+
+    text_add_n(text, name, length > 0 ? length : 1);
+    return length > 0 ? unit.factor : 1;
 }
 
 double dimension_print_in(Text *text, Dimension dimension, const char *units)
@@ -533,7 +553,7 @@ double dimension_print_in(Text *text, Dimension dimension, const char *units)
     Text in_si = {0};
     double size = 1;
     Unit unit;
-    size_t length = find_listed(units, dimension, &name, &unit);
+    size_t length = find_listed(units, dimension, false, &name, &unit);
 
     if (length > 0) {
         text_add_n(text, name, length);
@@ -546,7 +566,7 @@ double dimension_print_in(Text *text, Dimension dimension, const char *units)
         length = 0;
         for (int i = 0; i < COUNT(bases) && (power[1] | power[3] | power[4]) == 0; i++)
             if (word == strlen(bases[i].name) && strncmp(at, bases[i].name, word) == 0) {
-                length = find_listed(units, bases[i].dimension, &name, &unit);
+                length = find_listed(units, bases[i].dimension, false, &name, &unit);
                 if (length > 0)
                     size *= pow(unit.factor, i == 0 ? power[0] : i == 1 ? power[2] : power[5]);
             }

@@ -42,9 +42,12 @@ bool dimension_root(Dimension a, Dimension *out);
 /* kg*m^2, with a name where that is shorter: N, V, N/m, N*m (of work and of torque), 1 for none */
 void dimension_print(Text *text, Dimension dimension);
 /* The same in the units of a list, "mm deg rpm": one of that dimension, or of lengths, times and
- * angles one for each, deg/s. What a number in SI is to be divided by. */
+ * angles one for each, deg/s. What a number in SI is to be divided by. N*m is a torque's here, for
+ * which Nm may stand in the list; J, kJ, Wh are of energies, which have a function of their own. */
 double dimension_print_in(Text *text, Dimension dimension, const char *units);
-/* Whether a text is such a list, of units of different dimensions: E_UNIT says why not. */
+double energy_print_in(Text *text, const char *units);
+/* Whether a text is such a list, of units of different dimensions, a torque's and an energy's being
+ * two: E_UNIT says why not. */
 MUST_USE Status unit_list_check(const char *units, Diag *diag);
 /* every unit name without prefix, for completion: call with 0, 1, ... until NULL */
 const char *unit_name(int i);

@@ -56,19 +56,16 @@ static bool is_energy(const Syntax *syntax)
 double session_shown_unit(const ct_session *session, const Syntax *syntax, const char *units,
                           Text *out)
 {
-    static const Dimension none;
+    static const Dimension none, work = {{2, 1, -2, 0, 0, 0}};
     Dimension dimension = none;
-    double size;
 
     if (!model_dimension(session->model, syntax, &dimension) ||
         memcmp(&dimension, &none, sizeof none) == 0)
         return 1;
-    size = dimension_print_in(out, dimension_without_angle(dimension), units);
-    if (strcmp(out->at, "N*m") == 0 && is_energy(syntax)) {
-        text_free(out);
-        text_char(out, 'J');
-    }
-    return size;
+    dimension = dimension_without_angle(dimension);
+    if (memcmp(&dimension, &work, sizeof work) == 0 && is_energy(syntax))
+        return energy_print_in(out, units);
+    return dimension_print_in(out, dimension, units);
 }
 
 char *ct_unit_in(const ct_session *session, const ct_expression *expression, const char *units,
@@ -572,11 +569,14 @@ static Status read_form(ct_session *session, const Statement *s, const Format *f
     return OK;
 }
 
-static Status refuse_screen(const Statement *s, Diag *diag)
+static Status refuse_text(const Statement *s, Diag *diag)
 {
     const char *name = s->operands.at[0].value->text;
 
-    (void)diag_at(diag, E_SYNTAX, s->operands.at[0].place, "'export %s' goes to a file", name);
+    (void)diag_at(diag, E_SYNTAX, s->operands.at[0].place,
+                  s->append ? "'export %s' makes a whole file, which can't be appended to another"
+                            : "'export %s' goes to a file",
+                  name);
     diag_hint(diag, "export %s > \"model.%s\"", name, name);
     return E_SYNTAX;
 }
@@ -677,7 +677,7 @@ ct_status ct_export(ct_session *session, const ct_statement *statement, bool wit
     }
     CHECK(read_form(session, s, format, &what, &diag));
     if (format->write == NULL) {
-        status = refuse_screen(s, &diag);
+        status = refuse_text(s, &diag);
         goto done;
     }
     CHECK(prepare(session, s, format, &sheet, &items, &what, &diag));

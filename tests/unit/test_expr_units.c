@@ -139,8 +139,8 @@ static void every_unit_is_found_and_is_listed(void)
 /* numbers are shown in one unit of a dimension, so that a list has one of each */
 static void a_list_has_one_unit_of_a_dimension(void)
 {
-    static const char *const good[] = {"", "mm", "deg mm rpm", " kN  ms ", "Hz rpm"};
-    static const char *const wrong[] = {"mm km", "m deg s rad", "J Nm", "mm mm", "mm m/s", "SI"};
+    static const char *const good[] = {"", "mm", "deg mm rpm", " kN  ms ", "Hz rpm", "kJ Nm"};
+    static const char *const wrong[] = {"mm km", "m deg s rad", "J kWh", "mm mm", "mm m/s", "SI"};
     Diag diag;
 
     for (int i = 0; i < COUNT(good); i++)
