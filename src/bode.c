@@ -199,11 +199,13 @@ static char *draw_text(const Drawing *drawing, int columns, int rows, bool unico
 static ct_status write_table(const Call *call, const char *path, bool append, ct_error *error)
 {
     char *text = NULL;
-    ct_status status = ct_bode_csv(call->session, call->statement,
-                                   !append || !file_has_content(path), &text, error);
+    const char *rows;
+    ct_status status = ct_bode_csv(call->session, call->statement, true, &text, error);
     ct_error why;
 
-    if (status == CT_OK && file_write(path, text, strlen(text), append, &why) != CT_OK)
+    if (status == CT_OK)
+        status = csv_rows(call, text, &rows, error);
+    if (status == CT_OK && file_write(path, rows, strlen(rows), append, &why) != CT_OK)
         status = ct_error_at(call->statement, NULL, error, "%s", why.message);
     ct_free(text);
     return status;

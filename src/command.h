@@ -38,6 +38,9 @@ const Command *command_find(const ct_statement *statement);
 
 /* print lines; an end of line is added where it is missing */
 void put_text(FILE *out, const char *text);
+/* What of a csv goes to where the statement says: below rows of the file behind `>>`, which has to
+ * have the same header, all but that. */
+ct_status csv_rows(const Call *call, const char *text, const char **rows, ct_error *error);
 /* the word, name or string that stands as operand i; NULL */
 const char *call_word(const Call *call, int i);
 

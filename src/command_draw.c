@@ -45,7 +45,8 @@ static ct_status check_file(const Call *call, const char *types, const char **pa
     if (*path == NULL)
         return CT_OK;
     if (append)
-        return ct_error_at(call->statement, NULL, error, "a picture can't be appended to another");
+        return ct_error_at(call->statement, NULL, error,
+                           "a picture can't be appended to another: '>' writes it anew");
     if (!is_one_of(file_extension(*path), types)) {
         ct_error_at(call->statement, NULL, error, "this goes to a file that ends in one of: %s",
                     types);

@@ -383,7 +383,7 @@ static ct_status command_export(Call *call, ct_error *error)
 {
     bool append = false;
     const char *path = ct_redirect(call->statement, &append);
-    bool with_header = path == NULL || !append || !file_has_content(path);
+    const char *format = call_word(call, 0), *rows = NULL;
     char *text = NULL;
     ct_archive *archive = NULL;
     ct_status status = path != NULL && !append
@@ -395,10 +395,12 @@ static ct_status command_export(Call *call, ct_error *error)
     ct_archive_free(archive);
     if (archive != NULL || status != CT_OK)
         return status;
-    status = ct_export(call->session, call->statement, with_header, &text, error);
+    status = ct_export(call->session, call->statement, true, &text, error);
 
+    if (status == CT_OK && format != NULL && strcmp(format, "csv") == 0)
+        status = csv_rows(call, text, &rows, error);
     if (status == CT_OK)
-        put_text(call->out, text);
+        put_text(call->out, rows != NULL ? rows : text);
     ct_free(text);
     return status;
 }

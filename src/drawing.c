@@ -294,7 +294,8 @@ ct_status drawing_check(const Call *call, const char **path, ct_error *error)
 
     *path = ct_redirect(statement, &append);
     if (*path != NULL && append)
-        return ct_error_at(statement, NULL, error, "a picture can't be appended to another");
+        return ct_error_at(statement, NULL, error,
+                           "a picture can't be appended to another: '>' writes it anew");
     if (*path != NULL && !is_known_extension(file_extension(*path))) {
         ct_error_at(statement, NULL, error,
                     "a plot goes to png, svg, pdf, eps, tex, txt or gp, not to "

@@ -204,6 +204,23 @@ bool file_has_content(const char *path)
     return stat(path, &info) == 0 && info.st_size > 0;
 }
 
+char *file_first_line(const char *path)
+{
+    FILE *file = fopen(path, "re");
+    char *line = NULL;
+    size_t room = 0;
+
+    if (file == NULL)
+        return NULL;
+    if (getline(&line, &room, file) < 0) {
+        free(line);
+        line = copy_text("");
+    }
+    fclose(file);
+    line[strcspn(line, "\r\n")] = '\0';
+    return line;
+}
+
 char *file_beside(const char *from, const char *name)
 {
     const char *slash = from != NULL ? strrchr(from, '/') : NULL;

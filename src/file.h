@@ -18,6 +18,8 @@ ct_status file_may_write(const char *path, ct_error *error);
 ct_status file_write(const char *path, const char *text, size_t length, bool append,
                      ct_error *error);
 bool file_has_content(const char *path);
+/* without its end; new; NULL: it can't be read */
+char *file_first_line(const char *path);
 
 /* A place for another program to write `path` to: a new empty file beside it, or `path` itself
  * where that is a device. `*place` is new, free(). file_settle() moves it to `path`, or removes
