@@ -70,6 +70,7 @@ static uint32_t slot_of(const Lowering *low, const LoweredValue *wanted)
     uint32_t hash = wanted->code * 0x9E3779B1U;
     uint32_t slot;
 
+    transaction_worked(VALUE_WORK);
     for (int i = 0; i < MOST_OPERANDS; i++) {
         hash = (hash ^ wanted->args[i]) * 0x85EBCA6BU;
         hash ^= hash >> 15;

@@ -9,6 +9,7 @@
 #include "expr/expr.h"
 
 enum { MOST_OPERANDS = 3 };
+enum { VALUE_WORK = 128 }; /* of a value or an instruction, for transaction_worked() */
 
 typedef enum Opcode {
 #define OPCODE(id, ...) CODE_##id,

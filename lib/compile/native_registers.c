@@ -508,6 +508,7 @@ uint32_t native_emit(X86Code *code, const NativeTarget *target, const Program *p
     code->is_leaf = steps->calls.count == 0;
     x86_enter(code);
     for (r.now = 0; r.now < steps->steps.count; r.now++) {
+        transaction_worked(VALUE_WORK);
         emit_step(&r, steps->steps.at[r.now], program);
         forget(&r, &steps->steps.at[r.now]);
     }

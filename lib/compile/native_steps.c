@@ -264,6 +264,7 @@ static void add_with_operands(StepMaker *m, uint32_t slot, Stage stage)
         const uint32_t top = m->stack.at[m->stack.count - 1];
         const int before = m->stack.count;
 
+        transaction_worked(VALUE_WORK);
         if (m->is_done[top] || !is_of_stage(m, top, stage)) {
             m->stack.count--;
             continue;

@@ -181,6 +181,7 @@ static void emit(Plan *plan, uint32_t value)
     Program *program = plan->program;
     const LoweredValue *v = &plan->values[value];
 
+    transaction_worked(VALUE_WORK);
     for (int i = 0; i < code_operands(v->code); i++)
         LIST_PUSH(program->tape, slot_of(plan, v->args[i]));
     plan->work[v->stage]--;

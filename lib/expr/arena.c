@@ -147,13 +147,16 @@ static inline void arena_keep_whole(Arena *arena)
 
 static void table_grow(Arena *arena)
 {
-    Slot *slots = NEW_ARRAY(Slot, 2 * (size_t)arena->size);
+    const uint32_t size = 2 * arena->size;
+    Slot *slots = NEW_ARRAY(Slot, size);
 
+    for (int i = 0; i < arena->nodes.count; i++) {
+        transaction_worked(NODE_WORK);
+        slots_put(slots, size, arena->nodes.at[i]->hash, (uint32_t)i + 1);
+    }
     mem_free(arena->slots);
     arena->slots = slots;
-    arena->size *= 2;
-    for (int i = 0; i < arena->nodes.count; i++)
-        slots_put(arena->slots, arena->size, arena->nodes.at[i]->hash, (uint32_t)i + 1);
+    arena->size = size;
 }
 
 /* --- nodes --- */
@@ -396,6 +399,7 @@ Expr arena_recall(const Arena *arena, Expr e, Expr symbol)
 void arena_remember(Arena *arena, Expr e, Expr symbol, Expr derivative)
 {
     Slot *slots;
+    uint32_t size;
 
     /* what was made after a failure may be anything */
     if (arena->status != OK)
@@ -407,14 +411,16 @@ void arena_remember(Arena *arena, Expr e, Expr symbol, Expr derivative)
                   (uint32_t)arena->memories.count);
         return;
     }
-    slots = NEW_ARRAY(Slot, 2 * (size_t)arena->memory_size);
+    size = 2 * arena->memory_size;
+    slots = NEW_ARRAY(Slot, size);
+    for (int i = 0; i < arena->memories.count; i++) {
+        transaction_worked(NODE_WORK);
+        slots_put(slots, size, memory_hash(arena->memories.at[i].e, arena->memories.at[i].symbol),
+                  (uint32_t)i + 1);
+    }
     mem_free(arena->memory_slots);
     arena->memory_slots = slots;
-    arena->memory_size *= 2;
-    for (int i = 0; i < arena->memories.count; i++)
-        slots_put(arena->memory_slots, arena->memory_size,
-                  memory_hash(arena->memories.at[i].e, arena->memories.at[i].symbol),
-                  (uint32_t)i + 1);
+    arena->memory_size = size;
 }
 
 /* --- what was made of expressions --- */

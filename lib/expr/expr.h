@@ -23,6 +23,7 @@
 
 #include "base/diag.h"
 #include "base/text.h"
+#include "base/watch.h"
 #include "expr/curve.h"
 
 #include <stdint.h>
@@ -270,6 +271,8 @@ OpCount expr_count(const Expr *roots, int count);
 OpCount expr_count_shared(const Expr *roots, int count);
 /* the same, beside what follows from symbols of `kinds` alone (bits as of expr_kinds(); 0: all) */
 OpCount expr_count_beside(const Expr *roots, int count, unsigned kinds);
+/* expr_count_shared() of what may be large; E_STOPPED, *out unchanged */
+MUST_USE Status expr_count_watched(const Expr *roots, int count, const Watch *watch, OpCount *out);
 OpCount op_count_plus(OpCount a, OpCount b); /* saturates as the counts do */
 int64_t op_count_total(OpCount count);
 

@@ -141,24 +141,40 @@ static bool meet(Met *met, Expr e)
     return false;
 }
 
-OpCount expr_count_shared(const Expr *roots, int count)
+/* who is asked whether to stop, and was not yet, or said no */
+typedef struct Asked {
+    const Watch *watch;
+    uint32_t looks;
+    bool is_stopped;
+} Asked;
+
+enum { BETWEEN_QUESTIONS = 4096 }; /* nodes: a millisecond or less */
+
+static bool goes_on(void *context, Expr e)
 {
-    return expr_count_beside(roots, count, 0);
+    Asked *asked = context;
+
+    (void)e;
+    if (++asked->looks % BETWEEN_QUESTIONS == 0)
+        asked->is_stopped = asked->is_stopped || poll(asked->watch) != OK;
+    return !asked->is_stopped;
 }
 
-OpCount expr_count_beside(const Expr *roots, int count, unsigned kinds)
+/* what is counted doesn't matter once it is stopped */
+static OpCount count_shared(const Expr *roots, int count, unsigned kinds, Asked *asked)
 {
     OpCount total = {0};
     Met met = {.size = 16};
     Walk walk = {0};
     bool *divides; /* whether 1/x is used on its own, not as a factor */
 
-    walk_roots(&walk, roots, count);
+    for (int i = 0; i < count; i++)
+        walk_below(&walk, roots[i], 0, goes_on, asked);
     while (met.size < 2 * (uint32_t)walk.count)
         met.size *= 2;
     met.slots = NEW_ARRAY(Expr, met.size);
     divides = NEW_ARRAY(bool, walk.count);
-    for (int i = 0; i < walk.count; i++) {
+    for (int i = 0; i < walk.count && goes_on(asked, walk.nodes[i]); i++) {
         Expr e = walk.nodes[i];
 
         if (kinds != 0 && (expr_kinds(e) & ~kinds) == 0)
@@ -168,13 +184,36 @@ OpCount expr_count_beside(const Expr *roots, int count, unsigned kinds)
         for (int j = 0; j < e->count && e->kind != EXPR_PRODUCT; j++)
             divides[walk_find(&walk, node_args(e)[j])] = true;
     }
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < count && !asked->is_stopped; i++)
         divides[walk_find(&walk, roots[i])] = true;
     for (int i = 0; i < walk.count; i++)
         total.mul = plus(total.mul, divides[i] && is_below(walk.nodes[i]));
     MEM_FREE(divides, met.slots);
     walk_free(&walk);
     return total;
+}
+
+OpCount expr_count_beside(const Expr *roots, int count, unsigned kinds)
+{
+    Asked nobody = {.watch = NULL};
+
+    return count_shared(roots, count, kinds, &nobody);
+}
+
+OpCount expr_count_shared(const Expr *roots, int count)
+{
+    return expr_count_beside(roots, count, 0);
+}
+
+Status expr_count_watched(const Expr *roots, int count, const Watch *watch, OpCount *out)
+{
+    Asked asked = {.watch = watch};
+    const OpCount total = count_shared(roots, count, 0, &asked);
+
+    if (asked.is_stopped)
+        return E_STOPPED;
+    *out = total;
+    return OK;
 }
 
 int64_t op_count_total(OpCount count)

@@ -42,6 +42,8 @@ static void make_room(Walk *walk)
     walk->nodes = list_room(walk->nodes, walk->count, (int)walk->size / 2 - walk->count,
                             &walk->room, sizeof(Expr));
     for (int place = 0; place < walk->count; place++) {
+        transaction_worked(WALK_WORK);
+
         uint32_t i = slot_of(walk, walk->nodes[place]->number + 1);
 
         walk->keys[i] = walk->nodes[place]->number + 1;

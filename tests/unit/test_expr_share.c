@@ -223,8 +223,53 @@ static void a_function_stays_where_its_parts_are_not_all_there(void)
     arena_free(arena);
 }
 
+/* who is asked whether to stop: from question `from` on the answer is yes */
+typedef struct Asked {
+    int questions, from;
+} Asked;
+
+static bool says_stop(void *context)
+{
+    Asked *asked = context;
+
+    return ++asked->questions >= asked->from;
+}
+
+/* a hundred thousand nodes: a search that only looks whether to stop between two counts would be
+ * deaf all the while */
+static void a_long_count_can_be_stopped_anywhere(void)
+{
+    World w = world_new(1);
+    Expr e = w.symbols[0];
+    OpCount count = {.add = -1};
+    int all;
+
+    for (int i = 0; i < 50000; i++)
+        e = expr_add(w.arena, expr_mul(w.arena, e, w.symbols[1]), w.symbols[2]);
+    {
+        Asked asked = {.from = 1 << 30};
+        const Watch watch = {.context = &asked, .stop = says_stop};
+
+        EXPECT(expr_count_watched(&e, 1, &watch, &count) == OK);
+        EXPECT(count.add == 50000 && count.mul == 50000);
+        all = asked.questions;
+        EXPECT(all >= 20);
+    }
+    for (int from = 1; from <= all; from++) {
+        Asked asked = {.from = from};
+        const Watch watch = {.context = &asked, .stop = says_stop};
+
+        count.add = -1;
+        EXPECT(expr_count_watched(&e, 1, &watch, &count) == E_STOPPED);
+        EXPECT(asked.questions == from); /* and nobody is asked again */
+        EXPECT(count.add == -1);
+    }
+    arena_free(w.arena);
+}
+
 int main(void)
 {
+    RUN(a_long_count_can_be_stopped_anywhere);
     RUN(a_sum_is_found_in_longer_sums);
     RUN(parts_that_stand_nowhere_alone_are_found);
     RUN(powers_and_multiples_are_taken_apart);

@@ -267,8 +267,9 @@ MUST_USE Status system_count(System *system, Block block, bool shared, OpCount *
 
 /* What one evaluation of the accelerations costs, in additions: operations of the program of a run,
  * what its blocks have in common counted once (*count), 20 for each function, and 2/3 N^3 + 2 N^2
- * for solving N = nu + m equations. To compare trees by. */
-double system_price(const System *system, OpCount *count);
+ * for solving N = nu + m equations. To compare trees by. E_STOPPED, outputs unchanged. */
+MUST_USE Status system_price(const System *system, const Watch *watch, OpCount *count,
+                             double *price);
 
 /* --- frames that turn about one axis --- */
 

@@ -128,10 +128,9 @@ static void price(TreeSearch *search, TreePair *pair)
     scene.trees[TREE_ROTATION] = trees[1];
     mark = arena_mark(scene.arena);
     if (system_new(&scene, &options, &system, &ignored) == OK) {
-        pair->is_priced = true;
+        pair->is_priced = system_price(system, search->watch, &pair->count, &pair->price) == OK;
         pair->n = system_n(system);
         pair->m = system_m(system);
-        pair->price = system_price(system, &pair->count);
     }
     system_free(system);
     arena_release(scene.arena, mark);

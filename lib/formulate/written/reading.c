@@ -168,7 +168,7 @@ static void gather_mass(const System *system, Roots *out)
         gather(out, &system->dynamics->shares.at[i].value, 1);
 }
 
-static OpCount program_count(const System *system)
+static Status program_count(const System *system, const Watch *watch, OpCount *out)
 {
     const Reading *run = &system->run;
     const CompositeMass *mass = system->dynamics->composite_mass;
@@ -176,7 +176,7 @@ static OpCount program_count(const System *system)
     int m = system->constraints->rows.count;
     int w = system->network->x.count + system->network->z.count;
     Roots roots = {0};
-    OpCount ops;
+    Status status;
 
     gather_mass(system, &roots);
     gather(&roots, run->force, nu);
@@ -190,17 +190,23 @@ static OpCount program_count(const System *system)
     for (int i = 0; i < run->network_entries; i++)
         LIST_PUSH(roots, run->network[i].value);
     gather(&roots, run->network_rhs, w);
-    ops = expr_count_shared(roots.at, roots.count);
+    status = expr_count_watched(roots.at, roots.count, watch, out);
     LIST_FREE(roots);
-    return mass != NULL ? op_count_plus(ops, composite_mass_passing(mass)) : ops;
+    if (status == OK && mass != NULL)
+        *out = op_count_plus(*out, composite_mass_passing(mass));
+    return status;
 }
 
-double system_price(const System *system, OpCount *count)
+Status system_price(const System *system, const Watch *watch, OpCount *count, double *price)
 {
-    const OpCount ops = *count = program_count(system);
-    double unknowns = (double)(system->kinematics->u.count + system->constraints->rows.count);
+    const double unknowns = (double)(system->kinematics->u.count + system->constraints->rows.count);
+    OpCount ops;
+
+    TRY(program_count(system, watch, &ops));
 
     /* Gauss: as many additions as multiplications, both while factoring and while substituting */
-    return (double)(ops.add + ops.mul + FUNCTION_PRICE * ops.fun) +
-           2 * unknowns * unknowns * (unknowns / 3 + 1);
+    *price = (double)(ops.add + ops.mul + FUNCTION_PRICE * ops.fun) +
+             2 * unknowns * unknowns * (unknowns / 3 + 1);
+    *count = ops;
+    return OK;
 }
