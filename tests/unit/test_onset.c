@@ -403,6 +403,36 @@ static void a_diode_in_series_with_a_coil_runs(void)
                         1, runs[k].error);
 }
 
+/* A method that takes that voltage from the current goes anywhere within the tolerance, from the
+ * start on or behind a switch; with mechanics no method solves for both. */
+static void a_current_that_tells_no_voltage_is_refused(void)
+{
+    static const char *const methods[] = {"dop853", "radau", "bdf", "adams", "rk4"};
+    Kit kit = kit_new();
+    char line[80];
+
+    EXPECT_DONE(&kit, MAINS "diode D a b Is=1e-12\nswitch S a b when=t < 3 ms\n"
+                            "inductor L b c 10 mH\nresistor R c 0 10\n");
+    for (int i = 0; i < COUNT(methods); i++) {
+        (void)snprintf(line, sizeof line, "simulate 0.02 rtol=1e-4 method=%s\n", methods[i]);
+        EXPECT_FAILS(&kit, line, "takes D.v from L.i, whose tolerance leaves it open");
+        EXPECT_HOLDS(kit.error.message, "at t = 0.003 s");
+        EXPECT_HOLDS(kit.error.hint, "method=ida solves for both");
+        EXPECT_HOLDS(kit.error.hint, "a resistor across D,");
+    }
+    kit_free(&kit);
+    EXPECT_NEAR(answer(MAINS "diode D b a Is=1e-12\ninductor L b c 10 mH\nresistor R c 0 10\n",
+                       "simulate 0.009 rtol=1e-4", "auto", "L.i"),
+                0, 1e-4);
+    kit = kit_new();
+    EXPECT_DONE(&kit, "scene planar\nbody m mass=1 inertia=0.01\nrevolute h ground m\n" MAINS
+                      "diode D a b Is=1e-12\nmotor M h b 0 Kt=0.1 R=1 L=10 mH\n");
+    EXPECT_FAILS(&kit, "simulate 0.02\n", "takes D.v from M.i, whose tolerance leaves it open");
+    EXPECT_DONE(&kit, "resistor R a b 10 kohm\nsimulate 0.02 rtol=1e-3\n");
+    EXPECT(fabs(kit_value(&kit, "min(M.i)")) < 2e-3);
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(a_rectifier_conducts_at_every_tolerance);
@@ -426,5 +456,6 @@ int main(void)
     RUN(a_smooth_source_costs_no_steps);
     RUN(an_ideal_diode_conducts_in_each_dip);
     RUN(a_diode_in_series_with_a_coil_runs);
+    RUN(a_current_that_tells_no_voltage_is_refused);
     return test_end();
 }

@@ -324,6 +324,20 @@ int steep_sources(const Steep *s)
     return s->sources.count;
 }
 
+const char *steep_variable(const Steep *s, int k)
+{
+    const Expr argument = s->elements.at[k].argument;
+    const char *name = "";
+    Expr *symbols;
+    const int count = expr_symbols(&argument, 1, &symbols);
+
+    for (int i = count - 1; i >= 0; i--)
+        if ((expr_kinds(symbols[i]) & MOVING) != 0)
+            name = expr_name(symbols[i]);
+    mem_free(symbols);
+    return name;
+}
+
 const Range *steep_sources_over(Steep *s, Range over)
 {
     over = (Range){motion_clock(s->motion, over.low), motion_clock(s->motion, over.high)};
@@ -723,6 +737,27 @@ bool steep_linearise(Steep *s, double t, const double *y, const double *slope, d
     mem_free(moved);
     return vector_is_finite(out->rate, s->elements.count) &&
            vector_is_finite(out->by_source, s->elements.count * s->sources.count);
+}
+
+bool steep_answers(Steep *s, double t, const double *y, const double *off, double leak,
+                   double *arguments, double *rates)
+{
+    const int length = motion_length(s->motion);
+    double *leaks = NEW_ARRAY(double, s->elements.count), *moved = NEW_ARRAY(double, length);
+    bool sound = steep_arguments(s, t, y, arguments);
+
+    for (int k = 0; k < s->elements.count; k++)
+        leaks[k] = s->elements.at[k].op == OP_SINH ? fmax(leak, 1) : leak;
+    for (int i = 0; i < length; i++)
+        moved[i] = y[i] + off[i];
+    sound = sound && settle(s, y, leaks, arguments);
+    if (sound) {
+        arguments_answer(s, moved, 1, arguments, 1);
+        memcpy(rates, s->answer, (size_t)s->l->nx * sizeof(double));
+        sound = vector_is_finite(arguments, s->elements.count) && vector_is_finite(rates, s->l->nx);
+    }
+    MEM_FREE(leaks, moved);
+    return sound;
 }
 
 /* the largest rate that answers, over its scale: of states, and of speeds as if each body moved

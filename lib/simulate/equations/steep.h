@@ -26,6 +26,8 @@ MUST_USE Status steep_new(const Layout *layout, Parameters *parameters, Motion *
 void steep_free(Steep *steep); /* NULL is fine */
 int steep_elements(const Steep *steep);
 int steep_sources(const Steep *steep);
+/* the first variable of an element's argument, borrowed */
+const char *steep_variable(const Steep *steep, int element);
 
 /* ranges of the sources, or of their second derivatives, over an interval; borrowed, until the next
  * call */
@@ -54,6 +56,10 @@ typedef struct Affine {
  * O(sources) solutions of the network's linear equations. */
 bool steep_linearise(Steep *steep, double t, const double *y, const double *slope, double h,
                      const double *leaks, Affine *out);
+/* How arguments[elements] and the network's x' answer to a y moved by `off`, where each element has
+ * the slope `leak`, or the least that it ever has if that is more. False: there is no solution. */
+bool steep_answers(Steep *steep, double t, const double *y, const double *off, double leak,
+                   double *arguments, double *rates);
 /* Rates of y by element k's value, or by source k's, each over `scale` of its entry, the largest of
  * them: about the point of steep_linearise(), or (t, y) where there was none. */
 double steep_effect_of_element(Steep *steep, int k, const double *scale);

@@ -333,7 +333,7 @@ void ends_explain(void *context, const Segment *segment, Stepper *stepper, bool 
     const ModeSwitching *c = context;
     Phase *phase = c->run->phases->at[segment->phase];
     const Ode *ode = stepper->ode;
-    RunEnd end = {.run = c->run, .phase = phase, .t = stepper->t, .span = c->span};
+    RunEnd end = {.run = c->run, .phase = phase, .t = stepper->t, .span = c->control.span};
 
     end.rate = NEW_ARRAY(double, phase->length);
     end.ahead = NEW_ARRAY(double, phase->length);

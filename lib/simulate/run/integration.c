@@ -231,9 +231,7 @@ static Status run(Integration *m, const double *start, Diag *diag)
 Status integrate(const IntegrationPlan *plan, const double *start, Grid *grid,
                  IntegrationReport *out, Diag *diag)
 {
-    const Method *method = plan->method != NULL  ? plan->method
-                           : plan->first != NULL ? plan->first
-                                                 : method_for((MethodNeed){0});
+    const Method *method = plan->method;
     Integration m = {.plan = plan,
                      .grid = grid,
                      .out = out,
@@ -246,12 +244,18 @@ Status integrate(const IntegrationPlan *plan, const double *start, Grid *grid,
                                                  : grid_rows(plan->from, plan->to, plan->every),
                      .root = ROOT_ANY,
                      .switched_since = -INFINITY};
-    Status status;
+    Status status = OK;
 
+    if (plan->first != NULL)
+        status = plan->first(plan->context, &plan->segment, plan->from, start, &method, diag);
+    if (method == NULL)
+        method = method_for((MethodNeed){0});
+    *out = (IntegrationReport){
+        .method = method, .reached = plan->from, .events = plan->segment.events};
+    TRY(status);
     if (method->has_fixed_step && !(m.control.step > 0))
         m.control.step = plan->every;
     m.control.span = plan->span > 0 ? plan->span : plan->to - plan->from;
-    *out = (IntegrationReport){.method = method, .reached = plan->from};
     integration_open_segment(&m, &plan->segment);
     status = run(&m, start, diag);
     integration_close_segment(&m);

@@ -69,6 +69,11 @@ typedef LIST(Jump) Jumps;
 typedef void (*Explain)(void *context, const Segment *segment, Stepper *stepper, bool *is_rounding,
                         Diag *diag);
 
+/* What a segment begins with at (t, y), where *method was asked for, NULL: none was. Fails where
+ * that would go wrong. */
+typedef Status (*ChooseMethod)(void *context, const Segment *segment, double t, const double *y,
+                               const Method **method, Diag *diag);
+
 typedef struct IntegrationPlan {
     Segment segment;         /* to begin with */
     NextSegment mode_switch; /* NULL: it goes on to the end */
@@ -82,7 +87,7 @@ typedef struct IntegrationPlan {
     const Equations
         *in_time; /* whose conditions of t alone are those of all segments; NULL: segment's */
     const Method *method; /* NULL: dop853 until it finds the problem stiff, then segment.stiff, */
-    const Method *first;  /* unless this is there to begin with */
+    ChooseMethod first;   /* unless this says another to begin with; NULL: it doesn't */
     Control control;
     double from, to;     /* s */
     double every;        /* output step, s */

@@ -106,9 +106,14 @@ static Status enter(Integration *m, const Segment *segment, double t, const doub
     const Method *method =
         m->plan->method == NULL && m->out->method->is_stiff ? segment->stiff : NULL;
 
+    const Method *first = m->plan->method;
+
     if (method != NULL && m->out->method == m->segment.joint && segment->joint != NULL)
         method = segment->joint;
-
+    if (m->plan->first != NULL)
+        TRY(m->plan->first(m->plan->context, segment, t, y, &first, diag));
+    if (first != NULL)
+        method = first;
     integration_close_segment(m);
     if (method != NULL)
         m->out->method = method;
@@ -238,6 +243,7 @@ Status integration_go_on(Integration *m, double t, const double *y, bool *entere
         *entered = true;
         MEM_FREE(m->reach, m->chatters);
         m->reach = NULL;
+        m->chatters = NULL;
         CHECK(enter(m, &next, t, behind, &changed, diag));
         memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
     }

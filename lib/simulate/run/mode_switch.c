@@ -546,7 +546,8 @@ static Status next_phase(const ModeSwitching *c, double t, const bool *closed, P
 /* How far to look ahead, as numbers tell times apart. */
 static double step_near(const ModeSwitching *c, double t, double last)
 {
-    const double step = fmin(fmax(LOOK * last, NEAREST * c->span), FURTHEST * c->span);
+    const double step =
+        fmin(fmax(LOOK * last, NEAREST * c->control.span), FURTHEST * c->control.span);
     const volatile double ahead = t + step;
 
     return ahead - t;
@@ -567,7 +568,7 @@ static double step_from(ModeSwitching *c, double t, Nearness near)
         c->told *= FURTHER;
     else if (!c->changed)
         c->again *= FURTHER;
-    return fmin(c->again * step, STUCK * c->span);
+    return fmin(c->again * step, STUCK * c->control.span);
 }
 
 /* Enter the phase of `closed` from y of another one. Behind what is shared at once diodes may be
@@ -641,7 +642,7 @@ Status mode_switch(void *context, double t, double behind, Nearness near, const 
                        .references = ahead + layout_references(now->layout),
                        .x = x,
                        .x_behind = x_behind};
-    const double furthest = fmin(c->told * near.ahead, STUCK * c->span);
+    const double furthest = fmin(c->told * near.ahead, STUCK * c->control.span);
     Status status = OK;
 
     if (!phase_states(now, t, y, whole->nx, &row, x))

@@ -25,12 +25,12 @@ MUST_USE Status mode_switch_events(ActiveRun *run, const Phase *now, const Phase
 typedef struct ModeSwitching {
     ActiveRun *run;
     const Setting *setting;
-    double span;  /* of the run, s */
-    double stuck; /* where it was looked at last; NAN */
-    bool changed; /* whether something changed there, */
-    double again; /* how much further it was looked there, */
-    double told;  /* and past what was told */
-    double *y;    /* of the last phase that was entered; free it with mode_switching_free() */
+    Control control; /* of the run, with its span */
+    double stuck;    /* where it was looked at last; NAN */
+    bool changed;    /* whether something changed there, */
+    double again;    /* how much further it was looked there, */
+    double told;     /* and past what was told */
+    double *y;       /* of the last phase that was entered; free it with mode_switching_free() */
 } ModeSwitching;
 void mode_switching_free(ModeSwitching *switching);
 /* the NextSegment of a plan; `context` is a ModeSwitching */

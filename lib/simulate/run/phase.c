@@ -7,10 +7,14 @@
 
 #include <string.h>
 
-#define UNSOLVED 3   /* times that a value has to be the same */
-#define FAR      1e3 /* what isn't known is taken up to this, of either sign */
-#define FEW      100 /* unknowns up to which radau's dense factors beat bdf's */
-#define OPEN     10  /* exponents that tolerances move by more than this could be anything */
+#define UNSOLVED 3    /* times that a value has to be the same */
+#define FAR      1e3  /* what isn't known is taken up to this, of either sign */
+#define FEW      100  /* unknowns up to which radau's dense factors beat bdf's */
+#define OPEN     10   /* exponents that tolerances move by more than this could be anything, */
+#define UNTOLD   1e3  /* and by this, so could states that such exponents act on: */
+#define STIFFER  1e2  /* times by which these change more than where all elements conduct */
+#define BLOCKED  1e-6 /* slope of an element that blocks, */
+#define CONDUCTS 1e15 /* and of one that conducts */
 
 static bool *copy_sides(const bool *closed, int count)
 {
@@ -129,38 +133,96 @@ const Method *phase_joint_method(const Phase *phase)
                : NULL;
 }
 
-/* What the tolerances of states move an element's argument by, while none conducts, at most. Their
- * parts don't cancel: each counts more than the one before. */
-static double moved_by_tolerances(const Phase *phase, double t, const double *y, double rtol,
-                                  double atol)
-{
-    const int elements = steep_elements(phase->steep), sources = steep_sources(phase->steep);
-    double *tolerance = NEW_ARRAY(double, phase->length);
-    double *leaks = NEW_ARRAY(double, elements);
-    Affine at = {.a = NEW_ARRAY(double, elements),
-                 .rate = NEW_ARRAY(double, elements),
-                 .bend = NEW_ARRAY(double, elements),
-                 .by_source = NEW_ARRAY(double, elements *sources)};
-    double most = INFINITY;
+/* what the tolerances of states leave open */
+typedef struct Openness {
+    double most; /* what they move an element's argument by, while none conducts, at most; */
+    int element; /* which one; */
+    int state;   /* one whose rate that moves much more than while all conduct; -1: none */
+} Openness;
 
-    for (int i = 0; i < phase->layout->nx; i++)
-        tolerance[i] = (atol + rtol * fabs(y[i])) * (1 + (double)i / phase->layout->nx);
-    if (steep_linearise(phase->steep, t, y, tolerance, 1, leaks, &at))
-        most = vector_largest(at.rate, elements);
-    MEM_FREE(tolerance, leaks, at.a, at.rate, at.bend, at.by_source);
+/* Parts of the tolerances don't cancel: each counts more than the one before. */
+static void take_tolerances(const Layout *l, const double *y, const Control *control, double *off)
+{
+    for (int i = 0; i < l->nx; i++)
+        off[l->n + l->nu + i] =
+            (control->atol + control->rtol * fabs(y[l->n + l->nu + i])) * (1 + (double)i / l->nx);
+}
+
+static int largest_at(const double *v, int count)
+{
+    int most = 0;
+
+    for (int i = 1; i < count; i++)
+        if (fabs(v[i]) > fabs(v[most]))
+            most = i;
     return most;
 }
 
-const Method *phase_first_method(const Phase *phase, double t, const double *y, double rtol,
-                                 double atol)
+static Openness find_openness(const Phase *phase, double t, const double *y, const Control *control)
+{
+    const Layout *l = phase->layout;
+    const int elements = steep_elements(phase->steep);
+    double *off = NEW_ARRAY(double, phase->length), *own = off + l->n + l->nu;
+    double *moved = NEW_ARRAY(double, elements), *there = NEW_ARRAY(double, elements);
+    double *blocked = NEW_ARRAY(double, l->nx), *conducting = NEW_ARRAY(double, l->nx);
+    double most = STIFFER;
+    Openness out = {.most = INFINITY, .state = -1};
+
+    take_tolerances(l, y, control, off);
+    if (steep_answers(phase->steep, t, y, off, BLOCKED, moved, blocked)) {
+        out.element = largest_at(moved, elements);
+        out.most = fabs(moved[out.element]);
+        if (!steep_answers(phase->steep, t, y, off, CONDUCTS, there, conducting))
+            most = INFINITY;
+        for (int i = 0; i < l->nx; i++) {
+            const double slow = fabs(conducting[i]) + own[i] / control->span;
+
+            if (fabs(blocked[i]) > most * slow) {
+                most = fabs(blocked[i]) / slow;
+                out.state = i;
+            }
+        }
+    }
+    MEM_FREE(off, moved, there, blocked, conducting);
+    return out;
+}
+
+static Status refuse_untold(const Phase *phase, double t, const Openness *open,
+                            const Method *method, Diag *diag)
 {
     const Method *joint = phase_joint_method(phase);
-    const bool is_open = joint != NULL && phase->steep != NULL &&
-                         steep_elements(phase->steep) > 0 &&
-                         moved_by_tolerances(phase, t, y, rtol, atol) > OPEN;
+    const char *variable = steep_variable(phase->steep, open->element);
+    const int part = (int)strcspn(variable, ".");
 
-    onset_leave_open(phase->onset, is_open);
-    return is_open ? joint : NULL;
+    (void)diag_set(diag, E_SOLVER,
+                   "at t = %.9g s: %s takes %s from %s, whose tolerance leaves it open", t,
+                   method->name, variable, system_x(phase->system, open->state)->name);
+    if (joint != NULL)
+        diag_hint(diag,
+                  "method=%s solves for both together; or a resistor across %.*s, or a finer "
+                  "atol=, tells it",
+                  joint->name, part, variable);
+    else
+        diag_hint(diag, "a resistor across %.*s, or a finer atol=, tells it", part, variable);
+    return E_SOLVER;
+}
+
+Status phase_choose_method(const Phase *phase, double t, const double *y, const Control *control,
+                           const Method **method, Diag *diag)
+{
+    const Method *joint = phase_joint_method(phase);
+    Openness open;
+
+    if (phase->steep == NULL || steep_elements(phase->steep) == 0 || phase->layout->nx == 0)
+        return OK;
+    open = find_openness(phase, t, y, control);
+    onset_leave_open(phase->onset, joint != NULL && open.most > OPEN);
+    if (*method == NULL && open.most > OPEN)
+        *method = joint;
+    if (open.most > UNTOLD && open.state >= 0 && (joint == NULL || *method != joint))
+        return refuse_untold(phase, t, &open,
+                             *method != NULL ? *method : method_for((MethodNeed){0}), diag);
+    return OK;
 }
 
 bool phase_row(Phase *phase, double t, const double *y, RowValues *out)

@@ -58,11 +58,12 @@ const Method *phase_stiff_method(const Phase *phase);
  * states, NULL where it has none. A current that a coil keeps tells the voltage of a diode that
  * blocks to 1e12 ohm: no tolerance of the current is fine enough for that voltage. */
 const Method *phase_joint_method(const Phase *phase);
-/* What it begins with at (t, y) where nobody named a method: the joint one where tolerances of the
- * states leave open whether a steep element conducts, NULL: any. Tells the onset.
- * O(steep_linearise()). */
-const Method *phase_first_method(const Phase *phase, double t, const double *y, double rtol,
-                                 double atol);
+/* What it begins with at (t, y) where *method was asked for (NULL: none was): then the joint one
+ * where tolerances of the states leave open whether a steep element conducts. Tells the onset.
+ * E_SOLVER where they leave so much open that the method would go wrong. The span of the run is
+ * that of `control`. O(steep_answers()). */
+MUST_USE Status phase_choose_method(const Phase *phase, double t, const double *y,
+                                    const Control *control, const Method **method, Diag *diag);
 /* Everything at (t, y). False: no solution. */
 bool phase_row(Phase *phase, double t, const double *y, RowValues *out);
 /* The same at a row of a driven run, where x', z, u', lambda and efforts are known: its block, or

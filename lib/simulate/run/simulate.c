@@ -175,18 +175,27 @@ static bool show_row(void *context, int phase_number, double t, const double *y)
     return stop;
 }
 
+/* the ChooseMethod of a plan */
+static Status choose_method(void *context, const Segment *segment, double t, const double *y,
+                            const Method **method, Diag *diag)
+{
+    const ModeSwitching *s = context;
+
+    return phase_choose_method(s->run->phases->at[segment->phase], t, y, &s->control, method, diag);
+}
+
 /* From `begin` to the end of the plan. Where ideal switches change the equations, `corners` gets
  * rows between them. */
 static Status integrate_phases(ActiveRun *r, const Setting *setting, const IntegrationPlan *plan,
                                Grid *grid, Grid *corners, IntegrationReport *out, Diag *diag)
 {
     ModeSwitching switching = {
-        .run = r, .setting = setting, .span = plan->to - plan->from, .stuck = NAN};
+        .run = r, .setting = setting, .control = plan->control, .stuck = NAN};
     IntegrationPlan through = *plan;
     Status status;
 
-    through.first =
-        phase_first_method(r->phase, plan->from, r->begin, plan->control.rtol, plan->control.atol);
+    switching.control.span = plan->to - plan->from;
+    through.first = choose_method;
     through.choose = slide_choose;
     through.tell = slide_tell;
     through.explain = ends_explain;
