@@ -41,4 +41,6 @@ libcore_la_SOURCES += \
   lib/simulate/equations/signs.c \
   lib/simulate/equations/signs.h \
   lib/simulate/equations/steep.c \
-  lib/simulate/equations/steep.h
+  lib/simulate/equations/steep.h \
+  lib/simulate/equations/steep_impl.h \
+  lib/simulate/equations/steep_ranges.c

@@ -3,18 +3,16 @@
  * An element N(a) becomes n + s (a - a0), whose n, s and a0 are inputs: s is next to nothing
  * where it doesn't conduct. A source becomes an input. What is left is solved for w as a linear
  * system; how it answers to inputs is found by differences, exact where it is affine. */
-#include "simulate/equations/steep.h"
+#include "simulate/equations/steep_impl.h"
 
 #include "algebra/elementary.h"
 #include "algebra/linear.h"
-#include "algebra/sparse.h"
 #include "base/memory.h"
 
 #include <math.h>
 #include <string.h>
 
-#define LEAST_POWER 8  /* exponents from which on a power is steep */
-#define PIECES      64 /* of a run, for the ranges of sources in it */
+#define LEAST_POWER 8   /* exponents from which on a power is steep */
 #define ELEMENT     1e6 /* what an element is moved by: the smallest saturation current still shows */
 
 #define SOLVED (1U << SYMBOL_STATE_RATE | 1U << SYMBOL_ALGEBRAIC)
@@ -22,48 +20,6 @@
     (SOLVED | 1U << SYMBOL_COORDINATE | 1U << SYMBOL_SPEED | 1U << SYMBOL_STATE | 1U << SYMBOL_TURN)
 #define AFTER                                                                                      \
     (1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER | 1U << SYMBOL_EFFORT | 1U << SYMBOL_JERK)
-
-typedef LIST(Expr) Roots;
-
-typedef struct Element {
-    Expr call;
-    Expr argument;
-    Op op; /* OP_HOLD: a power */
-    double exponent;
-    bool is_bent; /* the argument isn't affine in variables */
-    int inputs;   /* places of n, s and a0 in the layout */
-} Element;
-
-typedef struct Source {
-    Expr function;
-    int input;
-    double size;        /* its range in a run, s; 0: not known */
-    bool is_continuous; /* its derivative tells how far it goes */
-    int corner;         /* what makes that derivative jump: the first of `corners`, */
-    int corners;        /* and how many */
-} Source;
-
-struct Steep {
-    const Layout *l;
-    Parameters *parameters;
-    Motion *motion;
-    const Equations *eq;
-    LIST(Element) elements;
-    LIST(Source) sources;
-    Ranges *values, *slopes, *bends;
-    Ranges *corners; /* one varies where a derivative jumps */
-    Range *closer;   /* of sources */
-    Range *bent;     /* likewise, corners with them */
-    double *reach;   /* likewise: how far each gets from the middle of an interval */
-    Layout inputs;   /* the layout, and the inputs of elements and sources */
-    Probe *probe;    /* G, F, gamma, arguments, A; NULL: not made yet */
-    bool has_failed;
-    int force, gamma, argument, matrix, root_count; /* places of the roots, and how many */
-    Sparse *network;
-    double *here;                   /* roots at the point */
-    double *w, *moved, *answer, *y; /* w there; w moved, change of w, y moved */
-    double t;
-};
 
 /* --- what there is --- */
 
@@ -98,35 +54,13 @@ static bool is_element(Expr e)
            (expr_kinds(e) & MOVING) != 0 && (expr_kinds(e) & AFTER) == 0;
 }
 
-/* jumps have a derivative of zero, and of data some points alone tell the range */
-static bool may_jump(Expr e, void *context)
-{
-    const Op op = expr_kind(e) == EXPR_CALL ? expr_op(e) : OP_SIN;
-
-    (void)context;
-    return op == OP_SIGN || op == OP_STEP || op == OP_FLOOR || op == OP_IF || op == OP_TABLE ||
-           op == OP_ATAN2 || op == OP_UNWRAP || (op >= OP_LT && op <= OP_NOT);
-}
-
-/* how many things make e jump; added to `corners`, unless that is NULL: what varies where they do,
- * and is constant elsewhere */
-static int add_corners(Roots *corners, Expr e)
-{
-    Expr *jumps;
-    const int count = expr_find(&e, 1, may_jump, NULL, &jumps);
-
-    for (int i = 0; i < count && corners != NULL; i++)
-        LIST_PUSH(*corners, expr_op(jumps[i]) == OP_IF ? expr_arg(jumps[i], 0) : jumps[i]);
-    mem_free(jumps);
-    return count;
-}
-
 static void add_source(Steep *s, Expr e)
 {
     for (int i = 0; i < s->sources.count; i++)
         if (s->sources.at[i].function == e)
             return;
-    LIST_PUSH(s->sources, (Source){.function = e, .is_continuous = add_corners(NULL, e) == 0});
+    LIST_PUSH(s->sources,
+              (Source){.function = e, .is_continuous = steep_add_corners(NULL, e) == 0});
 }
 
 /* exp(min(c, x)) is exp(x) as far as it goes */
@@ -244,35 +178,6 @@ done:
     return status;
 }
 
-static void find_ranges(Steep *s)
-{
-    Arena *arena = system_arena(s->l->system);
-    Expr time = s->l->symbols[s->l->t];
-    Expr *functions = NEW_ARRAY(Expr, s->sources.count);
-    Roots corners = {0};
-
-    for (int i = 0; i < s->sources.count; i++)
-        functions[i] = s->sources.at[i].function;
-    s->values = ranges_new(functions, s->sources.count, time, parameters_value_in, s->parameters);
-    for (int i = 0; i < s->sources.count; i++) {
-        functions[i] = expr_diff(arena, functions[i], time);
-        s->sources.at[i].corner = corners.count;
-        s->sources.at[i].corners = add_corners(&corners, functions[i]);
-    }
-    s->slopes = ranges_new(functions, s->sources.count, time, parameters_value_in, s->parameters);
-    for (int i = 0; i < s->sources.count; i++)
-        functions[i] = expr_diff(arena, functions[i], time);
-    s->bends = ranges_new(functions, s->sources.count, time, parameters_value_in, s->parameters);
-    if (corners.count > 0)
-        s->corners =
-            ranges_new(corners.at, corners.count, time, parameters_value_in, s->parameters);
-    s->closer = NEW_ARRAY(Range, s->sources.count);
-    s->bent = NEW_ARRAY(Range, s->sources.count);
-    s->reach = NEW_ARRAY(double, s->sources.count);
-    LIST_FREE(corners);
-    mem_free(functions);
-}
-
 Status steep_new(const Layout *l, Parameters *parameters, Motion *motion, const Equations *eq,
                  Steep **out, Diag *diag)
 {
@@ -286,7 +191,7 @@ Status steep_new(const Layout *l, Parameters *parameters, Motion *motion, const 
     CHECK(find_sources_of_switches(s, diag));
     if (s->elements.count == 0 && s->sources.count == 0)
         goto done;
-    find_ranges(s);
+    steep_find_ranges(s);
     if (arena_status(system_arena(l->system)) != OK)
         CHECK(diag_set(diag, arena_status(system_arena(l->system)), "%s",
                        arena_failure(system_arena(l->system))));
@@ -336,84 +241,6 @@ const char *steep_variable(const Steep *s, int k)
             name = expr_name(symbols[i]);
     mem_free(symbols);
     return name;
-}
-
-const Range *steep_sources_over(Steep *s, Range over)
-{
-    over = (Range){motion_clock(s->motion, over.low), motion_clock(s->motion, over.high)};
-    return ranges_over(s->values, over);
-}
-
-/* A corner bends without bound, and no second derivative tells of it. */
-const Range *steep_bends_over(Steep *s, Range over)
-{
-    const Range *corners;
-
-    over = (Range){motion_clock(s->motion, over.low), motion_clock(s->motion, over.high)};
-    if (s->corners == NULL)
-        return ranges_over(s->bends, over);
-    memcpy(s->bent, ranges_over(s->bends, over), (size_t)s->sources.count * sizeof(Range));
-    corners = ranges_over(s->corners, over);
-    for (int j = 0; j < s->sources.count; j++)
-        for (int i = s->sources.at[j].corner;
-             i < s->sources.at[j].corner + s->sources.at[j].corners; i++)
-            if (corners[i].low < corners[i].high)
-                s->bent[j] = (Range){-INFINITY, INFINITY};
-    return s->bent;
-}
-
-/* the part of a that lies within reach of b's middle too, where that makes sense */
-static Range narrowed(Range a, Range b, double reach)
-{
-    const double middle = (b.low + b.high) / 2, half = (b.high - b.low) / 2 + reach;
-    const Range out = {fmax(a.low, middle - half), fmin(a.high, middle + half)};
-
-    return out.low <= out.high ? out : a;
-}
-
-const Range *steep_sources_close(Steep *s, Range over)
-{
-    const double low = motion_clock(s->motion, over.low), high = motion_clock(s->motion, over.high);
-    const double middle = low + (high - low) / 2;
-    const Range *at;
-
-    at = ranges_over(s->slopes, (Range){low, high});
-    for (int j = 0; j < s->sources.count; j++)
-        s->reach[j] = fmax(fabs(at[j].low), fabs(at[j].high)) * (high - low) / 2;
-    memcpy(s->closer, ranges_over(s->values, (Range){low, high}),
-           (size_t)s->sources.count * sizeof(Range));
-    at = ranges_over(s->values, (Range){middle, middle});
-    for (int j = 0; j < s->sources.count; j++)
-        if (s->sources.at[j].is_continuous && isfinite(s->reach[j]))
-            s->closer[j] = narrowed(s->closer[j], at[j], s->reach[j]);
-    return s->closer;
-}
-
-void steep_span(Steep *s, double from, double to)
-{
-    double piece = (to - from) / PIECES;
-    Range *all = NEW_ARRAY(Range, s->sources.count);
-
-    for (int p = 0; p < PIECES; p++) {
-        const Range *over =
-            steep_sources_over(s, (Range){from + p * piece, from + (p + 1) * piece});
-
-        for (int j = 0; j < s->sources.count; j++) {
-            all[j].low = p == 0 ? over[j].low : fmin(all[j].low, over[j].low);
-            all[j].high = p == 0 ? over[j].high : fmax(all[j].high, over[j].high);
-        }
-    }
-    for (int j = 0; j < s->sources.count; j++) {
-        double size = all[j].high - all[j].low;
-
-        s->sources.at[j].size = isfinite(size) ? size : 0;
-    }
-    mem_free(all);
-}
-
-double steep_source_size(const Steep *s, int j)
-{
-    return s->sources.at[j].size;
 }
 
 Range steep_size(const Steep *s, int k, Range a)
