@@ -26,6 +26,7 @@ static int add_chain(System *system, int parent, int speed)
 {
     Chain chain = {.parent = parent,
                    .depth = system->kinematics->chains.at[parent].depth + 1,
+                   .run = system->kinematics->chains.count,
                    .speed = speed,
                    .speed_count = 1};
 
@@ -33,6 +34,36 @@ static int add_chain(System *system, int parent, int speed)
     chain.resolve = system->origin->planar ? 0 : system->kinematics->chains.count;
     LIST_PUSH(system->kinematics->chains, chain);
     return system->kinematics->chains.count - 1;
+}
+
+/* the same axis 1, the opposite one -1, another 0 */
+static int axis_sense(Arena *arena, Vec a, Vec b)
+{
+    if (vec_same(a, b))
+        return 1;
+    return vec_same(a, vec_neg(arena, b)) ? -1 : 0;
+}
+
+/* held, so that the angles along a chain share their sums */
+static Expr turn_further(Arena *arena, Expr angle, int sense, Expr by)
+{
+    angle = expr_hold(arena, angle);
+    return sense > 0 ? expr_add(arena, angle, by) : expr_sub(arena, angle, by);
+}
+
+/* the turn of a chain goes on where that before it ended, about the same line */
+static void join_run(const System *system, Chain *chain)
+{
+    const Chain *chains = system->kinematics->chains.at, *before = &chains[chain->parent];
+    const int sense = before->parent >= 0 && !before->is_free
+                          ? axis_sense(system->arena, chains[before->run].axis, chain->axis)
+                          : 0;
+
+    chain->turned = chain->angle;
+    if (sense == 0)
+        return;
+    chain->run = before->run;
+    chain->turned = turn_further(system->arena, before->turned, sense, chain->angle);
 }
 
 static int add_turn(System *system, int parent, Vec axis, Expr angle, int speed, bool forward)
@@ -43,6 +74,7 @@ static int add_turn(System *system, int parent, Vec axis, Expr angle, int speed,
 
     chain->axis = axis;
     chain->angle = forward ? angle : expr_neg(arena, angle);
+    join_run(system, chain);
     system->kinematics->speeds[speed].chain = number;
     system->kinematics->speeds[speed].axis = forward ? axis : vec_neg(arena, axis);
     system->kinematics->speeds[speed].axis_chain = number;
@@ -318,31 +350,44 @@ void frames_build(System *system)
 
 /* --- turns between chains --- */
 
-/* the same axis 1, the opposite one -1, another 0 */
-static int axis_sense(Arena *arena, Vec a, Vec b)
+bool chain_is_beyond(const System *system, int chain, int turn)
 {
-    if (vec_same(a, b))
-        return 1;
-    return vec_same(a, vec_neg(arena, b)) ? -1 : 0;
+    const Chain *chains = system->kinematics->chains.at;
+
+    return chains[chain].first >= chains[turn].first && chains[chain].first <= chains[turn].last;
 }
 
-static void append_turn(const System *system, Turns *turns, const Chain *chain, bool back)
+/* the next chain on the way from one to another, behind a whole run of turns where the way is */
+static int behind(const System *system, int chain, int other)
+{
+    const Chain *chains = system->kinematics->chains.at;
+    const int run = chains[chain].run;
+
+    return chains[chain_is_beyond(system, other, run) ? chain : run].parent;
+}
+
+/* the turn from `start` to a chain, or back: of a whole run, or that of the chain alone */
+static void append_turn(const System *system, Turns *turns, int start, int number, bool back)
 {
     Arena *arena = system->arena;
-    Expr angle = chain->is_free || !back ? chain->angle : expr_neg(arena, chain->angle);
+    const Chain *chains = system->kinematics->chains.at, *chain = &chains[number];
+    const bool whole = chains[chain->run].parent == start;
+    const Vec axis = whole ? chains[chain->run].axis : chain->axis;
+    Expr angle = whole ? chain->turned : chain->angle;
     Turn *last = turns->count > 0 ? &turns->at[turns->count - 1] : NULL;
     int sense = last != NULL && last->matrix == NULL && !chain->is_free
-                    ? axis_sense(arena, last->axis, chain->axis)
+                    ? axis_sense(arena, last->axis, axis)
                     : 0;
 
+    if (!chain->is_free && expr_is_zero(angle))
+        return;
+    if (back && !chain->is_free)
+        angle = expr_neg(arena, angle);
     if (sense == 0) {
-        LIST_PUSH(*turns, (Turn){chain->axis, angle, chain->is_free ? &chain->matrix : NULL, back});
+        LIST_PUSH(*turns, (Turn){axis, angle, chain->is_free ? &chain->matrix : NULL, back});
         return;
     }
-    /* held, so that the angles along a chain share their sums */
-    last->angle = expr_hold(arena, last->angle);
-    last->angle =
-        sense > 0 ? expr_add(arena, last->angle, angle) : expr_sub(arena, last->angle, angle);
+    last->angle = turn_further(arena, last->angle, sense, angle);
     if (expr_is_zero(last->angle))
         turns->count--;
 }
@@ -356,23 +401,20 @@ void turns_between(const System *system, int from, int to, Turns *turns)
     /* up to the chain both hang from, and down again */
     while (from != to) {
         if (chains[from].depth >= chains[to].depth) {
-            append_turn(system, turns, &chains[from], true);
-            from = chains[from].parent;
+            const int next = behind(system, from, to);
+
+            append_turn(system, turns, next, from, true);
+            from = next;
         } else {
             LIST_PUSH(down, to);
-            to = chains[to].parent;
+            to = behind(system, to, from);
         }
     }
-    for (int k = down.count - 1; k >= 0; k--)
-        append_turn(system, turns, &chains[down.at[k]], false);
+    for (int k = down.count - 1; k >= 0; k--) {
+        append_turn(system, turns, from, down.at[k], false);
+        from = down.at[k];
+    }
     LIST_FREE(down);
-}
-
-bool chain_is_beyond(const System *system, int chain, int turn)
-{
-    const Chain *chains = system->kinematics->chains.at;
-
-    return chains[chain].first >= chains[turn].first && chains[chain].first <= chains[turn].last;
 }
 
 /* R b; exp(k a) b by the part of b along k, the part across and k x b (Rodrigues 1840) */
@@ -415,12 +457,13 @@ static bool stays(const System *system, Vec v, int from, int to)
     const Chain *chains = system->kinematics->chains.at;
 
     while (from != to) {
-        int *deeper = chains[from].depth >= chains[to].depth ? &from : &to;
+        const bool climbs = chains[from].depth >= chains[to].depth;
+        int *deeper = climbs ? &from : &to;
 
         if (chains[*deeper].is_free || (!is_along(chains[*deeper].axis, v) &&
                                         axis_sense(system->arena, v, chains[*deeper].axis) == 0))
             return false;
-        *deeper = chains[*deeper].parent;
+        *deeper = behind(system, *deeper, climbs ? to : from);
     }
     return true;
 }
@@ -438,26 +481,15 @@ Vec vec_express(const System *system, Vec v, int from, int to)
     return v;
 }
 
-/* the turn of a chain adds to that of the one before, about the same axis */
-static bool turns_further(const System *system, const Chain *chain)
-{
-    const Chain *before = &system->kinematics->chains.at[chain->parent];
-
-    return before->parent >= 0 && !before->is_free && !chain->is_free &&
-           axis_sense(system->arena, chain->axis, before->axis) != 0;
-}
-
 void vec_express_outward(const System *system, Vec v, Vec *out)
 {
-    for (int c = 0; c < system->kinematics->chains.count; c++) {
-        const Chain *chain = &system->kinematics->chains.at[c];
+    const Chain *chains = system->kinematics->chains.at;
 
-        if (c == 0)
-            out[c] = v;
-        else if (turns_further(system, chain))
-            out[c] = vec_express(system, v, 0, c);
-        else
-            out[c] = vec_express(system, out[chain->parent], chain->parent, c);
+    out[0] = v;
+    for (int c = 1; c < system->kinematics->chains.count; c++) {
+        const int start = chains[chains[c].run].parent;
+
+        out[c] = chains[c].resolve == c ? vec_express(system, out[start], start, c) : v;
     }
 }
 
