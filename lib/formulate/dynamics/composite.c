@@ -69,7 +69,7 @@ static Rotation tensor_express(const System *system, Rotation tensor, int from, 
         for (int j = 0; j < 3; j++) {
             Vec column = {{tensor.at[j], tensor.at[3 + j], tensor.at[6 + j]}};
 
-            column = vec_express(system, column, from, to);
+            column = vec_carry(system, column, from, to);
             for (int i = 0; i < 3; i++)
                 turned.at[3 * j + i] = column.at[i]; /* transposed, so that rows are next */
         }
@@ -168,7 +168,7 @@ Composite *composites_new(const System *system, const int *place)
             continue;
         part.inertia = shifted(arena, &part, frame->step);
         part.moment = vec_add(arena, part.moment, vec_scale(arena, part.mass, frame->step));
-        part.moment = vec_express(system, part.moment, axes, onto);
+        part.moment = vec_carry(system, part.moment, axes, onto);
         part.inertia = tensor_express(system, part.inertia, axes, onto);
         whole->mass = expr_hold(arena, expr_add(arena, whole->mass, part.mass));
         whole->moment = vec_hold(arena, vec_add(arena, whole->moment, part.moment));

@@ -51,7 +51,7 @@ static Rotation rotation_between(const System *system, int from, int to)
         Vec axis = vec_zero(arena);
 
         axis.at[i] = expr_int(arena, 1);
-        axis = vec_express(system, axis, from, to);
+        axis = vec_carry(system, axis, from, to);
         for (int k = 0; k < 3; k++)
             rotation.at[3 * k + i] = axis.at[k];
     }

@@ -25,13 +25,13 @@ Loads loads_new(const System *system)
 
 void loads_add_force(const System *system, Loads *loads, int node, Vec force, int chain)
 {
-    force = vec_express(system, force, chain, node_axes(system, node));
+    force = vec_carry(system, force, chain, node_axes(system, node));
     loads->force[node] = vec_add(system->arena, loads->force[node], force);
 }
 
 void loads_add_torque(const System *system, Loads *loads, int node, Vec torque, int chain)
 {
-    torque = vec_express(system, torque, chain, node_axes(system, node));
+    torque = vec_carry(system, torque, chain, node_axes(system, node));
     loads->torque[node] = vec_add(system->arena, loads->torque[node], torque);
 }
 
@@ -107,13 +107,13 @@ Sums *loads_sum(const System *system, const Loads *loads)
         Vec moment = vec_cross(arena, frame->step, force);
 
         if (frame->parent != datum) {
-            force = vec_express_held(system, force, axes, node_axes(system, frame->parent));
+            force = vec_carry_held(system, force, axes, node_axes(system, frame->parent));
             sums->force[frame->parent] = vec_add(arena, sums->force[frame->parent], force);
         }
         /* a shift passes on the moment of what it carries to the frame that it is fixed in */
         if (frame->base == datum)
             continue;
-        moment = vec_express_held(system, moment, axes, node_axes(system, frame->base));
+        moment = vec_carry_held(system, moment, axes, node_axes(system, frame->base));
         sums->torque[frame->base] = vec_add(arena, sums->torque[frame->base], moment);
     }
     mem_free(inward);
@@ -133,7 +133,7 @@ Sums *loads_sum(const System *system, const Loads *loads)
 
         if (parent == datum)
             continue;
-        torque = vec_express_held(system, torque, node_axes(system, n), node_axes(system, parent));
+        torque = vec_carry_held(system, torque, node_axes(system, n), node_axes(system, parent));
         sums->torque[parent] = vec_add(arena, sums->torque[parent], torque);
     }
     MEM_FREE(inward, alike);

@@ -66,6 +66,33 @@ static void join_run(const System *system, Chain *chain)
     chain->turned = turn_further(system->arena, before->turned, sense, chain->angle);
 }
 
+static Vec unit_axis(Arena *arena, int k)
+{
+    Vec axis = vec_zero(arena);
+
+    axis.at[k] = expr_int(arena, 1);
+    return axis;
+}
+
+static Vec turn_vector(Arena *arena, const Turn *turn, Vec b);
+
+/* of a turn askew: what many vectors pass is formed once */
+static void add_matrix(Arena *arena, Chain *chain)
+{
+    const Turn turn = {chain->axis, chain->angle, NULL, false};
+    int others = 0;
+
+    for (int i = 0; i < 3; i++)
+        others += expr_is_zero(chain->axis.at[i]);
+    chain->is_askew = others < 2;
+    for (int j = 0; chain->is_askew && j < 3; j++) {
+        const Vec column = vec_hold(arena, turn_vector(arena, &turn, unit_axis(arena, j)));
+
+        for (int i = 0; i < 3; i++)
+            chain->matrix.at[3 * i + j] = column.at[i];
+    }
+}
+
 static int add_turn(System *system, int parent, Vec axis, Expr angle, int speed, bool forward)
 {
     Arena *arena = system->arena;
@@ -75,6 +102,7 @@ static int add_turn(System *system, int parent, Vec axis, Expr angle, int speed,
     chain->axis = axis;
     chain->angle = forward ? angle : expr_neg(arena, angle);
     join_run(system, chain);
+    add_matrix(arena, chain);
     system->kinematics->speeds[speed].chain = number;
     system->kinematics->speeds[speed].axis = forward ? axis : vec_neg(arena, axis);
     system->kinematics->speeds[speed].axis_chain = number;
@@ -145,14 +173,6 @@ static int add_free(System *system, int parent, const Rotation *zero, int coordi
         own->axis_chain = forward ? number : parent;
     }
     return number;
-}
-
-static Vec unit_axis(Arena *arena, int k)
-{
-    Vec axis = vec_zero(arena);
-
-    axis.at[k] = expr_int(arena, 1);
-    return axis;
 }
 
 /* a station turns about z, then the new y, then the newest x */
@@ -493,9 +513,22 @@ void vec_express_outward(const System *system, Vec v, Vec *out)
     }
 }
 
-Vec vec_express_held(const System *system, Vec v, int from, int to)
+Vec vec_carry(const System *system, Vec v, int from, int to)
 {
-    return vec_hold(system->arena, vec_express(system, v, from, to));
+    const Chain *chains = system->kinematics->chains.at;
+    const bool back = chains[to].parent == from;
+    const Chain *turn = back ? &chains[to] : &chains[from];
+    Rotation matrix;
+
+    if ((!back && turn->parent != to) || !turn->is_askew || stays(system, v, from, to))
+        return vec_express(system, v, from, to);
+    matrix = back ? rotation_transpose(&turn->matrix) : turn->matrix;
+    return rotation_apply(system->arena, &matrix, v);
+}
+
+Vec vec_carry_held(const System *system, Vec v, int from, int to)
+{
+    return vec_hold(system->arena, vec_carry(system, v, from, to));
 }
 
 int node_axes(const System *system, int node)

@@ -19,7 +19,9 @@ typedef LIST(Turn) Turns;
 void turns_between(const System *system, int from, int to, Turns *turns);
 /* components of v in the axes of chain `to`, from those in chain `from` */
 Vec vec_express(const System *system, Vec v, int from, int to);
-Vec vec_express_held(const System *system, Vec v, int from, int to);
+/* likewise, one turn askew by its matrix: what many vectors pass is formed once */
+Vec vec_carry(const System *system, Vec v, int from, int to);
+Vec vec_carry_held(const System *system, Vec v, int from, int to);
 /* what is fixed in the datum, in the axes of every chain whose vectors are computed there */
 void vec_express_outward(const System *system, Vec v, Vec *out);
 /* the chain in whose axes the recursive form has what belongs to a node */

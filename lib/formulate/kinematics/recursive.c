@@ -42,7 +42,7 @@ static void turn_motion(System *system, int c)
                                    alike_vec(follower, motions[first].product)};
         return;
     }
-    w = vec_express_held(system, motions[chain->parent].w, before, chain->resolve);
+    w = vec_carry_held(system, motions[chain->parent].w, before, chain->resolve);
 
     for (int j = chain->speed; j < chain->speed + chain->speed_count; j++)
         turn =
@@ -83,9 +83,9 @@ static void step_motion(System *system, int node)
         frame->product = alike_vec(follower, like->product);
         return;
     }
-    v = vec_express_held(system, frames[frame->parent].v, node_axes(system, frame->parent), axes);
-    w = vec_express_held(system, system->kinematics->motions[frame->step_chain].w, resolve, axes);
-    frame->step = vec_express_held(system, frame->shift, frame->step_chain, axes);
+    v = vec_carry_held(system, frames[frame->parent].v, node_axes(system, frame->parent), axes);
+    w = vec_carry_held(system, system->kinematics->motions[frame->step_chain].w, resolve, axes);
+    frame->step = vec_carry_held(system, frame->shift, frame->step_chain, axes);
     turned = vec_cross(arena, w, frame->step);
     for (int k = 0; k < frame->slide_count; k++) {
         Vec axis = vec_express(system, frame->slide[k].axis, frame->step_chain, axes);
@@ -112,8 +112,8 @@ static Vec node_acceleration(const System *system, int n, const Expr *accelerati
     if (moves_alike(system, follower, n, a[system->kinematics->frames[first].parent],
                     a[frame->parent]))
         return alike_vec(follower, a[first]);
-    turn = vec_express_held(system, alpha[frame->step_chain], resolve, axes);
-    own = vec_express_held(system, a[frame->parent], node_axes(system, frame->parent), axes);
+    turn = vec_carry_held(system, alpha[frame->step_chain], resolve, axes);
+    own = vec_carry_held(system, a[frame->parent], node_axes(system, frame->parent), axes);
     own = vec_add(arena, own, vec_cross(arena, turn, frame->step));
     own = vec_add(arena, own, frame->product);
     for (int k = 0; k < frame->slide_count; k++) {
@@ -148,7 +148,7 @@ void accelerations_build(const System *system, const Expr *accelerations, Vec *a
             continue;
         }
         alpha[c] =
-            vec_add(arena, vec_express_held(system, alpha[chain->parent], before, chain->resolve),
+            vec_add(arena, vec_carry_held(system, alpha[chain->parent], before, chain->resolve),
                     system->kinematics->motions[c].product);
         for (int j = chain->speed; j < chain->speed + chain->speed_count; j++)
             alpha[c] = vec_add(arena, alpha[c],
@@ -232,8 +232,9 @@ Vec node_position(System *system, int node)
     for (int k = way.count - 1; k >= 0; k--) {
         const Frame *frame = &frames[way.at[k]];
 
-        p = vec_hold(
-            arena, vec_add(arena, p, vec_express_held(system, frame->shift, frame->step_chain, 0)));
+        p = vec_hold(arena, vec_add(arena, p,
+                                    vec_hold(arena, vec_express(system, frame->shift,
+                                                                frame->step_chain, 0))));
         positions[way.at[k]] = p;
     }
     LIST_FREE(way);

@@ -95,7 +95,7 @@ static void choose_axes(Course *c)
 
 static Vec express(const Course *c, Vec v, int from, int to)
 {
-    return vec_hold(c->arena, vec_express(c->system, v, from, to));
+    return vec_carry_held(c->system, v, from, to);
 }
 
 static Vec turning_times(const Course *c, const Work *work, Vec r)
@@ -151,7 +151,7 @@ static void find_reach(const Course *c, const Work *parent, Work *work)
             mark(vec_cross(c->arena, unit(c->arena, i), work->way), before + SHIFT);
     for (int i = 0; i < MOTION; i++)
         if (before[i])
-            mark(vec_express(c->system, unit(c->arena, i % SHIFT), parent->axes, work->axes),
+            mark(vec_carry(c->system, unit(c->arena, i % SHIFT), parent->axes, work->axes),
                  work->reaches + i / SHIFT * SHIFT);
 }
 

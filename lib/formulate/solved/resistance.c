@@ -206,7 +206,7 @@ static void turn_any(const System *system, Resistance *r, int from, int to)
 
     for (int c = 0; c < r->count; c++)
         for (int k = 0; k < MOTION; k += SHIFT) {
-            const Vec v = vec_hold(arena, vec_express(system, rows_at(r, k, c), from, to));
+            const Vec v = vec_carry_held(system, rows_at(r, k, c), from, to);
 
             for (int i = 0; i < 3; i++)
                 half[(k + i) * r->count + c] = v.at[i];
@@ -215,7 +215,7 @@ static void turn_any(const System *system, Resistance *r, int from, int to)
         const Expr *row = half + (ptrdiff_t)i * r->count;
 
         for (int k = 0; k < MOTION; k += SHIFT) {
-            const Vec v = vec_express(system, (Vec){{row[k], row[k + 1], row[k + 2]}}, from, to);
+            const Vec v = vec_carry(system, (Vec){{row[k], row[k + 1], row[k + 2]}}, from, to);
 
             for (int j = 0; j < 3; j++)
                 if (k + j >= i)
@@ -225,7 +225,7 @@ static void turn_any(const System *system, Resistance *r, int from, int to)
             put(arena, r, i, c, row[c]);
     }
     for (int k = 0; k < MOTION; k += SHIFT)
-        put_right(arena, r, k, vec_express(system, right_at(r, k), from, to));
+        put_right(arena, r, k, vec_carry(system, right_at(r, k), from, to));
     mem_free(half);
 }
 

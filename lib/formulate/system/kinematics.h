@@ -29,11 +29,12 @@ typedef struct Chain {
     int speed;   /* the first of its speeds */
     int speed_count; /* 1, or 3 where it is free */
     bool is_free;
-    Vec axis;    /* turn: zero-position axes, the same components before and after */
-    Expr angle;  /* turn: the coordinate, or its negative where the branch is passed backwards */
-    int run;     /* the first of the chains up to this one that turn about one line */
-    Expr turned; /* by all of these, about the axis of the first */
-    Rotation matrix;   /* free: zero-position components after it to those before it */
+    bool is_askew; /* a turn about none of the axes */
+    Vec axis;      /* turn: zero-position axes, the same components before and after */
+    Expr angle;    /* turn: the coordinate, or its negative where the branch is passed backwards */
+    int run;       /* the first of the chains up to this one that turn about one line */
+    Expr turned;   /* by all of these, about the axis of the first */
+    Rotation matrix;   /* free or askew: zero-position components after it to those before it */
     Expr parameter[4]; /* free: Euler parameters of that matrix */
 } Chain;
 
