@@ -135,18 +135,37 @@ static void free_bodies(Text *text, int n)
     text_add(text, "assemble\n");
 }
 
-static void chain_of_bodies(Text *text, int n)
+/* bodies that hang one from the other by hinges about these axes in turn */
+static void hang_bodies(Text *text, const char *axes, int n)
 {
     text_add(text, "gravity [0, 0, -9.81]\n");
     for (int i = 0; i < n; i++) {
         text_addf(text, "body b%d mass=1 inertia=[1, 2, 3]; arm p%d b%d [0, 0, 1]\n", i, i, i);
         text_addf(text, "arm q%d b%d [0, 0, -1]; ", i, i);
         if (i == 0)
-            text_add(text, "revolute h0 ground p0 axis=x\n");
+            text_addf(text, "revolute h0 ground p0 axis=%c\n", axes[0]);
         else
-            text_addf(text, "revolute h%d q%d p%d axis=x\n", i, i - 1, i);
+            text_addf(text, "revolute h%d q%d p%d axis=%c\n", i, i - 1, i,
+                      axes[(size_t)i % strlen(axes)]);
     }
+}
+
+static void chain_of_bodies(Text *text, int n)
+{
+    hang_bodies(text, "x", n);
     text_add(text, "tree absolute\nassemble\n");
+}
+
+static void moving_chain(Text *text, int n)
+{
+    hang_bodies(text, "xy", n);
+    text_add(text, "simulate 1e-6 every=1e-6\n");
+}
+
+static void moving_parallel_chain(Text *text, int n)
+{
+    hang_bodies(text, "x", n);
+    text_add(text, "simulate 1e-6 every=1e-6\n");
 }
 
 /* pages at and after `next` that a statement may look at, and none before */
@@ -213,11 +232,18 @@ static void equations_cost_the_square_of_the_bodies(void)
     expect_growth(chain_of_bodies, 15, 2);
 }
 
+static void chains_of_joints_cost_as_much_as_they_have(void)
+{
+    expect_growth(moving_chain, 250, 1);
+    expect_growth(moving_parallel_chain, 200, 1);
+}
+
 int main(void)
 {
     RUN(a_text_is_read_in_passing);
     RUN(statements_cost_the_same_however_many_there_are);
     RUN(going_back_costs_no_more_than_going_forth);
     RUN(equations_cost_the_square_of_the_bodies);
+    RUN(chains_of_joints_cost_as_much_as_they_have);
     return test_end();
 }

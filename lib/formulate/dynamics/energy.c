@@ -4,7 +4,6 @@
 #include "formulate/dynamics/shapes.h"
 #include "formulate/kinematics/coordinate.h"
 #include "formulate/kinematics/frames.h"
-#include "formulate/kinematics/recursive.h"
 #include "formulate/network/scalar_edges.h"
 #include "formulate/system/constraints.h"
 #include "formulate/system/dynamics.h"
@@ -105,6 +104,56 @@ static bool stored_in(System *system, const Effort *effort, Expr displacement, E
     return variables_resolve(system, stored, out, NULL) == OK;
 }
 
+/* How far nodes are along gravity, times it. Step by step: positions in the axes of the datum would
+ * turn each step through all the turns before it. New, mem_free(). */
+static Expr *falls_of(const System *system, const Vec *gravity)
+{
+    Arena *arena = system->arena;
+    Expr *falls = NEW_ARRAY(Expr, graph_node_count(system->origin->graph));
+    int nodes;
+    const int *order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
+
+    falls[order[0]] = expr_int(arena, 0);
+    for (int i = 1; i < nodes; i++) {
+        const Frame *frame = &system->kinematics->frames[order[i]];
+        const int axes = system->kinematics->chains.at[frame->step_chain].resolve;
+        const Vec step = vec_carry_held(system, frame->shift, frame->step_chain, axes);
+        const Expr further = vec_dot(arena, gravity[axes], step);
+
+        falls[order[i]] = expr_hold(arena, expr_add(arena, falls[frame->parent], further));
+    }
+    return falls;
+}
+
+static void push_weights(const System *system, Terms *terms)
+{
+    Arena *arena = system->arena;
+    Vec *gravity;
+    Expr *falls;
+
+    if (system->origin->trees[TREE_TRANSLATION] == NULL)
+        return;
+    gravity = NEW_ARRAY(Vec, system->kinematics->chains.count);
+    vec_express_outward(system, system->origin->gravity, gravity);
+    falls = falls_of(system, gravity);
+    for (int i = 0; i < system->dynamics->masses.count; i++) {
+        const Mass *mass = &system->dynamics->masses.at[i];
+
+        push(system, terms, expr_int(arena, -1), mass->mass, falls[mass->node]);
+    }
+    for (int i = 0; i < system->dynamics->elastics.count; i++) {
+        const Elastic *elastic = &system->dynamics->elastics.at[i];
+        const ShapeInertia *b = &elastic->block;
+        const int axes = node_axes(system, elastic->node);
+        const Vec moment = vec_express(system, elastic_vector(system, elastic, b->moment),
+                                       system->kinematics->frames[elastic->node].chain, axes);
+
+        push(system, terms, expr_int(arena, -1), b->mass, falls[elastic->node]);
+        LIST_PUSH(*terms, expr_neg(arena, vec_dot(arena, gravity[axes], moment)));
+    }
+    MEM_FREE(gravity, falls);
+}
+
 Expr system_potential(System *system)
 {
     system_touch(system);
@@ -112,23 +161,9 @@ Expr system_potential(System *system)
     Terms terms = {0};
     Expr sum;
 
-    for (int i = 0; i < system->dynamics->masses.count; i++) {
-        const Mass *mass = &system->dynamics->masses.at[i];
-
-        push(system, &terms, expr_int(arena, -1), mass->mass,
-             vec_dot(arena, system->origin->gravity, node_position(system, mass->node)));
-    }
-    for (int i = 0; i < system->dynamics->elastics.count; i++) {
-        const Elastic *elastic = &system->dynamics->elastics.at[i];
-        const ShapeInertia *b = &elastic->block;
-        const int chain = system->kinematics->frames[elastic->node].chain;
-        Vec moment = vec_express(system, elastic_vector(system, elastic, b->moment), chain, 0);
-
-        moment =
-            vec_add(arena, moment, vec_scale(arena, b->mass, node_position(system, elastic->node)));
-        LIST_PUSH(terms, expr_neg(arena, vec_dot(arena, system->origin->gravity, moment)));
-        LIST_PUSH(terms, b->stored);
-    }
+    push_weights(system, &terms);
+    for (int i = 0; i < system->dynamics->elastics.count; i++)
+        LIST_PUSH(terms, system->dynamics->elastics.at[i].block.stored);
     for (int i = 0; i < system->origin->instance_count; i++) {
         const Instance *instance = &system->origin->instances[i];
         Effort effort;
