@@ -4,11 +4,15 @@
 #include "algebra/ldl.h"
 #include "base/memory.h"
 
+#include <float.h>
 #include <math.h>
+
+enum { NORMED = 8 }; /* units that rows are off after their division */
 
 /* J J^T below its diagonal, as rows of J come one after the other */
 struct Gram {
     int m;
+    int filled; /* entries of a row of J, at most */
     LIST(int) row, column;
     LIST(double) value;
     double *diagonal;
@@ -38,11 +42,14 @@ void gram_free(Gram *p)
 /* Row i times all before it that share a column with it. */
 static void multiply(Gram *p, int i, const double *row, int nu, double norm)
 {
+    int filled = 0;
+
     for (int j = 0; j < nu; j++) {
         const double value = row[j] / norm;
 
         if (row[j] == 0)
             continue;
+        filled++;
         p->diagonal[i] += value * value;
         for (int e = p->last[j] - 1; e >= 0; e = p->before.at[e]) {
             const int other = p->of.at[e];
@@ -61,6 +68,7 @@ static void multiply(Gram *p, int i, const double *row, int nu, double norm)
         LIST_PUSH(p->entry, value);
         p->last[j] = p->of.count;
     }
+    p->filled = filled > p->filled ? filled : p->filled;
 }
 
 static void put_entries(Gram *p)
@@ -98,6 +106,15 @@ double gram_largest(const Gram *p)
     for (int i = 0; i < p->m; i++)
         largest = fmax(largest, p->diagonal[i]);
     return largest;
+}
+
+/* An entry is the sum of as many products as a row of J has, and of L has; as many entries as a row
+ * of L + L^T has are off by a unit in the last place for each (Higham 2002, 10.1). */
+double gram_rounding(const Gram *p)
+{
+    const double width = ldl_order_width(p->order), products = p->filled + width + NORMED;
+
+    return products * width * DBL_EPSILON;
 }
 
 bool gram_factor(Gram *p, double added, double least, const Watch *watch)

@@ -13,6 +13,9 @@ typedef struct Gram Gram;
 Gram *gram_new(const double *matrix, int m, int nu, const double *norm);
 void gram_free(Gram *gram);
 double gram_largest(const Gram *gram); /* on the diagonal */
+/* Where no diagonal entry is more than 1: how much rounding moves the eigenvalues of what is
+ * factored, at most. */
+double gram_rounding(const Gram *gram);
 /* Factors of it with `added` on its diagonal, without exchange. False where a pivot isn't more than
  * `least` of its diagonal entry, or the watch says stop. */
 bool gram_factor(Gram *gram, double added, double least, const Watch *watch);

@@ -2,8 +2,9 @@
  * root of the shift
  *
  * Its factors without exchange stay as sparse as their order allows, while pivots by size, which
- * tell a rank that is less, fill in. Rounding moves its eigenvalues by no more than some m^2 units
- * in the last place (Higham 2002, 10.1), far less than SHIFT for some thousand rows. */
+ * tell a rank that is less, fill in. The shift is several times what rounding can do to it, which
+ * is little where factors are sparse: a chain of n bodies whose speeds all are given has singular
+ * values of 1/n^2. */
 #include "algebra/independence.h"
 
 #include "algebra/gram.h"
@@ -11,7 +12,7 @@
 
 #include <math.h>
 
-#define SHIFT   1e-8  /* at least: of singular values of 1e-4 */
+#define SAFE    4     /* times what rounding may do */
 #define NOTHING 1e-10 /* of the largest row: rounding alone */
 #define LARGE   1e100 /* squares of more, or less than its inverse, lose digits or are none */
 
@@ -43,7 +44,9 @@ bool rows_are_independent(const double *matrix, int m, int nu, double threshold,
     if (independent) {
         Gram *gram = gram_new(matrix, m, nu, norm);
 
-        independent = gram_factor(gram, -fmax(SHIFT, 4 * threshold * threshold), 0, watch);
+        const double shift = fmax(SAFE * gram_rounding(gram), 4 * threshold * threshold);
+
+        independent = gram_factor(gram, -shift, 0, watch);
         gram_free(gram);
     }
     mem_free(norm);

@@ -170,6 +170,19 @@ int ldl_order_fill(const LdlOrder *o)
     return o->left_start[o->n];
 }
 
+int ldl_order_width(const LdlOrder *o)
+{
+    int width = 0;
+
+    for (int k = 0; k < o->n; k++) {
+        const int left = o->left_start[k + 1] - o->left_start[k];
+        const int below = o->below_start[k + 1] - o->below_start[k];
+
+        width = left + below + 1 > width ? left + below + 1 : width;
+    }
+    return width;
+}
+
 /* --- factors --- */
 
 Ldl *ldl_new(const LdlOrder *order)

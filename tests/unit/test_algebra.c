@@ -3,6 +3,7 @@
 #include "algebra/dense.h"
 #include "algebra/enclosure.h"
 #include "algebra/gram.h"
+#include "algebra/independence.h"
 #include "algebra/linear.h"
 #include "algebra/rank.h"
 #include "base/memory.h"
@@ -177,6 +178,35 @@ static void many_rows_have_the_rank_that_they_are_made_of(void)
     mem_free(matrix);
 }
 
+/* Turns of a chain's links and where they begin, each given beside the one before: of n links the
+ * least singular value is some 1/n^2. The sum of all turns beside them is nothing new. */
+static void rows_of_a_long_chain_are_told_to_be_independent(void)
+{
+    enum { LINKS = 300, COLUMNS = 2 * LINKS };
+    double *matrix = NEW_ARRAY(double, COLUMNS *COLUMNS);
+
+    for (int i = 0; i < LINKS; i++) {
+        double *turn = matrix + (ptrdiff_t)i * COLUMNS, *shift = turn + LINKS * COLUMNS;
+
+        turn[i] = shift[LINKS + i] = 1;
+        shift[i] = -0.5;
+        if (i > 0)
+            turn[i - 1] = shift[LINKS + i - 1] = -1;
+        if (i > 0)
+            shift[i - 1] = -0.5;
+    }
+    EXPECT(rows_are_independent(matrix, COLUMNS, COLUMNS, 1e-9, NULL));
+    for (int apart = 0; apart < 2; apart++) {
+        double *last = matrix + (ptrdiff_t)(COLUMNS - 1) * COLUMNS;
+
+        memset(last, 0, COLUMNS * sizeof(double));
+        last[LINKS - 1] = 1;
+        last[0] = apart * 1e-9;
+        EXPECT(!rows_are_independent(matrix, COLUMNS, COLUMNS, 1e-9, NULL));
+    }
+    mem_free(matrix);
+}
+
 #ifndef COTREE_FAULTS /* whose book of what is held is one for all threads */
 static _Atomic int calls, running;
 
@@ -265,6 +295,7 @@ int main(void)
     RUN(cholesky_factors_solve);
     RUN(rows_times_rows_are_solved_where_their_pivots_are_sound);
     RUN(many_rows_have_the_rank_that_they_are_made_of);
+    RUN(rows_of_a_long_chain_are_told_to_be_independent);
 #ifndef COTREE_FAULTS
     RUN(threads_leave_the_error_handler_to_who_set_it);
 #endif
