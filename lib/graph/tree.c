@@ -209,6 +209,15 @@ bool tree_is_beyond(const Tree *tree, int branch, int node)
     return tree->place[node] >= tree->place[far] && tree->place[node] < tree->beyond[far];
 }
 
+const int *tree_nodes_beyond(const Tree *tree, int branch, int *count)
+{
+    const int far = tree->far[branch];
+
+    assert(far >= 0);
+    *count = tree->beyond[far] - tree->place[far];
+    return tree->nodes + tree->place[far];
+}
+
 int tree_far_node(const Tree *tree, int branch)
 {
     return tree->far[branch];

@@ -56,6 +56,8 @@ bool tree_is_forward(const Tree *tree, int node);
 int tree_depth(const Tree *tree, int node); /* branches up to the datum */
 /* whether `node` hangs beyond `branch`, seen from the datum. O(1). */
 bool tree_is_beyond(const Tree *tree, int branch, int node);
+/* all that do, *count of them; borrowed */
+const int *tree_nodes_beyond(const Tree *tree, int branch, int *count);
 /* the node at the far end of a branch; -1 for a chord */
 int tree_far_node(const Tree *tree, int branch);
 

@@ -373,6 +373,8 @@ void part_draft_commit(PartDraft *draft, const char *text)
         if (strcmp(part->coord[i], part->name) != 0)
             state_name(state, part->coord[i], THING_COORDINATE, part->number, i);
     LIST_PUSH(state->parts, part);
+    if (part->row->couple != NULL)
+        LIST_PUSH(state->couplings, part->number);
     line = line_add(state, text, -1, part->number, &draft->scope);
     part->text = state->lines.at[line].text;
     state_forget_trees(state);

@@ -40,9 +40,9 @@ static const Instance *coupling_at(const Coupled *c, int i)
     const bool is_new =
         c->part->number >= state->parts.count || state->parts.at[c->part->number] != c->part;
 
-    if (i < state->parts.count)
-        return state->parts.at[i];
-    return i == state->parts.count && is_new ? c->part : NULL;
+    if (i < state->couplings.count)
+        return state->parts.at[state->couplings.at[i]];
+    return i == state->couplings.count && is_new && c->part->row->couple != NULL ? c->part : NULL;
 }
 
 /* in order of making */
@@ -72,8 +72,8 @@ static void gather(Coupled *c)
         before = c->members.count;
         c->couplings = 0;
         for (int i = 0; (coupling = coupling_at(c, i)) != NULL; i++) {
-            if (coupling->row->couple == NULL || (place_in(c, parts[coupling->parts[0]]) < 0 &&
-                                                  place_in(c, parts[coupling->parts[1]]) < 0))
+            if (place_in(c, parts[coupling->parts[0]]) < 0 &&
+                place_in(c, parts[coupling->parts[1]]) < 0)
                 continue;
             c->couplings++;
             for (int k = 0; k < 2; k++)
@@ -105,8 +105,6 @@ static void fill(Coupled *c)
         const Instance *parts[2];
         int at[2];
 
-        if (coupling->row->couple == NULL)
-            continue;
         for (int k = 0; k < 2; k++) {
             parts[k] = c->state->parts.at[coupling->parts[k]];
             at[k] = place_in(c, parts[k]);
@@ -248,11 +246,9 @@ Status couplings_check(State *state, Diag *diag)
     ArenaMark *mark = arena_mark(state->arena);
     Status status = OK;
 
-    for (int i = 0; i < state->parts.count && status == OK; i++) {
-        Coupled c = {.state = state, .part = state->parts.at[i]};
+    for (int i = 0; i < state->couplings.count && status == OK; i++) {
+        Coupled c = {.state = state, .part = state->parts.at[state->couplings.at[i]]};
 
-        if (c.part->row->couple == NULL)
-            continue;
         gather(&c);
         fill(&c);
         if (c.is_known && !is_positive(&c))

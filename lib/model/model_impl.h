@@ -141,6 +141,7 @@ typedef struct State {
     NumberList terminal_nodes;
     int datum[DOMAIN_COUNT]; /* nodes; -1 until needed */
     LIST(Instance *) parts;
+    NumberList couplings; /* of parts, among these */
     NumberList edge_owner;
     LIST(Definition) definitions;
     NumberList parameters; /* definitions, in order of making */
@@ -202,8 +203,8 @@ typedef struct StateMark {
     int state; /* its number */
     PoolMark pool;
     GraphMark graph;
-    int names, terminals, parts, edge_owners, definitions, parameters, outputs, events, lines,
-        start_names, uses, inside_choices, changes;
+    int names, terminals, parts, couplings, edge_owners, definitions, parameters, outputs, events,
+        lines, start_names, uses, inside_choices, changes;
 } StateMark;
 
 StateMark state_mark(const State *state);

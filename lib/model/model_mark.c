@@ -17,6 +17,7 @@ StateMark state_mark(const State *state)
                        .names = state->things.count,
                        .terminals = state->terminal_nodes.count,
                        .parts = state->parts.count,
+                       .couplings = state->couplings.count,
                        .edge_owners = state->edge_owner.count,
                        .definitions = state->definitions.count,
                        .parameters = state->parameters.count,
@@ -245,6 +246,7 @@ static void trim(State *state, const StateMark *mark)
     names_trim(state->terminals, mark->terminals);
     state->terminal_nodes.count = mark->terminals;
     state->parts.count = mark->parts;
+    state->couplings.count = mark->couplings;
     state->edge_owner.count = mark->edge_owners;
     state->definitions.count = mark->definitions;
     state->parameters.count = mark->parameters;
@@ -327,6 +329,7 @@ static void free_one(State *state)
     LIST_FREE(state->definitions);
     LIST_FREE(state->parameters);
     LIST_FREE(state->outputs);
+    LIST_FREE(state->couplings);
     LIST_FREE(state->events);
     LIST_FREE(state->lines);
     LIST_FREE(state->uses);

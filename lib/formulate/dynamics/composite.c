@@ -20,8 +20,8 @@ bool speed_moves_as_one(const System *system, int speed)
     int node = speed_node(system, speed);
     int slide_node = system->kinematics->speeds[speed].slide_node;
     int branch = tree_parent_edge(translation, node);
-    int nodes;
-    const int *order = tree_nodes(translation, &nodes);
+    int carried, turned;
+    const int *beyond;
 
     if (system->dynamics->elastics.count > 0) /* it may bend beyond */
         return false;
@@ -30,11 +30,12 @@ bool speed_moves_as_one(const System *system, int speed)
         (system->kinematics->frames[node].base == node &&
          !vec_is_zero(system->kinematics->frames[node].step)))
         return false;
-    for (int i = 0; i < nodes; i++)
-        if (tree_is_beyond(translation, branch, order[i]) !=
-            tree_is_beyond(rotation, branch, order[i]))
+    (void)tree_nodes_beyond(rotation, branch, &turned);
+    beyond = tree_nodes_beyond(translation, branch, &carried);
+    for (int i = 0; i < carried; i++)
+        if (!tree_is_beyond(rotation, branch, beyond[i]))
             return false;
-    return true;
+    return carried == turned;
 }
 
 /* inertia of a mass m with first moment S, moved by r: (2 r.S + m r.r) 1 - r S' - S r' - m r r' */
