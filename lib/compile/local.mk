@@ -1,6 +1,7 @@
 libcore_la_SOURCES += \
   lib/compile/rounding.c \
 	lib/compile/interpret.c \
+	lib/compile/jacobian.c lib/compile/jacobian.h \
 	lib/compile/lanes.c lib/compile/lanes.h \
 	lib/compile/lower.c lib/compile/lower.h \
 	lib/compile/native.c lib/compile/native.h lib/compile/native_impl.h \
@@ -12,5 +13,6 @@ libcore_la_SOURCES += \
 	lib/compile/residual.c lib/compile/residual.h \
 	lib/compile/schedule.c \
 	lib/compile/stage.c \
+	lib/compile/tangents.c lib/compile/tangents.h \
 	lib/compile/workspace.c \
 	lib/compile/x86.c lib/compile/x86.h

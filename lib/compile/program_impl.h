@@ -56,6 +56,9 @@ void program_hand_over(const Program *program, Stage from, Stage to, const doubl
 
 /* --- rounding.c --- */
 
+/* errors of all slots; and of roots */
+void program_bound_slots(const Program *program, const double *slots, const double *input_errors,
+                         double *errors);
 void program_bound(const Program *program, const double *slots, const double *input_errors,
                    double *root_errors);
 

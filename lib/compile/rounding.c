@@ -181,17 +181,23 @@ double number_error(double value)
                                                                           : UNIT / 2 * fabs(value);
 }
 
-void program_bound(const Program *program, const double *slots, const double *input_errors,
-                   double *root_errors)
+void program_bound_slots(const Program *program, const double *slots, const double *input_errors,
+                         double *errors)
 {
-    double *errors = NEW_ARRAY(double, program->slot_count);
-
     for (int i = 0; i < program->input_count; i++)
         errors[i] = input_errors[i];
     for (int i = 0; i < program->constants.count; i++)
         errors[program->input_count + i] = number_error(program->constants.at[i]);
     for (int r = 0; r < program->first_run[STAGE_COUNT]; r++)
         bound_run(program, &program->runs.at[r], slots, errors);
+}
+
+void program_bound(const Program *program, const double *slots, const double *input_errors,
+                   double *root_errors)
+{
+    double *errors = NEW_ARRAY(double, program->slot_count);
+
+    program_bound_slots(program, slots, input_errors, errors);
     for (int i = 0; i < program->root_count; i++)
         root_errors[program->roots[i].root] = errors[program->roots[i].slot];
     mem_free(errors);

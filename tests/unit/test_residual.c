@@ -1,6 +1,8 @@
 /* test_residual.c: rows with their derivatives, held against closed forms and difference quotients
  */
+#include "compile/jacobian.h"
 #include "compile/residual.h"
+#include "compile/tangents.h"
 
 #include "algebra/pattern.h"
 #include "base/memory.h"
@@ -200,6 +202,179 @@ static void slopes_stand_in_order_and_only_where_a_row_holds_the_unknown(void)
     }
 }
 
+/* the derivative of each row by an unknown a lane, and its bound */
+static void tangents_are_derivatives_within_their_bounds(void)
+{
+    const double exact_inputs[INPUTS + PARAMETERS] = {0};
+    uint64_t seed = 7;
+
+    for (int k = 0; k < DRAWS; k++) {
+        Draw d;
+        double full[ROWS * UNKNOWNS];
+
+        draw_open(&d, &seed);
+        Residual *symbols = compile(&d, ROWS), *plain = compile(&d, 0);
+        Workspace *workspace = evaluate(&d, symbols), *at = evaluate(&d, plain);
+        Tangents *tangents = tangents_new(residual_program(plain));
+
+        residual_jacobian(symbols, workspace_roots(workspace), full);
+        for (int bounded = 0; bounded < 2; bounded++) {
+            tangents_at(tangents, workspace_inputs(at), bounded != 0 ? exact_inputs : NULL);
+            for (int j = 0; j < UNKNOWNS; j++)
+                tangents_move(tangents, j, j, 1, 0);
+            tangents_run(tangents);
+            for (int i = 0; i < ROWS; i++) {
+                EXPECT(tangents_value(tangents, i, NULL) == workspace_roots(at)[i]);
+                for (int j = 0; j < UNKNOWNS; j++) {
+                    double error, wanted = full[i * UNKNOWNS + j];
+                    double got = tangents_root(tangents, i, j, &error);
+
+                    EXPECT_NEAR(got, wanted, 1e-12 * (1 + fabs(wanted)) + 100 * error);
+                    EXPECT(error <= 1e-9 * (1 + fabs(wanted)));
+                    EXPECT(bounded != 0 || error == 0);
+                }
+            }
+        }
+        tangents_free(tangents);
+        workspace_free(workspace);
+        workspace_free(at);
+        residual_free(symbols);
+        residual_free(plain);
+        arena_free(d.arena);
+    }
+}
+
+/* sqrt(x) + y; if(x > 0, log(x), y^2); atan2(y, x): by x and by y, a lane each */
+static void a_lane_does_not_feel_what_only_others_move(void)
+{
+    Arena *arena = arena_new();
+    const Expr x = expr_symbol(arena, "x", SYMBOL_STATE), y = expr_symbol(arena, "y", SYMBOL_STATE);
+    const Expr zero = expr_int(arena, 0), inputs[] = {x, y};
+    const Expr rows[] = {expr_add(arena, expr_call1(arena, OP_SQRT, x), y),
+                         expr_call(arena, OP_IF,
+                                   (Expr[]){expr_call(arena, OP_LT, (Expr[]){zero, x}),
+                                            expr_call1(arena, OP_LOG, x), expr_mul(arena, y, y)}),
+                         expr_call(arena, OP_ATAN2, (Expr[]){y, x})};
+    const double at[] = {0, 3}, off[] = {0, 0};
+    Program *program = NULL;
+    Tangents *tangents;
+    double error;
+
+    EXPECT(program_new(rows, 3, inputs, 2, &program, NULL) == OK);
+    tangents = tangents_new(program);
+    tangents_at(tangents, at, off);
+    tangents_move(tangents, 0, 0, 1, 0);
+    tangents_move(tangents, 1, 1, 1, 0);
+    tangents_run(tangents);
+    EXPECT(!isfinite(tangents_root(tangents, 0, 0, NULL)));
+    EXPECT(tangents_root(tangents, 0, 1, &error) == 1 && error == 0);
+    EXPECT(tangents_root(tangents, 1, 0, &error) == 0 && error == 0);
+    EXPECT(tangents_root(tangents, 1, 1, &error) == 6 && error == 0);
+    EXPECT_NEAR(tangents_root(tangents, 2, 0, NULL), -1.0 / 3, 1e-15);
+    /* twice as far, and of what moves no longer nothing is left */
+    tangents_clear(tangents);
+    tangents_move(tangents, 5, 1, 2, 0.125);
+    tangents_run(tangents);
+    EXPECT(tangents_root(tangents, 1, 5, &error) == 12 && error >= 0.75);
+    EXPECT(tangents_root(tangents, 1, 1, &error) == 0 && error == 0);
+    tangents_free(tangents);
+    program_free(program);
+    arena_free(arena);
+}
+
+/* Columns may move several inputs, by any amount: here each of the unknowns, the first together
+ * with its neighbour. */
+static void columns_are_derivatives_along_what_they_move(void)
+{
+    uint64_t seed = 8;
+
+    for (int k = 0; k < DRAWS; k++) {
+        Draw d;
+        ColumnMove moves[UNKNOWNS + 1];
+        double by[UNKNOWNS + 1], full[ROWS * UNKNOWNS];
+
+        draw_open(&d, &seed);
+        Residual *symbols = compile(&d, ROWS), *plain = compile(&d, 0);
+        Workspace *workspace = evaluate(&d, symbols), *at = evaluate(&d, plain);
+
+        for (int j = 0; j < UNKNOWNS; j++) {
+            moves[j] = (ColumnMove){.column = UNKNOWNS - 1 - j, .input = j};
+            by[j] = test_uniform(&seed, 0.5, 2);
+        }
+        moves[UNKNOWNS] = (ColumnMove){.column = UNKNOWNS - 1, .input = 1};
+        by[UNKNOWNS] = -3;
+
+        Jacobian *jacobian =
+            jacobian_new(residual_program(plain), ROWS, UNKNOWNS, moves, COUNT(moves));
+        const Pattern *p = jacobian_pattern(jacobian);
+        double *values = NEW_ARRAY(double, p->count), *got;
+
+        jacobian_at(jacobian, workspace_inputs(at), by, values);
+        got = pattern_spread(p, values);
+        residual_jacobian(symbols, workspace_roots(workspace), full);
+        for (int i = 0; i < ROWS; i++)
+            for (int j = 0; j < UNKNOWNS; j++) {
+                const double *row = full + i * UNKNOWNS;
+                const double wanted = by[j] * row[j] + (j == 0 ? by[UNKNOWNS] * row[1] : 0);
+
+                EXPECT_NEAR(got[(UNKNOWNS - 1 - j) * ROWS + i], wanted,
+                            1e-11 * (1 + fabs(wanted) + fabs(row[j]) + fabs(row[1])));
+            }
+        jacobian_at(jacobian, workspace_inputs(at), NULL, values);
+        if (p->count > 0)
+            EXPECT(isfinite(values[0]));
+        mem_free(values);
+        mem_free(got);
+        jacobian_free(jacobian);
+        workspace_free(workspace);
+        workspace_free(at);
+        residual_free(symbols);
+        residual_free(plain);
+        arena_free(d.arena);
+    }
+}
+
+/* x_i^2 x_(i+1): two entries a row, so that a few directions do for any number of columns */
+static void sparse_columns_share_lanes_and_stay_apart(void)
+{
+    enum { N = 100 };
+    Arena *arena = arena_new();
+    Expr x[N], rows[N];
+    ColumnMove moves[N];
+    double at[N], *values;
+    Program *program = NULL;
+    Jacobian *jacobian;
+    const Pattern *p;
+
+    for (int i = 0; i < N; i++) {
+        char name[16];
+
+        (void)snprintf(name, sizeof name, "x%d", i);
+        x[i] = expr_symbol(arena, name, SYMBOL_STATE);
+        moves[i] = (ColumnMove){.column = i, .input = i};
+        at[i] = i % 7 - 3;
+    }
+    for (int i = 0; i < N; i++)
+        rows[i] = expr_product(arena, (Expr[]){x[i], x[i], x[(i + 1) % N]}, 3);
+    EXPECT(program_new(rows, N, x, N, &program, NULL) == OK);
+    jacobian = jacobian_new(program, N, N, moves, N);
+    p = jacobian_pattern(jacobian);
+    EXPECT(p->count == 2 * N);
+    values = NEW_ARRAY(double, p->count);
+    jacobian_at(jacobian, at, NULL, values);
+    for (int c = 0; c < N; c++)
+        for (int k = p->start[c]; k < p->start[c + 1]; k++) {
+            const int i = p->row[k];
+
+            EXPECT(i == c || (i + 1) % N == c);
+            EXPECT(values[k] == (i == c ? 2 * at[i] * at[(i + 1) % N] : at[i] * at[i]));
+        }
+    mem_free(values);
+    jacobian_free(jacobian);
+    program_free(program);
+    arena_free(arena);
+}
+
 /* a quadratic form: its derivatives are known */
 static void a_quadratic_form_has_its_closed_derivatives(void)
 {
@@ -364,6 +539,10 @@ int main(void)
 {
     RUN(derivatives_agree_with_difference_quotients);
     RUN(slopes_stand_in_order_and_only_where_a_row_holds_the_unknown);
+    RUN(tangents_are_derivatives_within_their_bounds);
+    RUN(a_lane_does_not_feel_what_only_others_move);
+    RUN(columns_are_derivatives_along_what_they_move);
+    RUN(sparse_columns_share_lanes_and_stay_apart);
     RUN(a_quadratic_form_has_its_closed_derivatives);
     RUN(what_is_put_is_put_behind_the_derivative);
     RUN(a_symbol_that_is_no_input_is_named);
