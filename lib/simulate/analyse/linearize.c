@@ -143,11 +143,11 @@ static void place_columns(Work *w)
                  {&at->z, l->symbols + l->z, l->nz},
                  {&at->inputs, w->inputs, 2 * w->order->input_count}};
 
-    at->symbols = NEW_ARRAY(Expr, l->count + 2 * w->order->input_count);
+    at->place = NEW_ARRAY(int, l->count + 2 * w->order->input_count);
     for (int p = 0; p < COUNT(parts); p++) {
         *parts[p].place = at->count;
         for (int i = 0; i < parts[p].count; i++)
-            at->symbols[at->count++] = parts[p].symbols[i];
+            at->place[at->count++] = probe_place(w->derived, parts[p].symbols[i]);
     }
 }
 
@@ -158,10 +158,10 @@ static Status push_rows(Work *w, Roots *roots, Diag *diag)
     const Layout *l = w->l;
     const Reading *run = system_run(l->system);
 
-    TRY(system_form_mass(l->system, diag));
-    w->rows.balance = roots->count;
-    for (int j = 0; j < l->nu; j++)
-        LIST_PUSH(*roots, row_balance(l, j));
+    w->rows.balance = 0;
+    LIST_ROOM(*roots, l->nu);
+    TRY(rows_balance(l, roots->at, diag));
+    roots->count = l->nu;
     w->rows.acceleration = roots->count;
     for (int k = 0; k < l->m; k++)
         LIST_PUSH(*roots, row_acceleration(l, k));
@@ -193,29 +193,19 @@ static Status compile(Work *w, Diag *diag)
     const Layout *l = w->l;
     const Reading *run = system_run(l->system);
     Roots rows = {0}, geometry = {0};
-    ProbeOrder order;
     Status status = OK;
 
-    place_columns(w);
     CHECK(push_rows(w, &rows, diag));
-    order = (ProbeOrder){.roots = rows.at,
-                         .root_count = rows.count,
-                         .row_count = rows.count,
-                         .unknowns = w->at.symbols,
-                         .unknown_count = w->at.count,
-                         .watch = w->order->watch};
-    CHECK(probe_make(l, &w->parameters, &order, &w->derived, diag));
+    CHECK(probe_new(l, &w->parameters, rows.at, rows.count, &w->derived, diag));
+    place_columns(w);
     for (int i = 0; i < l->m * l->nu; i++)
         LIST_PUSH(geometry, run->phi_u[i]);
     for (int i = 0; i < l->n; i++)
         for (int j = 0; j < l->nu; j++)
             LIST_PUSH(geometry, system_n_entry(l->system, i, j));
-    for (int i = 0; i < l->n; i++)
-        for (int j = 0; j < l->nu; j++)
-            LIST_PUSH(geometry,
-                      expr_diff_along(system_arena(l->system), system_n_entry(l->system, i, j),
-                                      l->symbols + l->q, run->q_rate, l->n));
     CHECK(probe_new(l, &w->parameters, geometry.at, geometry.count, &w->geometry, diag));
+    w->along = tangents_new(residual_program(probe_residual(w->derived)));
+    w->turning = tangents_new(residual_program(probe_residual(w->geometry)));
 done:
     LIST_FREE(rows);
     LIST_FREE(geometry);
@@ -226,13 +216,15 @@ done:
 
 static void work_free(Work *w)
 {
+    tangents_free(w->along);
+    tangents_free(w->turning);
     probe_free(w->derived);
     probe_free(w->geometry);
     parameters_free(&w->parameters);
     layout_free(w->l);
     system_free(w->varied);
     partitioning_free(w->partitioning);
-    MEM_FREE(w->inputs, w->at.symbols);
+    MEM_FREE(w->inputs, w->at.place, w->is_independent);
     square_free(w->equations);
     square_free(w->held);
     MEM_FREE(w->y, w->y_error, w->follow, w->follow_error, w->values, w->phi_u, w->in_use, w->map,
@@ -246,7 +238,7 @@ Status linearize(const LinearOrder *order, Linear **out, Diag *diag)
 
     CHECK(phase_refuse_by(result_reader_first(order->about), diag));
     CHECK(open_system(&w, diag));
-    report(order->watch, "differentiating", -1);
+    report(order->watch, "linearizing", -1);
     CHECK(compile(&w, diag));
     CHECK(linear_point(&w, diag));
     CHECK(linear_columns(&w, out, diag));

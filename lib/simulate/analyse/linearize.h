@@ -1,9 +1,9 @@
 /* linearize.h: linear equations about a point of a result, and their modes
  *
  * The equations M u' + Phi_u^T lambda = F, Phi_u u' = gamma, A [x'; z] = r and their constraints
- * are differentiated in symbols, and the derivatives evaluated and put together along the
- * constraints. Every entry comes with a bound of what rounding, of the numbers given and on the
- * way, leaves open. */
+ * are compiled, differentiated along deviations through their program (compile/tangents.h), and put
+ * together along the constraints. Every entry comes with a bound of what rounding, of the numbers
+ * given and on the way, leaves open. */
 #ifndef COTREE_SIMULATE_ANALYSE_LINEARIZE_H
 #define COTREE_SIMULATE_ANALYSE_LINEARIZE_H
 

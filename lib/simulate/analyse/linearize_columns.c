@@ -12,33 +12,68 @@ typedef struct Deviation {
     LinearNumber *s, *u, *q; /* nu, nu, n */
     LinearNumber *follow;    /* unknowns */
     LinearNumber *right;     /* the same, or used */
-    int input;               /* that deviates by 1, or -1 */
-    int state;               /* network state that does, or -1 */
+    LinearNumber *turn;      /* n: N s' */
+    LinearNumber *outputs;
+    int input; /* that deviates by 1, or -1 */
+    int state; /* network state that does, or -1 */
 } Deviation;
 
 static const LinearNumber one = {1, 0}, none = {0, 0};
 
-static void by_map(const Work *w, const LinearNumber *s, LinearNumber *q)
+static void deviation_open(const Work *w, Deviation *d)
+{
+    *d = (Deviation){.s = NEW_ARRAY(LinearNumber, w->l->nu),
+                     .u = NEW_ARRAY(LinearNumber, w->l->nu),
+                     .q = NEW_ARRAY(LinearNumber, w->l->n),
+                     .follow = NEW_ARRAY(LinearNumber, w->unknowns),
+                     .right = NEW_ARRAY(LinearNumber, w->unknowns),
+                     .turn = NEW_ARRAY(LinearNumber, w->l->n),
+                     .outputs = NEW_ARRAY(LinearNumber, w->order->output_count),
+                     .input = -1,
+                     .state = -1};
+}
+
+static void deviation_close(Deviation *d)
+{
+    MEM_FREE(d->s, d->u, d->q, d->follow, d->right, d->turn, d->outputs);
+}
+
+/* number_add(), where nothing comes of most */
+static inline void add_product(LinearNumber *sum, LinearNumber a, LinearNumber b)
+{
+    if ((a.value != 0 || a.error != 0) && (b.value != 0 || b.error != 0))
+        number_add(sum, a, b);
+}
+
+static void by_map(const Work *w, Deviation *d)
 {
     for (int i = 0; i < w->l->n; i++) {
-        q[i] = none;
+        d->q[i] = none;
         for (int j = 0; j < w->l->nu; j++)
-            number_add(&q[i], w->map[i * w->l->nu + j], s[j]);
+            add_product(&d->q[i], w->map[i * w->l->nu + j], d->s[j]);
     }
 }
 
-/* derivative of a row along all that deviates but what follows */
-static LinearNumber along(const Work *w, const Deviation *d, int row)
-{
-    LinearNumber sum = d->input >= 0 ? gradient(w, row, w->at.inputs + d->input) : none;
+/* Derivatives of all rows along deviations, a lane each: of the input, and of coordinates and
+ * states, of speeds, of what follows. */
+typedef enum Parts { BY_INPUT, BY_POSITION, BY_SPEED, BY_ALL } Parts;
 
-    if (d->state >= 0)
-        number_add(&sum, gradient(w, row, w->at.x + d->state), one);
-    for (int i = 0; i < w->l->n; i++)
-        number_add(&sum, gradient(w, row, w->at.q + i), d->q[i]);
-    for (int j = 0; j < w->l->nu; j++)
-        number_add(&sum, gradient(w, row, w->at.u + j), d->u[j]);
-    return sum;
+static void move(const Work *w, const Deviation *d, int count, Parts parts)
+{
+    tangents_clear(w->along);
+    for (int lane = 0; lane < count; lane++, d++) {
+        if (d->input >= 0)
+            linear_move(w, lane, w->at.inputs + d->input, one);
+        if (parts >= BY_POSITION && d->state >= 0)
+            linear_move(w, lane, w->at.x + d->state, one);
+        for (int i = 0; i < w->l->n && parts >= BY_POSITION; i++)
+            linear_move(w, lane, w->at.q + i, d->q[i]);
+        for (int j = 0; j < w->l->nu && parts >= BY_SPEED; j++)
+            linear_move(w, lane, w->at.u + j, d->u[j]);
+        for (int k = 0; k < w->unknowns && parts == BY_ALL; k++)
+            linear_move(w, lane, linear_unknown(w, k), d->follow[k]);
+    }
+    tangents_run(w->along);
 }
 
 /* E_e follow = -right */
@@ -58,35 +93,63 @@ static void solve(const Work *w, Deviation *d)
     MEM_FREE(b, error, found, off);
 }
 
-/* everything that a deviation of independent ones, a state or an input brings with it */
-static void spread(const Work *w, Deviation *d)
+/* what rows of constraints move by, in the place of the right side */
+static void take_rows(const Work *w, Deviation *d, int count, int first)
 {
-    const int *rows = w->in_use;
-    const int nu = w->l->nu;
-    LinearNumber *moving = NEW_ARRAY(LinearNumber, nu);
-
-    /* speeds apart: the velocity rows deviate with position first */
-    for (int r = 0; r < w->used; r++)
-        d->right[r] =
-            d->input >= 0 ? gradient(w, w->rows.phi + rows[r], w->at.inputs + d->input) : none;
-    linear_complete(w, d->right, d->s);
-    by_map(w, d->s, d->q);
-    for (int j = 0; j < nu; j++) {
-        moving[j] = d->u[j];
-        d->u[j] = none;
-    }
-    for (int r = 0; r < w->used; r++)
-        d->right[r] = along(w, d, w->rows.velocity + rows[r]);
-    for (int j = 0; j < nu; j++)
-        d->u[j] = moving[j];
-    linear_complete(w, d->right, d->u);
-    for (int r = 0; r < w->unknowns; r++)
-        d->right[r] = along(w, d, linear_equation(w, r));
-    solve(w, d);
-    mem_free(moving);
+    for (int lane = 0; lane < count; lane++)
+        for (int r = 0; r < w->used; r++)
+            d[lane].right[r] = linear_slope(w, first + w->in_use[r], lane);
 }
 
-/* rate of the deviation s_j: N s' = (N u)_q dq + N du - N' s; columns of N are orthogonal */
+/* N s' = (N u)_q dq + N du - N' s */
+static void take_turn(const Work *w, Deviation *d, int lane)
+{
+    for (int i = 0; i < w->l->n; i++) {
+        d->turn[i] = linear_slope(w, w->rows.q_rate + i, lane);
+        for (int k = 0; k < w->l->nu; k++)
+            add_product(&d->turn[i], w->map_rate[i * w->l->nu + k],
+                        (LinearNumber){-d->s[k].value, d->s[k].error});
+    }
+}
+
+/* dependent ones: speeds apart, since the velocity rows deviate with position first */
+static void complete(const Work *w, Deviation *d, int count)
+{
+    move(w, d, count, BY_INPUT);
+    take_rows(w, d, count, w->rows.phi);
+    for (int lane = 0; lane < count; lane++) {
+        linear_complete(w, d[lane].right, d[lane].s);
+        by_map(w, &d[lane]);
+    }
+    move(w, d, count, BY_POSITION);
+    take_rows(w, d, count, w->rows.velocity);
+    for (int lane = 0; lane < count; lane++)
+        linear_complete(w, d[lane].right, d[lane].u);
+}
+
+/* everything that deviations of independent ones, of a state or an input bring with them */
+static void spread(const Work *w, Deviation *d, int count)
+{
+    if (w->used > 0)
+        complete(w, d, count);
+    for (int lane = 0; lane < count && w->used == 0; lane++)
+        by_map(w, &d[lane]);
+    move(w, d, count, BY_SPEED);
+    for (int lane = 0; lane < count; lane++) {
+        for (int r = 0; r < w->unknowns; r++)
+            d[lane].right[r] = linear_slope(w, linear_equation(w, r), lane);
+        take_turn(w, &d[lane], lane);
+        solve(w, &d[lane]);
+    }
+    if (w->order->output_count == 0)
+        return;
+    move(w, d, count, BY_ALL);
+    for (int lane = 0; lane < count; lane++)
+        for (int o = 0; o < w->order->output_count; o++)
+            d[lane].outputs[o] = linear_slope(w, w->rows.outputs + o, lane);
+}
+
+/* rate of the deviation s_j; columns of N are orthogonal */
 static LinearNumber turn_rate(const Work *w, const Deviation *d, int j)
 {
     const int n = w->l->n, nu = w->l->nu;
@@ -94,19 +157,10 @@ static LinearNumber turn_rate(const Work *w, const Deviation *d, int j)
 
     for (int i = 0; i < n; i++) {
         const LinearNumber entry = w->map[i * nu + j];
-        LinearNumber rate = none;
 
         if (entry.value == 0 && entry.error == 0)
             continue;
-        for (int k = 0; k < n; k++)
-            number_add(&rate, gradient(w, w->rows.q_rate + i, w->at.q + k), d->q[k]);
-        for (int k = 0; k < nu; k++) {
-            const LinearNumber s = {-d->s[k].value, d->s[k].error};
-
-            number_add(&rate, w->map[i * nu + k], d->u[k]);
-            number_add(&rate, w->map_rate[i * nu + k], s);
-        }
-        number_add(&sum, entry, rate);
+        number_add(&sum, entry, d->turn[i]);
         number_add(&norm, entry, entry);
     }
     out.value = sum.value / norm.value;
@@ -156,13 +210,8 @@ static void write_column(const Work *w, const Deviation *d, const LinearColumn *
     }
     for (int i = 0; i < l->nx; i++)
         put(rates, 2 * f + i, d->follow[l->nu + w->used + i]);
-    for (int o = 0; o < w->order->output_count; o++) {
-        LinearNumber sum = along(w, d, w->rows.outputs + o);
-
-        for (int k = 0; k < w->unknowns; k++)
-            number_add(&sum, gradient(w, w->rows.outputs + o, linear_unknown(w, k)), d->follow[k]);
-        put(outputs, o, sum);
-    }
+    for (int o = 0; o < w->order->output_count; o++)
+        put(outputs, o, d->outputs[o]);
 }
 
 /* Rates of an input that the equations hold, x' = A x + B u + B1 u', as where a source closes a
@@ -179,7 +228,7 @@ static Status take_rate(const Work *w, Deviation *d, int input, Linear *out, Dia
         d->s[j] = d->u[j] = none;
     d->state = -1;
     d->input = out->inputs + input;
-    spread(w, d);
+    spread(w, d, 1);
     write_column(w, d, &rates, &direct);
     for (int o = 0; o < out->outputs; o++)
         if (d1[o] != 0) {
@@ -215,47 +264,61 @@ done:
     return status;
 }
 
+/* the deviation of a column: of a state, or behind these of an input */
+static void begin(const Work *w, const Linear *out, int c, Deviation *d)
+{
+    const int f = w->freedoms;
+    const int *independent = partitioning_independent(w->partitioning);
+
+    for (int j = 0; j < w->l->nu; j++)
+        d->s[j] = d->u[j] = none;
+    if (c < 2 * f)
+        (c < f ? d->s : d->u)[independent[c % f]] = one;
+    d->state = c >= 2 * f && c < out->states ? c - 2 * f : -1;
+    d->input = c >= out->states ? c - out->states : -1;
+}
+
+static void write_deviation(const Work *w, const Deviation *d, int c, Linear *out)
+{
+    const bool is_input = c >= out->states;
+    const int column = is_input ? c - out->states : c;
+    const int stride = is_input ? out->inputs : out->states;
+    const LinearColumn rates = is_input ? column_of(out->b, out->b_error, column, stride)
+                                        : column_of(out->a, out->a_error, column, stride);
+    const LinearColumn outputs = is_input ? column_of(out->d, out->d_error, column, stride)
+                                          : column_of(out->c, out->c_error, column, stride);
+
+    write_column(w, d, &rates, &outputs);
+    for (int j = 0; j < w->l->nu && !is_input; j++)
+        out->motion[j * out->states + c] = d->s[j].value;
+    for (int i = 0; i < w->l->nx && !is_input; i++)
+        out->motion[(w->l->nu + i) * out->states + c] = d->state == i;
+}
+
 static Status write_columns(const Work *w, Linear *out, Diag *diag)
 {
-    const Layout *l = w->l;
-    int f = w->freedoms;
-    Deviation d = {.s = NEW_ARRAY(LinearNumber, l->nu),
-                   .u = NEW_ARRAY(LinearNumber, l->nu),
-                   .q = NEW_ARRAY(LinearNumber, l->n),
-                   .follow = NEW_ARRAY(LinearNumber, w->unknowns),
-                   .right = NEW_ARRAY(LinearNumber, w->unknowns)};
+    const int columns = out->states + out->inputs;
+    Deviation d[TANGENT_LANES];
     Status status = OK;
 
-    for (int c = 0; c < out->states + out->inputs; c++) {
-        const bool is_input = c >= out->states;
-        const int column = is_input ? c - out->states : c;
-        const int stride = is_input ? out->inputs : out->states;
-        const LinearColumn rates = is_input ? column_of(out->b, out->b_error, column, stride)
-                                            : column_of(out->a, out->a_error, column, stride);
-        const LinearColumn outputs = is_input ? column_of(out->d, out->d_error, column, stride)
-                                              : column_of(out->c, out->c_error, column, stride);
+    for (int lane = 0; lane < TANGENT_LANES; lane++)
+        deviation_open(w, &d[lane]);
+    for (int first = 0; first < columns; first += TANGENT_LANES) {
+        const int count = columns - first < TANGENT_LANES ? columns - first : TANGENT_LANES;
 
-        for (int j = 0; j < l->nu; j++) {
-            d.s[j] = c < f && partitioning_independent(w->partitioning)[c] == j ? one : none;
-            d.u[j] = c >= f && c < 2 * f && partitioning_independent(w->partitioning)[c - f] == j
-                         ? one
-                         : none;
-        }
-        d.state = c >= 2 * f && !is_input ? c - 2 * f : -1;
-        d.input = is_input ? column : -1;
-        report(w->order->watch, "linearizing", (double)c / (out->states + out->inputs));
+        report(w->order->watch, "linearizing", (double)first / columns);
         CHECK(poll(w->order->watch));
-        spread(w, &d);
-        write_column(w, &d, &rates, &outputs);
-        for (int j = 0; j < l->nu && !is_input; j++)
-            out->motion[j * out->states + c] = d.s[j].value;
-        for (int i = 0; i < l->nx && !is_input; i++)
-            out->motion[(l->nu + i) * out->states + c] = d.state == i;
+        for (int lane = 0; lane < count; lane++)
+            begin(w, out, first + lane, &d[lane]);
+        spread(w, d, count);
+        for (int lane = 0; lane < count; lane++)
+            write_deviation(w, &d[lane], first + lane, out);
     }
     for (int i = 0; i < out->inputs; i++)
-        CHECK(take_rate(w, &d, i, out, diag));
+        CHECK(take_rate(w, &d[0], i, out, diag));
 done:
-    MEM_FREE(d.s, d.u, d.q, d.follow, d.right);
+    for (int lane = 0; lane < TANGENT_LANES; lane++)
+        deviation_close(&d[lane]);
     return status;
 }
 

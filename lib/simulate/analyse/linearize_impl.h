@@ -15,7 +15,7 @@
 /* places of the symbols by which everything is differentiated */
 typedef struct Columns {
     int q, u, x, acceleration, multipliers, rates, z, inputs, count;
-    Expr *symbols;
+    int *place; /* which input of the program of rows each is; -1: none */
 } Columns;
 
 /* and of the rows that are */
@@ -49,26 +49,39 @@ typedef struct Work {
     Expr *inputs; /* symbols, then of their rates */
     Columns at;
     RowPlaces rows;
-    Probe *derived;  /* rows, and their derivatives by the columns */
-    Probe *geometry; /* Phi_u, N, N' */
+    Probe *derived;            /* rows, */
+    Probe *geometry;           /* Phi_u, N, */
+    Tangents *along, *turning; /* and both along directions */
     double *y;
-    double *follow;       /* u', lambda, x', z */
-    double *y_error;      /* of q, u, x */
-    double *follow_error; /* likewise */
-    LinearNumber *values; /* of rows, then of all derivatives row by row, at the point */
-    LinearNumber *phi_u, *map, *map_rate;
-    double *matrix, *matrix_error; /* E_e over the rows in use */
-    Square *equations;             /* its factors */
+    double *follow;                       /* u', lambda, x', z */
+    double *y_error;                      /* of q, u, x */
+    double *follow_error;                 /* likewise */
+    LinearNumber *values;                 /* of rows, at the point */
+    LinearNumber *phi_u, *map, *map_rate; /* Phi_u, N, N' */
+    double *matrix, *matrix_error;        /* E_e over the rows in use */
+    Square *equations;                    /* its factors */
     double *dependent, *dependent_error;
     Square *held; /* factors of Phi_u's dependent columns, over the rows in use */
     Partitioning *partitioning;
     int used, freedoms, unknowns; /* unknowns: nu + used + nx + nz */
     int *in_use;                  /* constraint rows, so many as are used: independent there */
+    bool *is_independent;         /* speeds */
 } Work;
 
-static inline LinearNumber gradient(const Work *w, int row, int column)
+/* let the symbol of a column move along the direction of a lane */
+static inline void linear_move(const Work *w, int lane, int column, LinearNumber by)
 {
-    return w->values[w->rows.count + row * w->at.count + column];
+    if (w->at.place[column] >= 0 && (by.value != 0 || by.error != 0))
+        tangents_move(w->along, lane, w->at.place[column], by.value, by.error);
+}
+
+/* how a row moves then */
+static inline LinearNumber linear_slope(const Work *w, int row, int lane)
+{
+    LinearNumber out;
+
+    out.value = tangents_root(w->along, row, lane, &out.error);
+    return out;
 }
 
 /* --- linearize_point.c --- */

@@ -52,52 +52,41 @@ static RowValues row_with(const Work *w, double t, const double *y, const double
     return row;
 }
 
-static void fill_matrix(const Work *w)
+/* E_e, which is read from the tangents; whether it isn't as it was */
+static bool fill_matrix(const Work *w)
 {
-    for (int r = 0; r < w->unknowns; r++)
-        for (int k = 0; k < w->unknowns; k++) {
-            const LinearNumber entry = gradient(w, linear_equation(w, r), linear_unknown(w, k));
+    const int n = w->unknowns;
+    bool is_new = false;
 
-            w->matrix[r * w->unknowns + k] = entry.value;
-            w->matrix_error[r * w->unknowns + k] = entry.error;
-        }
+    for (int first = 0; first < n; first += TANGENT_LANES) {
+        const int count = n - first < TANGENT_LANES ? n - first : TANGENT_LANES;
+
+        tangents_clear(w->along);
+        for (int lane = 0; lane < count; lane++)
+            linear_move(w, lane, linear_unknown(w, first + lane), (LinearNumber){1, 0});
+        tangents_run(w->along);
+        for (int r = 0; r < n; r++)
+            for (int lane = 0; lane < count; lane++) {
+                const LinearNumber entry = linear_slope(w, linear_equation(w, r), lane);
+                const int at = r * n + first + lane;
+
+                is_new = is_new || !(w->matrix[at] == entry.value);
+                w->matrix[at] = entry.value;
+                w->matrix_error[at] = entry.error;
+            }
+    }
+    return is_new;
 }
 
-/* numbers of all roots as they stand in `values`: of rows, then of all derivatives; new */
-static double *lay_out(const Work *w, const double *roots)
-{
-    double *out = NEW_ARRAY(double, w->rows.count *(1 + w->at.count));
-
-    memcpy(out, roots, (size_t)w->rows.count * sizeof(double));
-    residual_jacobian(probe_residual(w->derived), roots, out + w->rows.count);
-    return out;
-}
-
-static void evaluate(Work *w)
+static void evaluate(Work *w, bool is_bounded)
 {
     const RowValues row = row_with(w, w->order->at, w->y, w->follow);
-    double *values = lay_out(w, probe_values(w->derived, &row));
+    RowValues off = row_with(w, number_error(w->order->at), w->y_error, w->follow_error);
 
-    for (int i = 0; i < w->rows.count * (1 + w->at.count); i++)
-        w->values[i] = (LinearNumber){values[i], 0};
-    fill_matrix(w);
-    mem_free(values);
-}
-
-/* after evaluate() */
-static void evaluate_errors(Work *w)
-{
-    const int count = program_root_count(residual_program(probe_residual(w->derived)));
-    RowValues row = row_with(w, number_error(w->order->at), w->y_error, w->follow_error);
-    double *errors = NEW_ARRAY(double, count), *all;
-
-    row.references = NULL; /* which turn it is, is certain */
-    probe_errors(w->derived, &row, errors);
-    all = lay_out(w, errors);
-    for (int i = 0; i < w->rows.count * (1 + w->at.count); i++)
-        w->values[i].error = all[i];
-    fill_matrix(w);
-    MEM_FREE(errors, all);
+    off.references = NULL; /* which turn it is, is certain */
+    probe_tangents(w->derived, &row, is_bounded ? &off : NULL, w->along);
+    for (int i = 0; i < w->rows.count; i++)
+        w->values[i].value = tangents_value(w->along, i, &w->values[i].error);
 }
 
 /* --- what follows from the state --- */
@@ -125,9 +114,10 @@ static bool find_rates(Work *w)
     double *step = NEW_ARRAY(double, w->unknowns);
     bool sound = true, moves = true;
 
-    evaluate(w);
+    evaluate(w, false);
     for (int i = 0; i < MOST_STEPS && sound && moves; i++) {
-        factor(w);
+        if (fill_matrix(w) || w->equations == NULL)
+            factor(w);
         residuals(w, right, error);
         sound = square_is_regular(w->equations);
         if (sound)
@@ -141,7 +131,7 @@ static bool find_rates(Work *w)
             sound = isfinite(*follow);
         }
         if (sound)
-            evaluate(w);
+            evaluate(w, false);
     }
     MEM_FREE(right, error, step);
     return sound;
@@ -167,34 +157,38 @@ static bool bound_rates(Work *w)
 
 /* --- geometry --- */
 
+/* N' is N along q' */
+static void turn_map(Work *w)
+{
+    const Layout *l = w->l;
+    const int constraints = l->m * l->nu;
+
+    for (int i = 0; i < l->n; i++) {
+        const LinearNumber rate = w->values[w->rows.q_rate + i];
+
+        tangents_move(w->turning, 0, l->q + i, rate.value, rate.error);
+    }
+    tangents_run(w->turning);
+    for (int i = 0; i < l->n * l->nu; i++)
+        w->map_rate[i].value = tangents_root(w->turning, constraints + i, 0, &w->map_rate[i].error);
+}
+
+/* after evaluate() */
 static void evaluate_geometry(Work *w)
 {
     const Layout *l = w->l;
-    const int constraints = l->m * l->nu, map = l->n * l->nu, count = constraints + 2 * map;
+    const int constraints = l->m * l->nu, map = l->n * l->nu;
     const RowValues row = row_of_state(l, w->order->at, w->y);
     RowValues off = row_of_state(l, number_error(w->order->at), w->y_error);
-    const double *geometry = probe_values(w->geometry, &row);
-    double *errors = NEW_ARRAY(double, count);
 
     off.references = NULL;
-    probe_errors(w->geometry, &off, errors);
-    for (int i = 0; i < count; i++) {
-        const LinearNumber number = {geometry[i], errors[i]};
+    probe_tangents(w->geometry, &row, &off, w->turning);
+    for (int i = 0; i < constraints + map; i++) {
+        LinearNumber *number = i < constraints ? &w->phi_u[i] : &w->map[i - constraints];
 
-        if (i < constraints)
-            w->phi_u[i] = number;
-        else
-            w->map[i - constraints] = number;
+        number->value = tangents_value(w->turning, i, &number->error);
     }
-    mem_free(errors);
-}
-
-static bool is_independent(const Work *w, int speed)
-{
-    for (int i = 0; i < w->freedoms; i++)
-        if (partitioning_independent(w->partitioning)[i] == speed)
-            return true;
-    return false;
+    turn_map(w);
 }
 
 /* new: Phi_u without its errors */
@@ -243,6 +237,8 @@ static Status choose_independent(Work *w, Diag *diag)
         status =
             diag_set(diag, E_SINGULAR,
                      "a singular position: no choice of coordinates describes the motion there");
+    for (int i = 0; i < w->freedoms && status == OK; i++)
+        w->is_independent[partitioning_independent(w->partitioning)[i]] = true;
     MEM_FREE(wanted, phi_u);
     return status;
 }
@@ -256,7 +252,7 @@ static bool factor_dependent(Work *w)
         for (int j = 0, column = 0; j < nu; j++) {
             const LinearNumber entry = w->phi_u[w->in_use[r] * nu + j];
 
-            if (is_independent(w, j))
+            if (w->is_independent[j])
                 continue;
             w->dependent[r * m + column] = entry.value;
             w->dependent_error[r * m + column++] = entry.error;
@@ -277,14 +273,14 @@ void linear_complete(const Work *w, const LinearNumber *right, LinearNumber *v)
         LinearNumber sum = right[r];
 
         for (int j = 0; j < nu; j++)
-            if (is_independent(w, j))
+            if (w->is_independent[j])
                 number_add(&sum, w->phi_u[rows[r] * nu + j], v[j]);
         b[r] = -sum.value;
         error[r] = sum.error;
     }
     square_solve(w->held, b, error, found, off);
     for (int j = 0, column = 0; j < nu; j++)
-        if (!is_independent(w, j)) {
+        if (!w->is_independent[j]) {
             v[j] = (LinearNumber){found[column], off[column]};
             column++;
         }
@@ -319,7 +315,7 @@ static void bound_state(Work *w)
         for (int j = 0; j < l->nu; j++)
             w->y_error[i] +=
                 fabs(w->map[i * l->nu + j].value) * (fabs(moves[j].value) + moves[j].error);
-    evaluate_errors(w);
+    evaluate(w, true);
     miss(w, w->rows.velocity, moves);
     for (int j = 0; j < l->nu; j++)
         w->y_error[l->n + j] += fabs(moves[j].value) + moves[j].error;
@@ -339,7 +335,8 @@ static void open_room(Work *w)
     w->follow = NEW_ARRAY(double, follow);
     w->follow_error = NEW_ARRAY(double, follow);
     w->y_error = NEW_ARRAY(double, layout_references(l) + l->multi_turns);
-    w->values = NEW_ARRAY(LinearNumber, w->rows.count * (1 + w->at.count));
+    w->values = NEW_ARRAY(LinearNumber, w->rows.count);
+    w->is_independent = NEW_ARRAY(bool, l->nu);
     w->matrix = NEW_ARRAY(double, w->unknowns * w->unknowns);
     w->matrix_error = NEW_ARRAY(double, w->unknowns * w->unknowns);
     w->phi_u = NEW_ARRAY(LinearNumber, l->m * l->nu);
@@ -377,13 +374,15 @@ Status linear_point(Work *w, Diag *diag)
     TRY(choose_independent(w, diag));
     if (!factor_dependent(w))
         TRY(refuse_dependent(w, diag));
-    evaluate_errors(w);
+    evaluate(w, true);
     bound_state(w);
+    evaluate(w, true);
+    (void)fill_matrix(w);
     evaluate_geometry(w);
-    evaluate_errors(w);
     if (!factor_dependent(w) || !bound_rates(w))
         TRY(refuse_dependent(w, diag));
-    evaluate_errors(w);
+    evaluate(w, true);
+    (void)fill_matrix(w);
     factor(w);
     if (!square_is_regular(w->equations))
         TRY(refuse_dependent(w, diag));
@@ -424,37 +423,60 @@ static void move_on(const Work *w, double time, double *y)
         y[l->n + j] += time * w->follow[j];
 }
 
-/* whether coefficients of coordinates, speeds, accelerations and multipliers in a row are others */
-static bool row_changes(const Work *w, int row, const double *values)
+/* Whether coefficients of coordinates, speeds, accelerations and multipliers in a row are others:
+ * `here` at the point, so many each. */
+static bool row_changes(const double *here, const double *there, int count)
 {
-    const int first = w->rows.count + row * w->at.count;
     double largest = 0, change = 0;
 
-    for (int k = 0; k < w->at.rates; k++) {
-        if (k >= w->at.x && k < w->at.acceleration)
-            continue;
-        largest = fmax(largest, fabs(w->values[first + k].value));
-        change = fmax(change, fabs(values[first + k] - w->values[first + k].value));
+    for (int k = 0; k < count; k++) {
+        largest = fmax(largest, fabs(here[k]));
+        change = fmax(change, fabs(there[k] - here[k]));
     }
     return !(change <= SAME * largest);
 }
 
+/* these coefficients of balances and velocity rows in use, where the tangents stand; new */
+static double *coefficients(const Work *w)
+{
+    const int nu = w->l->nu, count = w->at.rates;
+    double *out = NEW_ARRAY(double, (nu + w->used) * count);
+
+    for (int first = 0; first < count; first += TANGENT_LANES) {
+        const int lanes = count - first < TANGENT_LANES ? count - first : TANGENT_LANES;
+
+        tangents_clear(w->along);
+        for (int lane = 0; lane < lanes; lane++)
+            if (first + lane < w->at.x || first + lane >= w->at.acceleration)
+                linear_move(w, lane, first + lane, (LinearNumber){1, 0});
+        tangents_run(w->along);
+        for (int r = 0; r < nu + w->used; r++)
+            for (int lane = 0; lane < lanes; lane++)
+                out[r * count + first + lane] =
+                    linear_slope(
+                        w, r < nu ? w->rows.balance + r : w->rows.velocity + w->in_use[r - nu],
+                        lane)
+                        .value;
+    }
+    return out;
+}
+
 bool linear_is_passing(Work *w, const Linear *linear)
 {
-    const Layout *l = w->l;
     const double quick = quickness(linear), time = quick > 0 ? AHEAD / quick : AHEAD;
-    double *y = NEW_ARRAY(double, w->phase->length);
+    const int count = w->at.rates;
+    double *y = NEW_ARRAY(double, w->phase->length), *here, *there;
     bool passes = false;
-    double *values;
     RowValues row;
 
+    evaluate(w, false);
+    here = coefficients(w);
     move_on(w, time, y);
     row = row_with(w, w->order->at + time, y, w->follow);
-    values = lay_out(w, probe_values(w->derived, &row));
-    for (int j = 0; j < l->nu && !passes; j++)
-        passes = row_changes(w, w->rows.balance + j, values);
-    for (int k = 0; k < w->used && !passes; k++)
-        passes = row_changes(w, w->rows.velocity + w->in_use[k], values);
-    MEM_FREE(y, values);
+    probe_tangents(w->derived, &row, NULL, w->along);
+    there = coefficients(w);
+    for (int r = 0; r < w->l->nu + w->used && !passes; r++)
+        passes = row_changes(here + (size_t)r * count, there + (size_t)r * count, count);
+    MEM_FREE(y, here, there);
     return passes;
 }

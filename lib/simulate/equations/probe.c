@@ -92,16 +92,13 @@ bool probe_reads_state(const Probe *probe)
 
 bool probe_turn(Probe *probe, Expr parameter, double value)
 {
-    int count;
-    const Expr *own = residual_parameters(probe->residual, &count);
+    const int place = probe_place(probe, parameter);
 
-    for (int i = 0; i < count; i++)
-        if (own[i] == parameter) {
-            probe->inputs[probe->layout->count + i] = value;
-            workspace_run(probe->workspace, STAGE_PARAMETER, STAGE_PARAMETER);
-            return true;
-        }
-    return false;
+    if (place < 0)
+        return false;
+    probe->inputs[place] = value;
+    workspace_run(probe->workspace, STAGE_PARAMETER, STAGE_PARAMETER);
+    return true;
 }
 
 double *probe_input(Probe *probe, int place)
@@ -181,7 +178,8 @@ const double *probe_values(Probe *probe, const RowValues *row)
     return workspace_roots(probe->workspace);
 }
 
-void probe_errors(const Probe *probe, const RowValues *errors, double *out)
+/* of all inputs, where the row is off by these; new */
+static double *input_errors(const Probe *probe, const RowValues *errors)
 {
     const Layout *l = probe->layout;
     const int count = program_input_count(residual_program(probe->residual));
@@ -190,8 +188,38 @@ void probe_errors(const Probe *probe, const RowValues *errors, double *out)
     put_row(l, errors, inputs);
     for (int i = l->count; i < count; i++)
         inputs[i] = number_error(probe->inputs[i]);
+    return inputs;
+}
+
+void probe_errors(const Probe *probe, const RowValues *errors, double *out)
+{
+    double *inputs = input_errors(probe, errors);
+
     workspace_errors(probe->workspace, inputs, out);
     mem_free(inputs);
+}
+
+void probe_tangents(Probe *probe, const RowValues *row, const RowValues *errors, Tangents *tangents)
+{
+    double *off = errors != NULL ? input_errors(probe, errors) : NULL;
+
+    put_row(probe->layout, row, probe_inputs(probe));
+    tangents_at(tangents, probe->inputs, off);
+    mem_free(off);
+}
+
+int probe_place(const Probe *probe, Expr symbol)
+{
+    int count;
+    const Expr *own = residual_parameters(probe->residual, &count);
+
+    for (int i = 0; i < probe->layout->count; i++)
+        if (probe->layout->symbols[i] == symbol)
+            return i;
+    for (int i = 0; i < count; i++)
+        if (own[i] == symbol)
+            return probe->layout->count + i;
+    return -1;
 }
 
 Status probe_at(const Layout *layout, Parameters *parameters, Expr e, const RowValues *row,

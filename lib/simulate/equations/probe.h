@@ -6,6 +6,7 @@
 
 #include "base/memory.h"
 #include "compile/residual.h"
+#include "compile/tangents.h"
 #include "simulate/equations/input_layout.h"
 #include "simulate/equations/motion.h"
 #include "simulate/equations/parameters.h"
@@ -79,6 +80,12 @@ const double *probe_values(Probe *probe, const RowValues *row);
 /* How far these values may be off where the row is off by `errors`; t and parameters are as
  * number_error() has them. */
 void probe_errors(const Probe *probe, const RowValues *errors, double *out);
+
+/* The same values, with their errors unless `errors` is NULL, in tangents of its program. */
+void probe_tangents(Probe *probe, const RowValues *row, const RowValues *errors,
+                    Tangents *tangents);
+/* which input of its program a symbol is; -1: no root holds it */
+int probe_place(const Probe *probe, Expr symbol);
 
 /* --- stage by stage, by workspace_run() --- */
 

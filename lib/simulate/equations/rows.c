@@ -4,6 +4,8 @@
 #include "algebra/dense.h"
 #include "algebra/linear.h"
 #include "base/memory.h"
+#include "formulate/dynamics/composite_mass.h"
+#include "formulate/dynamics/cutset_equations.h"
 
 #include <gsl/gsl_linalg.h>
 #include <math.h>
@@ -29,6 +31,25 @@ Expr row_balance(const Layout *l, int speed)
         sum =
             plus_product(arena, sum, run->phi_u[k * l->nu + speed], l->symbols[l->multipliers + k]);
     return sum;
+}
+
+Status rows_balance(const Layout *l, Expr *out, Diag *diag)
+{
+    const Reading *run = system_run(l->system);
+    Arena *arena = system_arena(l->system);
+
+    if (system_composite_mass(l->system) == NULL ||
+        !dynamics_lack(l->system, l->symbols + l->acceleration, out)) {
+        TRY(system_form_mass(l->system, diag));
+        for (int j = 0; j < l->nu; j++)
+            out[j] = row_balance(l, j);
+        return OK;
+    }
+    for (int j = 0; j < l->nu; j++)
+        for (int k = 0; k < l->m; k++)
+            out[j] = plus_product(arena, out[j], run->phi_u[k * l->nu + j],
+                                  l->symbols[l->multipliers + k]);
+    return OK;
 }
 
 /* Phi_u v - right */
