@@ -101,9 +101,35 @@ static void a_long_chain_in_motion_has_the_slopes_of_its_accelerations(void)
     text_free(&text);
 }
 
+/* Pulled aside at its end, each rod stands along what it carries: tan = pull/weight below. */
+static void a_long_chain_rests_along_what_it_carries(void)
+{
+    enum { COUNT_OF = 120 };
+    Text text = {0};
+    Kit kit = kit_new();
+    double turned = 0;
+
+    add_points(&text, COUNT_OF);
+    text_addf(&text, "tree joint\nforce pull m%d [200, 0]\n", COUNT_OF);
+    for (int i = 1; i <= COUNT_OF; i++)
+        text_addf(&text, "init h%d = %g\n", i, 0.02 * (i % 3 - 1));
+    text_add(&text, "equilibrium\n");
+    EXPECT_DONE(&kit, text.at);
+    for (int i = 1; i <= COUNT_OF; i++) {
+        char name[20];
+
+        (void)snprintf(name, sizeof name, "h%d", i);
+        turned += kit_value(&kit, name);
+        EXPECT_NEAR(turned, atan(200 / (9.81 * (COUNT_OF - i + 1))), 1e-9);
+    }
+    kit_free(&kit);
+    text_free(&text);
+}
+
 int main(void)
 {
     RUN(a_long_chain_has_the_modes_of_laguerre);
     RUN(a_long_chain_in_motion_has_the_slopes_of_its_accelerations);
+    RUN(a_long_chain_rests_along_what_it_carries);
     return test_end();
 }

@@ -173,9 +173,9 @@ static void creep_close(Creep *c)
     MEM_FREE(c->w, c->step, c->right, c->jacobian);
 }
 
-/* (J + resistance * inertia) dw = -residual: a step backward Euler. *moves: there is one, and it is
+/* (J + resistance * inertia) dw = -residual: a step backward Euler. Whether there is one, and it is
  * short enough. */
-static Status creep_step(Quest *e, Creep *c, double resistance, bool *moves, Diag *diag)
+static bool creep_step(Quest *e, Creep *c, double resistance)
 {
     const double *values, *missed;
     const int *start, *row;
@@ -187,11 +187,10 @@ static Status creep_step(Quest *e, Creep *c, double resistance, bool *moves, Dia
     memcpy(c->jacobian, values, (size_t)start[e->n] * sizeof(double));
     for (int i = 0; i < e->n; i++)
         c->right[i] = -missed[i];
-    TRY(equilibrium_add_inertia(e->equations, c->w, resistance, c->jacobian, diag));
-    *moves = factors_make(c->factors, c->jacobian) &&
-             factors_solve(c->factors, c->right, c->step) >= 0 &&
-             vector_largest(c->step, e->l->nu) <= CREEP;
-    return OK;
+    equilibrium_add_inertia(e->equations, c->w, resistance, c->jacobian);
+    return factors_make(c->factors, c->jacobian) &&
+           factors_solve(c->factors, c->right, c->step) >= 0 &&
+           vector_largest(c->step, e->l->nu) <= CREEP;
 }
 
 /* the step, or as little of it as leaves the equations in sight; how the residuals have grown */
@@ -212,7 +211,7 @@ static double creep_on(Quest *e, Creep *c)
     return growth;
 }
 
-static Status creep(Quest *e, bool *found, Diag *diag)
+static Status creep(Quest *e, bool *found)
 {
     const int *start, *row;
     Creep c;
@@ -228,12 +227,10 @@ static Status creep(Quest *e, bool *found, Diag *diag)
     begin_again(e);
     for (int i = 0; i < CREEP_STEPS && resistance > 1e-10 && resistance < 1e12; i++) {
         double growth;
-        bool moves;
 
         CHECK(poll(e->watch));
         report(e->watch, "equilibrium: creeping", -1);
-        CHECK(creep_step(e, &c, resistance, &moves, diag));
-        if (!moves) {
+        if (!creep_step(e, &c, resistance)) {
             resistance *= 4;
             continue;
         }
@@ -376,7 +373,7 @@ static Status solve(Quest *e, Diag *diag)
     if (!found) {
         begin_again(e);
         CHECK(refuse_singular(e, diag));
-        CHECK(creep(e, &found, diag));
+        CHECK(creep(e, &found));
     }
     if (!found)
         CHECK(tell_failure(e, diag));

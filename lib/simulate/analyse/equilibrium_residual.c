@@ -5,6 +5,7 @@
 #include "algebra/linear.h"
 #include "algebra/pattern.h"
 #include "base/memory.h"
+#include "compile/jacobian.h"
 #include "simulate/equations/rows.h"
 
 #include <math.h>
@@ -16,20 +17,14 @@ typedef struct Map {
     int *start, *speed;
     Probe *probe; /* N, angles that count turns */
     double *base; /* N(q0) */
-    double *at;   /* dq/ds where the last slopes were asked for */
 } Map;
 
-/* a slope of a row by an entry of v, and what it gives to the Jacobian by way of dq/ds */
-typedef struct EquilibriumResidualPart {
-    int slope, place;
-    int map; /* -1: by an unknown itself */
-} EquilibriumResidualPart;
-
-/* an entry of the mass matrix, or of A by a storage element's rate */
-typedef struct Inertia {
-    int row, column, place;
-    Expr value;
-} Inertia;
+/* derivatives of the rows by unknowns, or by their rates */
+typedef struct Part {
+    Jacobian *jacobian;
+    double *values;
+    int *place; /* in the Jacobian of all */
+} Part;
 
 struct EquilibriumResidual {
     System *system;
@@ -42,15 +37,14 @@ struct EquilibriumResidual {
     int n, length;
     int references; /* in v, references of angles: behind the unknowns */
     double *v;      /* base */
-    Probe *probe;   /* residuals, angles that count turns from place to place, slopes */
+    Probe *probe;   /* residuals, angles that count turns from place to place */
     Map map;
-    LIST(EquilibriumResidualPart) parts;
+    Part slopes, inertia; /* inertia: M, and A by rates of storage elements */
+    double *by;           /* of the moves of slopes: those by coordinates first, as in dq/ds */
     Pattern pattern;
     double *jacobian;
     double *w, *place; /* of the last values; v there */
     const double *values;
-    LIST(Inertia) inertia;
-    Probe *inertia_probe; /* NULL: not asked for yet */
 };
 
 /* --- the system at rest --- */
@@ -161,7 +155,6 @@ static Status make_map(EquilibriumResidual *s, Diag *diag)
         i += count;
     }
     map->base = NEW_ARRAY(double, roots.count);
-    map->at = NEW_ARRAY(double, roots.count);
     for (int k = 0; k < s->l->multi_turns; k++)
         LIST_PUSH(roots, system_multi_turn(s->system, k)->angle);
     status = probe_new(s->l, &s->parameters, roots.at, roots.count, &map->probe, diag);
@@ -235,8 +228,9 @@ static Status push_roots(const EquilibriumResidual *s, Roots *roots, Diag *diag)
 {
     const Layout *l = s->l;
 
-    for (int j = 0; j < l->nu; j++)
-        LIST_PUSH(*roots, row_balance(l, j));
+    LIST_ROOM(*roots, l->nu);
+    TRY(rows_balance(l, roots->at, diag));
+    roots->count = l->nu;
     for (int k = 0; k < l->m; k++)
         LIST_PUSH(*roots, system_run(l->system)->phi[k]);
     for (int i = 0; i < l->nx + l->nz; i++)
@@ -247,34 +241,56 @@ static Status push_roots(const EquilibriumResidual *s, Roots *roots, Diag *diag)
     return OK;
 }
 
-/* in the order of v; new */
-static Expr *list_unknowns(const Layout *l, int *count)
-{
-    const int parts[][2] = {{l->q, l->n}, {l->x, l->nx}, {l->multipliers, l->m}, {l->z, l->nz}};
-    Expr *out = NEW_ARRAY(Expr, l->n + l->nx + l->m + l->nz);
+typedef LIST(ColumnMove) Moves;
 
-    *count = 0;
-    for (int p = 0; p < COUNT(parts); p++)
-        for (int i = 0; i < parts[p][1]; i++)
-            out[(*count)++] = l->symbols[parts[p][0] + i];
-    return out;
+/* columns from first on move these inputs, one each */
+static void push_moves(Moves *moves, int first, int input, int count)
+{
+    for (int i = 0; i < count; i++)
+        LIST_PUSH(*moves, (ColumnMove){.column = first + i, .input = input + i});
 }
 
-static void list_inertia(EquilibriumResidual *s)
+static void make_part(EquilibriumResidual *s, Moves *moves, Part *out)
+{
+    out->jacobian = jacobian_new(residual_program(probe_residual(s->probe)), s->n, s->n, moves->at,
+                                 moves->count);
+    out->values = NEW_ARRAY(double, jacobian_pattern(out->jacobian)->count);
+    LIST_FREE(*moves);
+}
+
+static void free_part(Part *part)
+{
+    jacobian_free(part->jacobian);
+    MEM_FREE(part->values, part->place);
+}
+
+/* by steps, which move coordinates by dq/ds, and by the other unknowns */
+static void make_slopes(EquilibriumResidual *s)
 {
     const Layout *l = s->l;
-    const Reading *run = system_run(l->system);
+    Moves moves = {0};
 
-    for (int i = 0; i < l->nu; i++)
-        for (int j = 0; j < l->nu; j++)
-            if (!expr_is_zero(run->mass[i * l->nu + j]))
-                LIST_PUSH(s->inertia,
-                          (Inertia){.row = i, .column = j, .value = run->mass[i * l->nu + j]});
-    for (int k = 0; k < run->network_entries; k++)
-        if (run->network[k].column < l->nx)
-            LIST_PUSH(s->inertia, (Inertia){.row = l->nu + l->m + run->network[k].row,
-                                            .column = l->nu + run->network[k].column,
-                                            .value = run->network[k].value});
+    for (int i = 0; i < l->n; i++)
+        for (int k = s->map.start[i]; k < s->map.start[i + 1]; k++)
+            LIST_PUSH(moves, (ColumnMove){.column = s->map.speed[k], .input = l->q + i});
+    push_moves(&moves, l->nu, l->x, l->nx);
+    push_moves(&moves, l->nu + l->nx, l->multipliers, l->m);
+    push_moves(&moves, l->nu + l->nx + l->m, l->z, l->nz);
+    s->by = NEW_ARRAY(double, moves.count);
+    for (int k = 0; k < moves.count; k++)
+        s->by[k] = 1;
+    make_part(s, &moves, &s->slopes);
+}
+
+/* by u' and x' */
+static void make_inertia(EquilibriumResidual *s)
+{
+    const Layout *l = s->l;
+    Moves moves = {0};
+
+    push_moves(&moves, 0, l->acceleration, l->nu);
+    push_moves(&moves, l->nu, l->rates, l->nx);
+    make_part(s, &moves, &s->inertia);
 }
 
 /* the place in w of the unknown that goes with a mechanical row: a step, or a multiplier */
@@ -295,46 +311,39 @@ static void add_term(Terms *terms, int row, int column)
     LIST_PUSH(terms->column, column);
 }
 
-/* parts of slopes */
-static void list_parts(EquilibriumResidual *s, Terms *terms)
+static void add_part(Terms *terms, const Part *part)
 {
-    const Layout *l = s->l;
-    const int *start = s->map.start;
-    int count;
-    const Slope *slopes = residual_slopes(probe_residual(s->probe), &count);
+    const Pattern *p = jacobian_pattern(part->jacobian);
 
-    for (int k = 0; k < count; k++) {
-        const int row = slopes[k].row, by = slopes[k].unknown;
+    for (int k = 0; k < p->count; k++)
+        add_term(terms, p->row[k], p->column[k]);
+}
 
-        if (by >= l->n) {
-            LIST_PUSH(s->parts, (EquilibriumResidualPart){.slope = k, .map = -1});
-            add_term(terms, row, by - l->n + l->nu);
-        }
-        for (int m = by < l->n ? start[by] : 0; by < l->n && m < start[by + 1]; m++) {
-            LIST_PUSH(s->parts, (EquilibriumResidualPart){.slope = k, .map = m});
-            add_term(terms, row, s->map.speed[m]);
-        }
-    }
+/* where a part's entries are to be added, from places of terms; how many there are */
+static int take_places(Part *part, const int *place)
+{
+    const int count = jacobian_pattern(part->jacobian)->count;
+
+    part->place = NEW_ARRAY(int, count);
+    if (count > 0)
+        memcpy(part->place, place, (size_t)count * sizeof(int));
+    return count;
 }
 
 /* the pattern of the Jacobian with inertia and each mechanical unknown's own place */
 static void make_pattern(EquilibriumResidual *s)
 {
     Terms terms = {0};
-    int *place;
+    int *place, slopes;
 
-    list_parts(s, &terms);
-    list_inertia(s);
-    for (int k = 0; k < s->inertia.count; k++)
-        add_term(&terms, s->inertia.at[k].row, s->inertia.at[k].column);
+    add_part(&terms, &s->slopes);
+    add_part(&terms, &s->inertia);
     for (int i = 0; i < s->l->nu + s->l->m; i++)
         add_term(&terms, i, own_column(s, i));
     place = NEW_ARRAY(int, terms.row.count);
     s->pattern = pattern_of(s->n, s->n, terms.row.count, terms.row.at, terms.column.at, place);
-    for (int k = 0; k < s->parts.count; k++)
-        s->parts.at[k].place = place[k];
-    for (int k = 0; k < s->inertia.count; k++)
-        s->inertia.at[k].place = place[s->parts.count + k];
+    slopes = take_places(&s->slopes, place);
+    (void)take_places(&s->inertia, place + slopes);
     s->jacobian = NEW_ARRAY(double, s->pattern.count);
     LIST_FREE(terms.row);
     LIST_FREE(terms.column);
@@ -344,20 +353,15 @@ static void make_pattern(EquilibriumResidual *s)
 static Status make_rows(EquilibriumResidual *s, Diag *diag)
 {
     Roots roots = {0};
-    ProbeOrder order = {.row_count = s->n};
-    Expr *unknowns = list_unknowns(s->l, &order.unknown_count);
     Status status = OK;
 
-    CHECK(system_form_mass(s->system, diag));
     CHECK(push_roots(s, &roots, diag));
-    order.roots = roots.at;
-    order.root_count = roots.count;
-    order.unknowns = unknowns;
-    CHECK(probe_make(s->l, &s->parameters, &order, &s->probe, diag));
+    CHECK(probe_new(s->l, &s->parameters, roots.at, roots.count, &s->probe, diag));
+    make_slopes(s);
+    make_inertia(s);
     make_pattern(s);
 done:
     LIST_FREE(roots);
-    mem_free(unknowns);
     return status;
 }
 
@@ -500,14 +504,13 @@ void equilibrium_free(EquilibriumResidual *s)
     if (s == NULL)
         return;
     probe_free(s->probe);
-    probe_free(s->inertia_probe);
     probe_free(s->map.probe);
-    MEM_FREE(s->map.start, s->map.speed, s->map.base, s->map.at);
+    MEM_FREE(s->map.start, s->map.speed, s->map.base);
     parameters_free(&s->parameters);
-    LIST_FREE(s->parts);
-    LIST_FREE(s->inertia);
+    free_part(&s->slopes);
+    free_part(&s->inertia);
     pattern_free(&s->pattern);
-    MEM_FREE(s->jacobian, s->v, s->w, s->place, s->speeds, s->accelerations);
+    MEM_FREE(s->by, s->jacobian, s->v, s->w, s->place, s->speeds, s->accelerations);
     layout_free(s->l);
     system_free(s->system);
     mem_free(s);
@@ -618,20 +621,21 @@ const double *equilibrium_residual(EquilibriumResidual *s, const double *w)
     return s->values;
 }
 
+/* add a part's entries where the last values were told; NULL: each of its moves is 1 */
+static void add_entries(EquilibriumResidual *s, const Part *part, const double *by, double factor,
+                        double *jacobian)
+{
+    jacobian_at(part->jacobian, probe_inputs(s->probe), by, part->values);
+    for (int k = 0; k < jacobian_pattern(part->jacobian)->count; k++)
+        jacobian[part->place[k]] += factor * part->values[k];
+}
+
 const double *equilibrium_jacobian(EquilibriumResidual *s, const double *w)
 {
-    const double *slopes;
-
     look(s, w);
-    slopes = s->values + residual_first_slope(probe_residual(s->probe));
-    place_coordinates(s, w, s->place, s->map.at);
+    place_coordinates(s, w, s->place, s->by);
     memset(s->jacobian, 0, (size_t)s->pattern.count * sizeof(double));
-    for (int i = 0; i < s->parts.count; i++) {
-        const EquilibriumResidualPart *part = &s->parts.at[i];
-
-        s->jacobian[part->place] +=
-            slopes[part->slope] * (part->map < 0 ? 1 : s->map.at[part->map]);
-    }
+    add_entries(s, &s->slopes, s->by, 1, s->jacobian);
     return s->jacobian;
 }
 
@@ -671,31 +675,9 @@ void equilibrium_hold(const EquilibriumResidual *s, double *residual, double *ja
     }
 }
 
-/* --- inertia --- */
-
-static Status compile_inertia(EquilibriumResidual *s, Diag *diag)
+void equilibrium_add_inertia(EquilibriumResidual *s, const double *w, double share,
+                             double *jacobian)
 {
-    Roots roots = {0};
-    Status status;
-
-    for (int k = 0; k < s->inertia.count; k++)
-        LIST_PUSH(roots, s->inertia.at[k].value);
-    status = probe_new(s->l, &s->parameters, roots.at, roots.count, &s->inertia_probe, diag);
-    LIST_FREE(roots);
-    return status;
-}
-
-Status equilibrium_add_inertia(EquilibriumResidual *s, const double *w, double share,
-                               double *jacobian, Diag *diag)
-{
-    RowValues row = row_of(s, s->place);
-    const double *values;
-
-    if (s->inertia_probe == NULL)
-        TRY(compile_inertia(s, diag));
-    equilibrium_place(s, w, s->place);
-    values = probe_values(s->inertia_probe, &row);
-    for (int k = 0; k < s->inertia.count; k++)
-        jacobian[s->inertia.at[k].place] += share * values[k];
-    return OK;
+    look(s, w);
+    add_entries(s, &s->inertia, NULL, share, jacobian);
 }

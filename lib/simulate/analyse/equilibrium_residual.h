@@ -69,8 +69,8 @@ void equilibrium_sizes(const EquilibriumResidual *equilibrium, const double *w, 
 void equilibrium_hold(const EquilibriumResidual *equilibrium, double *residual, double *jacobian);
 
 /* Add `share` times the mass matrix (by s) and the storage elements' part of A (by x) at w to
- * entries of the Jacobian. Compiles at its first call. */
-MUST_USE Status equilibrium_add_inertia(EquilibriumResidual *equilibrium, const double *w,
-                                        double share, double *jacobian, Diag *diag);
+ * entries of the Jacobian. */
+void equilibrium_add_inertia(EquilibriumResidual *equilibrium, const double *w, double share,
+                             double *jacobian);
 
 #endif
