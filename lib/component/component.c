@@ -111,7 +111,26 @@ const Value *instance_value(const Instance *instance, const char *name)
 
 Expr instance_scalar(const Instance *instance, const char *name)
 {
-    return instance_value(instance, name)->at[0];
+    const Value *value = instance_value(instance, name);
+
+    return value->count > 0 ? value->at[0] : NULL;
+}
+
+Value *values_copy(Pool *pool, const Value *values, int count)
+{
+    Value *copy = pool_alloc(pool, (size_t)count * sizeof *copy);
+
+    for (int i = 0; i < count; i++) {
+        const size_t size = (size_t)values[i].count * sizeof(Expr);
+
+        copy[i] = values[i];
+        copy[i].at = pool_alloc(pool, size);
+        if (size > 0)
+            memcpy(copy[i].at, values[i].at, size);
+        if (values[i].word != NULL)
+            copy[i].word = pool_text(pool, values[i].word, strlen(values[i].word));
+    }
+    return copy;
 }
 
 Expr instance_literal(const Instance *instance, Arena *arena, int param, int entry)
@@ -449,6 +468,26 @@ const Member *component_member(const Component *row, bool planar, int i)
     if (i < count)
         return &members[i];
     return i - count < row->member_count ? &row->members[i - count] : NULL;
+}
+
+/* whether a name is the stem of its own states with a number, from 1 */
+static bool is_numbered_state(const Component *row, const char *name)
+{
+    const size_t stem = row->state_stem != NULL ? strlen(row->state_stem) : 0;
+
+    return stem > 0 && strncmp(name, row->state_stem, stem) == 0 && name[stem] >= '1' &&
+           name[stem] <= '9' && name[stem + strspn(name + stem, "0123456789")] == '\0';
+}
+
+const Member *component_find_member(const Component *row, bool planar, const char *name)
+{
+    const bool numbered = is_numbered_state(row, name);
+    const Member *member;
+
+    for (int i = 0; (member = component_member(row, planar, i)) != NULL; i++)
+        if (strcmp(member->name, name) == 0 || (numbered && is_numbered_state(row, member->name)))
+            return member;
+    return NULL;
 }
 
 /* --- steps --- */

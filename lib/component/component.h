@@ -13,8 +13,6 @@
 typedef struct Component Component;
 typedef struct Instance Instance;
 
-enum { MAX_VALUE = 9 }; /* entries of a rotation; lists have no more */
-
 /* --- how a statement gives its values --- */
 
 typedef enum ParamKind {
@@ -60,9 +58,9 @@ typedef struct Param {
 char *param_unit(const Param *param, bool on_angle);
 
 typedef struct Value {
-    bool given; /* by the user, not the fallback */
-    int count;  /* entries of `at` */
-    Expr at[MAX_VALUE];
+    bool given;                    /* by the user, not the fallback */
+    int count;                     /* entries of `at` */
+    Expr *at;                      /* in the pool of its owner */
     const char *word;              /* of PARAM_WORD */
     const struct Measure *measure; /* of a param that is ALIKE (model/measure.h); NULL: any */
 } Value;
@@ -329,7 +327,9 @@ struct Component {
     /* entry of the symmetric matrix of what its parts store together */
     Expr (*stores)(const Instance *instance, Arena *arena, const Instance *const parts[2], int row,
                    int column);
-    const char *couples;                              /* the row that its parts have to be of */
+    const char *couples;    /* the row that its parts have to be of */
+    const char *state_stem; /* "x": its own states are x1, x2 ..., of which `members` has the first;
+                               NULL: each has a member */
     int (*own_state_count)(const Instance *instance); /* NULL: none */
     void (*own_state)(const Instance *instance, Arena *arena, int k, OwnState *out);
     const Member *members; /* beyond those that its family has */
@@ -394,13 +394,16 @@ int component_source(const Component *row); /* the param that makes it a source;
 int instance_input(const Instance *instance);
 const Value *instance_value(const Instance *instance,
                             const char *name);                    /* assert that the row has it */
-Expr instance_scalar(const Instance *instance, const char *name); /* its only entry */
+Expr instance_scalar(const Instance *instance, const char *name); /* its only entry; NULL: none */
+/* A copy of values and of what is theirs. */
+Value *values_copy(Pool *pool, const Value *values, int count);
 /* The parameter that stands for an entry of a value where equations don't hold its number:
  * "#b1.mass[0]" */
 Expr instance_literal(const Instance *instance, Arena *arena, int param, int entry);
 /* Members of an instance of this family and row, in order: NULL at the end. Those of its
  * coordinates (Instance.coord) are not repeated here, unless the family has them anyway. */
 const Member *component_member(const Component *row, bool planar, int i);
+const Member *component_find_member(const Component *row, bool planar, const char *name); /* NULL */
 
 /* --- helpers for scalar rows --- */
 

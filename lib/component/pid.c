@@ -9,6 +9,11 @@
  * of - a_n x1 - ... - a_1 xn; sampled, these go on by the trapezoidal rule. */
 #include "component/control.h"
 
+#include "base/memory.h"
+
+#include <stdio.h>
+#include <string.h>
+
 /* clang-format off */
 static const Param pd_params[] = {
     {"ref",    PARAM_LAW,    NULL, NULL, "what is wanted, any expression", ALIKE},
@@ -47,14 +52,7 @@ static const Member pid_members[] = {
     BLOCK_MEMBERS,
 };
 static const Member transfer_members[] = {
-    {"x1", NULL, "first state, of which the others are derivatives", 1},
-    {"x2", NULL, "second state", 1},
-    {"x3", NULL, "third state", 1},
-    {"x4", NULL, "fourth state", 1},
-    {"x5", NULL, "fifth state", 1},
-    {"x6", NULL, "sixth state", 1},
-    {"x7", NULL, "seventh state", 1},
-    {"x8", NULL, "eighth state", 1},
+    {"x1", NULL, "its states x1, x2 ..., each the derivative of the one before", 1},
     BLOCK_MEMBERS,
 };
 /* clang-format on */
@@ -257,7 +255,20 @@ static int order_of(const Instance *instance)
 
 static Expr canonical(const Instance *instance, Arena *arena, int i)
 {
-    return block_state(instance, arena, transfer_members[i].name);
+    char member[16];
+
+    (void)snprintf(member, sizeof member, "x%d", i + 1);
+    return block_state(instance, arena, member);
+}
+
+/* of each state */
+static Expr *canonicals(const Instance *instance, Arena *arena)
+{
+    Expr *x = NEW_ARRAY(Expr, order_of(instance));
+
+    for (int i = 0; i < order_of(instance); i++)
+        x[i] = canonical(instance, arena, i);
+    return x;
 }
 
 /* coefficient of x[i] in -xn', over the leading one */
@@ -282,7 +293,8 @@ static Expr transfer_command(const Instance *instance, Arena *arena)
 {
     int n = order_of(instance);
     Expr direct = numerator(instance, arena, n);
-    Expr terms[MAX_VALUE];
+    Expr *terms = NEW_ARRAY(Expr, n + 1);
+    Expr sum;
 
     for (int i = 0; i < n; i++) {
         Expr c = expr_sub(arena, numerator(instance, arena, i),
@@ -291,7 +303,9 @@ static Expr transfer_command(const Instance *instance, Arena *arena)
         terms[i] = expr_mul(arena, c, canonical(instance, arena, i));
     }
     terms[n] = expr_mul(arena, direct, instance_scalar(instance, "of"));
-    return expr_sum(arena, terms, n + 1);
+    sum = expr_sum(arena, terms, n + 1);
+    mem_free(terms);
+    return sum;
 }
 
 static void transfer_relation(const Instance *instance, Arena *arena, int which,
@@ -322,14 +336,11 @@ static Expr trapezoidal(const Instance *instance, Arena *arena, int k)
 {
     int n = order_of(instance);
     Expr half = expr_mul(arena, expr_rational(arena, 1, 2), instance_scalar(instance, "period"));
-    Expr x[MAX_VALUE] = {NULL};
-    Expr slope[MAX_VALUE];
-    Expr value[MAX_VALUE];
+    Expr *x = canonicals(instance, arena), *slope = NEW_ARRAY(Expr, n), *value = NEW_ARRAY(Expr, n);
     Expr factor = expr_int(arena, 1);
     Expr right;
+    Expr next;
 
-    for (int i = 0; i < n; i++)
-        x[i] = canonical(instance, arena, i);
     slope[n - 1] = expr_int(arena, 1);
     value[n - 1] = expr_int(arena, 0);
     for (int i = n - 2; i >= 0; i--) {
@@ -343,24 +354,26 @@ static Expr trapezoidal(const Instance *instance, Arena *arena, int k)
         factor = expr_add(
             arena, factor,
             expr_product(arena, (Expr[]){half, denominator(instance, arena, i), slope[i]}, 3));
-    return expr_add(arena, value[k], expr_mul(arena, slope[k], expr_div(arena, right, factor)));
+    next = expr_add(arena, value[k], expr_mul(arena, slope[k], expr_div(arena, right, factor)));
+    MEM_FREE(x, slope, value);
+    return next;
 }
 
 static void transfer_state(const Instance *instance, Arena *arena, int k, OwnState *out)
 {
     int n = order_of(instance);
-    Expr x[MAX_VALUE] = {NULL};
+    Expr *x;
 
     if (k == n) {
         block_held(instance, arena, transfer_command(instance, arena), out);
         return;
     }
-    for (int i = 0; i < n; i++)
-        x[i] = canonical(instance, arena, i);
-    *out = (OwnState){.member = transfer_members[k].name,
+    x = canonicals(instance, arena);
+    *out = (OwnState){.member = expr_name(x[k]) + strlen(instance->name) + 1,
                       .initial = expr_int(arena, 0),
                       .rate = k < n - 1 ? x[k + 1] : last_rate(instance, arena, x),
                       .next = trapezoidal(instance, arena, k)};
+    mem_free(x);
     block_choose(instance, arena, out);
 }
 
@@ -398,6 +411,7 @@ const Component component_transfer = {
     .preference = 10,
     .relation = transfer_relation,
     .own_state_count = transfer_states,
+    .state_stem = "x",
     .own_state = transfer_state,
     .members = transfer_members,
     .member_count = COUNT(transfer_members),
@@ -406,8 +420,8 @@ const Component component_transfer = {
             "parameters, the highest power first: num=[2, 3] den=[1, 3, 2] is (2*s + 3)/(s^2 + "
             "3*s + 2). It has a state for each power of the denominator, c1.x1 and its "
             "derivatives x2 and so on (controllable canonical form), and starts at rest. A "
-            "numerator of higher degree is refused. At most eight states. limits=[lo, hi] cut the "
-            "output, and with period= it is sampled, by the trapezoidal rule.",
+            "numerator of higher degree is refused. limits=[lo, hi] cut the output, and with "
+            "period= it is sampled, by the trapezoidal rule.",
     .example = "vsource V1 a 0 1\ntransfer c1 b 0 of=a.v num=[2, 3] den=[1, 3, 2]\nsimulate 2\n"
                "print c1.v, 1.5 - exp(-2) - exp(-4)/2",
     .see = "lag integrator bode linearize",

@@ -653,12 +653,11 @@ static const char *effort_unit(const State *state, const Instance *part)
 
 const char *member_unit(const State *state, const Instance *part, const char *name)
 {
-    const Member *member;
+    const Member *member = component_find_member(part->row, state->planar, name);
 
-    for (int i = 0; (member = component_member(part->row, state->planar, i)) != NULL; i++)
-        if (strcmp(member->name, name) == 0)
-            return strcmp(name, "effort") == 0 ? effort_unit(state, part) : member->unit;
-    return NULL;
+    if (member == NULL)
+        return NULL;
+    return strcmp(name, "effort") == 0 ? effort_unit(state, part) : member->unit;
 }
 
 Measure variable_measure(const State *state, const Instance *own, const char *name)

@@ -14,12 +14,10 @@ static bool is_of_parameters(Expr e)
     return !expr_is_number(e) && (expr_kinds(e) & ~(1U << SYMBOL_PARAMETER)) == 0;
 }
 
-/* The values as numbers where parameters tell them; `out` has room for all. E_DOMAIN where one
- * isn't finite. */
+/* Make values of a part the numbers that parameters tell. E_DOMAIN where one isn't finite. */
 static Status read_numbers(State *state, const Instance *part, Value *out, Diag *diag)
 {
     for (int i = 0; i < part->row->param_count; i++) {
-        out[i] = part->values[i];
         for (int k = 0; k < out[i].count; k++) {
             double value;
 
@@ -136,9 +134,10 @@ Status part_check(State *state, const Instance *part, Text *remarks, Diag *diag)
     const Component *row = part->row;
     ArenaMark *mark = arena_mark(state->arena);
     Instance numeric = *part;
+    Pool *pool = pool_new(1024);
     Status status = OK;
 
-    numeric.values = NEW_ARRAY(Value, row->param_count);
+    numeric.values = values_copy(pool, part->values, row->param_count);
     CHECK(read_numbers(state, part, numeric.values, diag));
     CHECK(instance_check(&numeric, state->arena, state->planar, diag));
     CHECK(coupled_check(state, part, remarks, diag));
@@ -151,7 +150,7 @@ Status part_check(State *state, const Instance *part, Text *remarks, Diag *diag)
     if (row->doubt != NULL)
         row->doubt(&numeric, state->planar, remarks);
 done:
-    mem_free(numeric.values);
+    pool_free(pool);
     arena_release(state->arena, mark);
     return status;
 }

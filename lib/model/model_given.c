@@ -247,18 +247,8 @@ static Given *new_given(State *state, int count, int frames)
 /* values that are nothing yet */
 static void clear_values(State *state, Instance *part)
 {
-    for (int k = 0; k < part->row->param_count; k++) {
-        const Param *param = &part->row->params[k];
-        Value *value = &part->values[k];
-
-        if (param->fallback != NULL) {
-            param_fallback(state, param, value);
-            continue;
-        }
-        value->count = param->kind == PARAM_LAWS || !state->planar ? 3 : 1;
-        for (int i = 0; i < value->count; i++)
-            value->at[i] = expr_int(state->arena, 0);
-    }
+    for (int k = 0; k < part->row->param_count; k++)
+        param_fallback(state, &part->row->params[k], &part->values[k]);
 }
 
 /* A part of the inside between mechanical nodes (-1: its own) or on a terminal and the datum. */

@@ -294,8 +294,9 @@ typedef struct Scope {
 } Scope;
 
 MUST_USE Status scope_expression(Scope *scope, const Syntax *syntax, Expr *out, Diag *diag);
-/* up to MAX_VALUE entries; a scalar is refused */
-MUST_USE Status scope_vector(Scope *scope, const Syntax *syntax, Expr *out, int *count, Diag *diag);
+/* in the state's pool, with room for three at the least; a scalar is refused */
+MUST_USE Status scope_vector(Scope *scope, const Syntax *syntax, Expr **out, int *count,
+                             Diag *diag);
 void scope_use(Scope *scope, int definition);
 MUST_USE Status function_call(Scope *scope, const Syntax *syntax, const Expr *args, Expr *out,
                               Diag *diag);

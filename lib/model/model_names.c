@@ -217,15 +217,13 @@ static Status member_resolve(const State *state, const Instance *part, const cha
                              int primes, Place place, Text *name, Diag *diag)
 {
     int coordinate = coordinate_of_member(state, part, member);
-    const Member *m;
+    const Member *m = component_find_member(part->row, state->planar, member);
 
     if (coordinate >= 0) {
         text_add(name, part->coord[coordinate]);
         return check_order(name->at, primes, 2, place, diag);
     }
-    for (int i = 0; (m = component_member(part->row, state->planar, i)) != NULL; i++) {
-        if (strcmp(m->name, member) != 0)
-            continue;
+    if (m != NULL) {
         text_addf(name, "%s.%s", part->name, member);
         return check_order(name->at, primes, m->primes, place, diag);
     }

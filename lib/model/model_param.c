@@ -44,11 +44,17 @@ static Status check_unit(const Scope *scope, const Wanted *wanted, const Syntax 
     return status;
 }
 
+static void make_room(const State *state, Value *out, int count)
+{
+    out->count = count;
+    out->at = pool_alloc(state->pool, (size_t)count * sizeof *out->at);
+}
+
 static Status read_scalar(Scope *scope, const Wanted *wanted, const Syntax *syntax, Value *out,
                           Diag *diag)
 {
     (void)wanted;
-    out->count = 1;
+    make_room(scope->state, out, 1);
     return scope_expression(scope, syntax, &out->at[0], diag);
 }
 
@@ -56,17 +62,9 @@ static Status read_scalar(Scope *scope, const Wanted *wanted, const Syntax *synt
 static Status read_list(Scope *scope, const Wanted *wanted, const Syntax *syntax, Value *out,
                         Diag *diag)
 {
-    Status status;
-
     if (syntax->kind != SYNTAX_VECTOR)
         return read_scalar(scope, wanted, syntax, out, diag);
-    if (syntax->count > MAX_VALUE) {
-        status =
-            diag_at(diag, E_VALUE, syntax->place, "%s has %d entries, and at most %d can stand",
-                    wanted->param->name, syntax->count, MAX_VALUE);
-        return status;
-    }
-    return scope_vector(scope, syntax, out->at, &out->count, diag);
+    return scope_vector(scope, syntax, &out->at, &out->count, diag);
 }
 
 /* --- vectors --- */
@@ -78,7 +76,7 @@ static Status read_vector(Scope *scope, const Wanted *wanted, const Syntax *synt
     int count = 0;
     Status status = OK;
 
-    CHECK(scope_vector(scope, syntax, out->at, &count, diag));
+    CHECK(scope_vector(scope, syntax, &out->at, &count, diag));
     if (planar && count == 2)
         out->at[count++] = expr_int(scope->state->arena, 0);
     if (count != 3) {
@@ -123,7 +121,7 @@ static Status read_inertia(Scope *scope, const Wanted *wanted, const Syntax *syn
             diag_hint(diag, "in a planar scene it is one number, about z");
         return status;
     }
-    status = scope_vector(scope, syntax, out->at, &count, diag);
+    status = scope_vector(scope, syntax, &out->at, &count, diag);
     if (status == OK && count != 3 && count != 6)
         status = diag_at(diag, E_VALUE, syntax->place, "%s has 3 or 6 entries, not %d",
                          wanted->param->name, count);
@@ -182,7 +180,7 @@ static Status read_axis_at(Scope *scope, const Wanted *wanted, const Syntax *syn
                            Diag *diag)
 {
     Arena *arena = scope->state->arena;
-    Expr u[MAX_VALUE];
+    Expr *u;
     int count = 0;
     int axis;
     int sign;
@@ -192,7 +190,7 @@ static Status read_axis_at(Scope *scope, const Wanted *wanted, const Syntax *syn
         set_axis(arena, axis, sign, out);
         return OK;
     }
-    status = scope_vector(scope, syntax, u, &count, diag);
+    status = scope_vector(scope, syntax, &u, &count, diag);
     if (status == E_VALUE)
         diag_hint(diag, "an axis is x, y, z, -x, -y, -z, or a vector [a, b, c]");
     if (status != OK)
@@ -211,7 +209,7 @@ done:
 static Status read_axis(Scope *scope, const Wanted *wanted, const Syntax *syntax, Value *out,
                         Diag *diag)
 {
-    out->count = 3;
+    make_room(scope->state, out, 3);
     return read_axis_at(scope, wanted, syntax, out->at, diag);
 }
 
@@ -225,7 +223,7 @@ static Status read_axes(Scope *scope, const Wanted *wanted, const Syntax *syntax
         diag_hint(diag, "as in %s=[x, y]", wanted->param->name);
         return status;
     }
-    out->count = 6;
+    make_room(scope->state, out, 6);
     for (int i = 0; i < 2; i++)
         CHECK(read_axis_at(scope, wanted, syntax->args[i], &out->at[(ptrdiff_t)3 * i], diag));
 done:
@@ -325,7 +323,7 @@ static Status read_rotation(Scope *scope, const Wanted *wanted, const Syntax *sy
                             Diag *diag)
 {
     (void)wanted;
-    out->count = 9;
+    make_room(scope->state, out, 9);
     return rotation(scope, syntax, out->at, diag);
 }
 
@@ -406,45 +404,42 @@ Status param_check_alike(const Component *row, const Value *values, int index, c
     return OK;
 }
 
+/* how many entries a default has */
+static int fallback_count(const State *state, ParamKind kind, const char *fallback)
+{
+    switch (kind) {
+    case PARAM_WORD:
+        return 0;
+    case PARAM_AXES:
+        return 6;
+    case PARAM_ROTATION:
+        return 9;
+    case PARAM_AXIS:
+    case PARAM_VECTOR:
+    case PARAM_LAWS:
+        return 3;
+    case PARAM_INERTIA:
+    case PARAM_MOMENT:
+        return state->planar ? 1 : 3;
+    case PARAM_LIST:
+    case PARAM_LIST_LAWS:
+        return fallback[0] != '\0';
+    default:
+        return 1;
+    }
+}
+
 void param_fallback(State *state, const Param *param, Value *out)
 {
     Arena *arena = state->arena;
-    const char *fallback = param->fallback;
+    const char *fallback = param->fallback != NULL ? param->fallback : "0";
 
-    switch (param->kind) {
-    case PARAM_WORD:
+    make_room(state, out, fallback_count(state, param->kind, fallback));
+    if (param->kind == PARAM_WORD)
         out->word = pool_text(state->pool, fallback, word_length(fallback));
-        return;
-    case PARAM_AXIS:
-        set_axis(arena, fallback[0] - 'x', 1, out->at);
-        out->count = 3;
-        return;
-    case PARAM_AXES:
-        set_axis(arena, fallback[0] - 'x', 1, out->at);
-        set_axis(arena, fallback[2] - 'x', 1, out->at + 3);
-        out->count = 6;
-        return;
-    case PARAM_ROTATION:
-        out->count = 9;
-        for (int i = 0; i < 9; i++)
-            out->at[i] = expr_int(arena, i % 4 == 0);
-        return;
-    case PARAM_VECTOR:
-    case PARAM_LAWS:
-        out->count = 3;
-        break;
-    case PARAM_INERTIA:
-    case PARAM_MOMENT:
-        out->count = state->planar ? 1 : 3;
-        break;
-    case PARAM_LIST:
-    case PARAM_LIST_LAWS:
-        out->count = fallback[0] != '\0';
-        break;
-    default:
-        out->count = 1;
-        break;
-    }
     for (int i = 0; i < out->count; i++)
-        out->at[i] = expr_decimal(arena, fallback);
+        out->at[i] = param->kind == PARAM_ROTATION ? expr_int(arena, i % 4 == 0)
+                     : param->kind == PARAM_AXIS || param->kind == PARAM_AXES
+                         ? expr_int(arena, fallback[i / 3 * 2] - 'x' == i % 3)
+                         : expr_decimal(arena, fallback);
 }

@@ -111,15 +111,11 @@ static void place_terminal(const Renaming *r, const char *name, const char *memb
 /* a member of what doesn't move, or has no potential, is a number */
 static const char *fixed_member(const State *state, bool is_frame, const char *member)
 {
-    const Component *arm = component_find("arm");
-    const Member *m;
-
     if (!is_frame)
         return "0";
-    for (int i = 0; (m = component_member(arm, state->planar, i)) != NULL; i++)
-        if (strcmp(m->name, member) == 0)
-            return strcmp(member, "q0") == 0 ? "1" : "0";
-    return NULL;
+    if (component_find_member(component_find("arm"), state->planar, member) == NULL)
+        return NULL;
+    return strcmp(member, "q0") == 0 ? "1" : "0";
 }
 
 /* --- names --- */

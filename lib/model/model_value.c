@@ -401,54 +401,56 @@ static bool is_vector(const Syntax *syntax)
     }
 }
 
-static Status vector_literal(Scope *scope, const Syntax *syntax, Expr *out, int *count, Diag *diag)
+static Status vector_literal(Scope *scope, const Syntax *syntax, Expr **out, int *count, Diag *diag)
 {
     Arena *arena = scope->state->arena;
+    const int room = syntax->count > 3 ? syntax->count : 3;
+    Expr *u = pool_alloc(scope->state->pool, (size_t)room * sizeof *u);
 
-    if (syntax->count > MAX_VALUE)
-        return diag_at(diag, E_VALUE, syntax->place, "a vector of %d entries is too long",
-                       syntax->count);
-    *count = syntax->count;
     for (int i = 0; i < syntax->count; i++) {
-        TRY(convert(scope, syntax->args[i], &out[i], diag));
+        TRY(convert(scope, syntax->args[i], &u[i], diag));
         if (syntax->has_unit)
-            out[i] = expr_mul(arena, out[i], unit_factor(arena, &syntax->unit));
+            u[i] = expr_mul(arena, u[i], unit_factor(arena, &syntax->unit));
     }
+    *out = u;
+    *count = syntax->count;
     return OK;
 }
 
-static Status convert_vector(Scope *scope, const Syntax *syntax, Expr *out, int *count, Diag *diag);
+static Status convert_vector(Scope *scope, const Syntax *syntax, Expr **out, int *count,
+                             Diag *diag);
 
-static Status vector_binary(Scope *scope, const Syntax *syntax, Expr *out, int *count, Diag *diag)
+static Status vector_binary(Scope *scope, const Syntax *syntax, Expr **out, int *count, Diag *diag)
 {
     Arena *arena = scope->state->arena;
     const Syntax *left = syntax->args[0];
     const Syntax *right = syntax->args[1];
     char op = syntax->text[0];
     bool both = is_vector(left) && is_vector(right);
-    Expr other[MAX_VALUE];
+    Expr *u, *other = NULL;
     Expr factor = NULL;
     int n = 0;
 
     if (both ? op != '+' && op != '-' : op != '*' && (op != '/' || is_vector(right)))
         return diag_at(diag, E_VALUE, syntax->op_place, "'%s' is not between %s", syntax->text,
                        both ? "two vectors" : "a vector and a number in this order");
-    TRY(convert_vector(scope, is_vector(left) ? left : right, out, count, diag));
+    TRY(convert_vector(scope, is_vector(left) ? left : right, &u, count, diag));
     if (both) {
-        TRY(convert_vector(scope, right, other, &n, diag));
+        TRY(convert_vector(scope, right, &other, &n, diag));
         if (n != *count)
             return diag_at(diag, E_VALUE, syntax->op_place, "vectors of %d and %d entries", *count,
                            n);
     } else
         TRY(convert(scope, is_vector(left) ? right : left, &factor, diag));
     for (int i = 0; i < *count; i++)
-        out[i] = both        ? model_operation(arena, syntax->text, out[i], other[i])
-                 : op == '*' ? expr_mul(arena, factor, out[i])
-                             : expr_div(arena, out[i], factor);
+        u[i] = both        ? model_operation(arena, syntax->text, u[i], other[i])
+               : op == '*' ? expr_mul(arena, factor, u[i])
+                           : expr_div(arena, u[i], factor);
+    *out = u;
     return OK;
 }
 
-static Status convert_vector(Scope *scope, const Syntax *syntax, Expr *out, int *count, Diag *diag)
+static Status convert_vector(Scope *scope, const Syntax *syntax, Expr **out, int *count, Diag *diag)
 {
     Arena *arena = scope->state->arena;
 
@@ -465,12 +467,12 @@ static Status convert_vector(Scope *scope, const Syntax *syntax, Expr *out, int 
         TRY(convert_vector(scope, syntax->args[0], out, count, diag));
         if (syntax->kind == SYNTAX_UNARY && syntax->text[0] == '-')
             for (int i = 0; i < *count; i++)
-                out[i] = expr_neg(arena, out[i]);
+                (*out)[i] = expr_neg(arena, (*out)[i]);
     }
     return OK;
 }
 
-Status scope_vector(Scope *scope, const Syntax *syntax, Expr *out, int *count, Diag *diag)
+Status scope_vector(Scope *scope, const Syntax *syntax, Expr **out, int *count, Diag *diag)
 {
     Measure measure;
 

@@ -395,6 +395,7 @@ static bool print_variable(Text *out, const View *view, const char *name)
     const Instance *owner;
     const Member *member;
     const char *wanted;
+    const char *unit;
     int index;
 
     if (model_coordinate(view->model, name, &owner, &index)) {
@@ -404,21 +405,17 @@ static bool print_variable(Text *out, const View *view, const char *name)
         return true;
     }
     owner = model_owner(view->model, name, &wanted);
-    for (int i = 0;
-         owner != NULL &&
-         (member = component_member(owner->row, model_is_planar(view->model), i)) != NULL;
-         i++)
-        if (strcmp(member->name, wanted) == 0) {
-            const char *unit = model_member_unit(view->model, owner, wanted);
-
-            text_addf(out, "%s: of %s, %s%s", name, owner->name, member->meaning,
-                      unit != NULL ? "; in " : "");
-            if (unit != NULL)
-                (void)view_unit(view, unit, out);
-            text_char(out, '\n');
-            return true;
-        }
-    return false;
+    member = owner != NULL ? component_find_member(owner->row, model_is_planar(view->model), wanted)
+                           : NULL;
+    if (member == NULL)
+        return false;
+    unit = model_member_unit(view->model, owner, wanted);
+    text_addf(out, "%s: of %s, %s%s", name, owner->name, member->meaning,
+              unit != NULL ? "; in " : "");
+    if (unit != NULL)
+        (void)view_unit(view, unit, out);
+    text_char(out, '\n');
+    return true;
 }
 
 Status info_print(const View *view, const char *name, Place place, Text *out, Diag *diag)

@@ -64,6 +64,24 @@ static void transfer_functions_answer_a_step(void)
     expect_value("transfer c1 a 0 of=t num=3 den=4\n" RUN_FOR(2), "a.v", 1.5, 1e-12);
 }
 
+/* 1/(s + 1)^10: 1 - exp(-t) times the sum of t^k/k! up to t^9, and its ninth derivative */
+static void transfer_function_has_any_order(void)
+{
+    static const char ten_lags[] =
+        "transfer c1 a 0 of=1 num=1 den=[1, 10, 45, 120, 210, 252, 210, 120, 45, 10, 1]\n";
+    double term = 1, sum = 1;
+    Text model = {0};
+
+    for (int k = 1; k < 10; k++)
+        sum += term *= 2.0 / k;
+    text_addf(&model, "%s%s", ten_lags, RUN_FOR(2));
+    expect_value(model.at, "a.v", 1 - exp(-2) * sum, 1e-7);
+    expect_value(model.at, "c1.x10", exp(-2) * 142.0 / 405, 1e-7);
+    expect_value("sum c1 a 0 of=[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12]\n" RUN_FOR(1), "a.v", 78,
+                 1e-12);
+    text_free(&model);
+}
+
 #define MASS "scene planar\nbody m mass=1 inertia=0\nprismatic s ground m axis=x\n"
 
 /* a mass on PD control of its force, critically damped: s = 1 - (1 + 2 t) exp(-2 t) */
@@ -251,6 +269,7 @@ int main(void)
     RUN(outputs_stay_within_limits);
     RUN(integrator_stops_at_its_limit);
     RUN(transfer_functions_answer_a_step);
+    RUN(transfer_function_has_any_order);
     RUN(pd_control_is_a_spring_and_a_damper);
     RUN(pd_control_needs_rates_of_both);
     RUN(rate_of_a_jump_is_refused);

@@ -168,7 +168,7 @@ static const Wrong wrong[] = {
     {"arm q m1 [1, 0]*[1, 0]",      16, "'*' is not between two vectors", ""},
     {"arm q m1 [1, 0] + [1, 0, 0]", 17, "vectors of 2 and 3 entries", ""},
     {"arm q m1 1/[1, 0]",           11, "'/' is not between a vector and a number", ""},
-    {"arm q m1 [1,2,3,4,5,6,7,8,9,10]", 10, "a vector of 10 entries is too long", ""},
+    {"arm q m1 [1,2,3,4,5,6,7,8,9,10]", 10, "position has 2 components, not 10", ""},
     {"arm q m1 ([1, 0])'",          10, "can't be done with a vector", ""},
     /* scene, starts, form */
     {"scene spatial",                7, "the scene can't become spatial any more", "before the first part"},

@@ -19,18 +19,14 @@
 static void found_value(System *system, Instance *source)
 {
     int param = component_source(source->row);
-    size_t size = (size_t)source->row->param_count * sizeof(Value);
 
     for (int i = 0; i < system->constraints->drives.count; i++) {
         const Drive *drive = &system->constraints->drives.at[i];
-        Value *values;
 
         if (!drive->by_source || system->origin->instances[drive->instance].by != source->number)
             continue;
-        values = pool_alloc(system->pool, size);
-        memcpy(values, source->values, size);
-        values[param].at[0] = drive->effort;
-        source->values = values;
+        source->values = values_copy(system->pool, source->values, source->row->param_count);
+        source->values[param].at[0] = drive->effort;
     }
 }
 

@@ -49,16 +49,6 @@ static void *copy_array(const System *system, const void *from, int count, size_
     return copy;
 }
 
-static void copy_values(System *system, Instance *to)
-{
-    const int count = to->row->param_count;
-
-    to->values = copy_array(system, to->values, count, sizeof *to->values);
-    for (int p = 0; p < count; p++)
-        if (to->values[p].word != NULL)
-            to->values[p].word = system_keep(system, "%s", to->values[p].word);
-}
-
 static void copy_instance(System *system, const Instance *from, Instance *to)
 {
     const int coordinates = from->coord_count;
@@ -78,7 +68,7 @@ static void copy_instance(System *system, const Instance *from, Instance *to)
     to->coord_kind = copy_array(system, from->coord_kind, coordinates, sizeof *to->coord_kind);
     to->coord_rotation =
         copy_array(system, from->coord_rotation, coordinates, sizeof *to->coord_rotation);
-    copy_values(system, to);
+    to->values = values_copy(system->pool, from->values, from->row->param_count);
 }
 
 /* places of an instance's coordinates, none yet */
