@@ -52,7 +52,8 @@ static const char *const *hook_setting(void *context, int i)
     return settings_words(i);
 }
 
-void shell_set_width(Shell *shell, int columns)
+/* Tell the library how wide the screen is; 0: text isn't wrapped. */
+static void set_width(Shell *shell, int columns)
 {
     ct_hooks hooks = {.context = shell,
                       .stop = hook_stop,
@@ -71,7 +72,7 @@ void shell_open(Shell *shell)
     *shell = (Shell){.unicode = terminal_is_utf8()};
     settings_start(&shell->settings);
     shell->session = copy_check(ct_session_new(NULL));
-    shell_set_width(shell, 0);
+    set_width(shell, 0);
 }
 
 void shell_close(Shell *shell)
@@ -152,7 +153,7 @@ static ct_status command(Shell *shell, const Command *row, const ct_statement *s
     /* lines are broken for a screen only: files and pipes are for programs */
     terminal_size(&rows, &columns);
     columns = file == NULL && isatty(STDOUT_FILENO) ? columns : 0;
-    shell_set_width(shell, columns);
+    set_width(shell, columns);
     paper_open(&paper);
 
     Call call = {shell, shell->session, statement, paper.out, columns};

@@ -41,7 +41,4 @@ void shell_close(Shell *shell);
  * the first that fails ends the line. */
 ct_status shell_run_line(Shell *shell, const Origin *origin, const char *text, bool shortened);
 
-/* Tell the library how wide the screen is; 0: text isn't wrapped. */
-void shell_set_width(Shell *shell, int columns);
-
 #endif

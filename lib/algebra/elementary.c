@@ -161,7 +161,7 @@ static void sincos_far(double x, double *sine, double *cosine)
 
 /* --- one, and many --- */
 
-void elementary_sincos(double x, double *sine, double *cosine)
+static void sincos_one(double x, double *sine, double *cosine)
 {
     Doubles_2 s, c;
 
@@ -178,7 +178,7 @@ double elementary_sin(double x)
 {
     double sine, cosine;
 
-    elementary_sincos(x, &sine, &cosine);
+    sincos_one(x, &sine, &cosine);
     return sine;
 }
 
@@ -186,7 +186,7 @@ double elementary_cos(double x)
 {
     double sine, cosine;
 
-    elementary_sincos(x, &sine, &cosine);
+    sincos_one(x, &sine, &cosine);
     return cosine;
 }
 
@@ -207,7 +207,7 @@ void elementary_sincos_all(const double *x, double *sine, double *cosine, int co
     IN_WIDE(done, count, sincos, x, sine, cosine, count);
     done += sincos_all_2(x + done, sine + done, cosine + done, count - done);
     if (done < count)
-        elementary_sincos(x[done], &sine[done], &cosine[done]);
+        sincos_one(x[done], &sine[done], &cosine[done]);
 }
 
 void elementary_exp_all(const double *x, double *out, int count)

@@ -10,7 +10,6 @@ double elementary_sin(double x);
 double elementary_cos(double x);
 double elementary_exp(double x);
 double elementary_log(double x);
-void elementary_sincos(double x, double *sine, double *cosine);
 
 /* many at once, `count` of them; results are not where arguments are */
 void elementary_sincos_all(const double *x, double *sine, double *cosine, int count);

@@ -165,11 +165,6 @@ void ldl_order_free(LdlOrder *o)
     MEM_FREE(o->start, o->row, o->left, o->at, o->left_start, o->below, o->below_start, o);
 }
 
-int ldl_order_fill(const LdlOrder *o)
-{
-    return o->left_start[o->n];
-}
-
 int ldl_order_width(const LdlOrder *o)
 {
     int width = 0;
@@ -192,7 +187,7 @@ Ldl *ldl_new(const LdlOrder *order)
 
     ldl->order = order;
     ldl->entries = NEW_ARRAY(double, n + order->start[n]);
-    ldl->l = NEW_ARRAY(double, ldl_order_fill(order));
+    ldl->l = NEW_ARRAY(double, order->left_start[n]);
     ldl->pivot = NEW_ARRAY(double, n);
     ldl->inverse = NEW_ARRAY(double, n);
     ldl->taken = NEW_ARRAY(double, n);

@@ -23,7 +23,6 @@ typedef struct Ldl Ldl;
 LdlOrder *ldl_order_new(int n, const int *class, int entries, const int *row, const int *column,
                         int *place, int *place_of);
 void ldl_order_free(LdlOrder *order);       /* NULL is fine */
-int ldl_order_fill(const LdlOrder *order);  /* entries of L */
 int ldl_order_width(const LdlOrder *order); /* in a row of L + L^T, at most */
 
 Ldl *ldl_new(const LdlOrder *order); /* new, borrows the order; ldl_free() */

@@ -58,7 +58,8 @@ Status ring_status(const Ring *ring)
 
 /* --- making and looking --- */
 
-Multinomial *multinomial_room(Ring *ring, int64_t room)
+/* zero with room for so many terms, or the ring's failure and room for none */
+static Multinomial *with_room(Ring *ring, int64_t room)
 {
     Multinomial *p = NEW(Multinomial);
 
@@ -106,7 +107,7 @@ static void push(Multinomial *p, const mpz_t factor, const uint64_t *power)
 Multinomial *multinomial_integer(Ring *ring, const mpz_t value)
 {
     static const uint64_t none[RING_VARIABLES / WORD_BYTES];
-    Multinomial *p = multinomial_room(ring, 1);
+    Multinomial *p = with_room(ring, 1);
 
     if (ring->status == OK && mpz_sgn(value) != 0)
         push(p, value, none);
@@ -122,7 +123,7 @@ Multinomial *multinomial_small(Ring *ring, long value)
 Multinomial *multinomial_variable(Ring *ring, int variable)
 {
     uint64_t power[RING_VARIABLES / WORD_BYTES] = {0};
-    Multinomial *p = multinomial_room(ring, 1);
+    Multinomial *p = with_room(ring, 1);
 
     if (ring->status != OK)
         return p;
@@ -205,7 +206,7 @@ bool multinomial_is_negative(const Multinomial *p)
 Multinomial *multinomial_sum(const Multinomial *p, const Multinomial *q, int sign)
 {
     Ring *ring = p->ring;
-    Multinomial *sum = multinomial_room(ring, (int64_t)p->count + q->count);
+    Multinomial *sum = with_room(ring, (int64_t)p->count + q->count);
 
     for (int i = 0, j = 0; ring->status == OK && (i < p->count || j < q->count);) {
         const int order = i == p->count ? -1
@@ -231,7 +232,7 @@ Multinomial *multinomial_sum(const Multinomial *p, const Multinomial *q, int sig
 Multinomial *multinomial_scaled(const Multinomial *p, const mpz_t factor)
 {
     Ring *ring = p->ring;
-    Multinomial *out = multinomial_room(ring, p->count);
+    Multinomial *out = with_room(ring, p->count);
 
     for (int i = 0; ring->status == OK && mpz_sgn(factor) != 0 && i < p->count; i++) {
         mpz_mul(ring->term, p->at[i], factor);
@@ -243,7 +244,7 @@ Multinomial *multinomial_scaled(const Multinomial *p, const mpz_t factor)
 Multinomial *multinomial_over(const Multinomial *p, const mpz_t divisor)
 {
     Ring *ring = p->ring;
-    Multinomial *out = multinomial_room(ring, p->count);
+    Multinomial *out = with_room(ring, p->count);
 
     for (int i = 0; ring->status == OK && i < p->count; i++) {
         mpz_divexact(ring->term, p->at[i], divisor);
@@ -255,7 +256,7 @@ Multinomial *multinomial_over(const Multinomial *p, const mpz_t divisor)
 Multinomial *multinomial_slope(const Multinomial *p, int variable)
 {
     Ring *ring = p->ring;
-    Multinomial *out = multinomial_room(ring, p->count);
+    Multinomial *out = with_room(ring, p->count);
 
     for (int i = 0; ring->status == OK && i < p->count; i++) {
         uint64_t power[RING_VARIABLES / WORD_BYTES];
@@ -388,7 +389,7 @@ Multinomial *multinomial_times(const Multinomial *p, const Multinomial *q)
     const Multinomial *a = p->count <= q->count ? p : q;
     Ring *ring = p->ring;
     Merge m = {.ring = ring, .b = a == p ? q : p};
-    Multinomial *out = multinomial_room(ring, 0);
+    Multinomial *out = with_room(ring, 0);
     uint64_t power[RING_VARIABLES / WORD_BYTES];
     mpz_t *sum = &ring->scratch;
 
@@ -428,7 +429,7 @@ Multinomial *multinomial_quotient(const Multinomial *p, const Multinomial *q)
 {
     Ring *ring = p->ring;
     Merge m = {.ring = ring, .b = q};
-    Multinomial *out = multinomial_room(ring, 0);
+    Multinomial *out = with_room(ring, 0);
     uint64_t power[RING_VARIABLES / WORD_BYTES];
     mpz_t *rest = &ring->scratch;
     bool divides = true;
@@ -475,7 +476,7 @@ Multinomial *multinomial_exact(const Multinomial *p, const Multinomial *q)
 {
     Multinomial *quotient = multinomial_quotient(p, q);
 
-    return quotient != NULL ? quotient : multinomial_room(p->ring, 0);
+    return quotient != NULL ? quotient : with_room(p->ring, 0);
 }
 
 /* --- coefficients --- */
@@ -505,7 +506,7 @@ void multinomial_coefficients(const Multinomial *p, uint64_t variables, Multinom
             k++;
         if (k == first.count) {
             LIST_PUSH(first, i);
-            LIST_PUSH(*out, multinomial_room(ring, 0));
+            LIST_PUSH(*out, with_room(ring, 0));
         }
         for (int w = 0; w < ring->words; w++)
             power[w] = term_power(p, i)[w] & ~mask[w];
@@ -517,7 +518,7 @@ void multinomial_coefficients(const Multinomial *p, uint64_t variables, Multinom
 Multinomial *multinomial_coefficient(const Multinomial *p, int variable, int power)
 {
     Ring *ring = p->ring;
-    Multinomial *out = multinomial_room(ring, p->count);
+    Multinomial *out = with_room(ring, p->count);
 
     for (int i = 0; i < p->count && ring->status == OK; i++) {
         uint64_t left[RING_VARIABLES / WORD_BYTES];

@@ -50,7 +50,4 @@ static inline int compare_powers(const uint64_t *a, const uint64_t *b, int words
     return 0;
 }
 
-/* zero with room for so many terms, or the ring's failure and room for none */
-Multinomial *multinomial_room(Ring *ring, int64_t room);
-
 #endif

@@ -30,15 +30,8 @@ Polynomial polynomial_power(int n)
     return p;
 }
 
-Polynomial polynomial_copy(const Polynomial *p, long scale)
-{
-    Polynomial copy = polynomial_new(p->count);
-
-    polynomial_add(&copy, p, scale);
-    return copy;
-}
-
-void polynomial_add(Polynomial *p, const Polynomial *q, long by)
+/* p += by q */
+static void add(Polynomial *p, const Polynomial *q, long by)
 {
     mpq_t term;
 
@@ -49,6 +42,14 @@ void polynomial_add(Polynomial *p, const Polynomial *q, long by)
         mpq_add(p->at[i], p->at[i], term);
     }
     mpq_clear(term);
+}
+
+Polynomial polynomial_copy(const Polynomial *p, long scale)
+{
+    Polynomial copy = polynomial_new(p->count);
+
+    add(&copy, p, scale);
+    return copy;
 }
 
 Polynomial polynomial_times(const Polynomial *p, const Polynomial *q)

@@ -53,7 +53,8 @@ bool root_is_doubtful(const Root *root)
     return !root->is_on_axis && root->error > 0 && root->real == 0;
 }
 
-Root root_make(double complex value, double error)
+/* `value` within `error` as a root, what can't be told from 0 being 0 */
+static Root root_make(double complex value, double error)
 {
     Root root = {.real = creal(value), .imaginary = cimag(value), .error = error};
 

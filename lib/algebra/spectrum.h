@@ -20,8 +20,6 @@ typedef struct Root {
 /* the sign of the real part can't be told, which is 0 then; so is a root that may be 0 altogether
  */
 bool root_is_doubtful(const Root *root);
-/* `value` within `error` as a root, what can't be told from 0 being 0 */
-Root root_make(double complex value, double error);
 
 typedef struct Spectrum Spectrum;
 

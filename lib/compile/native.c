@@ -17,7 +17,6 @@ struct Native {
     StageFunction *stages[STAGE_COUNT]; /* NULL: nothing to do */
     int width;
     size_t frame; /* bytes */
-    size_t size;
 };
 
 bool native_has(Isa isa)
@@ -70,9 +69,8 @@ Native *native_new(const Program *program, const NativeTarget *target)
     }
     native->width = target->width;
     native->frame = (size_t)home_operand(target->width, FRAME | frame).offset;
-    native->size = (size_t)code.bytes.count;
     if (code.bytes.count > 0)
-        native->memory = code_memory_new(code.bytes.at, native->size);
+        native->memory = code_memory_new(code.bytes.at, (size_t)code.bytes.count);
     for (int stage = 0; stage < STAGE_COUNT && native->memory != NULL; stage++)
         if (begin[stage] >= 0) {
             const unsigned char *at = code_memory_at(native->memory);
@@ -96,11 +94,6 @@ void native_free(Native *native)
         return;
     code_memory_free(native->memory);
     mem_free(native);
-}
-
-size_t native_bytes(const Native *native)
-{
-    return native->size;
 }
 
 static double *aligned(void *memory)
@@ -164,12 +157,6 @@ Native *native_new(const Program *program, const NativeTarget *target)
 void native_free(Native *native)
 {
     (void)native;
-}
-
-size_t native_bytes(const Native *native)
-{
-    (void)native;
-    return 0;
 }
 
 NativeFrame *native_frame_new(const Native *native)

@@ -26,7 +26,6 @@ typedef struct Native Native;
 /* New; borrows the program. NULL: the system refuses memory for it. O(instructions * registers). */
 Native *native_new(const Program *program, const NativeTarget *target);
 void native_free(Native *native); /* NULL is fine */
-size_t native_bytes(const Native *native);
 /* what stands beside the slots while stages run; new, one for each who runs them */
 typedef void NativeFrame;
 NativeFrame *native_frame_new(const Native *native);

@@ -78,17 +78,6 @@ Stage program_last_stage(const Program *program)
     return last;
 }
 
-size_t program_bytes(const Program *program)
-{
-    return sizeof *program + pool_bytes(program->texts) +
-           (size_t)program->input_count * sizeof *program->input_names +
-           (size_t)program->constants.room * sizeof *program->constants.at +
-           (size_t)program->root_count * sizeof *program->roots +
-           (size_t)program->runs.room * sizeof *program->runs.at +
-           (size_t)program->tape.room * sizeof *program->tape.at +
-           (size_t)program->derived.room * sizeof *program->derived.at;
-}
-
 /* --- counting --- */
 
 OpCount program_count(const Program *program)

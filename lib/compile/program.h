@@ -50,7 +50,6 @@ int program_operations(const Program *program, Stage stage);
 Stage program_last_stage(const Program *program);
 /* operations carried out, all stages, by the rule of expr.h */
 OpCount program_count(const Program *program);
-size_t program_bytes(const Program *program);
 /* one line an instruction, for `show program`: "v7 = v3 * v5" */
 void program_print(Text *text, const Program *program);
 

@@ -52,7 +52,6 @@ int beam_load_powers(const Instance *instance, Arena *arena);
 /* P_k over 0..1 */
 Polynomial beam_legendre(int k);
 Expr beam_number(Arena *arena, const mpq_t value);
-Expr beam_value_at(Arena *arena, const Polynomial *p, Expr xi);
 /* of the slopes of two shapes of one family, from 0 to xi, by xi */
 Polynomial beam_shortening(const BeamShape *a, const BeamShape *b);
 bool beam_bends(const BeamShape *shape);

@@ -217,7 +217,7 @@ Polynomial beam_shortening(const BeamShape *a, const BeamShape *b)
 
 /* --- stations --- */
 
-Expr beam_value_at(Arena *arena, const Polynomial *p, Expr xi)
+static Expr value_at(Arena *arena, const Polynomial *p, Expr xi)
 {
     Expr sum = expr_int(arena, 0);
 
@@ -246,7 +246,7 @@ static void shorten(const Beam *beam, Expr xi, const ShapeState *state, Station 
             if (beam->shapes[j].family != beam->shapes[i].family)
                 continue;
             s = beam_shortening(&beam->shapes[i], &beam->shapes[j]);
-            entry = expr_div(arena, beam_value_at(arena, &s, xi), beam->length);
+            entry = expr_div(arena, value_at(arena, &s, xi), beam->length);
             polynomial_free(&s);
             moved = expr_add(arena, moved, expr_mul(arena, entry, state->q[j]));
             rate = expr_add(arena, rate, expr_mul(arena, entry, state->rate[j]));
@@ -277,8 +277,8 @@ void beam_station(const Instance *instance, Arena *arena, bool planar, Expr at,
     for (int i = 0; i < beam.count; i++) {
         const BeamShape *shape = &beam.shapes[i];
         const int s = shifted[shape->family], t = turned[shape->family];
-        Expr value = beam_value_at(arena, &shape->value, xi);
-        Expr slope = expr_div(arena, beam_value_at(arena, &shape->slope, xi), beam.length);
+        Expr value = value_at(arena, &shape->value, xi);
+        Expr slope = expr_div(arena, value_at(arena, &shape->slope, xi), beam.length);
 
         if (s >= 0) {
             out->shift[3 * i + s] = value;

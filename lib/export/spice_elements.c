@@ -35,7 +35,8 @@ static bool is_zero(SpiceValue v)
     return v.is_number && v.number == 0;
 }
 
-void spice_leave(Spice *s, const Card *card, const char *why)
+/* the card's part of the model is left out */
+static void leave(Spice *s, const Card *card, const char *why)
 {
     import_leave(s->import, card->line, true, card->words.at[0], "%s", why);
 }
@@ -49,7 +50,7 @@ const char *spice_node(Spice *s, const char *name)
     return import_name(s->import, SPICE_NODE, name);
 }
 
-const char *spice_part(Spice *s, const Card *card)
+static const char *name_of_card(Spice *s, const Card *card)
 {
     return import_name(s->import, SPICE_PART, card->words.at[0]);
 }
@@ -198,13 +199,13 @@ static void two_terminals(Spice *s, const Card *card, const char *verb, const ch
     if (given == NULL)
         given = card_is_key(card, 3) ? "" : card_word(card, 3);
     if (!spice_read(s, given, &v) || !value_or(s, card_key(card, 3, "m"), "1", &m)) {
-        spice_leave(s, card, given[0] == '\0' ? "it has no value" : s->why);
+        leave(s, card, given[0] == '\0' ? "it has no value" : s->why);
         return;
     }
     say_others(s, card, 3, known);
     if (!(m.is_number && m.number == 1))
         v.alone = import_text(s->import, "%s%c%s", v.text, verb[0] == 'c' ? '*' : '/', m.text);
-    if (!import_add(s->import, card->line, "%s %s %s %s %s", verb, spice_part(s, card),
+    if (!import_add(s->import, card->line, "%s %s %s %s %s", verb, name_of_card(s, card),
                     spice_node(s, card->words.at[1]), spice_node(s, card->words.at[2]), v.alone))
         return;
     if (initial == NULL)
@@ -215,9 +216,9 @@ static void two_terminals(Spice *s, const Card *card, const char *verb, const ch
                      ".tran doesn't say uic");
     else if (spice_read(s, initial, &ic))
         spice_give_initial(s, card->line,
-                           import_text(s->import, "%s.%s", spice_part(s, card), state), ic);
+                           import_text(s->import, "%s.%s", name_of_card(s, card), state), ic);
     else
-        spice_leave(s, card, s->why);
+        leave(s, card, s->why);
 }
 
 static void say_resistor(Spice *s, const Card *card)
@@ -239,11 +240,11 @@ static void say_inductor(Spice *s, const Card *card)
 static void say_coupling(Spice *s, const Card *card)
 {
     const int last = card->words.count - 1;
-    const char *name = spice_part(s, card);
+    const char *name = name_of_card(s, card);
     SpiceValue k;
 
     if (last < 3 || !spice_read(s, card->words.at[last], &k)) {
-        spice_leave(s, card, last < 3 ? "it couples two inductors" : s->why);
+        leave(s, card, last < 3 ? "it couples two inductors" : s->why);
         return;
     }
     for (int i = 1; i < last; i++)
@@ -252,7 +253,7 @@ static void say_coupling(Spice *s, const Card *card)
             const char *b = import_known(s->import, SPICE_PART, card->words.at[j]);
 
             if (a == NULL || b == NULL) {
-                spice_leave(s, card, "an inductor that it names isn't there");
+                leave(s, card, "an inductor that it names isn't there");
                 return;
             }
             if (i > 1 || j > 2)
@@ -269,15 +270,15 @@ static void say_by_voltage(Spice *s, const Card *card)
     SpiceValue gain;
 
     if (card->words.count != 6 || card_is_key(card, 3)) {
-        spice_leave(s, card, "only a gain of one voltage can be said");
+        leave(s, card, "only a gain of one voltage can be said");
         return;
     }
     if (!spice_read(s, card->words.at[5], &gain)) {
-        spice_leave(s, card, s->why);
+        leave(s, card, s->why);
         return;
     }
     import_add(s->import, card->line, "%s %s %s %s %s %s gain=%s", voltage ? "vcvs" : "vccs",
-               spice_part(s, card), spice_node(s, card->words.at[1]),
+               name_of_card(s, card), spice_node(s, card->words.at[1]),
                spice_node(s, card->words.at[2]), spice_node(s, card->words.at[3]),
                spice_node(s, card->words.at[4]), gain.alone);
 }
@@ -290,17 +291,17 @@ static void say_by_current(Spice *s, const Card *card)
     SpiceValue gain;
 
     if (card->words.count != 5) {
-        spice_leave(s, card, "only a gain of one current can be said");
+        leave(s, card, "only a gain of one current can be said");
         return;
     }
     if (source == NULL || !spice_read(s, card->words.at[4], &gain)) {
-        spice_leave(s, card,
-                    source != NULL ? s->why
-                                   : import_text(s->import, "%s isn't there", card->words.at[3]));
+        leave(s, card,
+              source != NULL ? s->why
+                             : import_text(s->import, "%s isn't there", card->words.at[3]));
         return;
     }
     import_add(s->import, card->line, "%s %s %s %s of=%s.i gain=%s", voltage ? "ccvs" : "cccs",
-               spice_part(s, card), spice_node(s, card->words.at[1]),
+               name_of_card(s, card), spice_node(s, card->words.at[1]),
                spice_node(s, card->words.at[2]), source, gain.alone);
 }
 
@@ -319,7 +320,7 @@ static void say_diode(Spice *s, const Card *card)
     if (model == NULL || !model_value(s, model, "is", "1e-14", &is) ||
         !model_value(s, model, "n", "1", &n) || !model_value(s, model, "rs", "0", &rs) ||
         !value_or(s, area, "1", &by)) {
-        spice_leave(s, card, s->why);
+        leave(s, card, s->why);
         return;
     }
     say_others(s, card, 4, keys);
@@ -336,7 +337,7 @@ static void say_diode(Spice *s, const Card *card)
         import_add(s->import, card->line, "resistor %s %s %s %s/%s",
                    import_name(s->import, SPICE_PART, own), outer, plus, rs.text, by.text);
     }
-    import_add(s->import, card->line, "diode %s %s %s Is=%s n=%s", spice_part(s, card), plus,
+    import_add(s->import, card->line, "diode %s %s %s Is=%s n=%s", name_of_card(s, card), plus,
                spice_node(s, card->words.at[2]), is.alone, n.alone);
 }
 
@@ -356,11 +357,11 @@ static void say_switch(Spice *s, const Card *card)
         !model_value(s, model, current ? "it" : "vt", "0", &threshold) ||
         !model_value(s, model, current ? "ih" : "vh", "0", &hysteresis) ||
         !model_value(s, model, "ron", "1", &on) || !model_value(s, model, "roff", "1e12", &off)) {
-        spice_leave(s, card, s->why);
+        leave(s, card, s->why);
         return;
     }
     if (!is_zero(hysteresis)) {
-        spice_leave(s, card, "a switch with hysteresis has no counterpart");
+        leave(s, card, "a switch with hysteresis has no counterpart");
         return;
     }
     if (current) {
@@ -374,7 +375,7 @@ static void say_switch(Spice *s, const Card *card)
                                            : import_text(s->import, "%s.v - %s.v", a, b);
     }
     import_add(s->import, card->line, "switch %s %s %s when=%s > %s Ron=%s Roff=%s",
-               spice_part(s, card), spice_node(s, card->words.at[1]),
+               name_of_card(s, card), spice_node(s, card->words.at[1]),
                spice_node(s, card->words.at[2]), controlled, threshold.text, on.alone, off.alone);
 }
 
@@ -424,9 +425,9 @@ static void say_source(Spice *s, const Card *card)
         }
     }
     if (s->why != NULL)
-        spice_leave(s, card, s->why);
+        leave(s, card, s->why);
     else
-        import_add(s->import, card->line, "%s %s %s %s %s", verb, spice_part(s, card),
+        import_add(s->import, card->line, "%s %s %s %s %s", verb, name_of_card(s, card),
                    spice_node(s, card->words.at[1]), spice_node(s, card->words.at[2]),
                    given != NULL ? given : constant);
     LIST_FREE(values);
@@ -491,15 +492,14 @@ static void say_use(Spice *s, const Card *card)
     SpiceValue v;
 
     if (subcircuit == NULL || nodes != spice_port_count(subcircuit)) {
-        spice_leave(
-            s, card,
-            subcircuit == NULL
-                ? import_text(s->import, "there is no .subckt %s", card_word(card, keys - 1))
-                : import_text(s->import, "its .subckt %s has another number of nodes: %d, not %d",
-                              card->words.at[keys - 1], spice_port_count(subcircuit), nodes));
+        leave(s, card,
+              subcircuit == NULL
+                  ? import_text(s->import, "there is no .subckt %s", card_word(card, keys - 1))
+                  : import_text(s->import, "its .subckt %s has another number of nodes: %d, not %d",
+                                card->words.at[keys - 1], spice_port_count(subcircuit), nodes));
         return;
     }
-    text_addf(&text, "use %s %s", subcircuit->name, spice_part(s, card));
+    text_addf(&text, "use %s %s", subcircuit->name, name_of_card(s, card));
     for (int i = 0; i < nodes; i++)
         text_addf(&text, " %s=%s",
                   name_inside(s, subcircuit, SPICE_NODE, subcircuit->head.words.at[FIRST_PORT + i]),
@@ -508,11 +508,11 @@ static void say_use(Spice *s, const Card *card)
         const char *name = card->words.at[i];
 
         if (!card_is_key(card, i) || !has_parameter(subcircuit, name))
-            spice_leave(s, card, import_text(s->import, "its .subckt has no parameter %s", name));
+            leave(s, card, import_text(s->import, "its .subckt has no parameter %s", name));
         else if (spice_read(s, card->words.at[i + 2], &v))
             text_addf(&text, " %s=%s", name_inside(s, subcircuit, SPICE_PARAMETER, name), v.text);
         else
-            spice_leave(s, card, s->why);
+            leave(s, card, s->why);
     }
     import_add(s->import, card->line, "%s", text.at);
     text_free(&text);
@@ -551,15 +551,15 @@ void spice_name_elements(Spice *s)
             continue;
         card->element = element_of(card);
         if (card->element < 0) {
-            spice_leave(s, card, "there is no such element here");
+            leave(s, card, "there is no such element here");
         } else if (card->words.count < elements[card->element].words) {
-            spice_leave(s, card, "it is cut short");
+            leave(s, card, "it is cut short");
             card->element = -1;
         } else if (import_known(s->import, SPICE_PART, card->words.at[0]) != NULL) {
-            spice_leave(s, card, "there is another of that name");
+            leave(s, card, "there is another of that name");
             card->element = -1;
         } else {
-            (void)spice_part(s, card);
+            (void)name_of_card(s, card);
         }
     }
     for (int c = 0; c < s->cards.count; c++) {

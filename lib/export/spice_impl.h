@@ -42,10 +42,7 @@ typedef struct Spice {
 
 /* a value; false: s->why tells */
 bool spice_read(Spice *s, const char *text, SpiceValue *out);
-/* the card's part of the model is left out */
-void spice_leave(Spice *s, const Card *card, const char *why);
 const char *spice_node(Spice *s, const char *name);
-const char *spice_part(Spice *s, const Card *card); /* what a card is called */
 void spice_give_initial(Spice *s, int line, const char *variable, SpiceValue v);
 
 /* parameters of a card, from word `first` on */

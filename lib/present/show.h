@@ -80,9 +80,6 @@ ShowFunction show_outputs, show_params, show_init, show_run, show_runs, show_set
 
 /* --- equations one by one, each behind its edge's name --- */
 
-/* row k: Phi = 0, Phi_u u = nu ("velocity") or Phi_u u' = gamma ("acceleration") */
-MUST_USE Status equations_add_constraint(const View *view, EquationList *equations, int k,
-                                         const char *level, Diag *diag);
 /* row i of M u' + Phi_u^T lambda = F */
 MUST_USE Status equations_add_motion(const View *view, EquationList *equations, int i,
                                      int lead_width, Diag *diag);

@@ -328,8 +328,9 @@ static Status push_equation(EquationList *equations, Equation *equation, Status 
     return status;
 }
 
-Status equations_add_constraint(const View *view, EquationList *equations, int k, const char *level,
-                                Diag *diag)
+/* row k: Phi = 0, Phi_u u = nu ("velocity") or Phi_u u' = gamma ("acceleration") */
+static Status add_constraint(const View *view, EquationList *equations, int k, const char *level,
+                             Diag *diag)
 {
     Equation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
     const bool acceleration = level != NULL && strcmp(level, "acceleration") == 0;
@@ -360,7 +361,7 @@ Status show_constraints(const View *view, const Selection *selection, Text *out,
     CHECK(check_numbers(view, BLOCK_CONSTRAINTS, selection, diag));
     for (int k = 0; k < system_m(view->system); k++)
         if (is_chosen(selection, k, 0) && selection->number_count < 2)
-            CHECK(equations_add_constraint(view, &equations, k, selection->level, diag));
+            CHECK(add_constraint(view, &equations, k, selection->level, diag));
     if (selection->number_count == 0 && !says_nothing_moves(out, view, "constraints"))
         add_freedom(out, view);
     if (equations.count > 0)
@@ -487,7 +488,7 @@ Status show_equations(const View *view, const Selection *selection, Text *out, D
     (void)selection;
     CHECK(push_motions(view, &equations, width, diag));
     for (int k = 0; k < system_m(view->system); k++)
-        CHECK(equations_add_constraint(view, &equations, k, NULL, diag));
+        CHECK(add_constraint(view, &equations, k, NULL, diag));
     push_network(view, &equations, width);
     add_freedom(out, view);
     if (equations.count > 0)

@@ -150,6 +150,17 @@ void elastic_add_motion(const System *system, const Elastic *elastic, Loads *loa
     put(system, elastic, loads, force, torque, sign);
 }
 
+/* what is left where nothing accelerates, and what pushes */
+static void add_rest(const System *system, const Elastic *elastic, Loads *loads)
+{
+    const ShapeInertia *b = &elastic->block;
+    const int count = shapes_of(&system->origin->instances[elastic->instance]);
+
+    put(system, elastic, loads, vector_at(b->bias_force), vector_at(b->bias_torque), -1);
+    for (int i = 0; i < count; i++)
+        put_own(system, elastic, loads, i, expr_sub(system->arena, b->push[i], b->bias[i]), 1);
+}
+
 void elastic_add_inertia(const System *system, const Elastic *elastic, Loads *loads,
                          const Vec *alpha, const Vec *a, const Expr *accelerations)
 {
@@ -158,17 +169,7 @@ void elastic_add_inertia(const System *system, const Elastic *elastic, Loads *lo
 
     elastic_add_motion(system, elastic, loads, vec_sub(system->arena, a[elastic->node], g),
                        alpha[chain], accelerations, -1);
-    elastic_add_rest(system, elastic, loads);
-}
-
-void elastic_add_rest(const System *system, const Elastic *elastic, Loads *loads)
-{
-    const ShapeInertia *b = &elastic->block;
-    const int count = shapes_of(&system->origin->instances[elastic->instance]);
-
-    put(system, elastic, loads, vector_at(b->bias_force), vector_at(b->bias_torque), -1);
-    for (int i = 0; i < count; i++)
-        put_own(system, elastic, loads, i, expr_sub(system->arena, b->push[i], b->bias[i]), 1);
+    add_rest(system, elastic, loads);
 }
 
 Status elastic_add_load(System *system, const Elastic *elastic, int take, Loads *loads, Diag *diag)

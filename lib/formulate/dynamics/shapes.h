@@ -24,8 +24,6 @@ Elastic elastic_beyond(const System *system, const Elastic *elastic, Expr from);
 /* inertia and weight, of accelerations of its root and of speeds */
 void elastic_add_inertia(const System *system, const Elastic *elastic, Loads *loads,
                          const Vec *alpha, const Vec *a, const Expr *accelerations);
-/* what is left where nothing accelerates, and what pushes */
-void elastic_add_rest(const System *system, const Elastic *elastic, Loads *loads);
 /* what its load= does */
 MUST_USE Status elastic_add_load(System *system, const Elastic *elastic, int take, Loads *loads,
                                  Diag *diag);

@@ -134,7 +134,7 @@ static bool occurs(const Expr *symbols, int count, Expr symbol)
     return low < count && symbols[low] == symbol;
 }
 
-bool network_is_open(const System *system, Expr symbol)
+static bool is_open(const System *system, Expr symbol)
 {
     for (int i = 0; i < system->network->open.count; i++)
         if (system->network->open.at[i] == symbol)
@@ -146,7 +146,7 @@ Expr network_open(System *system, const char *name)
 {
     const Expr symbol = expr_symbol(system->arena, name, SYMBOL_EFFORT);
 
-    if (network_is_open(system, symbol))
+    if (is_open(system, symbol))
         return symbol;
     mem_keep(system->network);
     LIST_PUSH(system->network->open, symbol);
@@ -161,7 +161,7 @@ static Status late_rate(Diag *diag)
 
 static Status effort_rate(System *system, Expr symbol, Expr *out, Diag *diag)
 {
-    if (!network_is_open(system, symbol))
+    if (!is_open(system, symbol))
         return late_rate(diag);
     *out = network_open(system, system_keep(system, "%s'", expr_name(symbol)));
     return OK;

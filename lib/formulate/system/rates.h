@@ -12,6 +12,5 @@ Expr network_add_rate(System *system, int unknown, SymbolKind kind);
 void network_know(System *system, Expr symbol, int unknown, int order);
 /* A potential, or a rate of one, that the equations need of a terminal on which nothing stands. */
 Expr network_open(System *system, const char *name);
-bool network_is_open(const System *system, Expr symbol);
 
 #endif

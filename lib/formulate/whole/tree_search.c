@@ -15,7 +15,7 @@ static int edge_count(const TreeSearch *search)
     return graph_edge_count(search->scene.graph);
 }
 
-bool tree_search_is_over(const TreeSearch *search)
+static bool is_over(const TreeSearch *search)
 {
     return search->formed >= TREE_SEARCH_MOST || poll(search->watch) != OK;
 }
@@ -120,7 +120,7 @@ static void price(TreeSearch *search, TreePair *pair)
     Tree *trees[2];
     Diag ignored;
 
-    if (tree_search_is_over(search) || !tree_search_trees(search, pair, trees))
+    if (is_over(search) || !tree_search_trees(search, pair, trees))
         return;
     report(search->watch, "trees", (double)search->formed / TREE_SEARCH_MOST);
     search->formed++;
@@ -277,7 +277,7 @@ static void descend(TreeSearch *search, const TreePair *start)
 {
     const TreePair *here = start;
 
-    while (here->is_priced && !tree_search_is_over(search)) {
+    while (here->is_priced && !is_over(search)) {
         const TreePair *best = here;
 
         for (int i = find_neighbours(search, here); i < search->seen.count; i++) {

@@ -41,7 +41,6 @@ void tree_search_start(TreeSearch *search, const Tree *const halves[2], const ch
 /* From the starts on; `seen` is then sorted, cheapest first. At most TREE_SEARCH_MOST systems are
  * formed, each forgotten by the arena after it was priced. */
 void tree_search_run(TreeSearch *search);
-bool tree_search_is_over(const TreeSearch *search);
 /* The trees of a pair among the scene's edges: new, tree_free(); false: they are none. */
 bool tree_search_trees(const TreeSearch *search, const TreePair *pair, Tree *out[2]);
 
