@@ -218,7 +218,6 @@ void code_sizes(const Code *code, double sizes[CODE_PARTS]);
 
 typedef struct Language {
     Notation notation;
-    int base;                     /* index of a first entry */
     const char *array;            /* "%s[%d]" */
     const char *matrix;           /* of two indices; NULL: row by row in one */
     const char *local, *result;   /* a line that makes a name, one that sets an entry: "%s = %s" */
@@ -246,6 +245,8 @@ OpCount code_count(const Code *code, int function);
 void code_head(const Code *code, const Language *language, const char *lead, Text *out);
 /* A text of the runtime with its $NAMES replaced by the code's numbers. (code_head.c) */
 void code_fill(const Code *code, const char *text, Text *out);
+/* "name[i]" */
+void code_element(const Language *language, const char *name, int i, Text *out);
 /* a number as the language writes it */
 void code_number(const Language *language, double value, Text *out);
 /* name[i] = value; a line each */

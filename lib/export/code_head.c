@@ -43,7 +43,7 @@ static void say_entry(const Heading *head, const char *array, int i, const char 
     Text line = {0};
 
     text_addf(&line, "  ");
-    text_addf(&line, head->language->array, array, i + head->language->base); /* NOLINT */
+    code_element(head->language, array, i, &line);
     text_addf(&line, "  %s%s", name, more);
     say(head, &line);
 }

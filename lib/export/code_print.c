@@ -62,10 +62,14 @@ static void put_line(Text *out, const Language *language, const char *text)
     text_addf(out, "%s\n", text);
 }
 
-/* "name[i]" */
-static void element(Text *out, const Language *language, const char *name, int i)
+static int first_of(const Language *language)
 {
-    text_addf(out, language->array, name, i + language->base); /* NOLINT: a format of ours */
+    return notation_row(language->notation)->first;
+}
+
+void code_element(const Language *language, const char *name, int i, Text *out)
+{
+    text_addf(out, language->array, name, i + first_of(language)); /* NOLINT: a format of ours */
 }
 
 static void put_assignment(Text *out, const Language *language, const char *form, const char *left,
@@ -95,7 +99,7 @@ void code_set_array(const Language *language, const char *name, const double *va
     for (int i = 0; i < count; i++) {
         Text left = {0}, number = {0}, right = {0};
 
-        element(&left, language, name, i);
+        code_element(language, name, i, &left);
         code_number(language, values[i], &number);
         text_addf(&right, language->rounded != NULL ? language->rounded : "%s", number.at);
         put_assignment(out, language, language->result, left.at, right.at);
@@ -164,7 +168,7 @@ static void source(const Printing *pr, const CodeInput *input, Text *out)
     if (input->array == CODE_T)
         text_add(out, "t");
     else
-        element(out, pr->language, arrays[input->array], input->place);
+        code_element(pr->language, arrays[input->array], input->place, out);
 }
 
 static void put_input(Printing *pr, uint32_t v)
@@ -331,7 +335,7 @@ static void put_value(Printing *pr, uint32_t v)
     else if (given(pr, v) >= 0) {
         Text text = {0};
 
-        element(&text, pr->language, "p", given(pr, v));
+        code_element(pr->language, "p", given(pr, v), &text);
         set_part(pr, v, &text, BIND_ATOM, true);
     } else {
         for (int i = 0; i < code_operands(value->code); i++) {
@@ -404,10 +408,10 @@ void code_print(const Code *code, int function, const Language *language, Text *
         if (value->code == CODE_CONSTANT && value_constant(value) == 0)
             continue;
         if (!f->is_matrix || language->matrix == NULL)
-            element(&left, language, "out", i);
+            code_element(language, "out", i, &left);
         else
-            text_addf(&left, language->matrix, "out", i / f->columns + language->base,
-                      i % f->columns + language->base); /* NOLINT: a format of ours */
+            text_addf(&left, language->matrix, "out", i / f->columns + first_of(language),
+                      i % f->columns + first_of(language)); /* NOLINT: a format of ours */
         put_result(&pr, left.at, roots[i]);
         text_free(&left);
     }
@@ -434,7 +438,7 @@ char *code_print_derived(const Code *code, const Language *language, Text *out)
     for (int i = 0; i < roots.count; i++) {
         Text left = {0};
 
-        element(&left, language, "p", code->derived[roots.at[i]]);
+        code_element(language, "p", code->derived[roots.at[i]], &left);
         put_result(&pr, left.at, roots.at[i]);
         text_free(&left);
     }

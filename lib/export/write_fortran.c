@@ -377,7 +377,6 @@ static void write_file(const Code *code, const Language *language, Text *out)
 
 const Language language_fortran = {
     .notation = NOTATION_FORTRAN,
-    .base = 1,
     .array = "%s(%d)",
     .matrix = "%s(%d, %d)",
     .local = "%s = %s",

@@ -244,7 +244,6 @@ static void write_file(const Code *code, const Language *language, Text *out)
 
 const Language language_matlab = {
     .notation = NOTATION_MATLAB,
-    .base = 1,
     .array = "%s(%d)",
     .matrix = "%s(%d, %d)",
     .local = "%s = %s;",

@@ -155,36 +155,14 @@ static void matlab_power(Printer *printer, Expr base, Expr exponent, Number numb
 
 /* --- functions --- */
 
-static const char *const patterns[][OP_COUNT] = {
-#define CODE(id, c, matlab, python, fortran, numpy) [OP_##id] = c,
-    [NOTATION_C] =
-        {
+static const char *const patterns[OP_COUNT][NOTATIONS] = {
+#define CODE(id, c, matlab, python, fortran, numpy)                                                \
+    [OP_##id] = {[NOTATION_C] = c,                                                                 \
+                 [NOTATION_MATLAB] = matlab,                                                       \
+                 [NOTATION_PYTHON] = python,                                                       \
+                 [NOTATION_FORTRAN] = fortran,                                                     \
+                 [NOTATION_NUMPY] = numpy},
 #include "expr/code_functions.def"
-        },
-#undef CODE
-#define CODE(id, c, matlab, python, fortran, numpy) [OP_##id] = matlab,
-    [NOTATION_MATLAB] =
-        {
-#include "expr/code_functions.def"
-        },
-#undef CODE
-#define CODE(id, c, matlab, python, fortran, numpy) [OP_##id] = python,
-    [NOTATION_PYTHON] =
-        {
-#include "expr/code_functions.def"
-        },
-#undef CODE
-#define CODE(id, c, matlab, python, fortran, numpy) [OP_##id] = fortran,
-    [NOTATION_FORTRAN] =
-        {
-#include "expr/code_functions.def"
-        },
-#undef CODE
-#define CODE(id, c, matlab, python, fortran, numpy) [OP_##id] = numpy,
-    [NOTATION_NUMPY] =
-        {
-#include "expr/code_functions.def"
-        },
 #undef CODE
 };
 
@@ -210,8 +188,8 @@ static void say_pattern(Printer *printer, const char *pattern, Expr e)
 
 static void say_call(Printer *printer, Expr e, Notation notation, const char *library)
 {
-    if (patterns[notation][e->op] != NULL) {
-        say_pattern(printer, patterns[notation][e->op], e);
+    if (patterns[e->op][notation] != NULL) {
+        say_pattern(printer, patterns[e->op][notation], e);
         return;
     }
     if (say_operator(printer, e, c_names[e->op]))
@@ -268,12 +246,12 @@ static void fortran_call(Printer *printer, Expr e)
 
 static Level matlab_level(Expr e)
 {
-    return patterns[NOTATION_MATLAB][e->op] != NULL ? LEVEL_ATOM : operator_level(e);
+    return patterns[e->op][NOTATION_MATLAB] != NULL ? LEVEL_ATOM : operator_level(e);
 }
 
 char *op_code(Op op, Notation notation)
 {
-    const char *pattern = patterns[notation][op];
+    const char *pattern = patterns[op][notation];
     Text text = {0};
 
     if (pattern != NULL)
