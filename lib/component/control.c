@@ -138,10 +138,15 @@ static int one_state(const Instance *instance)
     return block_state_count(instance, 1);
 }
 
-/* k times the input */
+/* the sum of the inputs, times k where the row has one */
 static Expr amplified(const Instance *instance, Arena *arena)
 {
-    return expr_mul(arena, instance_scalar(instance, "k"), instance_scalar(instance, "of"));
+    const Value *of = instance_value(instance, "of");
+    Expr sum = expr_sum(arena, of->at, of->count);
+
+    if (component_param(instance->row, "k") < 0)
+        return sum;
+    return expr_mul(arena, instance_scalar(instance, "k"), sum);
 }
 
 /* --- input --- */
@@ -197,17 +202,17 @@ const Component component_input = {
     .see = "gain pid vsource",
 };
 
-/* --- gain --- */
+/* --- gain and sum --- */
 
-static void gain_relation(const Instance *instance, Arena *arena, int which, const Motion1 *motion,
-                          Relation *out)
+static void plain_relation(const Instance *instance, Arena *arena, int which, const Motion1 *motion,
+                           Relation *out)
 {
     (void)which;
     (void)motion;
     block_relation(instance, arena, amplified(instance, arena), out);
 }
 
-static void gain_state(const Instance *instance, Arena *arena, int k, OwnState *out)
+static void plain_state(const Instance *instance, Arena *arena, int k, OwnState *out)
 {
     (void)k;
     block_held(instance, arena, amplified(instance, arena), out);
@@ -223,9 +228,9 @@ const Component component_gain = {
     .param_count = COUNT(gain_params),
     .translation = BRANCH_MAY,
     .preference = 10,
-    .relation = gain_relation,
+    .relation = plain_relation,
     .own_state_count = no_states,
-    .own_state = gain_state,
+    .own_state = plain_state,
     .members = plain_members,
     .member_count = COUNT(plain_members),
     .check = plain_check,
@@ -235,29 +240,6 @@ const Component component_gain = {
                "resistor R1 b 0 1 kohm\nsimulate 1\nprint max(c1.v), min(c1.v)",
     .see = "sum lag pid vcvs",
 };
-
-/* --- sum --- */
-
-static Expr sum_command(const Instance *instance, Arena *arena)
-{
-    const Value *of = instance_value(instance, "of");
-
-    return expr_sum(arena, of->at, of->count);
-}
-
-static void sum_relation(const Instance *instance, Arena *arena, int which, const Motion1 *motion,
-                         Relation *out)
-{
-    (void)which;
-    (void)motion;
-    block_relation(instance, arena, sum_command(instance, arena), out);
-}
-
-static void sum_state(const Instance *instance, Arena *arena, int k, OwnState *out)
-{
-    (void)k;
-    block_held(instance, arena, sum_command(instance, arena), out);
-}
 
 const Component component_sum = {
     .name = "sum",
@@ -269,9 +251,9 @@ const Component component_sum = {
     .param_count = COUNT(sum_params),
     .translation = BRANCH_MAY,
     .preference = 10,
-    .relation = sum_relation,
+    .relation = plain_relation,
     .own_state_count = no_states,
-    .own_state = sum_state,
+    .own_state = plain_state,
     .members = plain_members,
     .member_count = COUNT(plain_members),
     .check = plain_check,
