@@ -32,7 +32,7 @@ typedef enum Status {
             goto done;                                                                             \
     } while (0)
 
-/* a stretch of the user's text; line and column count from 1, 0 is "nowhere" */
+/* a part of the user's text; line and column count from 1, 0 is "nowhere" */
 typedef struct Place {
     int line;
     int column; /* in bytes */

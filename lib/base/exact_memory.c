@@ -1,7 +1,7 @@
 /* exact_memory.c: memory of GMP's numbers
  *
- * GMP has one set of functions a process. Ours are set once and hand on to those they found, but in
- * a stretch of this thread. */
+ * GMP has one set of functions a process. Ours are set once and hand on to those they found, but
+ * between exact_begin() and exact_end() of this thread. */
 #include "base/exact_memory.h"
 
 #include "base/memory.h"
@@ -13,12 +13,12 @@ static void *(*found_new)(size_t);
 static void *(*found_resize)(void *, size_t, size_t);
 static void (*found_free)(void *, size_t);
 
-/* The transaction whose stretch it is; 0: none is. One that failed in its stretch is over. */
-static _Thread_local uint64_t stretch;
+/* The transaction that is between the two; 0: none is. One that failed there is over. */
+static _Thread_local uint64_t inside;
 
 static bool is_ours(void)
 {
-    return stretch != 0 && transaction_now != NULL && transaction_now->number == stretch;
+    return inside != 0 && transaction_now != NULL && transaction_now->number == inside;
 }
 
 static void *exact_new(size_t size)
@@ -50,10 +50,10 @@ void exact_begin(void)
     static pthread_once_t once = PTHREAD_ONCE_INIT;
 
     (void)pthread_once(&once, set_functions);
-    stretch = transaction_now != NULL ? transaction_now->number : 0;
+    inside = transaction_now != NULL ? transaction_now->number : 0;
 }
 
 void exact_end(void)
 {
-    stretch = 0;
+    inside = 0;
 }

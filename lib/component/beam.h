@@ -27,7 +27,7 @@ typedef struct BeamShape {
 typedef struct Beam {
     const Instance *instance;
     Arena *arena;
-    bool planar, shortens, rotates;
+    bool planar, shortens;
     int limit; /* order of T and work in shapes and their rates together; LIMITLESS */
     int count;
     BeamShape *shapes;

@@ -61,7 +61,7 @@ MUST_USE Status lexer_finish(Lexer *lexer, Diag *diag);
 void lexer_skip_line(Lexer *lexer);
 void lexer_skip_breaks(Lexer *lexer);
 
-/* A stretch of a text as one line: where a "\" joined lines stands one blank. New in `pool`. */
+/* A part of a text as one line: where a "\" joined lines stands one blank. New in `pool`. */
 const char *text_slice(Pool *pool, const char *text, size_t start, size_t end);
 
 /* from the start of one place to the end of another */

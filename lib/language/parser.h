@@ -44,9 +44,9 @@ bool parser_sees_stop(const Parser *parser); /* a stop word, or ">" where it wri
 
 /* E_SYNTAX "expected WHAT before/at ..." at the next token */
 Status parser_expected(const Parser *parser, const char *what);
-/* E_SYNTAX "unexpected ..." at the next token, with the hint that its kind calls for */
 /* 2,5 where one value stands: a hint, and true */
 bool parser_hint_comma(const Parser *parser);
+/* E_SYNTAX "unexpected ..." at the next token, with the hint that its kind calls for */
 Status parser_unexpected(const Parser *parser);
 /* E_SYNTAX where the bracket `open` should be closed */
 Status parser_unclosed(const Parser *parser, const Token *open);

@@ -121,12 +121,12 @@ int model_start_statement(const Model *model, int i);
 int model_subsystem_count(const Model *model);
 const Subsystem *model_subsystem(const Model *model, int i);
 const Subsystem *model_find_subsystem(const Model *model, const char *name); /* NULL */
-/* what `use` gives the subsystem of that name: ports, then parameters; NULL at the end */
 /* New: the definition and those that it needs, a line each; NULL: there is none. */
 char *model_store(const Model *model, const char *name);
 /* The model's statement that defines the name of a parameter, law or subsystem which `s` defines;
  * *same: in the same words. NULL: there is none. */
 const char *model_definition_like(const Model *model, const Statement *s, bool *same);
+/* what `use` gives the subsystem of that name: ports, then parameters; NULL at the end */
 const char *model_subsystem_key(const Model *model, const char *name, int i);
 int model_use_count(const Model *model);
 const Use *model_use(const Model *model, int i);

@@ -101,11 +101,12 @@ ShowFunction show_linear, show_transfer, show_state;
 ShowFunction show_symbolic_transfer, show_thevenin, show_norton;
 /* E_MISSING where there is nothing linear, or no input or output of it */
 MUST_USE Status linear_check_pairs(const Linear *linear, Diag *diag);
-/* a line a mode; what moves on lines of its own where that is wider than the page (0: never) */
 /* a number of which `error` is open: six digits, or those that are known, one at least */
 void linear_known(Text *out, double value, double error);
-void linear_latex(Text *out, double value, int digits);            /* 1.5 \cdot 10^{-9} */
-void modes_print(const View *view, const Modes *modes, Text *out); /* or why there are none */
+void linear_latex(Text *out, double value, int digits); /* 1.5 \cdot 10^{-9} */
+/* a line a mode, or why there are none; what moves on lines of its own where that is wider than the
+ * page (0: never) */
+void modes_print(const View *view, const Modes *modes, Text *out);
 
 /* what an event of the model does, in words: "stops", "s1' = -0.8*s1'" */
 void event_print(Text *out, const Event *event);

@@ -27,7 +27,6 @@ const char *story_edge(const View *view, int edge); /* names, borrowed */
 const char *story_node(const View *view, int node);
 /* "r(h9)": a variable of an edge */
 void story_add_variable(Text *out, const View *view, const char *letter, bool is_vector, int edge);
-/* before a term of a sum */
 /* The order in which a person writes a sum: as it comes, or from its end, or from the middle on, so
  * that it begins with a plus where there is one. */
 typedef struct SumOrder {
@@ -39,6 +38,7 @@ static inline int story_at(const SumOrder *order, int k)
 {
     return (order->first + order->step * k + order->count) % order->count;
 }
+/* before a term of a sum */
 void story_add_sign(Text *out, int sign, bool first);
 /* "[L6, 0]": in a plane two components */
 void story_add_vector(Text *out, const View *view, const Expr at[3]);

@@ -107,12 +107,12 @@ void session_remark(ct_session *session, const char *lines);
 /* what a result has to say, less the end at a bound, which is an error and said as one */
 void session_remark_result(ct_session *session, const Result *result);
 
-/* the model is no longer what it was at that revision */
 /* (session_import.c) The whole of a file that a statement names. */
 MUST_USE Status session_read_file(ct_session *session, const Syntax *name, Text *out, Diag *diag);
 /* What changed the model since model_begin_group() is one step from now on, or taken back. */
 void session_end_group(ct_session *session, int group, const char *called, uint64_t revision,
                        bool keep);
+/* the model is no longer what it was at that revision */
 void session_note_change(ct_session *session, uint64_t revision, bool trees_only);
 
 /* the equations of the model as it is; borrowed */

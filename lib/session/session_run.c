@@ -93,7 +93,6 @@ done:
 typedef Status RunFunction(System *system, const Setting *setting, const RunOptions *options,
                            Result **out, ResultReader **reader, Diag *diag);
 
-/* The run is the last one now, and what it was like is said. */
 /* three-angle sequences that came near their critical angle, by joint and angle */
 static void remark_critical(ct_session *session, ResultReader *reader)
 {
@@ -124,6 +123,7 @@ static void remark_critical(ct_session *session, ResultReader *reader)
     mem_free(values);
 }
 
+/* The run is the last one now, and what it was like is said. */
 static void keep_run(ct_session *session, RunInput *input, Result *result, ResultReader *reader)
 {
     Text line = {0};

@@ -306,7 +306,6 @@ static Status solve_chains(Space *s, Diag *diag)
 typedef struct Rest {
     int count;
     int *rows;
-    int *of_row;     /* place in `rows`, or -1 */
     int *row_of;     /* by unknown: place of the row that tells it, or -1 */
     int *unknown_of; /* by place */
     bool *tried;     /* by unknown */
