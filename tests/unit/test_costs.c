@@ -159,7 +159,7 @@ static void chain_of_bodies(Text *text, int n)
 static void moving_chain(Text *text, int n)
 {
     hang_bodies(text, "xy", n);
-    text_add(text, "simulate 1e-6 every=1e-6\n");
+    text_addf(text, "spring s ground b%d k=1\nsimulate 1e-6 every=1e-6\n", n - 1);
 }
 
 static void moving_parallel_chain(Text *text, int n)

@@ -14,6 +14,8 @@
 
 #include <string.h>
 
+enum { MANY_TURNS = 20 }; /* from the datum */
+
 /* whether what hangs from a chain turns as the first does: outside it is the same chain */
 static bool turns_alike(const System *system, Follower *follower, int chain)
 {
@@ -215,6 +217,41 @@ static Vec *positions_of(System *system)
     return *positions;
 }
 
+/* x, y and z of the datum in the axes of every chain */
+static const Vec *datum_axes(System *system)
+{
+    const int chains = system->kinematics->chains.count;
+    Vec **axes = &system->shown->datum_axes;
+
+    if (*axes != NULL)
+        return *axes;
+    *axes = NEW_ARRAY(Vec, 3 * chains);
+    for (int k = 0; k < 3; k++) {
+        Vec unit = vec_zero(system->arena);
+
+        unit.at[k] = expr_int(system->arena, 1);
+        vec_express_outward(system, unit, *axes + (ptrdiff_t)k * chains);
+    }
+    return *axes;
+}
+
+/* In the axes of the datum. From beyond many turns by what these are over there: each turn stands
+ * there once, and not once for each step beyond it. */
+static Vec in_datum(System *system, Vec v, int chain)
+{
+    const Chain *chains = system->kinematics->chains.at;
+    const Vec *axes;
+    Vec out;
+
+    if (chains[chain].depth < MANY_TURNS || chains[chain].resolve != chain)
+        return vec_hold(system->arena, vec_express(system, v, chain, 0));
+    axes = datum_axes(system) + chain;
+    for (int k = 0; k < 3; k++)
+        out.at[k] =
+            vec_dot(system->arena, axes[(ptrdiff_t)k * system->kinematics->chains.count], v);
+    return vec_hold(system->arena, out);
+}
+
 Vec node_position(System *system, int node)
 {
     Arena *arena = system->arena;
@@ -232,9 +269,7 @@ Vec node_position(System *system, int node)
     for (int k = way.count - 1; k >= 0; k--) {
         const Frame *frame = &frames[way.at[k]];
 
-        p = vec_hold(arena, vec_add(arena, p,
-                                    vec_hold(arena, vec_express(system, frame->shift,
-                                                                frame->step_chain, 0))));
+        p = vec_hold(arena, vec_add(arena, p, in_datum(system, frame->shift, frame->step_chain)));
         positions[way.at[k]] = p;
     }
     LIST_FREE(way);

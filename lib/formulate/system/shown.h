@@ -13,6 +13,7 @@ typedef struct Sums Sums;
 typedef struct Shown {
     Expr *entries[BLOCK_COUNT]; /* arrays; NULL, as their entries are, until formed */
     Vec *positions;             /* of nodes, ground axes; likewise */
+    Vec *datum_axes;            /* ground's x of chains, in their axes, then y, z; or NULL */
     Recovery *recovery;         /* NULL: not looked for yet, or no row vanished */
     Sums *actual;               /* with u', lambda: for reactions */
     Vec *actual_a;              /* accelerations of nodes */
