@@ -1,6 +1,7 @@
-/* test_session.c: life of a session, statements, building, undo */
+/* test_session.c: life of a session, statements, building, undo, long chains */
 #include "session_kit.h"
 
+#include "algebra/matrix3.h"
 #include "base/memory.h"
 #include "base/text.h"
 
@@ -375,6 +376,45 @@ static void undo_and_redo_of_an_edit_form_no_equations(void)
     kit_free(&kit);
 }
 
+/* by rotations one after the other (Rodrigues); gravity is along none of the axes */
+static void what_hangs_beyond_many_turns_is_where_they_bring_it(void)
+{
+    enum { LINKS = 30 };
+    static const double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0.36, 0.48, 0.8}};
+    static const double gravity[3] = {1, -2, -9}, down[3] = {0, 0, -1};
+    double R[9], at[3] = {0}, potential = 0;
+    Kit kit = kit_new();
+    Text text = {0};
+
+    matrix3_one(R);
+    text_add(&text, "gravity [1, -2, -9]\n");
+    for (int i = 0; i < LINKS; i++) {
+        const double *axis = axes[i % 3];
+        double turn[9], half[3];
+
+        text_addf(&text, "body b%d mass=2 inertia=[1, 2, 3]; arm p%d b%d [0, 0, 1]; ", i, i, i);
+        text_addf(&text, "arm q%d b%d [0, 0, -1]; revolute h%d ", i, i, i);
+        text_addf(&text, i == 0 ? "ground " : "q%d ", i - 1);
+        text_addf(&text, "p%d axis=[%g, %g, %g]; init h%d = %d/10\n", i, axis[0], axis[1], axis[2],
+                  i, i % 7 - 3);
+        matrix3_turn(axis, (i % 7 - 3) / 10.0, turn);
+        matrix3_times(R, turn, R);
+        matrix3_apply(R, down, half);
+        for (int k = 0; k < 3; k++) {
+            potential -= 2 * gravity[k] * (at[k] + half[k]);
+            at[k] += 2 * half[k];
+        }
+    }
+    EXPECT_DONE(&kit, text.at);
+    EXPECT_DONE(&kit, "assemble");
+    EXPECT_NEAR(kit_value(&kit, "q29.x at 0"), at[0], 1e-12);
+    EXPECT_NEAR(kit_value(&kit, "q29.y at 0"), at[1], 1e-12);
+    EXPECT_NEAR(kit_value(&kit, "q29.z at 0"), at[2], 1e-12);
+    EXPECT_NEAR(kit_value(&kit, "energy.potential at 0"), potential, 1e-9);
+    text_free(&text);
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(a_statement_is_handed_out_in_parts);
@@ -393,5 +433,6 @@ int main(void)
     RUN(a_session_needs_no_hooks);
     RUN(a_session_bears_any_order_of_statements);
     RUN(undo_and_redo_of_an_edit_form_no_equations);
+    RUN(what_hangs_beyond_many_turns_is_where_they_bring_it);
     return test_end();
 }

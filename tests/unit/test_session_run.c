@@ -1,7 +1,6 @@
 /* test_session_run.c: runs, values, tables, expectations */
 #include "session_kit.h"
 
-#include "algebra/matrix3.h"
 #include "base/memory.h"
 #include "base/text.h"
 
@@ -733,49 +732,9 @@ static void figures_are_those_of_the_run_that_is_asked_for(void)
     kit_free(&kit);
 }
 
-/* by rotations one after the other (Rodrigues); gravity is along none of the axes */
-static void what_hangs_beyond_many_turns_is_where_they_bring_it(void)
-{
-    enum { LINKS = 30 };
-    static const double axes[3][3] = {{1, 0, 0}, {0, 1, 0}, {0.36, 0.48, 0.8}};
-    static const double gravity[3] = {1, -2, -9}, down[3] = {0, 0, -1};
-    double R[9], at[3] = {0}, potential = 0;
-    Kit kit = kit_new();
-    Text text = {0};
-
-    matrix3_one(R);
-    text_add(&text, "gravity [1, -2, -9]\n");
-    for (int i = 0; i < LINKS; i++) {
-        const double *axis = axes[i % 3];
-        double turn[9], half[3];
-
-        text_addf(&text, "body b%d mass=2 inertia=[1, 2, 3]; arm p%d b%d [0, 0, 1]; ", i, i, i);
-        text_addf(&text, "arm q%d b%d [0, 0, -1]; revolute h%d ", i, i, i);
-        text_addf(&text, i == 0 ? "ground " : "q%d ", i - 1);
-        text_addf(&text, "p%d axis=[%g, %g, %g]; init h%d = %d/10\n", i, axis[0], axis[1], axis[2],
-                  i, i % 7 - 3);
-        matrix3_turn(axis, (i % 7 - 3) / 10.0, turn);
-        matrix3_times(R, turn, R);
-        matrix3_apply(R, down, half);
-        for (int k = 0; k < 3; k++) {
-            potential -= 2 * gravity[k] * (at[k] + half[k]);
-            at[k] += 2 * half[k];
-        }
-    }
-    EXPECT_DONE(&kit, text.at);
-    EXPECT_DONE(&kit, "assemble");
-    EXPECT_NEAR(kit_value(&kit, "q29.x at 0"), at[0], 1e-12);
-    EXPECT_NEAR(kit_value(&kit, "q29.y at 0"), at[1], 1e-12);
-    EXPECT_NEAR(kit_value(&kit, "q29.z at 0"), at[2], 1e-12);
-    EXPECT_NEAR(kit_value(&kit, "energy.potential at 0"), potential, 1e-9);
-    text_free(&text);
-    kit_free(&kit);
-}
-
 int main(void)
 {
     RUN(a_run_keeps_energy_and_meets_the_start);
-    RUN(what_hangs_beyond_many_turns_is_where_they_bring_it);
     RUN(the_period_is_that_of_the_closed_form);
     RUN(a_value_is_of_the_end_of_the_run_until_something_changes);
     RUN(an_instant_within_rounding_of_a_row_is_that_row);
