@@ -14,11 +14,15 @@ enum {
     POINTS = 7,    /* of a piece, by Gauss and Legendre: exact to degree 13 */
     SAMPLES = 9,   /* of a piece: these, and its ends from inside */
     MOST = 40000,  /* pieces */
-    HALVINGS = 10, /* of a piece; a kink within is then some 1e-3 of it */
+    HALVINGS = 10, /* of a piece; a kink within is then some 1e-3 of it, */
+    SHORT = 5,     /* these pieces are short, and what kinks and jumps within add up to is less */
     CLOSER = 16    /* rounds of SAMPLES instants for an instant, each a tenth as long */
 };
 #define INSIDE 1e-9  /* of a piece: how far within it its ends are taken */
 #define AGREE  1e-12 /* of the mean size: halves of a piece that differ by less agree */
+#define ROUGH  1e-6  /* of their size: a kink, a jump or a pole is in halves that differ by more; */
+#define LASTS  0.4   /* about a pole these add up to as much in the end, however short they are, */
+#define WEIGHS 1e-3  /* and to so much of the whole */
 #define EVEN   0.1   /* crossings that are further from even tell no period */
 
 static const double nodes[POINTS] = {
@@ -147,12 +151,27 @@ done:
     return status;
 }
 
+/* about a pole no pieces are short enough */
+static Status refuse_pole(const Course *course, const Pieces *halves, Diag *diag)
+{
+    const Piece *most = &halves->at[0];
+
+    for (int i = 1; i < halves->count; i++)
+        if (fabs(halves->at[i].sum) > fabs(most->sum))
+            most = &halves->at[i];
+    (void)diag_at(diag, E_VALUE, course->call->place,
+                  "near t = %.6g s it grows without bound, and has no mean",
+                  (most->a + most->b) / 2);
+    diag_hint(diag, "'max' and 'min' are those of the rows; if(.., .., ..) leaves an instant out");
+    return E_VALUE;
+}
+
 /* the mean of a power; pieces are halved where halves tell another integral */
 static Status mean_of(const Course *course, int power, double *out, Diag *diag)
 {
     const double span = course->ends.at[course->ends.count - 1] - course->ends.at[0];
     Pieces open = {0}, halves = {0};
-    double sum = 0, size = 0;
+    double sum = 0, size = 0, least = INFINITY;
     Status status = OK;
 
     *out = power == 2 ? course->values.at[0] * course->values.at[0] : course->values.at[0];
@@ -166,6 +185,7 @@ static Status mean_of(const Course *course, int power, double *out, Diag *diag)
         LIST_PUSH(open, piece);
     }
     for (int k = 0; open.count > 0; k++) {
+        double rough = 0; /* what the rough pieces add up to */
         int left = 0;
 
         halves.count = 0;
@@ -175,6 +195,9 @@ static Status mean_of(const Course *course, int power, double *out, Diag *diag)
             const double both = halves.at[2 * i].sum + halves.at[2 * i + 1].sum;
             const double bound = AGREE * size * fmax((open.at[i].b - open.at[i].a) / span, 1e-3);
 
+            const double own = fabs(halves.at[2 * i].sum) + fabs(halves.at[2 * i + 1].sum);
+
+            rough += fabs(both - open.at[i].sum) > ROUGH * own ? own : 0;
             if (k < HALVINGS && fabs(both - open.at[i].sum) > bound) {
                 halves.at[left++] = halves.at[2 * i];
                 halves.at[left++] = halves.at[2 * i + 1];
@@ -182,6 +205,10 @@ static Status mean_of(const Course *course, int power, double *out, Diag *diag)
                 sum += both;
             }
         }
+        if (k <= SHORT)
+            least = fmin(least, rough);
+        else if (k == HALVINGS && rough > fmax(LASTS * least, WEIGHS * size))
+            CHECK(refuse_pole(course, &halves, diag));
         halves.count = left;
 
         const Pieces swap = open;

@@ -59,6 +59,49 @@ static void a_swing_has_its_closed_forms_at_any_rows(void)
     }
 }
 
+/* for how much of T the swing is above a level: where |2 t - atan 2| is less than `half` of a turn
+ */
+static double part_above(double level, double T)
+{
+    const double half = acos(level / sqrt(1.25)), turn = atan(2);
+    double sum = 0;
+
+    for (int k = 0; 2 * M_PI * k + turn - half < 2 * T; k++)
+        sum += fmin(2 * M_PI * k + turn + half, 2 * T) - fmax(2 * M_PI * k + turn - half, 0);
+    return sum / (2 * T);
+}
+
+/* wherever a pole lies, and however weak it is; a jump at the same instants has one, and so has
+ * what grows without bound more slowly */
+static void no_mean_is_told_about_a_pole(void)
+{
+    static const char *const poles[] = {"mean(1/(h - %g))", "mean(3 - 0.02/(h - %g))",
+                                        "rms(1/(h - %g))", "rms(1/sqrt(abs(h - %g)))",
+                                        "period(1/(h - %g))"};
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SWING "simulate 10 every=0.1");
+    for (int k = 0; k < 46; k++) {
+        const double level = -1.05 + 0.0471 * k;
+        char line[80];
+
+        for (size_t i = 0; i < sizeof poles / sizeof poles[0]; i++) {
+            int length = snprintf(line, sizeof line, "print ");
+
+            (void)snprintf(line + length, sizeof line - (size_t)length, poles[i], level);
+            EXPECT_FAILS(&kit, line, "grows without bound, and has no mean");
+        }
+        (void)snprintf(line, sizeof line, "mean(if(h > %g, 1, 0))", level);
+        EXPECT_NEAR(kit_value(&kit, line), part_above(level, 10), 1e-3);
+        (void)snprintf(line, sizeof line, "mean(1e3*if(abs(h - %g) < 0.04, 1, 0))", level);
+        EXPECT_NEAR(kit_value(&kit, line),
+                    1e3 * (part_above(level - 0.04, 10) - part_above(level + 0.04, 10)), 0.5);
+        (void)snprintf(line, sizeof line, "mean(log(abs(h - %g)))", level);
+        EXPECT(isfinite(kit_value(&kit, line)));
+    }
+    kit_free(&kit);
+}
+
 /* falls from 1 m, and leaves the ground with 0.8 of its speed */
 static void a_ball_jumps_between_rows(void)
 {
@@ -267,6 +310,7 @@ int main(void)
     RUN(a_ball_has_the_tones_of_parabolas);
     RUN(a_spectrum_stands_where_it_can);
     RUN(a_swing_has_its_closed_forms_at_any_rows);
+    RUN(no_mean_is_told_about_a_pole);
     RUN(a_ball_jumps_between_rows);
     RUN(what_decays_settles);
     RUN(what_is_kept_is_a_number_with_its_unit);
