@@ -54,6 +54,7 @@ struct Kkt {
     /* of all rows, so far: largest p; of columns the largest entry, and of all rows the largest
      * norm with columns over that */
     double *most, *reach, *row_reach;
+    double *kept;                      /* these three, see kkt_keep_sizes() */
     double *norm, *reference;          /* by place, of multipliers: those squared, and of `most` */
     double *right, *answer, *residual; /* by place */
     double *weight;                    /* by place: of squares of unknowns, to compare them */
@@ -133,6 +134,7 @@ Kkt *kkt_new(const Pattern *mass, const Pattern *constraints, const int *rows, i
     kkt->most = NEW_ARRAY(double, constraints->columns);
     kkt->reach = NEW_ARRAY(double, nu);
     kkt->row_reach = NEW_ARRAY(double, constraints->columns);
+    kkt->kept = NEW_ARRAY(double, nu + 2 * constraints->columns);
     kkt->norm = NEW_ARRAY(double, size);
     kkt->reference = NEW_ARRAY(double, size);
     kkt->right = NEW_ARRAY(double, size);
@@ -155,8 +157,8 @@ void kkt_free(Kkt *kkt)
         return;
     close_order(kkt);
     MEM_FREE(kkt->rows, kkt->from, kkt->row, kkt->column, kkt->place, kkt->place_of, kkt->most,
-             kkt->reach, kkt->row_reach, kkt->norm, kkt->reference, kkt->right, kkt->answer,
-             kkt->residual, kkt->weight, kkt->scale, kkt);
+             kkt->kept, kkt->reach, kkt->row_reach, kkt->norm, kkt->reference, kkt->right,
+             kkt->answer, kkt->residual, kkt->weight, kkt->scale, kkt);
 }
 
 static void keep_rows(Kkt *kkt, const int *rows)
@@ -228,6 +230,29 @@ double kkt_independence(Kkt *kkt, const double *phi_u, const int *rows)
     keep_rows(kkt, rows);
     measure_columns(kkt, phi_u);
     return sqrt(least_pivot(kkt, phi_u));
+}
+
+static void copy_sizes(const Kkt *kkt, bool back)
+{
+    const int columns = kkt->constraints->columns;
+    double *sizes[] = {kkt->reach, kkt->most, kkt->row_reach}, *kept = kkt->kept;
+
+    for (int i = 0; i < 3; i++) {
+        const int count = i == 0 ? kkt->nu : columns;
+
+        memcpy(back ? sizes[i] : kept, back ? kept : sizes[i], (size_t)count * sizeof(double));
+        kept += count;
+    }
+}
+
+void kkt_keep_sizes(Kkt *kkt)
+{
+    copy_sizes(kkt, false);
+}
+
+void kkt_return_sizes(Kkt *kkt)
+{
+    copy_sizes(kkt, true);
 }
 
 /* --- rows exchanged --- */

@@ -35,6 +35,10 @@ double kkt_blur(const Kkt *kkt);
 /* How independent the rows are, without M: the root of the least of those pivots, 1 at most. It
  * falls to 0 as the distance to a singular configuration does. */
 double kkt_independence(Kkt *kkt, const double *phi_u, const int *rows);
+/* What is next to nothing is told by how large it has been. Sizes as they are now are kept, and
+ * come back where a step that was tried and given up has seen what the motion never does. */
+void kkt_keep_sizes(Kkt *kkt);
+void kkt_return_sizes(Kkt *kkt);
 /* M du + G^T lambda = top, G du = bottom. `top` may be NULL for 0; du may be `top`. */
 void kkt_solve(Kkt *kkt, const double *top, const double *bottom, double *du, double *lambda);
 

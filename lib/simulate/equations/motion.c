@@ -210,6 +210,9 @@ static void begin(void *context, double t, const double *y, double h)
     if (t != mo->began) {
         mo->independence_before = mo->independence;
         mo->began_before = mo->began;
+        kkt_keep_sizes(mo->kkt);
+    } else {
+        kkt_return_sizes(mo->kkt);
     }
     motion_at_position(mo, motion_clock(mo, t), y);
     mo->independence = ahead = kkt_independence(mo->kkt, mo->eq->phi_u, mo->rows);
