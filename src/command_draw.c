@@ -161,9 +161,7 @@ static bool wait_for(double seconds)
 
 static bool terminal_moves(void)
 {
-    const char *term = getenv("TERM");
-
-    return isatty(STDOUT_FILENO) && term != NULL && strcmp(term, "dumb") != 0;
+    return isatty(STDOUT_FILENO) && !terminal_is_dumb();
 }
 
 static bool fits(const ct_paper *paper)

@@ -8,6 +8,7 @@
 #include "copy.h"
 #include "file.h"
 #include "interrupt.h"
+#include "terminal.h"
 
 #include <readline/history.h>
 #include <readline/readline.h>
@@ -272,7 +273,7 @@ void line_edit_open(ct_session *session)
     rl_catch_signals = 0;
     rl_catch_sigwinch = 0;
     rl_initialize();
-    rl_variable_bind("enable-bracketed-paste", "on");
+    rl_variable_bind("enable-bracketed-paste", terminal_is_dumb() ? "off" : "on");
     rl_bind_key('\t', on_tab);
     bind_pasting();
     using_history();

@@ -88,8 +88,8 @@ static bool page(const char *text, size_t length)
 void pager_show(const char *text, size_t length, bool allowed)
 {
     fflush(stdout);
-    if (allowed && isatty(STDOUT_FILENO) && is_longer_than_screen(text, length) &&
-        page(text, length))
+    if (allowed && isatty(STDOUT_FILENO) && !terminal_is_dumb() &&
+        is_longer_than_screen(text, length) && page(text, length))
         return;
     fwrite(text, 1, length, stdout);
 }

@@ -3,6 +3,7 @@
 
 #include "cotree.h"
 #include "interrupt.h"
+#include "terminal.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -13,7 +14,7 @@ static const double PAUSE = 0.1;  /* s between two */
 
 void progress_begin(Progress *progress, bool allowed)
 {
-    *progress = (Progress){.allowed = allowed && isatty(STDERR_FILENO)};
+    *progress = (Progress){.allowed = allowed && isatty(STDERR_FILENO) && !terminal_is_dumb()};
     progress->began = progress->phase_began = ct_clock();
 }
 

@@ -25,6 +25,13 @@ bool terminal_is_utf8(void)
     return strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
 }
 
+bool terminal_is_dumb(void)
+{
+    const char *term = getenv("TERM");
+
+    return term == NULL || *term == '\0' || strcmp(term, "dumb") == 0;
+}
+
 int terminal_character(const char *text, size_t length, int *columns)
 {
     wchar_t c = 0;

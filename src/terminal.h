@@ -8,6 +8,8 @@
 /* of standard output; where that is no terminal, or doesn't tell, 24 x 80 */
 void terminal_size(int *rows, int *columns);
 bool terminal_is_utf8(void);
+/* of $TERM: it knows no more than lines, so that nothing on it can be gone back over */
+bool terminal_is_dumb(void);
 /* columns of the first `length` bytes; a tab counts as one, as do bytes that are no character */
 int terminal_width(const char *text, size_t length);
 /* bytes of the character at `text` (at least 1) and the columns that it takes */

@@ -16,6 +16,7 @@ terminal_tests = \
     tests/terminal/recover.exp \
     tests/terminal/memory_end.exp \
     tests/terminal/pager.exp \
+    tests/terminal/dumb.exp \
     tests/terminal/plot_text.exp \
     tests/terminal/plot_sizes.exp \
     tests/terminal/plot_file.exp \
