@@ -1,6 +1,7 @@
 /* pager.c: long text, a screen at a time */
 #include "pager.h"
 
+#include "copy.h"
 #include "interrupt.h"
 #include "terminal.h"
 
@@ -35,9 +36,10 @@ static void become_pager(void)
     const char *wanted = getenv("PAGER");
 
     interrupt_forget();
-    if (wanted != NULL && *wanted != '\0')
-        execl("/bin/sh", "sh", "-c", wanted, (char *)NULL);
-    else {
+    if (wanted != NULL && *wanted != '\0') {
+        /* in the place of the shell, or Ctrl-C would end that alone and the pager go on reading */
+        execl("/bin/sh", "sh", "-c", copy_format("exec env %s", wanted), (char *)NULL);
+    } else {
         execlp("less", "less", "-FRX", (char *)NULL);
         execlp("more", "more", (char *)NULL);
     }
