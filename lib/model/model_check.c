@@ -14,13 +14,19 @@ static bool is_of_parameters(Expr e)
     return !expr_is_number(e) && (expr_kinds(e) & ~(1U << SYMBOL_PARAMETER)) == 0;
 }
 
-/* Make values of a part the numbers that parameters tell. E_DOMAIN where one isn't finite. */
-static Status read_numbers(State *state, const Instance *part, Value *out, Diag *diag)
+/* The values as numbers where parameters tell them; `out` has room for all, `entries` for what they
+ * hold. E_DOMAIN where one isn't finite. */
+static Status read_numbers(State *state, const Instance *part, Value *out, Expr *entries,
+                           Diag *diag)
 {
     for (int i = 0; i < part->row->param_count; i++) {
+        out[i] = part->values[i];
+        out[i].at = entries;
+        entries += out[i].count;
         for (int k = 0; k < out[i].count; k++) {
             double value;
 
+            out[i].at[k] = part->values[i].at[k];
             if (!is_of_parameters(out[i].at[k]))
                 continue;
             value = state_number(state, out[i].at[k]);
@@ -134,11 +140,15 @@ Status part_check(State *state, const Instance *part, Text *remarks, Diag *diag)
     const Component *row = part->row;
     ArenaMark *mark = arena_mark(state->arena);
     Instance numeric = *part;
-    Pool *pool = pool_new(1024);
+    Expr *entries = NULL;
+    int count = 0;
     Status status = OK;
 
-    numeric.values = values_copy(pool, part->values, row->param_count);
-    CHECK(read_numbers(state, part, numeric.values, diag));
+    for (int i = 0; i < row->param_count; i++)
+        count += part->values[i].count;
+    entries = NEW_ARRAY(Expr, count);
+    numeric.values = NEW_ARRAY(Value, row->param_count);
+    CHECK(read_numbers(state, part, numeric.values, entries, diag));
     CHECK(instance_check(&numeric, state->arena, state->planar, diag));
     CHECK(coupled_check(state, part, remarks, diag));
     CHECK(check_arm(state, &numeric, diag));
@@ -150,7 +160,7 @@ Status part_check(State *state, const Instance *part, Text *remarks, Diag *diag)
     if (row->doubt != NULL)
         row->doubt(&numeric, state->planar, remarks);
 done:
-    pool_free(pool);
+    MEM_FREE(numeric.values, entries);
     arena_release(state->arena, mark);
     return status;
 }
