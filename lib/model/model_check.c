@@ -14,11 +14,12 @@ static bool is_of_parameters(Expr e)
     return !expr_is_number(e) && (expr_kinds(e) & ~(1U << SYMBOL_PARAMETER)) == 0;
 }
 
-/* The values as numbers where parameters tell them; `out` has room for all, `entries` for what they
- * hold. E_DOMAIN where one isn't finite. */
-static Status read_numbers(State *state, const Instance *part, Value *out, Expr *entries,
-                           Diag *diag)
+/* The values as numbers where parameters tell them; `out` has room for all and, behind them, for
+ * their entries. E_DOMAIN where one isn't finite. */
+static Status read_numbers(State *state, const Instance *part, Value *out, Diag *diag)
 {
+    Expr *entries = (Expr *)(out + part->row->param_count);
+
     for (int i = 0; i < part->row->param_count; i++) {
         out[i] = part->values[i];
         out[i].at = entries;
@@ -140,15 +141,13 @@ Status part_check(State *state, const Instance *part, Text *remarks, Diag *diag)
     const Component *row = part->row;
     ArenaMark *mark = arena_mark(state->arena);
     Instance numeric = *part;
-    Expr *entries = NULL;
-    int count = 0;
+    size_t size = (size_t)row->param_count * sizeof(Value);
     Status status = OK;
 
     for (int i = 0; i < row->param_count; i++)
-        count += part->values[i].count;
-    entries = NEW_ARRAY(Expr, count);
-    numeric.values = NEW_ARRAY(Value, row->param_count);
-    CHECK(read_numbers(state, part, numeric.values, entries, diag));
+        size += (size_t)part->values[i].count * sizeof(Expr);
+    numeric.values = mem_new(size);
+    CHECK(read_numbers(state, part, numeric.values, diag));
     CHECK(instance_check(&numeric, state->arena, state->planar, diag));
     CHECK(coupled_check(state, part, remarks, diag));
     CHECK(check_arm(state, &numeric, diag));
@@ -160,7 +159,7 @@ Status part_check(State *state, const Instance *part, Text *remarks, Diag *diag)
     if (row->doubt != NULL)
         row->doubt(&numeric, state->planar, remarks);
 done:
-    MEM_FREE(numeric.values, entries);
+    mem_free(numeric.values);
     arena_release(state->arena, mark);
     return status;
 }
