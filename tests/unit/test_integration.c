@@ -1,4 +1,5 @@
 /* test_integration.c: integrators, projection, switches on systems written by hand */
+#include "simulate/integrate/shifted.h"
 #include "simulate/run/integration.h"
 
 #include "base/memory.h"
@@ -379,8 +380,76 @@ static void nan_ends_a_run_with_its_time(void)
     }
 }
 
+/* --- the Jacobian of few states of a network --- */
+
+/* x' = -3 x y + z, y' = z - y, 0 = z - x^2; w = (x, y, z) */
+static bool network_rate(void *context, double t, const double *y, double *rate)
+{
+    (void)context;
+    (void)t;
+    rate[0] = -3 * y[0] * y[1] + y[0] * y[0];
+    rate[1] = y[0] * y[0] - y[1];
+    return true;
+}
+
+static bool network_start(void *context, double t, const double *y, double *w, double *rate)
+{
+    w[0] = y[0];
+    w[1] = y[1];
+    w[2] = y[0] * y[0];
+    rate[2] = 0;
+    return network_rate(context, t, y, rate);
+}
+
+static int network_pattern(void *context, const int **row, const int **column)
+{
+    static const int rows[] = {0, 0, 0, 1, 1, 2, 2}, columns[] = {0, 1, 2, 1, 2, 0, 2};
+
+    (void)context;
+    *row = rows;
+    *column = columns;
+    return COUNT(rows);
+}
+
+static bool network_jacobian(void *context, double t, double c, const double *w, const double *rate,
+                             double *values)
+{
+    const double at[] = {c + 3 * w[1], 3 * w[0], -1, c + 1, -1, -2 * w[0], 1};
+
+    (void)context;
+    (void)t;
+    (void)rate;
+    memcpy(values, at, sizeof at);
+    return true;
+}
+
+static void few_states_of_a_network_have_an_exact_jacobian_by_one_evaluation(void)
+{
+    const Ode ode = {.n = 2,
+                     .rate = network_rate,
+                     .dae = {.n = 3,
+                             .start = network_start,
+                             .pattern = network_pattern,
+                             .jacobian = network_jacobian}};
+    const double x = 0.7, y = -1.3, at[] = {x, y}, shift = 5;
+    const double J[2][2] = {{2 * x - 3 * y, -3 * x}, {2 * x, -1}};
+    Counts counts = {0};
+    Shifted *shifted = shifted_new(&ode, &counts);
+    double rate[2], b[2] = {1, 2};
+
+    (void)network_rate(NULL, 0, at, rate);
+    EXPECT(shifted_differentiate(shifted, 0, at, rate));
+    EXPECT(counts.evaluations == 1 && counts.jacobians == 1);
+    EXPECT(shifted_factor(shifted, shift, 1, 2));
+    shifted_solve(shifted, b);
+    for (int i = 0; i < 2; i++)
+        EXPECT_NEAR(shift * b[i] - J[i][0] * b[0] - J[i][1] * b[1], i + 1, 1e-13);
+    shifted_free(shifted);
+}
+
 int main(void)
 {
+    RUN(few_states_of_a_network_have_an_exact_jacobian_by_one_evaluation);
     RUN(dop853_has_order_8_and_its_interpolant_7);
     RUN(rk4_has_order_4);
     RUN(every_method_meets_its_tolerance_on_a_spring);

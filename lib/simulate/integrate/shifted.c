@@ -27,6 +27,7 @@ struct Shifted {
     double *still, *moving;
     double *w, *w_rate, *right, *values;
     Sparse *sparse_real, *sparse_pair;
+    Sparse *rates; /* dF by the rates of y and the rest of w, where there are few */
 };
 
 static bool is_sparse(const Shifted *s)
@@ -42,16 +43,14 @@ Shifted *shifted_new(const Ode *ode, Counts *counts)
     s->ode = ode;
     s->counts = counts;
     s->n = n;
-    if (is_sparse(s)) {
-        s->w = NEW_ARRAY(double, ode->dae.n);
-        s->w_rate = NEW_ARRAY(double, ode->dae.n);
-        s->right = NEW_ARRAY(double, 2 * ode->dae.n);
+    s->w = NEW_ARRAY(double, ode->dae.n);
+    s->w_rate = NEW_ARRAY(double, ode->dae.n);
+    s->right = NEW_ARRAY(double, 2 * (ode->dae.n > n ? ode->dae.n : n));
+    if (is_sparse(s))
         return s;
-    }
     s->jacobian = NEW_ARRAY(double, n *n);
     s->point = NEW_ARRAY(double, all);
     s->column = NEW_ARRAY(double, all);
-    s->right = NEW_ARRAY(double, 2 * n);
     return s;
 }
 
@@ -62,6 +61,7 @@ void shifted_free(Shifted *s)
     MEM_FREE(s->jacobian, s->point, s->column);
     lu_free(s->real);
     lu_free(s->pair);
+    sparse_free(s->rates);
     hessenberg_form_free(s->own_form);
     shifted_factors_free(s->form_real);
     shifted_factors_free(s->form_pair);
@@ -107,6 +107,10 @@ static void find_pattern(Shifted *s)
     s->still = NEW_ARRAY(double, s->entries);
     s->moving = NEW_ARRAY(double, s->entries);
     s->values = NEW_ARRAY(double, 4 * s->entries);
+    if (!is_sparse(s)) {
+        s->rates = sparse_new(n, s->entries, s->at_row, s->at_column);
+        return;
+    }
     row = NEW_ARRAY(int, 4 * s->entries);
     column = NEW_ARRAY(int, 4 * s->entries);
     for (int k = 0; k < s->entries; k++)
@@ -126,7 +130,7 @@ static bool by_equations(Shifted *s, double t, const double *y)
     s->counts->evaluations++;
     if (!dae->start(dae->context, t, y, s->w, s->w_rate))
         return false;
-    if (s->sparse_real == NULL)
+    if (s->still == NULL)
         find_pattern(s);
     if (!dae->jacobian(dae->context, t, 0, s->w, s->w_rate, s->still) ||
         !dae->jacobian(dae->context, t, 1, s->w, s->w_rate, s->moving))
@@ -134,6 +138,35 @@ static bool by_equations(Shifted *s, double t, const double *y)
     for (int k = 0; k < s->entries; k++)
         s->moving[k] -= s->still[k];
     return true;
+}
+
+/* The same, dense, without an evaluation for each state: dF/dw' y' + dF/dz z' + dF/dy = 0 column by
+ * column. */
+static bool by_rates(Shifted *s, double t, const double *y)
+{
+    const int n = s->n, all = n + s->ode->quadratures, size = s->ode->dae.n;
+
+    if (!by_equations(s, t, y))
+        return false;
+    for (int k = 0; k < s->entries; k++)
+        s->values[k] = s->at_column[k] < all ? s->moving[k] : s->still[k];
+    if (!sparse_factor(s->rates, s->values))
+        return false;
+    for (int j = 0; j < n; j++) {
+        memset(s->right, 0, (size_t)size * sizeof(double));
+        for (int k = 0; k < s->entries; k++)
+            if (s->at_column[k] == j)
+                s->right[s->at_row[k]] = -s->still[k];
+        sparse_solve(s->rates, s->right);
+        for (int i = 0; i < n; i++)
+            s->jacobian[i * n + j] = s->right[i];
+    }
+    return vector_is_finite(s->jacobian, n * n);
+}
+
+static bool find_dense(Shifted *s, double t, const double *y, const double *rate)
+{
+    return (s->ode->dae.pattern != NULL && by_rates(s, t, y)) || by_differences(s, t, y, rate);
 }
 
 /* J of linear equations, in its form for many shifts */
@@ -149,7 +182,7 @@ static bool find_form(Shifted *s, double t, const double *y, const double *rate)
     s->form = dae->known != NULL ? dae->known(dae->context) : NULL;
     if (s->form != NULL)
         return true;
-    if (!by_differences(s, t, y, rate) || !vector_is_finite(s->jacobian, s->n * s->n))
+    if (!find_dense(s, t, y, rate) || !vector_is_finite(s->jacobian, s->n * s->n))
         return false;
     s->counts->jacobians++;
     found = hessenberg_form_new(s->jacobian, s->n);
@@ -171,7 +204,7 @@ bool shifted_differentiate(Shifted *s, double t, const double *y, const double *
     if (s->is_linear && !is_sparse(s))
         return find_form(s, t, y, rate);
     s->counts->jacobians++;
-    return is_sparse(s) ? by_equations(s, t, y) : by_differences(s, t, y, rate);
+    return is_sparse(s) ? by_equations(s, t, y) : find_dense(s, t, y, rate);
 }
 
 bool shifted_is_linear(const Shifted *s)
