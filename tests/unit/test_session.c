@@ -1,4 +1,4 @@
-/* test_session.c: life of a session, statements, building, undo, long chains */
+/* test_session.c: life of a session, statements, building, starts, undo, long chains */
 #include "session_kit.h"
 
 #include "algebra/matrix3.h"
@@ -415,6 +415,46 @@ static void what_hangs_beyond_many_turns_is_where_they_bring_it(void)
     kit_free(&kit);
 }
 
+static void angular_speeds_of_joints_can_be_given(void)
+{
+    static const char *const trees[] = {"tree joint\n", "tree absolute\n",
+                                        "tree translation b\ntree rotation j\n"};
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "body b mass=1 inertia=[0.1, 0.2, 0.3]\n"
+                      "arm g ground [0.3, 0, 0] rotation=y(0.4)\n"
+                      "arm p b [0.1, 0.2, 0.4] rotation=x(0.5)*z(1.1)\n"
+                      "spherical j p g\n"
+                      "init j.q0 = 0.8, j.q1 = 0.6, j.q2 = 0, j.q3 = 0\n"
+                      "init j.Wx = 1, j.Wy = -2, j.Wz = 3\n");
+    for (int i = 0; i < 3; i++) {
+        EXPECT_DONE(&kit, trees[i]);
+        EXPECT_DONE(&kit, "assemble\n");
+        EXPECT_NEAR(kit_value(&kit, "j.Wx"), 1, 1e-9);
+        EXPECT_NEAR(kit_value(&kit, "j.Wy"), -2, 1e-9);
+        EXPECT_NEAR(kit_value(&kit, "j.Wz"), 3, 1e-9);
+        /* the head is g, which rests: its tail turns the other way round */
+        EXPECT_NEAR(kit_value(&kit, "p.wx*cos(0.4) - p.wz*sin(0.4)"), -1, 1e-9);
+        EXPECT_NEAR(kit_value(&kit, "p.wy"), 2, 1e-9);
+        EXPECT_NEAR(kit_value(&kit, "p.wx*sin(0.4) + p.wz*cos(0.4)"), -3, 1e-9);
+    }
+    kit_free(&kit);
+}
+
+/* an equation that vanished by the values of parameters is looked at again with others */
+static void parts_that_no_longer_fit_are_told(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\nL1 = 0.5\nL2 = 0.5\nbody m1 mass=1 inertia=1\n"
+                      "arm a m1 [0, L1]\narm g ground [0, L2]\nprismatic s1 ground m1 axis=x\n"
+                      "prismatic s2 g a axis=x\ntree s1\nassemble\nL1 = 0.7\n");
+    EXPECT(kit_do(&kit, "assemble") == CT_FAILED);
+    EXPECT_HOLDS(kit.error.message, "s2 can't be assembled");
+    EXPECT_DONE(&kit, "L2 = 0.7\nassemble\n");
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(a_statement_is_handed_out_in_parts);
@@ -434,5 +474,7 @@ int main(void)
     RUN(a_session_bears_any_order_of_statements);
     RUN(undo_and_redo_of_an_edit_form_no_equations);
     RUN(what_hangs_beyond_many_turns_is_where_they_bring_it);
+    RUN(angular_speeds_of_joints_can_be_given);
+    RUN(parts_that_no_longer_fit_are_told);
     return test_end();
 }

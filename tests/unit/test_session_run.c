@@ -634,46 +634,6 @@ static void what_is_stopped_anywhere_leaves_nothing_behind(void)
     text_free(&text);
 }
 
-static void angular_speeds_of_joints_can_be_given(void)
-{
-    static const char *const trees[] = {"tree joint\n", "tree absolute\n",
-                                        "tree translation b\ntree rotation j\n"};
-    Kit kit = kit_new();
-
-    EXPECT_DONE(&kit, "body b mass=1 inertia=[0.1, 0.2, 0.3]\n"
-                      "arm g ground [0.3, 0, 0] rotation=y(0.4)\n"
-                      "arm p b [0.1, 0.2, 0.4] rotation=x(0.5)*z(1.1)\n"
-                      "spherical j p g\n"
-                      "init j.q0 = 0.8, j.q1 = 0.6, j.q2 = 0, j.q3 = 0\n"
-                      "init j.Wx = 1, j.Wy = -2, j.Wz = 3\n");
-    for (int i = 0; i < 3; i++) {
-        EXPECT_DONE(&kit, trees[i]);
-        EXPECT_DONE(&kit, "assemble\n");
-        EXPECT_NEAR(kit_value(&kit, "j.Wx"), 1, 1e-9);
-        EXPECT_NEAR(kit_value(&kit, "j.Wy"), -2, 1e-9);
-        EXPECT_NEAR(kit_value(&kit, "j.Wz"), 3, 1e-9);
-        /* the head is g, which rests: its tail turns the other way round */
-        EXPECT_NEAR(kit_value(&kit, "p.wx*cos(0.4) - p.wz*sin(0.4)"), -1, 1e-9);
-        EXPECT_NEAR(kit_value(&kit, "p.wy"), 2, 1e-9);
-        EXPECT_NEAR(kit_value(&kit, "p.wx*sin(0.4) + p.wz*cos(0.4)"), -3, 1e-9);
-    }
-    kit_free(&kit);
-}
-
-/* an equation that vanished by the values of parameters is looked at again with others */
-static void parts_that_no_longer_fit_are_told(void)
-{
-    Kit kit = kit_new();
-
-    EXPECT_DONE(&kit, "scene planar\nL1 = 0.5\nL2 = 0.5\nbody m1 mass=1 inertia=1\n"
-                      "arm a m1 [0, L1]\narm g ground [0, L2]\nprismatic s1 ground m1 axis=x\n"
-                      "prismatic s2 g a axis=x\ntree s1\nassemble\nL1 = 0.7\n");
-    EXPECT(kit_do(&kit, "assemble") == CT_FAILED);
-    EXPECT_HOLDS(kit.error.message, "s2 can't be assembled");
-    EXPECT_DONE(&kit, "L2 = 0.7\nassemble\n");
-    kit_free(&kit);
-}
-
 /* s'' = 6 s^2 by s = 1/(1 - t)^2: no method gets past t = 1, and none tries without end */
 static void a_solution_that_ends_ends_the_run(void)
 {
@@ -793,8 +753,6 @@ int main(void)
     RUN(what_is_formed_later_can_be_stopped_too);
     RUN(a_start_can_be_stopped_anywhere);
     RUN(what_is_stopped_anywhere_leaves_nothing_behind);
-    RUN(angular_speeds_of_joints_can_be_given);
-    RUN(parts_that_no_longer_fit_are_told);
     RUN(a_solution_that_ends_ends_the_run);
     RUN(a_run_keeps_up_with_the_clock);
     RUN(figures_are_those_of_the_run_that_is_asked_for);
