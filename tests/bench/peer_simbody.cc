@@ -48,6 +48,7 @@ int main()
     }
     State state = system.realizeTopology();
     const int n = state.getNU(), few = 2 + 2 * (200 / (10 + n));
+    Vector asked(n), torques;
 
     for (int i = 0; i < n; i++) {
         state.updQ()[i] = std::sin(1 + 1.7 * i);
@@ -56,7 +57,6 @@ int main()
     }
     system.realize(state, Stage::Acceleration);
     const Vector found = state.getUDot();
-    Vector asked(n), torques;
 
     std::cout.precision(15);
     std::cout << "# u'";
