@@ -1,5 +1,6 @@
 /* model_function.c: calls: functions of the table, pulses and polygons, laws, entries of what is
  * shown, figures of a run */
+#include "base/decimal.h"
 #include "language/functions.h"
 #include "language/habits.h"
 #include "model/model_impl.h"
@@ -271,11 +272,30 @@ const char *place_unit(const State *state, const char *text)
     return strcmp(member, "phi") == 0 ? "rad" : "m";
 }
 
+bool place_has_rate(const State *state, const char *name)
+{
+    enum { HIGHEST = 2 };
+    const char *end = strrchr(name, ')');
+    const Instance *part;
+    const char *member;
+    bool has = false;
+    Text owner = {0};
+
+    text_add_n(&owner, name, strcspn(name, "("));
+    part = bent_part(state, owner.at, &member);
+    if (part != NULL && end != NULL)
+        has = part->row->deforming->section(state->planar, member) == NULL &&
+              strlen(end + 1) < HIGHEST;
+    text_free(&owner);
+    return has;
+}
+
 /* b1.v(L/2): a variable of that name, the place as the number that it is now */
 static Status call_deflection(Scope *scope, const Syntax *syntax, const Instance *part,
                               const char *member, const Expr *args, Expr *out, Diag *diag)
 {
     const double length = state_number_now(scope->state, instance_scalar(part, "length"));
+    char place[DECIMAL_SIZE];
     Text name = {0};
     double at;
 
@@ -296,7 +316,8 @@ static Status call_deflection(Scope *scope, const Syntax *syntax, const Instance
         diag_hint(diag, "places go from 0, the root, to the length");
         return E_VALUE;
     }
-    text_addf(&name, "%s.%s(%.17g)", part->name, member, at);
+    decimal_print(place, at, DECIMAL_EXACT);
+    text_addf(&name, "%s.%s(%s)", part->name, member, place);
     *out = expr_symbol(scope->state->arena, name.at, SYMBOL_VARIABLE);
     text_free(&name);
     return OK;
@@ -329,6 +350,9 @@ static Status call_unknown(const State *state, const Syntax *syntax, Diag *diag)
 {
     Suggest suggest = suggest_for(syntax->text);
     const Thing *thing = state_thing(state, syntax->text);
+    const char *member;
+    const Instance *owner = state_owner(state, syntax->text, &member);
+    const Instance *bent = owner != NULL && instance_bends(owner) ? owner : NULL;
     Function row;
     Text what = {0};
 
@@ -347,7 +371,12 @@ static Status call_unknown(const State *state, const Syntax *syntax, Diag *diag)
         if (state->definitions.at[i].kind == DEFINES_LAW)
             suggest_offer(&suggest, state->definitions.at[i].name);
     (void)diag_at(diag, E_NAME, syntax->place, "unknown function '%s'", syntax->text);
-    if (habit_hint(HABIT_FUNCTION, syntax->text) != NULL)
+    if (bent != NULL)
+        diag_hint(diag,
+                  "of a place along %s there are u, v%s, and what its sections carry: 'info "
+                  "%s' lists them",
+                  bent->name, state->planar ? "" : ", w, phi", bent->name);
+    else if (habit_hint(HABIT_FUNCTION, syntax->text) != NULL)
         diag_hint(diag, "%s", habit_hint(HABIT_FUNCTION, syntax->text));
     else if (suggest.best != NULL)
         diag_hint(diag, "did you mean '%s'?", suggest.best);

@@ -313,6 +313,9 @@ const char *member_unit(const State *state, const Instance *part, const char *na
 /* of what a beam tells at a place along it, by the text before its bracket, "b1.v"; NULL: it
  * tells no such thing */
 const char *place_unit(const State *state, const char *text);
+/* whether `name`, b1.v(0.5) with or without primes, has one derivative more: of points along a part
+ * that deforms, twice; of what its sections carry, none */
+bool place_has_rate(const State *state, const char *name);
 /* of a variable by its own name, without primes */
 Measure variable_measure(const State *state, const Instance *own, const char *name);
 bool measure_same(Measure a, Measure b);

@@ -67,10 +67,12 @@ static Expr number(Arena *arena, const Syntax *syntax)
 
 /* --- derivatives in time --- */
 
-/* d/dt along the primed names of variables */
-static Status time_derivative(Arena *arena, Expr e, int primes, Place place, Expr *out, Diag *diag)
+/* d/dt along the primed names of variables; of values at a place, b1.v(0.5), where they have one */
+static Status time_derivative(const State *state, Expr e, int primes, Place place, Expr *out,
+                              Diag *diag)
 {
     enum { HIGHEST = 4 }; /* each one makes the expression larger */
+    Arena *arena = state->arena;
 
     if (primes > HIGHEST)
         return diag_at(diag, E_VALUE, place, "a derivative of order %d is too high", primes);
@@ -87,7 +89,8 @@ static Status time_derivative(Arena *arena, Expr e, int primes, Place place, Exp
             rates[i] = expr_int(arena, kind == SYMBOL_TIME);
             if (kind != SYMBOL_VARIABLE && kind != SYMBOL_ARGUMENT)
                 continue;
-            if (kind == SYMBOL_ARGUMENT || name[strlen(name) - 1] == ')') {
+            if (kind == SYMBOL_ARGUMENT ||
+                (strchr(name, ')') != NULL && !place_has_rate(state, name))) {
                 (void)diag_at(diag, E_NAME, place, "the rate of %s isn't known here", name);
                 MEM_FREE(symbols, rates);
                 return E_NAME;
@@ -137,8 +140,7 @@ static Status definition_name(Scope *scope, const Syntax *syntax, int index, Exp
     case DEFINES_OUTPUT:
         if (!scope_has_variables(scope))
             return not_here(scope, d->name, syntax->place, diag);
-        if (time_derivative(scope->state->arena, d->body, syntax->primes, syntax->place, out,
-                            diag) != OK)
+        if (time_derivative(scope->state, d->body, syntax->primes, syntax->place, out, diag) != OK)
             return E_NAME;
         break;
     case DEFINES_SUBSYSTEM:
@@ -182,7 +184,7 @@ static Status output_of_run(Scope *scope, const Syntax *syntax, const Definition
     int count = 0;
     Status status = OK;
 
-    CHECK(time_derivative(arena, output->body, syntax->primes, syntax->place, &body, diag));
+    CHECK(time_derivative(scope->state, output->body, syntax->primes, syntax->place, &body, diag));
     count = expr_symbols(&body, 1, &symbols);
     values = NEW_ARRAY(Expr, count);
     for (int i = 0; i < count; i++) {
@@ -292,7 +294,7 @@ static Status call(Scope *scope, const Syntax *syntax, Expr *out, Diag *diag)
         if (syntax->args[i]->kind != SYNTAX_STRING || !function_takes_text(syntax->text))
             CHECK(convert(scope, syntax->args[i], &args[i], diag));
     CHECK(function_call(scope, syntax, args, out, diag));
-    CHECK(time_derivative(scope->state->arena, *out, syntax->primes, syntax->place, out, diag));
+    CHECK(time_derivative(scope->state, *out, syntax->primes, syntax->place, out, diag));
 done:
     mem_free(args);
     return status;
@@ -318,7 +320,7 @@ static Status convert_node(Scope *scope, const Syntax *syntax, Expr *out, Diag *
         return call(scope, syntax, out, diag);
     case SYNTAX_GROUP:
         TRY(convert(scope, syntax->args[0], &a, diag));
-        return time_derivative(arena, a, syntax->primes, syntax->place, out, diag);
+        return time_derivative(scope->state, a, syntax->primes, syntax->place, out, diag);
     case SYNTAX_UNARY:
         TRY(convert(scope, syntax->args[0], &a, diag));
         *out = model_operation(arena, syntax->text, a, NULL);

@@ -144,8 +144,27 @@ static void sections_vary_in_a_subsystem(void)
     kit_free(&kit);
 }
 
+/* What a point of a beam does is the sum over its shapes, whose rates the run tells; and a rate
+ * adds up to what has changed. */
+static void points_have_rates(void)
+{
+    Kit kit = kit_new();
+    double changed;
+
+    EXPECT_DONE(&kit, "scene planar\ngravity [0, -9.81]\nbeam b length=1 mass_per_length=1 EA=1e4 "
+                      "EIz=1 modes=[1, 3]\nrevolute h ground b\n"
+                      "simulate 0.1 every=1e-4 rtol=1e-10 atol=1e-12\n");
+    changed = kit_value(&kit, "b.v(0.7)") - kit_value(&kit, "b.v(0.7) at 0");
+    EXPECT(fabs(changed) > 0.01);
+    EXPECT(is_near(0.1 * kit_value(&kit, "mean(b.v(0.7)')"), changed, 1e-8));
+    changed = kit_value(&kit, "b.v(0.7)'") - kit_value(&kit, "b.v(0.7)' at 0");
+    EXPECT(is_near(0.1 * kit_value(&kit, "mean(b.v(0.7)'')"), changed, 1e-6));
+    kit_free(&kit);
+}
+
 int main(void)
 {
+    RUN(points_have_rates);
     RUN(shapes_begin_at_rest_in_any_basis);
     RUN(shapes_move_where_they_are_told_or_have_to);
     RUN(shapes_that_are_not_told_stay_straight);

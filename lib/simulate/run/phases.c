@@ -76,7 +76,8 @@ static Status find_independent(const Layout *l, const Manner *manner, int *out, 
         if (out[i] < 0) {
             (void)diag_set(diag, E_NAME, "'%s' is no coordinate of these trees",
                            manner->independent[i]);
-            diag_hint(diag, "show coordinates lists them");
+            diag_hint(diag, "'form embedded' chooses independent ones by itself; show coordinates "
+                            "lists all");
             return E_NAME;
         }
     }

@@ -77,6 +77,22 @@ Status run_method_find(const char *name, const char **out, Diag *diag)
     return OK;
 }
 
+/* between what rounding leaves and what says nothing of what is computed */
+static Status check_rtol(double rtol, Diag *diag)
+{
+    if (rtol >= LEAST_RTOL && rtol < 1)
+        return OK;
+    if (rtol < LEAST_RTOL)
+        (void)diag_set(diag, E_VALUE, "rtol=%g is finer than numbers are", rtol);
+    else
+        (void)diag_set(diag, E_VALUE, "rtol=%g lets a step be as wrong as what it tells is large",
+                       rtol);
+    diag_hint(diag, rtol < LEAST_RTOL ? "1e-12 is about the finest that makes sense"
+                                      : "1e-3 is about the coarsest that makes sense");
+    diag_about(diag, "rtol");
+    return E_VALUE;
+}
+
 /* the options with their defaults in place */
 static Status complete_options(const ActiveRun *r, const RunOptions *given, RunOptions *out,
                                Diag *diag)
@@ -96,12 +112,7 @@ static Status complete_options(const ActiveRun *r, const RunOptions *given, RunO
         out->rtol = DEFAULT_RTOL;
     if (out->atol == 0)
         out->atol = out->rtol;
-    if (out->rtol < LEAST_RTOL) {
-        (void)diag_set(diag, E_VALUE, "rtol=%g is finer than numbers are", out->rtol);
-        diag_hint(diag, "1e-12 is about the finest that makes sense");
-        diag_about(diag, "rtol");
-        return E_VALUE;
-    }
+    TRY(check_rtol(out->rtol, diag));
     if (out->duration / out->every > fmin(MOST_ROWS, MOST_VALUES / width)) {
         (void)diag_set(diag, E_VALUE, "that makes %.3g rows", out->duration / out->every);
         diag_hint(diag, "take a larger step of output, every=");
