@@ -61,7 +61,9 @@ void text_addf(Text *text, const char *format, ...)
 
 void text_char(Text *text, char c)
 {
-    text_add_n(text, &c, 1);
+    reserve(text, 1);
+    text->at[text->length++] = c;
+    text->at[text->length] = '\0';
 }
 
 void text_fill(Text *text, char c, int count)
@@ -72,10 +74,8 @@ void text_fill(Text *text, char c, int count)
 
 void text_number(Text *text, double value, int digits)
 {
-    char number[DECIMAL_SIZE];
-
-    decimal_print(number, value, digits);
-    text_add(text, number);
+    reserve(text, DECIMAL_SIZE);
+    text->length += decimal_print(text->at + text->length, value, digits);
 }
 
 char *text_done(Text *text)

@@ -303,7 +303,7 @@ void double_text(char text[64], double value)
     int64_t num;
     int64_t den;
 
-    decimal_print(text, value, DECIMAL_EXACT);
+    (void)decimal_print(text, value, DECIMAL_EXACT);
     /* a short decimal would be taken for an exact one */
     if (decimal_exact(text, &num, &den))
         snprintf(text, 64, "%#.17g", value);

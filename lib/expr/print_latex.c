@@ -35,7 +35,7 @@ static void latex_double(Text *out, double value)
 {
     char digits[DECIMAL_SIZE];
 
-    decimal_print(digits, value, DECIMAL_EXACT);
+    (void)decimal_print(digits, value, DECIMAL_EXACT);
     latex_digits(out, digits);
 }
 

@@ -316,7 +316,7 @@ static Status call_deflection(Scope *scope, const Syntax *syntax, const Instance
         diag_hint(diag, "places go from 0, the root, to the length");
         return E_VALUE;
     }
-    decimal_print(place, at, DECIMAL_EXACT);
+    (void)decimal_print(place, at, DECIMAL_EXACT);
     text_addf(&name, "%s.%s(%s)", part->name, member, place);
     *out = expr_symbol(scope->state->arena, name.at, SYMBOL_VARIABLE);
     text_free(&name);

@@ -5,6 +5,7 @@
 #include "formulate/system/system.h"
 
 #include "../unit/form.h"
+#include "../unit/session_kit.h"
 #include "bench.h"
 #include "bench_model.h"
 
@@ -154,13 +155,53 @@ static double apply(int links)
                   i > 0 ? i - 1 : i, i);
         text_addf(&text, "init h%d = 0.1\n", i);
     }
-    took = bench_now();
+    took = clock_now();
     Model *model = bench_model(text.at);
 
-    took = model != NULL ? bench_now() - took : -1;
+    took = model != NULL ? clock_now() - took : -1;
     model_free(model);
     text_free(&text);
     return took;
+}
+
+/* Seconds of a run of two rods with its csv, at so many rows; negative: it failed. */
+static double rows_time(Kit *kit, const char *every)
+{
+    Text text = {0};
+    double least = 1e300;
+    bool done = true;
+
+    text_addf(&text, "simulate 10 rtol=1e-8 every=%s\nexport csv h1 h2 h1' h2'\n", every);
+    for (int i = 0; i < 50 && done; i++) {
+        const double began = clock_now();
+
+        done = kit_do(kit, text.at) == CT_OK;
+        least = fmin(least, clock_now() - began);
+    }
+    text_free(&text);
+    return done ? least : -1;
+}
+
+/* what rows cost, beside the run that they are of */
+static void bench_rows(void)
+{
+    Kit kit = kit_new();
+    double few = -1, many = -1;
+
+    if (kit_do(&kit, "scene planar\ngravity [0, -9.81]\nbody r1 mass=1 inertia=0.1\n"
+                     "body r2 mass=1 inertia=0.1\narm c1 r1 [-1, 0]\narm c2 r2 [-1, 0]\n"
+                     "revolute h1 ground c1\nrevolute h2 r1 c2\n") == CT_OK) {
+        few = rows_time(&kit, "10");
+        many = rows_time(&kit, "0.01");
+    }
+    kit_free(&kit);
+    if (few < 0 || many < 0) {
+        printf("# rows: a run of two rods failed\n");
+        return;
+    }
+    bench_line("rows.2_with_csv", few * 1e3, "ms");
+    bench_line("rows.1001_with_csv", many * 1e3, "ms");
+    bench_line("rows.1001_over_2", many / few, "times");
 }
 
 int main(int argc, char **argv)
@@ -174,6 +215,7 @@ int main(int argc, char **argv)
     bench_line("shell.start", program_median(argv[2], "-e", "quit") * 1e3, "ms");
     bench_line("apply.500_links", apply(500) * 1e3, "ms");
     bench_line("apply.4000_links", apply(4000) * 1e3, "ms");
+    bench_rows();
     for (int i = 0; i < COUNT(folders); i++) {
         Text folder = {0};
 

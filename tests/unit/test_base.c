@@ -81,6 +81,7 @@ static void decimals_are_those_that_trying_finds(void)
 
     for (int i = 0; i < 100000; i++) {
         const uint64_t bits = test_random(&random);
+        size_t length;
         char tried[DECIMAL_SIZE], got[DECIMAL_SIZE];
         double value;
         int most = 13 + i % 5;
@@ -97,7 +98,8 @@ static void decimals_are_those_that_trying_finds(void)
             if (strtod(tried, NULL) == value)
                 break;
         }
-        decimal_print(got, value, most);
+        length = decimal_print(got, value, most);
+        EXPECT(length == strlen(got));
         EXPECT_TEXT(got, tried);
     }
 }
