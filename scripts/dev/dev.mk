@@ -55,9 +55,11 @@ check-hacking: all
 format:
 	cd $(srcdir) && find lib src tests -name '*.[ch]' -exec clang-format -i {} +
 
-# times, beside those of the last record; each program is told of the scripts and the shell
-bench: all
+benches: all
 	@$(MAKE) -s $(BENCHES)
+
+# times, beside those of the last record; each program is told of the scripts and the shell
+bench: benches
 	@rm -rf bench.work; mkdir bench.work
 	@for bench in $(BENCHES); do \
 		(cd bench.work && TOP_SRCDIR=$(abs_srcdir) LD_LIBRARY_PATH=../.libs ../$$bench $(abs_srcdir)/scripts \
@@ -148,4 +150,4 @@ mostlyclean-local:
 distclean-local:
 	rm -rf san small faults coverage bench.work precision scaling
 
-.PHONY: check-total check-hacking check-san check-small check-faults lint format bench bench-precision bench-scaling bench-estimates bench-peers bench-latency bench-record precision-record scaling-record fuzz stress check-coverage
+.PHONY: check-total check-hacking check-san check-small check-faults lint format bench benches bench-precision bench-scaling bench-estimates bench-peers bench-latency bench-record precision-record scaling-record fuzz stress check-coverage
