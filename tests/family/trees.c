@@ -129,6 +129,28 @@ TreesAnswer trees_way(TreesModel *trees, int number, const char names[][TREES_NA
     return answer;
 }
 
+/* whether an integrator is told the same accelerations, bit by bit, before and behind others */
+static bool rate_is_same(Motion *motion, const System *system, const double *y,
+                         const double *acceleration)
+{
+    const Ode *ode = motion_ode(motion);
+    const int n = system_n(system), nu = system_nu(system);
+    const size_t size = (size_t)(ode->n + ode->quadratures) * sizeof(double);
+    double *rate = NEW_ARRAY(double, ode->n + ode->quadratures);
+    double *away = NEW_ARRAY(double, ode->n + ode->quadratures);
+    bool same = true;
+
+    memcpy(away, y, size);
+    away[0] += 0.25;
+    for (int again = 0; again < 2; again++) {
+        same = same && ode->rate(ode->context, 0, away, rate);
+        same = same && ode->rate(ode->context, 0, y, rate) &&
+               memcmp(rate + n, acceleration, (size_t)nu * sizeof(double)) == 0;
+    }
+    MEM_FREE(rate, away);
+    return same;
+}
+
 /* What a run solves, where rows that may be dropped are kept for their multipliers: accelerations,
  * then multipliers. */
 static TreesAnswer solve(TreesModel *trees, const int *rows, int row_count, const double *y,
@@ -148,7 +170,8 @@ static TreesAnswer solve(TreesModel *trees, const int *rows, int row_count, cons
             memcpy(out, solved.acceleration, (size_t)n * sizeof(double));
             if (row_count > 0)
                 memcpy(out + n, solved.multipliers, (size_t)row_count * sizeof(double));
-            answer = TREES_FOUND;
+            if (row_count > 0 || rate_is_same(motion, trees->system, y, out))
+                answer = TREES_FOUND;
         }
     }
     motion_free(motion);

@@ -53,6 +53,35 @@ static bool tell_accelerations(void *context, double *acceleration)
     return true;
 }
 
+/* q and u stand one behind the other, in y as in the inputs */
+static bool outright(void *context, double t, const double *y, double *out)
+{
+    Numbers *nb = context;
+    const Layout *l = nb->layout;
+    double *inputs = probe_inputs(nb->main);
+
+    inputs[l->t] = t;
+    memcpy(inputs + l->q, y, (size_t)(l->n + l->nu) * sizeof(double));
+    workspace_run(nb->main->workspace, STAGE_TIME, STAGE_NETWORK);
+    memcpy(out, nb->eq.q_rate, (size_t)l->n * sizeof(double));
+    out[l->n + l->nu] = *nb->eq.power;
+    return tell_accelerations(nb, out + l->n);
+}
+
+/* M and F are brought from a program of their own when somebody asks for them */
+static bool needs_no_mass(const Numbers *nb)
+{
+    return nb->told_by == TOLD_ALONG || nb->told_by == TOLD_PRESCRIBED;
+}
+
+static bool may_be_outright(const Numbers *nb)
+{
+    const Layout *l = nb->layout;
+
+    return nb->eq.without_mass == tell_accelerations && (nb->mass == NULL || needs_no_mass(nb)) &&
+           l->nx + l->nz == 0 && l->multi_turns == 0 && nb->eq.accelerated == NULL;
+}
+
 /* likewise where all is prescribed */
 static void tell_prescribed(void *context, double *acceleration, double *multiplier)
 {
@@ -61,12 +90,6 @@ static void tell_prescribed(void *context, double *acceleration, double *multipl
 
     memcpy(acceleration, nb->told_accelerations, size);
     memcpy(multiplier, nb->told_accelerations + nb->layout->nu, size);
-}
-
-/* M and F are brought from a program of their own when somebody asks for them */
-static bool needs_no_mass(const Numbers *nb)
-{
-    return nb->told_by == TOLD_ALONG || nb->told_by == TOLD_PRESCRIBED;
 }
 
 static void bring_mass(void *context)
@@ -393,6 +416,8 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, const Expr 
     nb->eq.multi_turn_rate = at + angles + l->multi_turns;
     nb->eq.map = map < roots.count ? at + map : NULL;
     nb->eq.accelerated = stage_of(power) == STAGE_ACCELERATION ? accelerated : NULL;
+    if (may_be_outright(nb))
+        nb->eq.outright = outright;
     nb->eq.network_reads = stage == STAGE_ACCELERATION ? network_reads : NULL;
     if (iterates)
         CHECK(compile_network(nb, parameters, diag));
