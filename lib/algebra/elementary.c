@@ -75,6 +75,13 @@ static const uint32_t two_over_pi[] = {
 
 static void sincos_far(double x, double *sine, double *cosine);
 
+/* a number that no compiler takes together with its neighbours */
+#if defined __x86_64__ && defined __GNUC__
+#define APART(number) __asm__("" : "+x"(number))
+#else
+#define APART(number) (void)(number)
+#endif
+
 #define WIDTH 2
 #define TARGET
 #include "algebra/elementary_kernel.def"
