@@ -6,6 +6,7 @@
 #include "formulate/kinematics/alike.h"
 #include "formulate/kinematics/constraint_rows.h"
 #include "formulate/kinematics/frames.h"
+#include "formulate/kinematics/identity.h"
 #include "formulate/kinematics/multi_turn.h"
 #include "formulate/kinematics/recursive.h"
 #include "formulate/network/network_build.h"
@@ -407,6 +408,7 @@ static Status build(System *system, Diag *diag)
     }
     add_drives(system);
     frames_build(system);
+    identities_build(system);
     alike_build(system);
     multi_turn_build(system);
     motion_build(system);
