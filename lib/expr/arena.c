@@ -25,7 +25,8 @@ typedef struct Slot {
     uint32_t id; /* number + 1; 0: empty */
 } Slot;
 
-/* a derivative that was found, or what else follows: of a tuple, `symbol` is a number */
+/* a derivative that was found, or what else follows: `symbol` is a number
+ * that tells what: 0 the node without holds, else of a tuple */
 typedef struct Memory {
     Expr e;
     Expr symbol;
@@ -435,12 +436,12 @@ void expr_remember(Arena *arena, Expr tuple, int which, const void *values, size
 {
     const Expr kept = expr_tuple(arena, values, (int)(size / sizeof(Expr)));
 
-    arena_remember(arena, tuple, node_rational(arena, which, 1), kept);
+    arena_remember(arena, tuple, node_rational(arena, 1 + which, 1), kept);
 }
 
 bool expr_recall(Arena *arena, Expr tuple, int which, void *out, size_t size)
 {
-    const Expr kept = arena_recall(arena, tuple, node_rational(arena, which, 1));
+    const Expr kept = arena_recall(arena, tuple, node_rational(arena, 1 + which, 1));
 
     if (kept == NULL)
         return false;
