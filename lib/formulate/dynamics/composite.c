@@ -148,7 +148,7 @@ static void place_masses(const System *system, Composites *all)
         const Mass *mass = &system->dynamics->masses.at[i];
         const Frame *frame = &system->kinematics->frames[mass->node];
         Composite *own = &all->at[mass->node];
-        Key key = key_of(frame->identity);
+        Key key = key_of(system->kinematics->chains.at[0].identity);
 
         own->mass = expr_add(arena, own->mass, mass->mass);
         own->inertia =
@@ -180,8 +180,8 @@ static void recall_composites(const System *system, const Passing *passing, Comp
         all->is_known[node] = derived_recall(system, all->key[node], DERIVED_COMPOSITE,
                                              &all->at[node], sizeof all->at[node]);
         if (passes_on(system, passing, node))
-            all->key[parent] = key_join(system, system->kinematics->frames[parent].identity,
-                                        all->key[parent], all->key[node]);
+            all->key[parent] = key_join(system, system->kinematics->chains.at[0].identity,
+                                        all->key[parent], key_passed(system, node, all->key[node]));
     }
 }
 

@@ -136,25 +136,18 @@ typedef struct SpeedVectors { /* as in MassSpeed */
     Vec turn, slide, force, torque;
 } SpeedVectors;
 
-static SpeedVectors speed_vectors(const System *system, const Composites *composites, Loads *loads,
-                                  int j)
+/* motion per unit; what that takes is to be found */
+static SpeedVectors speed_motion(const System *system, int j)
 {
-    const int node = speed_node(system, j), axes = node_axes(system, node);
-    const bool turns = system->kinematics->speeds[j].chain >= 0;
+    const int axes = node_axes(system, speed_node(system, j));
 
-    composite_loads(system, composite_at(system, composites, node), j, loads);
-    return (SpeedVectors){turns ? speed_axis(system, j, axes) : vec_zero(system->arena),
-                          speed_slide(system, j, axes), loads->force[node], loads->torque[node]};
+    return (SpeedVectors){.turn = system->kinematics->speeds[j].chain >= 0
+                                      ? speed_axis(system, j, axes)
+                                      : vec_zero(system->arena),
+                          .slide = speed_slide(system, j, axes)};
 }
 
-/* in the names of an instance */
-static SpeedVectors vectors_alike(const Follower *follower, const SpeedVectors *first)
-{
-    return (SpeedVectors){alike_vec(follower, first->turn), alike_vec(follower, first->slide),
-                          alike_vec(follower, first->force), alike_vec(follower, first->torque)};
-}
-
-/* `all`: of those that others take over */
+/* Recalled, or in the names of an instance, or derived. `all`: of those that others take over */
 static void find_vectors(const System *system, const Composites *composites, Loads *loads, int j,
                          SpeedVectors *all)
 {
@@ -162,15 +155,26 @@ static void find_vectors(const System *system, const Composites *composites, Loa
     int first;
     const Follower *follower = alike_speed(system, j, &first);
     Key key = key_of(composites->key[node]);
+    Vec effect[2];
     Expr told;
 
-    key_add(&key, &system->kinematics->u.at[j].symbol, sizeof(Expr));
+    all[j] = speed_motion(system, j);
+    key_add(&key, &all[j].turn, sizeof all[j].turn);
+    key_add(&key, &all[j].slide, sizeof all[j].slide);
     told = key_end(system, &key);
-    if (derived_recall(system, told, DERIVED_SPEED, &all[j], sizeof all[j]))
-        return;
-    all[j] = follower != NULL && alike_ends(follower) ? vectors_alike(follower, &all[first])
-                                                      : speed_vectors(system, composites, loads, j);
-    derived_keep(system, told, DERIVED_SPEED, &all[j], sizeof all[j]);
+    if (!derived_recall(system, told, DERIVED_SPEED, effect, sizeof effect)) {
+        if (follower != NULL && alike_ends(follower)) {
+            effect[0] = alike_vec(follower, all[first].force);
+            effect[1] = alike_vec(follower, all[first].torque);
+        } else {
+            composite_loads(system, composite_at(system, composites, node), j, loads);
+            effect[0] = loads->force[node];
+            effect[1] = loads->torque[node];
+        }
+        derived_keep(system, told, DERIVED_SPEED, effect, sizeof effect);
+    }
+    all[j].force = effect[0];
+    all[j].torque = effect[1];
 }
 
 static MassSpeed speed_of(CompositeMass *mass, const SpeedVectors *vectors, int place)

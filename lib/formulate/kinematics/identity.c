@@ -28,6 +28,54 @@ Expr key_end(const System *system, const Key *key)
     return key->is_told ? expr_tuple(system->arena, key->at, key->count) : NULL;
 }
 
+/* what a chain turns, beyond what is told of the one before it */
+static void add_turn(Key *key, const Chain *chain)
+{
+    if (chain->is_free) {
+        key_add(key, &chain->matrix, sizeof chain->matrix);
+        key_add(key, chain->parameter, sizeof chain->parameter);
+    } else {
+        key_add(key, &chain->axis, sizeof chain->axis);
+        key_add(key, &chain->angle, sizeof chain->angle);
+    }
+}
+
+/* the turns from one chain to another that hangs from it, or both as they are */
+static Expr turn_key(const System *system, int from, int to)
+{
+    const Chain *chains = system->kinematics->chains.at;
+    Expr turns = chains[0].identity;
+
+    if (to < from || chains[to].first < chains[from].first || chains[to].first > chains[from].last)
+        return expr_tuple(system->arena, (Expr[]){chains[from].identity, chains[to].identity}, 2);
+    for (int c = to; c != from; c = chains[c].parent) {
+        /* of several turns those about one line add up, from where the first of them stands */
+        const Expr is_whole =
+            expr_int(system->arena,
+                     chains[c].parent == from || chains[chains[c].run].depth > chains[from].depth);
+        Key key = key_of(turns);
+
+        add_turn(&key, &chains[c]);
+        key_add(&key, &is_whole, sizeof is_whole);
+        turns = key_end(system, &key);
+    }
+    return turns;
+}
+
+Expr key_passed(const System *system, int node, Expr beyond)
+{
+    const Frame *frames = system->kinematics->frames, *frame = &frames[node];
+    Key key = key_of(beyond);
+    Expr turns;
+
+    if (beyond == NULL || frame->identity == NULL)
+        return NULL;
+    turns = turn_key(system, frames[frame->parent].chain, frame->chain);
+    key_add(&key, &turns, sizeof turns);
+    key_add(&key, &frame->step, sizeof frame->step);
+    return key_end(system, &key);
+}
+
 Expr key_join(const System *system, Expr identity, Expr own, Expr passed)
 {
     if (identity == NULL || passed == NULL)
@@ -58,13 +106,7 @@ static Expr chain_identity(const System *system, int c)
     const Chain *chain = &kinematics->chains.at[c];
     Key key = key_of(kinematics->chains.at[chain->parent].identity);
 
-    if (chain->is_free) {
-        key_add(&key, &chain->matrix, sizeof chain->matrix);
-        key_add(&key, chain->parameter, sizeof chain->parameter);
-    } else {
-        key_add(&key, &chain->axis, sizeof chain->axis);
-        key_add(&key, &chain->angle, sizeof chain->angle);
-    }
+    add_turn(&key, chain);
     for (int j = chain->speed; j < chain->speed + chain->speed_count; j++) {
         const Speed *speed = &kinematics->speeds[j];
         const Expr is_own = expr_int(system->arena, speed->axis_chain == c);

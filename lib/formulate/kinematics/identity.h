@@ -21,7 +21,7 @@ typedef enum Derived {
     DERIVED_ROW_RUN,
     DERIVED_INERTIA,   /* force and torque of a mass at u' = 0 */
     DERIVED_COMPOSITE, /* Composite of what hangs beyond */
-    DERIVED_SPEED,     /* axis, slide and loads per unit of u' */
+    DERIVED_SPEED,     /* force and torque per unit of u' */
     DERIVED_FORCE,     /* Vec: the sum at a node */
     DERIVED_PASSED,    /* that passed on, and its moment */
     DERIVED_TORQUE,    /* Vec: the sum at a node */
@@ -41,6 +41,9 @@ typedef struct Key {
 Key key_of(Expr identity);
 void key_add(Key *key, const void *entries, size_t size); /* an array or a struct of expressions */
 Expr key_end(const System *system, const Key *key);       /* NULL: it isn't told */
+/* What is there and beyond it, as the parent of the frame sees it: it stands and turns alike
+ * against the parent, wherever that is. Behind its motion. */
+Expr key_passed(const System *system, int node, Expr beyond);
 /* Of what is at a frame (NULL: nothing so far), and of what is passed on to it (NULL: nothing). */
 Expr key_join(const System *system, Expr identity, Expr own, Expr passed);
 
