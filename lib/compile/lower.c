@@ -307,6 +307,8 @@ static Status lower_node(Lowering *low, Expr e, Diag *diag)
     case EXPR_SUM:
         value = lower_sum(low, e);
         break;
+    case EXPR_TUPLE: /* in no other expression */
+        break;
     }
     low->known[expr_number(e)] = value + 1;
     return OK;

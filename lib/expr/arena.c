@@ -6,6 +6,7 @@
  * and can simply be emptied. The same holds for the remembered derivatives. */
 #include "expr/expr_impl.h"
 
+#include <assert.h>
 #include <string.h>
 
 #ifdef COTREE_SMALL
@@ -24,7 +25,8 @@ typedef struct Slot {
     uint32_t id; /* number + 1; 0: empty */
 } Slot;
 
-/* a derivative that was found */
+/* a derivative that was found, or what else follows: `symbol` is a number
+ * that tells what: 0 the node without holds, else of a tuple */
 typedef struct Memory {
     Expr e;
     Expr symbol;
@@ -373,7 +375,7 @@ const Curve *expr_data(Expr symbol)
                : NULL;
 }
 
-/* --- remembered derivatives --- */
+/* --- remembered derivatives, and what else follows from a node --- */
 
 static uint32_t memory_hash(Expr e, Expr symbol)
 {
@@ -421,6 +423,31 @@ void arena_remember(Arena *arena, Expr e, Expr symbol, Expr derivative)
     mem_free(arena->memory_slots);
     arena->memory_slots = slots;
     arena->memory_size = size;
+}
+
+/* --- what follows from tuples --- */
+
+Expr expr_tuple(Arena *arena, const Expr *at, int count)
+{
+    return node_intern(arena, EXPR_TUPLE, 0, at, count);
+}
+
+void expr_remember(Arena *arena, Expr tuple, int which, const void *values, size_t size)
+{
+    const Expr kept = expr_tuple(arena, values, (int)(size / sizeof(Expr)));
+
+    arena_remember(arena, tuple, node_rational(arena, 1 + which, 1), kept);
+}
+
+bool expr_recall(Arena *arena, Expr tuple, int which, void *out, size_t size)
+{
+    const Expr kept = arena_recall(arena, tuple, node_rational(arena, 1 + which, 1));
+
+    if (kept == NULL)
+        return false;
+    assert((size_t)kept->count * sizeof(Expr) == size);
+    memcpy(out, node_args(kept), size);
+    return true;
 }
 
 /* --- what was made of expressions --- */

@@ -45,6 +45,8 @@ double expr_evaluate(Expr e, SymbolValue value, void *context)
 
     if (expr_is_number(e))
         return expr_value(e);
+    if (e->kind == EXPR_SYMBOL && expr_data(e) == NULL)
+        return value(context, e);
     walk_below(&walk, e, 0, NULL, NULL);
     values = NEW_ARRAY(double, walk.count);
     for (int i = 0; i < walk.count; i++) {

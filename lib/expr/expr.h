@@ -38,7 +38,8 @@ typedef enum ExprKind {
     EXPR_POWER,   /* arg 0 to the arg 1; exponent not 0 or 1 */
     EXPR_CALL,    /* an operator of ops.def */
     EXPR_PRODUCT, /* 2 or more factors, at most one number, and that first */
-    EXPR_SUM      /* 2 or more terms, at most one number */
+    EXPR_SUM,     /* 2 or more terms, at most one number */
+    EXPR_TUPLE    /* expressions side by side: no value, and in no other expression */
 } ExprKind;
 
 typedef enum Op {
@@ -95,6 +96,13 @@ void arena_add_made(Arena *arena, const Made *made);
 /* one of that hash for which `is` holds, or NULL */
 void *arena_find_made(Arena *arena, uint64_t hash,
                       bool (*is)(const void *object, const void *asked), const void *asked);
+/* Several expressions as one, to tell by its pointer whether something is the same. */
+Expr expr_tuple(Arena *arena, const Expr *at, int count);
+/* What follows from a tuple and nothing else, `which` of it, kept as long as the arena keeps its
+ * nodes: an array or a struct of expressions, of that size in bytes. */
+void expr_remember(Arena *arena, Expr tuple, int which, const void *values, size_t size);
+/* Those remembered; false: none are. */
+bool expr_recall(Arena *arena, Expr tuple, int which, void *out, size_t size);
 int64_t arena_nodes(const Arena *arena);
 size_t arena_bytes(const Arena *arena);
 

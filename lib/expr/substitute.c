@@ -278,9 +278,17 @@ static Expr without_hold(Arena *arena, Expr e, void *context)
     return held(e);
 }
 
+/* rows of a network are opened again and again */
 Expr expr_open(Arena *arena, Expr e)
 {
-    return expr_change(arena, e, without_hold, NULL);
+    const Expr mark = arena_zero(arena); /* nothing is differentiated by it */
+    Expr opened = e->kind <= EXPR_SYMBOL ? e : arena_recall(arena, e, mark);
+
+    if (opened == NULL) {
+        opened = expr_change(arena, e, without_hold, NULL);
+        arena_remember(arena, e, mark, opened);
+    }
+    return opened;
 }
 
 /* --- asking --- */

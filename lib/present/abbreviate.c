@@ -114,6 +114,7 @@ static Expr rebuild(const AbbreviateWalk *walk, Expr e)
     case EXPR_RATIONAL:
     case EXPR_REAL:
     case EXPR_SYMBOL:
+    case EXPR_TUPLE:
         break;
     }
     mem_free(args);

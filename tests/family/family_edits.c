@@ -6,7 +6,11 @@
  * where its name was first met: then the numbers are the same but for rounding.
  *
  * Large models hold numbers of parts as parameters of the equations: they move as those do whose
- * numbers are the user's parameters. */
+ * numbers are the user's parameters.
+ *
+ * Instances come and go beside others that stay, of which nothing is derived again: then, too, each
+ * model moves as the one made of the same statements in a session that is asked for the first time.
+ */
 #include "family.h"
 
 #include "../unit/session_kit.h"
@@ -296,11 +300,206 @@ static Verdict literals_are_parameters(Member *member)
     return isnan(seen[0][0][0]) ? REFUSED : AGREES;
 }
 
+/* --- instances that come and go --- */
+
+enum { SLOTS = 12, CHANGES = 8 };
+
+typedef struct Robot {
+    Member *member;
+    bool planar;
+    int slots; /* places for legs */
+} Robot;
+
+static int one_of(const Robot *robot, int count)
+{
+    return member_one_of(robot->member, count);
+}
+
+/* a position, of three numbers in space */
+static void add_place(const Robot *robot, Text *text, double x, double y)
+{
+    text_addf(text, robot->planar ? "[%.3f, %.3f]" : "[%.3f, %.3f, 0.05]", x, y);
+}
+
+static void add_link_parts(const Robot *robot, Text *text, const char *name, const char *length)
+{
+    const char *z = robot->planar ? "" : ", 0";
+
+    text_addf(text, "body %s mass=%s inertia=%s\n", name, "2*shared",
+              robot->planar ? "0.1" : "[0.05, 0.1, 0.12]");
+    text_addf(text, "arm %sr %s [-%s/2, 0%s]\narm %se %s [%s/2, 0%s]\n", name, name, length, z,
+              name, name, length, z);
+}
+
+/* a leg of two links, and a hip that holds two of them */
+static void add_definitions(const Robot *robot, Text *text)
+{
+    const char *z = robot->planar ? "" : ", 0";
+
+    text_add(text, "subsystem leg frames=[A, B]\nL = 0.6\n");
+    add_link_parts(robot, text, "l1", "L");
+    add_link_parts(robot, text, "l2", "L");
+    text_addf(text, "arm B l2 [L/2, 0%s]\n", z);
+    text_addf(text, "%s h A l1r%s\n", robot->planar ? "revolute" : "universal",
+              robot->planar ? "" : " axes=[y, z]");
+    if (one_of(robot, 2) == 0)
+        text_add(text, "prismatic k l1e l2r axis=x\nspring sp k k=90 rest=0.1\n");
+    else
+        text_add(text, "revolute k l1e l2r\nspring sp k k=9\n");
+    if (one_of(robot, 2) == 0)
+        text_add(text, "motor M k u 0 R=1 L=1 Kt=1 Kv=1\nresistor R u 0 5\n");
+    text_add(text, "end\nsubsystem hip frames=[A, B]\n");
+    add_link_parts(robot, text, "pelvis", "0.2");
+    text_addf(text, "arm B pelvis [0, 0.1%s]\nrevolute turn A pelvis\n", z);
+    text_add(text, "use leg left A=pelvisr\nuse leg right A=pelvise\nend\n");
+}
+
+static void add_instance(const Robot *robot, Text *text, int slot)
+{
+    const char *held = robot->planar ? "revolute" : "spherical";
+
+    switch (one_of(robot, 4)) {
+    case 0: /* nested, and open */
+        text_addf(text, "use hip leg%d A=g%d\n", slot, slot);
+        break;
+    case 1: /* open */
+        text_addf(text, "use leg leg%d A=g%d\n", slot, slot);
+        break;
+    default:
+        text_addf(text, "use leg leg%d A=g%d\n%s h%d leg%d.B p%d\n", slot, slot, held, slot, slot,
+                  slot);
+        break;
+    }
+}
+
+static void add_robot(Robot *robot, Text *text)
+{
+    robot->planar = one_of(robot, 2) == 0;
+    robot->slots = one_of(robot, 2) == 0 ? SLOTS : 3;
+    text_add(text,
+             robot->planar ? "scene planar\ngravity [0, -9.81]\n" : "gravity [0, 1, -9.81]\n");
+    text_addf(text, "shared = 1.5\nbody m mass=8 inertia=%s\n",
+              robot->planar ? "0.08" : "[0.1, 0.2, 0.3]");
+    add_definitions(robot, text);
+    for (int i = 0; i < robot->slots; i++) {
+        const double at = 2 * M_PI * i / robot->slots;
+
+        text_addf(text, "arm g%d ground ", i);
+        add_place(robot, text, 0.5 * cos(at), 0.5 * sin(at));
+        text_addf(text, "\narm p%d m ", i);
+        add_place(robot, text, 0.2 * cos(at), 0.2 * sin(at));
+        text_char(text, '\n');
+    }
+    for (int i = 0; i < robot->slots; i++)
+        if (i == 0 || one_of(robot, 4) > 0)
+            add_instance(robot, text, i);
+    text_add(text, one_of(robot, 2) == 0 ? "tree absolute\n" : "tree joint\n");
+}
+
+/* what can't be done of it is refused in both sessions alike */
+static void add_change(const Robot *robot, Text *text)
+{
+    const int slot = one_of(robot, robot->slots);
+
+    switch (one_of(robot, 10)) {
+    case 0:
+        text_addf(text, "delete h%d\ndelete leg%d\n", slot, slot);
+        break;
+    case 1:
+        text_addf(text, "delete leg%d\n", slot);
+        break;
+    case 2:
+    case 3:
+        add_instance(robot, text, slot);
+        break;
+    case 4:
+        text_addf(text, "set leg%d.l1.mass = %.2f\n", slot, member_between(robot->member, 1, 3));
+        break;
+    case 5:
+        text_addf(text, "set leg%d.L = %.3f\n", slot, member_between(robot->member, 0.5, 0.7));
+        break;
+    case 6:
+        text_addf(text, "shared = %.2f\n", member_between(robot->member, 1, 2));
+        break;
+    case 7:
+        text_add(text, "undo\n");
+        break;
+    case 8:
+        text_add(text, "redo\n");
+        break;
+    default: /* a part of the model's own beside them */
+        text_addf(text, "body f%d mass=1 inertia=%s\nrevolute r%d g%d f%d\n", slot,
+                  robot->planar ? "1" : "[1, 1, 1]", slot, slot, slot);
+        break;
+    }
+}
+
+/* where parts stand and what moves them, as far as there are such parts: */
+static const struct Asked {
+    const char *of, *what;
+} asked_of_slots[] = {{"leg", ".l1.x"},        {"leg", ".l2.vy"}, {"leg", ".l2.ax"},
+                      {"leg", ".k'"},          {"leg", ".h.fx"},  {"leg", ".left.l2.ay"},
+                      {"leg", ".right.l1.ax"}, {"h", ".fy"},      {"f", ".ay"}};
+enum { ASKED = COUNT(asked_of_slots), VALUES = 1 + ASKED * SLOTS };
+
+static void look_at_robot(const Robot *robot, Kit *kit, double *values)
+{
+    if (kit_do(kit, "simulate 0.005\n") != CT_OK)
+        tell(robot->member, "  (%s)\n", kit->error.message);
+    values[0] = kit_value(kit, "m.ax");
+    for (int i = 0; i < robot->slots; i++)
+        for (int k = 0; k < ASKED; k++) {
+            char name[40];
+
+            (void)snprintf(name, sizeof name, "%s%d%s", asked_of_slots[k].of, i,
+                           asked_of_slots[k].what);
+            values[1 + i * ASKED + k] = kit_value(kit, name);
+        }
+}
+
+static Verdict instances_leave_no_trace(Member *member)
+{
+    Robot robot = {.member = member};
+    Text lines = {0};
+    Kit edited = kit_new(), fresh = kit_new();
+    double seen[2][VALUES];
+    Verdict verdict = AGREES;
+    int known = 0;
+
+    for (int i = 0; i < 2 * VALUES; i++)
+        seen[i / VALUES][i % VALUES] = NAN;
+    add_robot(&robot, &lines);
+    for (int k = 0; k <= CHANGES; k++) {
+        tell(member, "%s", lines.at);
+        if (kit_do(&edited, lines.at) != CT_OK)
+            tell(member, "  (%s)\n", edited.error.message);
+        (void)kit_do(&fresh, lines.at);
+        look_at_robot(&robot, &edited, seen[0]);
+        text_free(&lines);
+        add_change(&robot, &lines);
+    }
+    look_at_robot(&robot, &fresh, seen[1]);
+    for (int i = 0; i < VALUES; i++) {
+        const double a = seen[0][i], b = seen[1][i];
+
+        known += !isnan(b);
+        if (isnan(a) != isnan(b) || fabs(a - b) > 1e-6 * (1 + fabs(a))) {
+            tell(member, "value %d: %.17g edited, %.17g fresh\n", i, a, b);
+            verdict = DISAGREES;
+        }
+    }
+    text_free(&lines);
+    kit_free(&edited);
+    kit_free(&fresh);
+    return verdict == AGREES && known == 0 ? REFUSED : verdict;
+}
+
 static const Family families[] = {
     {"numbers of a large model move it as parameters of the user's do", 8, 0.2, 0,
      literals_are_parameters},
     {"a model edited between its equations is the one made so at once", 30, 0, 0,
      edits_leave_no_trace},
+    {"instances come and go as in a model made so at once", 10, 0.3, 0, instances_leave_no_trace},
 };
 
 int main(int argc, char **argv)

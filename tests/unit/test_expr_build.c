@@ -407,6 +407,33 @@ static void release_leaves_no_ghosts(void)
     END;
 }
 
+static void tuples_recall_what_follows_until_released(void)
+{
+    BEGIN;
+    const Expr tuple = expr_tuple(w.arena, (Expr[]){a, b, a}, 3);
+    const Expr values[2] = {ADD(a, b), x};
+    Expr found[2] = {NULL};
+
+    /* a tuple is no sum, product or call, and its order counts */
+    EXPECT(expr_tuple(w.arena, (Expr[]){a, b, a}, 3) == tuple);
+    EXPECT(expr_tuple(w.arena, (Expr[]){a, a, b}, 3) != tuple);
+    EXPECT(!expr_recall(w.arena, tuple, 0, found, sizeof found));
+    for (int round = 0; round < 3; round++) {
+        ArenaMark *mark = arena_mark(w.arena);
+        Expr other = NULL;
+
+        expr_remember(w.arena, tuple, 0, values, sizeof values);
+        expr_remember(w.arena, tuple, 1, &tuple, sizeof tuple);
+        EXPECT(expr_recall(w.arena, tuple, 0, found, sizeof found));
+        EXPECT(found[0] == values[0] && found[1] == values[1]);
+        EXPECT(expr_recall(w.arena, tuple, 1, &other, sizeof other) && other == tuple);
+        arena_release(w.arena, mark);
+        EXPECT(!expr_recall(w.arena, tuple, 0, found, sizeof found));
+        EXPECT(!expr_recall(w.arena, tuple, 1, &other, sizeof other));
+    }
+    END;
+}
+
 static void division_by_zero_is_remembered_once(void)
 {
     BEGIN;
@@ -479,6 +506,7 @@ int main(void)
     RUN(order_is_total_and_repeats);
     RUN(order_forgets_history);
     RUN(release_leaves_no_ghosts);
+    RUN(tuples_recall_what_follows_until_released);
     RUN(division_by_zero_is_remembered_once);
     RUN(growth_has_a_limit);
     RUN(long_sums_are_built_at_once);

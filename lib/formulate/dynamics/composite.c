@@ -7,6 +7,7 @@
 #include "formulate/dynamics/loads.h"
 #include "formulate/kinematics/alike.h"
 #include "formulate/kinematics/frames.h"
+#include "formulate/kinematics/identity.h"
 #include "formulate/system/dynamics.h"
 #include "formulate/system/kinematics.h"
 #include "formulate/system/origin.h"
@@ -87,18 +88,23 @@ static const Follower *follows_whole(const System *system, int node, int *first)
     return follower != NULL && alike_ends(follower) ? follower : NULL;
 }
 
-Composite composite_at(const System *system, const Composite *all, int node)
+Composite composite_at(const System *system, const Composites *all, int node)
 {
     int first;
-    const Follower *follower = follows_whole(system, node, &first);
+    const Follower *follower = all->is_known[node] ? NULL : follows_whole(system, node, &first);
     Composite own;
 
     if (follower == NULL)
-        return all[node];
-    own.mass = alike_take(follower, all[first].mass);
-    own.moment = alike_vec(follower, all[first].moment);
+        return all->at[node];
+    /* the first may follow another one, as deep as definitions stand in one another */
+    own = composite_at(system, all, first);
+    own.mass = alike_take(follower, own.mass);
+    own.moment = alike_vec(follower, own.moment);
     for (int k = 0; k < 9; k++)
-        own.inertia.at[k] = alike_take(follower, all[first].inertia.at[k]);
+        own.inertia.at[k] = alike_take(follower, own.inertia.at[k]);
+    all->at[node] = own;
+    all->is_known[node] = true;
+    derived_keep(system, all->key[node], DERIVED_COMPOSITE, &own, sizeof own);
     return own;
 }
 
@@ -126,58 +132,106 @@ static bool is_nothing(const Composite *part)
     return expr_is_zero(part->mass) && vec_is_zero(part->moment);
 }
 
-Composite *composites_new(const System *system, const int *place)
+/* composites of the masses alone, and their keys */
+static void place_masses(const System *system, Composites *all)
 {
     Arena *arena = system->arena;
-    int nodes, first;
+    int nodes;
     const int *order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
-    int *inward;
-    bool *moves;
-    Composite *all =
-        pool_alloc(system->pool, (size_t)graph_node_count(system->origin->graph) * sizeof *all);
     Rotation none;
 
     for (int i = 0; i < 9; i++)
         none.at[i] = expr_int(arena, 0);
     for (int i = 0; i < nodes; i++)
-        all[order[i]] = (Composite){expr_int(arena, 0), vec_zero(arena), none};
+        all->at[order[i]] = (Composite){expr_int(arena, 0), vec_zero(arena), none};
     for (int i = 0; i < system->dynamics->masses.count; i++) {
         const Mass *mass = &system->dynamics->masses.at[i];
-        Composite *own = &all[mass->node];
+        const Frame *frame = &system->kinematics->frames[mass->node];
+        Composite *own = &all->at[mass->node];
+        Key key = key_of(system->kinematics->chains.at[0].identity);
 
         own->mass = expr_add(arena, own->mass, mass->mass);
         own->inertia =
-            tensor_express(system, mass->inertia, system->kinematics->frames[mass->node].chain,
-                           node_axes(system, mass->node));
+            tensor_express(system, mass->inertia, frame->chain, node_axes(system, mass->node));
+        key_add(&key, own, sizeof *own);
+        all->key[mass->node] = key_end(system, &key);
     }
-    moves = moving_nodes(system);
-    inward = alike_inward(system, TREE_TRANSLATION, &nodes);
-    for (int i = 0; i < nodes; i++) {
-        const int node = inward[i];
-        const Frame *frame = &system->kinematics->frames[node];
-        Composite part, *whole = &all[frame->parent];
-        int axes = node_axes(system, node);
-        int onto = node_axes(system, frame->parent);
+}
 
-        /* what is fixed to the datum moves nothing */
-        if (!moves[frame->parent] || (place != NULL && place[node] >= 0) ||
-            (follows_whole(system, node, &first) != NULL &&
-             follows_whole(system, frame->parent, &first) != NULL))
-            continue;
-        part = composite_at(system, all, node);
-        if (is_nothing(&part))
-            continue;
-        part.inertia = shifted(arena, &part, frame->step);
-        part.moment = vec_add(arena, part.moment, vec_scale(arena, part.mass, frame->step));
-        part.moment = vec_carry(system, part.moment, axes, onto);
-        part.inertia = tensor_express(system, part.inertia, axes, onto);
-        whole->mass = expr_hold(arena, expr_add(arena, whole->mass, part.mass));
-        whole->moment = vec_hold(arena, vec_add(arena, whole->moment, part.moment));
-        for (int k = 0; k < 9; k++)
-            whole->inertia.at[k] =
-                expr_hold(arena, expr_add(arena, whole->inertia.at[k], part.inertia.at[k]));
+/* What of its nodes is passed on inward, and to where */
+typedef struct Passing {
+    const int *place;
+    bool *moves; /* a node */
+    int *inward, count;
+} Passing;
+
+/* what is fixed to the datum moves nothing */
+static bool passes_on(const System *system, const Passing *passing, int node)
+{
+    return passing->moves[system->kinematics->frames[node].parent] &&
+           (passing->place == NULL || passing->place[node] < 0);
+}
+
+static void recall_composites(const System *system, const Passing *passing, Composites *all)
+{
+    for (int i = 0; i < passing->count; i++) {
+        const int node = passing->inward[i], parent = system->kinematics->frames[node].parent;
+
+        all->is_known[node] = derived_recall(system, all->key[node], DERIVED_COMPOSITE,
+                                             &all->at[node], sizeof all->at[node]);
+        if (passes_on(system, passing, node))
+            all->key[parent] = key_join(system, system->kinematics->chains.at[0].identity,
+                                        all->key[parent], key_passed(system, node, all->key[node]));
     }
-    MEM_FREE(inward, moves);
+}
+
+/* adds what hangs there to what hangs at its parent */
+static void pass_on(const System *system, Composites *all, int node)
+{
+    Arena *arena = system->arena;
+    const Frame *frame = &system->kinematics->frames[node];
+    const int axes = node_axes(system, node), onto = node_axes(system, frame->parent);
+    Composite part = composite_at(system, all, node), *whole = &all->at[frame->parent];
+
+    if (is_nothing(&part))
+        return;
+    part.inertia = shifted(arena, &part, frame->step);
+    part.moment = vec_add(arena, part.moment, vec_scale(arena, part.mass, frame->step));
+    part.moment = vec_carry(system, part.moment, axes, onto);
+    part.inertia = tensor_express(system, part.inertia, axes, onto);
+    whole->mass = expr_hold(arena, expr_add(arena, whole->mass, part.mass));
+    whole->moment = vec_hold(arena, vec_add(arena, whole->moment, part.moment));
+    for (int k = 0; k < 9; k++)
+        whole->inertia.at[k] =
+            expr_hold(arena, expr_add(arena, whole->inertia.at[k], part.inertia.at[k]));
+}
+
+Composites composites_new(const System *system, const int *place)
+{
+    const size_t count = (size_t)graph_node_count(system->origin->graph);
+    Composites all = {.at = pool_alloc(system->pool, count * sizeof *all.at),
+                      .key = pool_alloc(system->pool, count * sizeof *all.key),
+                      .is_known = pool_alloc(system->pool, count * sizeof *all.is_known)};
+    Passing passing = {.place = place, .moves = moving_nodes(system)};
+    int first;
+
+    passing.inward = alike_inward(system, TREE_TRANSLATION, &passing.count);
+    place_masses(system, &all);
+    recall_composites(system, &passing, &all);
+    for (int i = 0; i < passing.count; i++) {
+        const int node = passing.inward[i], parent = system->kinematics->frames[node].parent;
+        const bool follows = follows_whole(system, node, &first) != NULL;
+
+        if (!all.is_known[node] && !follows) {
+            all.is_known[node] = true;
+            derived_keep(system, all.key[node], DERIVED_COMPOSITE, &all.at[node],
+                         sizeof all.at[node]);
+        }
+        if (passes_on(system, &passing, node) && !all.is_known[parent] &&
+            !(follows && follows_whole(system, parent, &first) != NULL))
+            pass_on(system, &all, node);
+    }
+    MEM_FREE(passing.inward, passing.moves);
     return all;
 }
 

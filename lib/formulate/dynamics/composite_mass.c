@@ -1,6 +1,7 @@
 /* composite_mass.c: what is passed on towards the datum, and where */
 #include "formulate/dynamics/composite_mass.h"
 #include "formulate/kinematics/frames.h"
+#include "formulate/kinematics/identity.h"
 
 #include "formulate/dynamics/composite.h"
 #include "formulate/kinematics/alike.h"
@@ -131,45 +132,60 @@ static void add_places(System *system, CompositeMass *mass, int *at)
 
 /* --- speeds --- */
 
-/* entries that stand among the needs, in the names of an instance */
-static int need_alike(CompositeMass *mass, const Follower *follower, int at, int count)
+typedef struct SpeedVectors { /* as in MassSpeed */
+    Vec turn, slide, force, torque;
+} SpeedVectors;
+
+/* motion per unit; what that takes is to be found */
+static SpeedVectors speed_motion(const System *system, int j)
 {
-    const int first = mass->needs.count;
+    const int axes = node_axes(system, speed_node(system, j));
 
-    for (int i = 0; i < count; i++) {
-        const Expr e = alike_take(follower, mass->needs.at[at + i]);
+    return (SpeedVectors){.turn = system->kinematics->speeds[j].chain >= 0
+                                      ? speed_axis(system, j, axes)
+                                      : vec_zero(system->arena),
+                          .slide = speed_slide(system, j, axes)};
+}
 
-        LIST_PUSH(mass->needs, e);
+/* Recalled, or in the names of an instance, or derived. `all`: of those that others take over */
+static void find_vectors(const System *system, const Composites *composites, Loads *loads, int j,
+                         SpeedVectors *all)
+{
+    const int node = speed_node(system, j);
+    int first;
+    const Follower *follower = alike_speed(system, j, &first);
+    Key key = key_of(composites->key[node]);
+    Vec effect[2];
+    Expr told;
+
+    all[j] = speed_motion(system, j);
+    key_add(&key, &all[j].turn, sizeof all[j].turn);
+    key_add(&key, &all[j].slide, sizeof all[j].slide);
+    told = key_end(system, &key);
+    if (!derived_recall(system, told, DERIVED_SPEED, effect, sizeof effect)) {
+        if (follower != NULL && alike_ends(follower)) {
+            effect[0] = alike_vec(follower, all[first].force);
+            effect[1] = alike_vec(follower, all[first].torque);
+        } else {
+            composite_loads(system, composite_at(system, composites, node), j, loads);
+            effect[0] = loads->force[node];
+            effect[1] = loads->torque[node];
+        }
+        derived_keep(system, told, DERIVED_SPEED, effect, sizeof effect);
     }
-    return first;
+    all[j].force = effect[0];
+    all[j].torque = effect[1];
 }
 
-static MassSpeed speed_alike(CompositeMass *mass, const Follower *follower, int first)
+static MassSpeed speed_of(CompositeMass *mass, const SpeedVectors *vectors, int place)
 {
-    MassSpeed speed = mass->speeds[first];
-
-    speed.turn = need_alike(mass, follower, speed.turn, 3);
-    speed.slide = need_alike(mass, follower, speed.slide, 3);
-    speed.force = need_alike(mass, follower, speed.force, 3);
-    speed.torque = need_alike(mass, follower, speed.torque, 3);
-    return speed;
-}
-
-static MassSpeed speed_of(System *system, CompositeMass *mass, const Composite *composites,
-                          Loads *loads, int j)
-{
-    const int node = speed_node(system, j), axes = node_axes(system, node);
-    const bool turns = system->kinematics->speeds[j].chain >= 0;
-    const Vec turn = turns ? speed_axis(system, j, axes) : vec_zero(system->arena);
-    const Vec slide = speed_slide(system, j, axes);
-
-    composite_loads(system, composite_at(system, composites, node), j, loads);
-    return (MassSpeed){.turns = !vec_is_zero(turn),
-                       .slides = !vec_is_zero(slide),
-                       .turn = need(mass, turn.at, 3),
-                       .slide = need(mass, slide.at, 3),
-                       .force = need(mass, loads->force[node].at, 3),
-                       .torque = need(mass, loads->torque[node].at, 3)};
+    return (MassSpeed){.place = place,
+                       .turns = !vec_is_zero(vectors->turn),
+                       .slides = !vec_is_zero(vectors->slide),
+                       .turn = need(mass, vectors->turn.at, 3),
+                       .slide = need(mass, vectors->slide.at, 3),
+                       .force = need(mass, vectors->force.at, 3),
+                       .torque = need(mass, vectors->torque.at, 3)};
 }
 
 /* its speeds, place by place */
@@ -194,9 +210,10 @@ static void list_speeds(System *system, CompositeMass *mass)
 
 static void add_speeds(System *system, CompositeMass *mass, const int *at)
 {
-    const Composite *composites = composites_new(system, NULL);
+    const Composites composites = composites_new(system, NULL);
     Loads loads = loads_new(system);
     const int count = system->kinematics->u.count;
+    SpeedVectors *vectors = NEW_ARRAY(SpeedVectors, count);
 
     mass->speed_count = count;
     mass->speeds = pool_alloc(system->pool, (size_t)count * sizeof *mass->speeds);
@@ -204,17 +221,14 @@ static void add_speeds(System *system, CompositeMass *mass, const int *at)
     for (int level = 0, done = 0; done < count; level++)
         for (int j = 0; j < count; j++) {
             const int node = speed_node(system, j);
-            int first;
-            const Follower *follower = alike_speed(system, j, &first);
 
             if (alike_level(system, node) != level)
                 continue;
-            mass->speeds[j] = follower != NULL && alike_ends(follower)
-                                  ? speed_alike(mass, follower, first)
-                                  : speed_of(system, mass, composites, &loads, j);
-            mass->speeds[j].place = at[node];
+            find_vectors(system, &composites, &loads, j, vectors);
+            mass->speeds[j] = speed_of(mass, &vectors[j], at[node]);
             done++;
         }
+    mem_free(vectors);
     list_speeds(system, mass);
 }
 
@@ -223,13 +237,13 @@ static void add_bodies(System *system, CompositeMass *mass, const int *at)
 {
     int nodes;
     const int *order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
-    const Composite *bodies = composites_new(system, at);
+    const Composites bodies = composites_new(system, at);
 
     for (int i = 1; i < nodes; i++) {
         if (at[order[i]] < 0)
             continue;
 
-        const Composite body = composite_at(system, bodies, order[i]);
+        const Composite body = composite_at(system, &bodies, order[i]);
 
         LIST_PUSH(mass->bodies, body.mass);
         for (int k = 0; k < 3; k++)

@@ -13,6 +13,7 @@
 #include "formulate/kinematics/alike.h"
 #include "formulate/kinematics/coordinate.h"
 #include "formulate/kinematics/frames.h"
+#include "formulate/kinematics/identity.h"
 #include "formulate/kinematics/recursive.h"
 #include "formulate/system/constraints.h"
 #include "formulate/system/dynamics.h"
@@ -225,7 +226,7 @@ static Status mass_matrix(System *system)
     Expr *columns = NEW_ARRAY(Expr, (size_t)n * (size_t)n);
     Expr *mass = pool_alloc(system->pool, (size_t)n * (size_t)n * sizeof(Expr));
     Vec *v = NEW_ARRAY(Vec, graph_node_count(system->origin->graph));
-    const Composite *composites = composites_new(system, NULL);
+    const Composites composites = composites_new(system, NULL);
     Status status = OK;
 
     for (int k = 0; k < n; k++) {
@@ -235,7 +236,7 @@ static Status mass_matrix(System *system)
 
         moved[k] = bodies_moved(system, k, moves);
         if (speed_moves_as_one(system, k)) {
-            composite_loads(system, composite_at(system, composites, speed_node(system, k)), k,
+            composite_loads(system, composite_at(system, &composites, speed_node(system, k)), k,
                             &loads);
         } else {
             CHECK(unit_motion(system, k, v));
@@ -260,29 +261,52 @@ done:
     return status;
 }
 
-static void add_inertia_of(const System *system, Loads *loads, const Mass *mass, Vec g,
-                           const Vec *alpha, const Vec *a)
+typedef struct Inertia {
+    Vec force, torque;
+} Inertia;
+
+static Inertia inertia_of(const System *system, const Mass *mass, Vec g, const Vec *alpha,
+                          const Vec *a)
 {
     Arena *arena = system->arena;
     const int chain = system->kinematics->frames[mass->node].chain;
-    const Vec force = vec_scale(arena, mass->mass, vec_sub(arena, g, a[mass->node]));
+    Inertia inertia = {vec_scale(arena, mass->mass, vec_sub(arena, g, a[mass->node])),
+                       vec_zero(arena)};
     Vec w, spin, torque;
 
-    loads->force[mass->node] = vec_add(arena, loads->force[mass->node], force);
     if (!mass->has_inertia)
-        return;
+        return inertia;
     w = system->kinematics->motions[chain].w;
     spin = vec_hold(arena, rotation_apply(arena, &mass->inertia, w));
     torque = vec_add(arena, rotation_apply(arena, &mass->inertia, alpha[chain]),
                      vec_cross(arena, w, spin));
-    loads->torque[mass->node] = vec_sub(arena, loads->torque[mass->node], torque);
+    inertia.torque = vec_neg(arena, torque);
+    return inertia;
 }
 
-/* of a mass alone on its node: inertia comes before other loads */
-static void take_inertia(Loads *loads, const Follower *follower, int node, int first)
+/* What a mass at rest accelerations does: of a follower's it is all on its node so far, as inertia
+ * comes before other loads. */
+static Inertia find_inertia(const System *system, const Loads *loads, const Mass *mass,
+                            const Follower *follower, int first, const Vec *gravity)
 {
-    loads->force[node] = alike_vec(follower, loads->force[first]);
-    loads->torque[node] = alike_vec(follower, loads->torque[first]);
+    const Kinematics *kinematics = system->kinematics;
+    Key key = key_of(kinematics->frames[mass->node].identity);
+    Inertia inertia;
+    Expr told;
+
+    key_add(&key, &mass->mass, sizeof mass->mass);
+    key_add(&key, &mass->inertia, sizeof mass->inertia);
+    key_add(&key, &system->origin->gravity, sizeof system->origin->gravity);
+    told = key_end(system, &key);
+    if (derived_recall(system, told, DERIVED_INERTIA, &inertia, sizeof inertia))
+        return inertia;
+    inertia = follower != NULL && alike_moves(follower)
+                  ? (Inertia){alike_vec(follower, loads->force[first]),
+                              alike_vec(follower, loads->torque[first])}
+                  : inertia_of(system, mass, gravity[node_axes(system, mass->node)],
+                               kinematics->alpha0, kinematics->a0);
+    derived_keep(system, told, DERIVED_INERTIA, &inertia, sizeof inertia);
+    return inertia;
 }
 
 void loads_add_inertia(const System *system, Loads *loads, const Vec *alpha, const Vec *a,
@@ -298,15 +322,18 @@ void loads_add_inertia(const System *system, Loads *loads, const Vec *alpha, con
             int first;
             const Follower *follower =
                 accelerations == NULL ? alike_node(system, mass->node, &first) : NULL;
-            const bool takes = follower != NULL && alike_moves(follower);
+            Inertia inertia;
 
             if ((accelerations == NULL ? alike_level(system, mass->node) : 0) != level)
                 continue;
-            if (takes)
-                take_inertia(loads, follower, mass->node, first);
-            else
-                add_inertia_of(system, loads, mass, gravity[node_axes(system, mass->node)], alpha,
-                               a);
+            inertia =
+                accelerations == NULL
+                    ? find_inertia(system, loads, mass, follower, first, gravity)
+                    : inertia_of(system, mass, gravity[node_axes(system, mass->node)], alpha, a);
+            loads->force[mass->node] =
+                vec_add(system->arena, loads->force[mass->node], inertia.force);
+            loads->torque[mass->node] =
+                vec_add(system->arena, loads->torque[mass->node], inertia.torque);
             done++;
         }
     for (int i = 0; i < system->dynamics->elastics.count; i++)

@@ -5,6 +5,7 @@
 #include "formulate/dynamics/loads.h"
 #include "formulate/kinematics/alike.h"
 #include "formulate/kinematics/frames.h"
+#include "formulate/kinematics/identity.h"
 #include "formulate/system/origin.h"
 #include "formulate/system/system_impl.h"
 
@@ -35,30 +36,107 @@ void loads_add_torque(const System *system, Loads *loads, int node, Vec torque, 
     loads->torque[node] = vec_add(system->arena, loads->torque[node], torque);
 }
 
-/* Nodes of instances whose loads are those of the first: so are their sums. New, mem_free(). */
-static bool *summed_alike(const System *system, const Loads *loads)
+/* --- sums --- */
+
+typedef struct Summing {
+    const System *system;
+    Sums *sums;
+    int datum;             /* no branch leads there */
+    int *forces, *torques; /* nodes inward, of each tree; without the datum */
+    int force_count, torque_count;
+    /* a node each */
+    Expr *force_key, *torque_key;     /* of what adds up there; NULL: nothing, or it isn't told */
+    bool *knows_force, *knows_torque; /* the sum is recalled, or nothing */
+    bool *alike;                      /* the sums are those of the first's */
+} Summing;
+
+enum { FORCE, TORQUE };
+
+static Expr load_key(const System *system, int node, int what, Vec load)
 {
-    const int count = graph_node_count(system->origin->graph);
-    bool *alike = NEW_ARRAY(bool, count);
+    const Expr told = expr_int(system->arena, what);
+    Key key = key_of(system->kinematics->frames[node].identity);
 
-    for (int n = 0; n < count; n++) {
-        int first;
-        const Follower *follower = alike_node(system, n, &first);
+    key_add(&key, &told, sizeof told);
+    key_add(&key, &load, sizeof load);
+    return vec_is_zero(load) ? NULL : key_end(system, &key);
+}
 
-        alike[n] = follower != NULL && alike_ends(follower) &&
-                   vec_same(alike_vec(follower, loads->force[first]), loads->force[n]) &&
-                   vec_same(alike_vec(follower, loads->torque[first]), loads->torque[n]);
+static bool recall_sum(const System *system, int node, Expr key, Derived which, Vec *sum)
+{
+    if (system->kinematics->frames[node].identity == NULL)
+        return false;
+    return key == NULL || derived_recall(system, key, which, sum, sizeof *sum);
+}
+
+static void recall_forces(Summing *s)
+{
+    const System *system = s->system;
+    const Frame *frames = system->kinematics->frames;
+
+    for (int i = 0; i < s->force_count; i++) {
+        const int n = s->forces[i], parent = frames[n].parent, base = frames[n].base;
+
+        s->knows_force[n] =
+            recall_sum(system, n, s->force_key[n], DERIVED_FORCE, &s->sums->force[n]);
+        s->force_key[parent] =
+            key_join(system, frames[parent].identity, s->force_key[parent], s->force_key[n]);
+        s->torque_key[base] =
+            key_join(system, frames[base].identity, s->torque_key[base], s->force_key[n]);
     }
-    /* all of an instance, or none of it */
-    for (int n = 0; n < count; n++) {
-        int first, members;
-        const Follower *follower = alike_node(system, n, &first);
-        const int *member = follower != NULL ? alike_members(follower, &members) : NULL;
+}
 
-        for (int k = 0; member != NULL && !alike[n] && k < members; k++)
-            alike[member[k]] = false;
+static void recall_torques(Summing *s)
+{
+    const System *system = s->system;
+
+    for (int i = 0; i < s->torque_count; i++) {
+        const int n = s->torques[i], parent = tree_parent(system->origin->trees[TREE_ROTATION], n);
+
+        s->knows_torque[n] =
+            recall_sum(system, n, s->torque_key[n], DERIVED_TORQUE, &s->sums->torque[n]);
+        s->torque_key[parent] = key_join(system, system->kinematics->frames[parent].identity,
+                                         s->torque_key[parent], s->torque_key[n]);
+    }
+}
+
+/* the loads on all of an instance are those of the first's */
+static bool loaded_alike(const System *system, const Follower *follower, const Loads *loads)
+{
+    int count, first;
+    const int *members = alike_members(follower, &count);
+    bool alike = alike_ends(follower);
+
+    for (int k = 0; alike && k < count; k++) {
+        (void)alike_node(system, members[k], &first);
+        alike = vec_same(alike_vec(follower, loads->force[first]), loads->force[members[k]]) &&
+                vec_same(alike_vec(follower, loads->torque[first]), loads->torque[members[k]]);
     }
     return alike;
+}
+
+/* Instances whose sums are those of the first, of all or none of its nodes; they are asked where
+ * something is to be derived. */
+static void find_alike(const Summing *s, const Loads *loads)
+{
+    const int count = graph_node_count(s->system->origin->graph);
+    bool *asked = NEW_ARRAY(bool, count), alike;
+
+    for (int n = 0; n < count; n++) {
+        int first, members;
+        const Follower *follower = alike_node(s->system, n, &first);
+        const int *member;
+
+        if (follower == NULL || asked[n] || (s->knows_force[n] && s->knows_torque[n]))
+            continue;
+        member = alike_members(follower, &members);
+        for (int k = 0; k < members; k++)
+            asked[member[k]] = true;
+        alike = loaded_alike(s->system, follower, loads);
+        for (int k = 0; k < members; k++)
+            s->alike[member[k]] = alike;
+    }
+    mem_free(asked);
 }
 
 /* what a node's is, given the first's */
@@ -70,72 +148,118 @@ static Vec as_first(const System *system, int node, const Vec *of)
     return alike_vec(follower, of[first]);
 }
 
+typedef struct Passed {
+    Vec force, moment; /* in the axes of the parent, and of the base */
+} Passed;
+
+/* a shift passes on the moment of what it carries to the frame that it is fixed in */
+static void pass_force(const Summing *s, int n)
+{
+    const System *system = s->system;
+    const Frame *frame = &system->kinematics->frames[n];
+    const Vec force = s->sums->force[n];
+    const int axes = node_axes(system, n);
+    Vec *onto = &s->sums->force[frame->parent], *about = &s->sums->torque[frame->base];
+    Passed passed;
+
+    if ((frame->parent == s->datum || s->knows_force[frame->parent]) &&
+        (frame->base == s->datum || s->knows_torque[frame->base]))
+        return;
+    if (!derived_recall(system, s->force_key[n], DERIVED_PASSED, &passed, sizeof passed)) {
+        passed.force = vec_carry_held(system, force, axes, node_axes(system, frame->parent));
+        passed.moment = vec_carry_held(system, vec_cross(system->arena, frame->step, force), axes,
+                                       node_axes(system, frame->base));
+        derived_keep(system, s->force_key[n], DERIVED_PASSED, &passed, sizeof passed);
+    }
+    if (frame->parent != s->datum && !s->knows_force[frame->parent])
+        *onto = vec_add(system->arena, *onto, passed.force);
+    if (frame->base != s->datum && !s->knows_torque[frame->base])
+        *about = vec_add(system->arena, *about, passed.moment);
+}
+
+static void pass_torque(const Summing *s, int n, int parent)
+{
+    const System *system = s->system;
+    Vec passed;
+
+    if (parent == s->datum || s->knows_torque[parent])
+        return;
+    if (!derived_recall(system, s->torque_key[n], DERIVED_TURNED, &passed, sizeof passed)) {
+        passed = vec_carry_held(system, s->sums->torque[n], node_axes(system, n),
+                                node_axes(system, parent));
+        derived_keep(system, s->torque_key[n], DERIVED_TURNED, &passed, sizeof passed);
+    }
+    s->sums->torque[parent] = vec_add(system->arena, s->sums->torque[parent], passed);
+}
+
+/* the sum at a node to which all beyond has been added, unless it is known */
+static void end_sum(const Summing *s, int n, bool is_known, Expr key, Derived which, Vec *of)
+{
+    if (is_known)
+        return;
+    of[n] = s->alike[n] ? as_first(s->system, n, of) : vec_hold(s->system->arena, of[n]);
+    derived_keep(s->system, key, which, &of[n], sizeof of[n]);
+}
+
+static void sum_forces(const Summing *s)
+{
+    for (int i = 0; i < s->force_count; i++) {
+        const int n = s->forces[i], parent = s->system->kinematics->frames[n].parent;
+
+        end_sum(s, n, s->knows_force[n], s->force_key[n], DERIVED_FORCE, s->sums->force);
+        /* most loads of a motion of few bodies are none */
+        if (!(s->alike[n] && s->alike[parent]) && !vec_is_zero(s->sums->force[n]))
+            pass_force(s, n);
+    }
+}
+
+static void sum_torques(const Summing *s)
+{
+    for (int i = 0; i < s->torque_count; i++) {
+        const int n = s->torques[i],
+                  parent = tree_parent(s->system->origin->trees[TREE_ROTATION], n);
+
+        end_sum(s, n, s->knows_torque[n], s->torque_key[n], DERIVED_TORQUE, s->sums->torque);
+        if (!(s->alike[n] && s->alike[parent]) && !vec_is_zero(s->sums->torque[n]))
+            pass_torque(s, n, parent);
+    }
+}
+
 Sums *loads_sum(const System *system, const Loads *loads)
 {
-    Arena *arena = system->arena;
-    const Tree *rotation = system->origin->trees[TREE_ROTATION];
-    size_t size = (size_t)graph_node_count(system->origin->graph) * sizeof(Vec);
+    const int count = graph_node_count(system->origin->graph);
+    const size_t size = (size_t)count * sizeof(Vec);
     Sums *sums = pool_alloc(system->pool, sizeof *sums);
     int nodes;
     const int *order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
-    const int datum = order[0]; /* no branch leads there */
-    bool *alike = summed_alike(system, loads);
-    int *inward;
+    Summing s = {.system = system,
+                 .sums = sums,
+                 .datum = order[0],
+                 .force_key = NEW_ARRAY(Expr, count),
+                 .torque_key = NEW_ARRAY(Expr, count),
+                 .knows_force = NEW_ARRAY(bool, count),
+                 .knows_torque = NEW_ARRAY(bool, count),
+                 .alike = NEW_ARRAY(bool, count)};
 
     sums->own = loads->own;
     sums->force = pool_alloc(system->pool, size);
     sums->torque = pool_alloc(system->pool, size);
     for (int i = 0; i < nodes; i++) {
-        sums->force[order[i]] = loads->force[order[i]];
-        sums->torque[order[i]] = loads->torque[order[i]];
+        const int n = order[i];
+
+        sums->force[n] = loads->force[n];
+        sums->torque[n] = loads->torque[n];
+        s.force_key[n] = load_key(system, n, FORCE, loads->force[n]);
+        s.torque_key[n] = load_key(system, n, TORQUE, loads->torque[n]);
     }
-    inward = alike_inward(system, TREE_TRANSLATION, &nodes);
-    for (int i = 0; i < nodes; i++) {
-        int n = inward[i];
-        const Frame *frame = &system->kinematics->frames[n];
-        int axes = node_axes(system, n);
-
-        if (alike[n])
-            sums->force[n] = as_first(system, n, sums->force);
-        if (alike[n] && alike[frame->parent])
-            continue;
-        /* most loads of a motion of few bodies are none */
-        if (vec_is_zero(sums->force[n]))
-            continue;
-
-        Vec force = sums->force[n] = vec_hold(arena, sums->force[n]);
-        Vec moment = vec_cross(arena, frame->step, force);
-
-        if (frame->parent != datum) {
-            force = vec_carry_held(system, force, axes, node_axes(system, frame->parent));
-            sums->force[frame->parent] = vec_add(arena, sums->force[frame->parent], force);
-        }
-        /* a shift passes on the moment of what it carries to the frame that it is fixed in */
-        if (frame->base == datum)
-            continue;
-        moment = vec_carry_held(system, moment, axes, node_axes(system, frame->base));
-        sums->torque[frame->base] = vec_add(arena, sums->torque[frame->base], moment);
-    }
-    mem_free(inward);
-    inward = alike_inward(system, TREE_ROTATION, &nodes);
-    for (int i = 0; i < nodes; i++) {
-        int n = inward[i];
-        int parent = tree_parent(rotation, n);
-
-        if (alike[n])
-            sums->torque[n] = as_first(system, n, sums->torque);
-        if (alike[n] && alike[parent])
-            continue;
-        if (vec_is_zero(sums->torque[n]))
-            continue;
-
-        Vec torque = sums->torque[n] = vec_hold(arena, sums->torque[n]);
-
-        if (parent == datum)
-            continue;
-        torque = vec_carry_held(system, torque, node_axes(system, n), node_axes(system, parent));
-        sums->torque[parent] = vec_add(arena, sums->torque[parent], torque);
-    }
-    MEM_FREE(inward, alike);
+    s.forces = alike_inward(system, TREE_TRANSLATION, &s.force_count);
+    s.torques = alike_inward(system, TREE_ROTATION, &s.torque_count);
+    recall_forces(&s);
+    recall_torques(&s);
+    find_alike(&s, loads);
+    sum_forces(&s);
+    sum_torques(&s);
+    MEM_FREE(s.forces, s.torques, s.force_key, s.torque_key, s.knows_force, s.knows_torque,
+             s.alike);
     return sums;
 }

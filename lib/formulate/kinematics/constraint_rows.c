@@ -9,6 +9,7 @@
 #include "formulate/kinematics/coordinate.h"
 #include "formulate/kinematics/frames.h"
 #include "formulate/kinematics/framesum.h"
+#include "formulate/kinematics/identity.h"
 #include "formulate/kinematics/multi_turn.h"
 #include "formulate/kinematics/row_patterns.h"
 #include "formulate/kinematics/stations.h"
@@ -269,6 +270,29 @@ done:
     return status;
 }
 
+/* what a row of a circuit follows from; NULL: that isn't told */
+static Expr circuit_key(const System *system, const Row *row)
+{
+    const Expr kind = expr_int(system->arena, row->kind);
+    Key key = key_of(system->kinematics->frames[row->tail].identity);
+
+    key_add(&key, &system->kinematics->frames[row->head].identity, sizeof(Expr));
+    key_add(&key, &kind, sizeof kind);
+    key_add(&key, &row->n, sizeof row->n);
+    key_add(&key, &row->b, sizeof row->b);
+    return key_end(system, &key);
+}
+
+static void circuit_find_shown(const System *system, RowPatterns *patterns, Row *row)
+{
+    row->key = circuit_key(system, row);
+    if (derived_recall(system, row->key, DERIVED_ROW_SHOWN, &row->phi, sizeof row->phi))
+        return;
+    if (patterns == NULL || !row_pattern_show(patterns, row, &row->phi))
+        row->phi = circuit_shown(system, row);
+    derived_keep(system, row->key, DERIVED_ROW_SHOWN, &row->phi, sizeof row->phi);
+}
+
 static Status row_shown(System *system, RowPatterns *patterns, Row *row, Diag *diag)
 {
     Arena *arena = system->arena;
@@ -278,8 +302,7 @@ static Status row_shown(System *system, RowPatterns *patterns, Row *row, Diag *d
     case ROW_DATUM:
     case ROW_TAIL:
     case ROW_DOT:
-        if (patterns == NULL || !row_pattern_show(patterns, row, &row->phi))
-            row->phi = circuit_shown(system, row);
+        circuit_find_shown(system, patterns, row);
         return OK;
     case ROW_ANGLE: {
         const Instance *joint = &system->origin->instances[row->told.instance];
@@ -333,19 +356,25 @@ static bool row_is_constant(const System *system, const Row *row, Sample *const 
 {
     const double rounding = 1e-13;
     unsigned kinds = expr_kinds(row->phi);
+    Expr moved;
 
     if ((kinds & (1U << SYMBOL_COORDINATE | 1U << SYMBOL_TIME)) == 0) {
         *value = system->scene->number(system->scene->context, row->phi);
         return true;
     }
-    if ((kinds & 1U << SYMBOL_TIME) != 0)
+    if ((kinds & 1U << SYMBOL_TIME) != 0 ||
+        derived_recall(system, row->key, DERIVED_ROW_VARIES, &moved, sizeof moved))
         return false;
     *value = sample_number(samples[0], row->phi);
     for (int i = 1; i < SAMPLES; i++) {
         double off = fabs(sample_number(samples[i], row->phi) - *value);
 
-        if (!(off <= rounding || off <= rounding * size_of_terms(samples[i], row->phi)))
-            return false;
+        if (off <= rounding || off <= rounding * size_of_terms(samples[i], row->phi))
+            continue;
+        /* whatever the parameters are: those of samples are no special ones */
+        if (isfinite(off))
+            derived_keep(system, row->key, DERIVED_ROW_VARIES, &row->phi, sizeof row->phi);
+        return false;
     }
     return true;
 }
@@ -419,6 +448,36 @@ done:
     return status;
 }
 
+/* the speeds of a row, of which no other one moves it, are a part of what is kept */
+static void run_circuit(const System *system, RowPatterns *patterns, const Row *row, int k,
+                        int *speeds)
+{
+    const int count = circuit_speeds(system, row, speeds);
+    const size_t size = (size_t)(count + 2) * sizeof(Expr);
+    Expr *of_u = system->run.phi_u + (ptrdiff_t)k * system->kinematics->u.count;
+    Expr *entries = NEW_ARRAY(Expr, count + 2), key;
+
+    entries[0] = row->key;
+    for (int i = 0; row->key != NULL && i < count; i++)
+        entries[1 + i] = system->kinematics->u.at[speeds[i]].symbol;
+    key = row->key != NULL ? expr_tuple(system->arena, entries, count + 1) : NULL;
+    if (derived_recall(system, key, DERIVED_ROW_RUN, entries, size)) {
+        for (int i = 0; i < count; i++)
+            of_u[speeds[i]] = entries[i];
+        system->run.phi[k] = entries[count];
+        system->run.gamma[k] = entries[count + 1];
+    } else {
+        if (patterns == NULL || !row_pattern_run(patterns, row, k, speeds, count))
+            circuit_run(system, row, k, speeds, count);
+        for (int i = 0; key != NULL && i < count; i++)
+            entries[i] = of_u[speeds[i]];
+        entries[count] = system->run.phi[k];
+        entries[count + 1] = system->run.gamma[k];
+        derived_keep(system, key, DERIVED_ROW_RUN, entries, size);
+    }
+    mem_free(entries);
+}
+
 static Status run_rows(System *system, RowPatterns *patterns, Diag *diag)
 {
     int m = system->constraints->rows.count, count = system->kinematics->u.count;
@@ -437,12 +496,9 @@ static Status run_rows(System *system, RowPatterns *patterns, Diag *diag)
         const Row *row = &system->constraints->rows.at[k];
 
         system->run.nu[k] = expr_int(system->arena, 0);
-        if (row->kind == ROW_DATUM || row->kind == ROW_TAIL || row->kind == ROW_DOT) {
-            const int moving = circuit_speeds(system, row, speeds);
-
-            if (patterns == NULL || !row_pattern_run(patterns, row, k, speeds, moving))
-                circuit_run(system, row, k, speeds, moving);
-        } else
+        if (row->kind == ROW_DATUM || row->kind == ROW_TAIL || row->kind == ROW_DOT)
+            run_circuit(system, patterns, row, k, speeds);
+        else
             CHECK(run_plain(system, row, k, diag));
         CHECK(poll(system->watch));
     }

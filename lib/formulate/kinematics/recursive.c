@@ -5,6 +5,7 @@
 #include "formulate/kinematics/recursive.h"
 #include "formulate/kinematics/alike.h"
 #include "formulate/kinematics/frames.h"
+#include "formulate/kinematics/identity.h"
 #include "formulate/kinematics/stations.h"
 #include "formulate/system/kinematics.h"
 #include "formulate/system/origin.h"
@@ -28,30 +29,40 @@ static bool turns_alike(const System *system, Follower *follower, int chain)
 }
 
 /* w = w_parent + k rate; its rate is alpha_parent + w_parent x k rate + k rate' */
-static void turn_motion(System *system, int c)
+static ChainMotion turn_motion(const System *system, int c)
 {
     Arena *arena = system->arena;
     const Chain *chain = &system->kinematics->chains.at[c];
     int before = system->kinematics->chains.at[chain->parent].resolve;
-    ChainMotion *motions = system->kinematics->motions;
-    int first;
-    Follower *follower = alike_chain(system, c, &first);
+    const ChainMotion *motions = system->kinematics->motions;
     Vec turn = vec_zero(arena);
     Vec w;
 
-    if (follower != NULL && turns_alike(system, follower, chain->parent)) {
-        motions[c] = (ChainMotion){alike_vec(follower, motions[first].w),
-                                   alike_vec(follower, motions[first].product)};
-        return;
-    }
     w = vec_carry_held(system, motions[chain->parent].w, before, chain->resolve);
 
     for (int j = chain->speed; j < chain->speed + chain->speed_count; j++)
         turn =
             vec_add(arena, turn,
                     vec_scale(arena, speed_rate(system, j), speed_axis(system, j, chain->resolve)));
-    motions[c].w = vec_hold(arena, vec_add(arena, w, turn));
-    motions[c].product = vec_hold(arena, vec_cross(arena, w, turn));
+    return (ChainMotion){vec_hold(arena, vec_add(arena, w, turn)),
+                         vec_hold(arena, vec_cross(arena, w, turn))};
+}
+
+/* Recalled, or as the first's, or derived. That it could be the first's is to be known of all. */
+static void find_turn_motion(const System *system, int c)
+{
+    const Chain *chain = &system->kinematics->chains.at[c];
+    ChainMotion *motions = system->kinematics->motions;
+    int first;
+    Follower *follower = alike_chain(system, c, &first);
+    const bool is_alike = follower != NULL && turns_alike(system, follower, chain->parent);
+
+    if (derived_recall(system, chain->identity, DERIVED_TURN, &motions[c], sizeof motions[c]))
+        return;
+    motions[c] = is_alike ? (ChainMotion){alike_vec(follower, motions[first].w),
+                                          alike_vec(follower, motions[first].product)}
+                          : turn_motion(system, c);
+    derived_keep(system, chain->identity, DERIVED_TURN, &motions[c], sizeof motions[c]);
 }
 
 /* whether a node moves as the first's does, of whose parent and whose own that is told */
@@ -66,38 +77,58 @@ static bool moves_alike(const System *system, Follower *follower, int node, Vec 
     return alike_hangs(follower, from, to);
 }
 
+typedef struct StepMotion { /* as in Frame */
+    Vec step, v, product;
+} StepMotion;
+
 /* v = v_parent + w x r + s' u; the velocity products of its rate are w x (w x r) + 2 w x s' u */
-static void step_motion(System *system, int node)
+static StepMotion step_motion(const System *system, int node)
 {
     Arena *arena = system->arena;
-    Frame *frame = &system->kinematics->frames[node];
+    const Frame *frames = system->kinematics->frames, *frame = &frames[node];
     int axes = node_axes(system, node);
-    int resolve = system->kinematics->chains.at[frame->step_chain].resolve, first = node;
-    Follower *follower = alike_node(system, node, &first);
-    const Frame *frames = system->kinematics->frames, *like = &frames[first];
+    int resolve = system->kinematics->chains.at[frame->step_chain].resolve;
+    StepMotion motion;
     Vec slid = vec_zero(arena);
     Vec v, w, turned;
 
-    if (follower != NULL && turns_alike(system, follower, frame->step_chain) &&
-        moves_alike(system, follower, node, frames[like->parent].v, frames[frame->parent].v)) {
-        frame->step = alike_vec(follower, like->step);
-        frame->v = alike_vec(follower, like->v);
-        frame->product = alike_vec(follower, like->product);
-        return;
-    }
     v = vec_carry_held(system, frames[frame->parent].v, node_axes(system, frame->parent), axes);
     w = vec_carry_held(system, system->kinematics->motions[frame->step_chain].w, resolve, axes);
-    frame->step = vec_carry_held(system, frame->shift, frame->step_chain, axes);
-    turned = vec_cross(arena, w, frame->step);
+    motion.step = vec_carry_held(system, frame->shift, frame->step_chain, axes);
+    turned = vec_cross(arena, w, motion.step);
     for (int k = 0; k < frame->slide_count; k++) {
         Vec axis = vec_express(system, frame->slide[k].axis, frame->step_chain, axes);
         Expr rate = speed_rate(system, frame->slide[k].speed);
 
         slid = vec_add(arena, slid, vec_scale(arena, rate, axis));
     }
-    frame->v = vec_hold(arena, vec_add(arena, v, vec_add(arena, turned, slid)));
-    frame->product = vec_add(arena, vec_cross(arena, w, turned),
+    motion.v = vec_hold(arena, vec_add(arena, v, vec_add(arena, turned, slid)));
+    motion.product = vec_add(arena, vec_cross(arena, w, turned),
                              vec_scale(arena, expr_int(arena, 2), vec_cross(arena, w, slid)));
+    return motion;
+}
+
+static void find_step_motion(System *system, int node)
+{
+    Frame *frame = &system->kinematics->frames[node];
+    int first = node;
+    Follower *follower = alike_node(system, node, &first);
+    const Frame *frames = system->kinematics->frames, *like = &frames[first];
+    const bool is_alike =
+        follower != NULL && turns_alike(system, follower, frame->step_chain) &&
+        moves_alike(system, follower, node, frames[like->parent].v, frames[frame->parent].v);
+    StepMotion motion;
+
+    if (!derived_recall(system, frame->identity, DERIVED_STEP, &motion, sizeof motion)) {
+        motion = is_alike
+                     ? (StepMotion){alike_vec(follower, like->step), alike_vec(follower, like->v),
+                                    alike_vec(follower, like->product)}
+                     : step_motion(system, node);
+        derived_keep(system, frame->identity, DERIVED_STEP, &motion, sizeof motion);
+    }
+    frame->step = motion.step;
+    frame->v = motion.v;
+    frame->product = motion.product;
 }
 
 /* a = a_parent + alpha x r + what the speeds make of it + s' u' */
@@ -107,13 +138,9 @@ static Vec node_acceleration(const System *system, int n, const Expr *accelerati
     Arena *arena = system->arena;
     const Frame *frame = &system->kinematics->frames[n];
     int axes = node_axes(system, n);
-    int resolve = system->kinematics->chains.at[frame->step_chain].resolve, first = n;
-    Follower *follower = accelerations == NULL ? alike_node(system, n, &first) : NULL;
+    int resolve = system->kinematics->chains.at[frame->step_chain].resolve;
     Vec turn, own;
 
-    if (moves_alike(system, follower, n, a[system->kinematics->frames[first].parent],
-                    a[frame->parent]))
-        return alike_vec(follower, a[first]);
     turn = vec_carry_held(system, alpha[frame->step_chain], resolve, axes);
     own = vec_carry_held(system, a[frame->parent], node_axes(system, frame->parent), axes);
     own = vec_add(arena, own, vec_cross(arena, turn, frame->step));
@@ -130,47 +157,85 @@ static Vec node_acceleration(const System *system, int n, const Expr *accelerati
     return vec_hold(arena, own);
 }
 
-void accelerations_build(const System *system, const Expr *accelerations, Vec *alpha, Vec *a)
+static Vec chain_acceleration(const System *system, int c, const Expr *accelerations,
+                              const Vec *alpha)
 {
     Arena *arena = system->arena;
+    const Chain *chain = &system->kinematics->chains.at[c];
+    int before = system->kinematics->chains.at[chain->parent].resolve;
+    Vec own = vec_add(arena, vec_carry_held(system, alpha[chain->parent], before, chain->resolve),
+                      system->kinematics->motions[c].product);
+
+    for (int j = chain->speed; j < chain->speed + chain->speed_count; j++)
+        own = vec_add(arena, own,
+                      vec_scale(arena, speed_acceleration(system, j, accelerations),
+                                speed_axis(system, j, chain->resolve)));
+    return vec_hold(arena, own);
+}
+
+/* what is left of a chain's at u' = 0: recalled, as the first's, or derived */
+static Vec chain_rest(const System *system, int c, const Vec *alpha)
+{
+    const Chain *chain = &system->kinematics->chains.at[c];
+    int first, around;
+    Follower *follower = alike_chain(system, c, &first);
+    const bool is_alike = follower != NULL &&
+                          (alike_chain(system, chain->parent, &around) == follower
+                               ? alike_moves(follower)
+                               : alike_hangs(follower, alpha[chain->parent], alpha[chain->parent]));
+    Vec rest;
+
+    if (derived_recall(system, chain->identity, DERIVED_TURN_REST, &rest, sizeof rest))
+        return rest;
+    rest =
+        is_alike ? alike_vec(follower, alpha[first]) : chain_acceleration(system, c, NULL, alpha);
+    derived_keep(system, chain->identity, DERIVED_TURN_REST, &rest, sizeof rest);
+    return rest;
+}
+
+/* the same of a node */
+static Vec node_rest(const System *system, int n, const Vec *alpha, const Vec *a)
+{
+    const Frame *frames = system->kinematics->frames, *frame = &frames[n];
+    int first = n;
+    Follower *follower = alike_node(system, n, &first);
+    const bool is_alike =
+        moves_alike(system, follower, n, a[frames[first].parent], a[frame->parent]);
+    Vec rest;
+
+    if (derived_recall(system, frame->identity, DERIVED_STEP_REST, &rest, sizeof rest))
+        return rest;
+    rest = is_alike ? alike_vec(follower, a[first]) : node_acceleration(system, n, NULL, alpha, a);
+    derived_keep(system, frame->identity, DERIVED_STEP_REST, &rest, sizeof rest);
+    return rest;
+}
+
+void accelerations_build(const System *system, const Expr *accelerations, Vec *alpha, Vec *a)
+{
     int nodes;
     const int *order;
 
-    alpha[0] = vec_zero(arena);
-    for (int c = 1; c < system->kinematics->chains.count; c++) {
-        const Chain *chain = &system->kinematics->chains.at[c];
-        int before = system->kinematics->chains.at[chain->parent].resolve, first, around;
-        Follower *follower = accelerations == NULL ? alike_chain(system, c, &first) : NULL;
-
-        if (follower != NULL &&
-            (alike_chain(system, chain->parent, &around) == follower
-                 ? alike_moves(follower)
-                 : alike_hangs(follower, alpha[chain->parent], alpha[chain->parent]))) {
-            alpha[c] = alike_vec(follower, alpha[first]);
-            continue;
-        }
-        alpha[c] =
-            vec_add(arena, vec_carry_held(system, alpha[chain->parent], before, chain->resolve),
-                    system->kinematics->motions[c].product);
-        for (int j = chain->speed; j < chain->speed + chain->speed_count; j++)
-            alpha[c] = vec_add(arena, alpha[c],
-                               vec_scale(arena, speed_acceleration(system, j, accelerations),
-                                         speed_axis(system, j, chain->resolve)));
-        alpha[c] = vec_hold(arena, alpha[c]);
-    }
+    alpha[0] = vec_zero(system->arena);
+    for (int c = 1; c < system->kinematics->chains.count; c++)
+        alpha[c] = accelerations == NULL ? chain_rest(system, c, alpha)
+                                         : chain_acceleration(system, c, accelerations, alpha);
     if (system->origin->trees[TREE_TRANSLATION] == NULL)
         return;
     order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
-    a[order[0]] = vec_zero(arena);
+    a[order[0]] = vec_zero(system->arena);
     for (int i = 1; i < nodes; i++)
-        a[order[i]] = node_acceleration(system, order[i], accelerations, alpha, a);
+        a[order[i]] = accelerations == NULL
+                          ? node_rest(system, order[i], alpha, a)
+                          : node_acceleration(system, order[i], accelerations, alpha, a);
 }
 
 void node_moved(System *shadow, int node)
 {
-    step_motion(shadow, node);
+    /* it is no frame of the model's any more */
+    shadow->kinematics->frames[node].identity = NULL;
+    find_step_motion(shadow, node);
     shadow->kinematics->a0[node] =
-        node_acceleration(shadow, node, NULL, shadow->kinematics->alpha0, shadow->kinematics->a0);
+        node_rest(shadow, node, shadow->kinematics->alpha0, shadow->kinematics->a0);
 }
 
 void motion_build(System *system)
@@ -187,7 +252,7 @@ void motion_build(System *system)
         pool_alloc(system->pool, (size_t)graph_node_count(system->origin->graph) * sizeof(Vec));
     system->kinematics->motions[0] = (ChainMotion){vec_zero(arena), vec_zero(arena)};
     for (int c = 1; c < system->kinematics->chains.count; c++)
-        turn_motion(system, c);
+        find_turn_motion(system, c);
     if (system->origin->trees[TREE_TRANSLATION] == NULL)
         return;
     order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
@@ -196,7 +261,7 @@ void motion_build(System *system)
 
         frame->step = frame->v = frame->product = vec_zero(arena);
         if (frame->parent >= 0)
-            step_motion(system, order[i]);
+            find_step_motion(system, order[i]);
     }
     accelerations_build(system, NULL, system->kinematics->alpha0, system->kinematics->a0);
 }

@@ -28,6 +28,7 @@ typedef struct Row {
     int tail, head; /* nodes */
     Vec n;     /* DATUM: ground axes; TAIL, DOT (a), ANGLE (axis): zero axes of the tail's chain */
     Vec b;     /* DOT: zero axes of the head's chain */
+    Expr key;  /* DATUM, TAIL, DOT: what it follows from, as identity.h tells it; or NULL */
     Expr phi;  /* to show */
     int owner; /* DRIVER, COUPLER: instance of the coordinate, and which */
     int coordinate;

@@ -36,6 +36,7 @@ typedef struct Chain {
     Expr turned;   /* by all of these, about the axis of the first */
     Rotation matrix;   /* free or askew: zero-position components after it to those before it */
     Expr parameter[4]; /* free: Euler parameters of that matrix */
+    Expr identity;     /* as identity.h tells it; NULL: not told */
 } Chain;
 
 /* a speed: what it moves, and along what */
@@ -76,7 +77,8 @@ typedef struct Frame { /* a mechanical node */
     /* quantities of the recursive form, in the axes of resolve(chain) */
     Vec step; /* the shift */
     Vec v;
-    Vec product; /* velocity products of the step's acceleration */
+    Vec product;   /* velocity products of the step's acceleration */
+    Expr identity; /* as identity.h tells it; NULL: not told */
 } Frame;
 
 typedef struct ChainMotion { /* in the axes of its resolve chain */

@@ -89,6 +89,8 @@ Rotation rotation_product(Arena *arena, const Rotation *a, const Rotation *b)
 {
     Rotation c;
 
+    if (rotation_is_one(a) || rotation_is_one(b))
+        return rotation_is_one(a) ? *b : *a;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
             Expr terms[3];

@@ -6,6 +6,7 @@
 #include "formulate/kinematics/alike.h"
 #include "formulate/kinematics/constraint_rows.h"
 #include "formulate/kinematics/frames.h"
+#include "formulate/kinematics/identity.h"
 #include "formulate/kinematics/multi_turn.h"
 #include "formulate/kinematics/recursive.h"
 #include "formulate/network/network_build.h"
@@ -31,12 +32,17 @@
 
 /* --- copies of what may change later --- */
 
+static const char *keep_name(const System *system, const char *name)
+{
+    return pool_text(system->pool, name, strlen(name));
+}
+
 static const char **copy_names(const System *system, const char *const *from, int count)
 {
     const char **names = pool_alloc(system->pool, (size_t)count * sizeof *names);
 
     for (int i = 0; i < count; i++)
-        names[i] = from[i] != NULL ? system_keep(system, "%s", from[i]) : NULL;
+        names[i] = from[i] != NULL ? keep_name(system, from[i]) : NULL;
     return names;
 }
 
@@ -54,11 +60,11 @@ static void copy_instance(System *system, const Instance *from, Instance *to)
     const int coordinates = from->coord_count;
 
     *to = *from;
-    to->name = system_keep(system, "%s", from->name);
+    to->name = keep_name(system, from->name);
     to->text = NULL;
     to->given = given_copy(system->pool, from->given);
     if (from->coordinate != NULL)
-        to->coordinate = system_keep(system, "%s", from->coordinate);
+        to->coordinate = keep_name(system, from->coordinate);
     to->terminals =
         copy_array(system, from->terminals, from->terminal_count, sizeof *to->terminals);
     to->terminal_names = copy_names(system, from->terminal_names, from->terminal_count);
@@ -167,7 +173,7 @@ static void copy_outputs(System *system, const Scene *scene)
     system->origin->outputs = pool_alloc(system->pool, (size_t)count * sizeof(Expr));
     for (int i = 0; i < count; i++) {
         system->origin->outputs[i] = scene->outputs.at[i].body;
-        system->origin->output_names[i] = system_keep(system, "%s", scene->outputs.at[i].name);
+        system->origin->output_names[i] = keep_name(system, scene->outputs.at[i].name);
     }
 }
 
@@ -180,8 +186,8 @@ static void copy_uses(System *system, const Scene *scene)
     for (int i = 0; i < scene->uses.count; i++) {
         const SceneUse *use = &scene->uses.at[i];
 
-        origin->uses[i] = (Instanced){.name = system_keep(system, "%s", use->name),
-                                      .definition = system_keep(system, "%s", use->definition),
+        origin->uses[i] = (Instanced){.name = keep_name(system, use->name),
+                                      .definition = keep_name(system, use->definition),
                                       .outer = use->outer,
                                       .first = -1};
     }
@@ -194,7 +200,7 @@ static void copy_form(System *system, const Scene *scene)
     system->origin->independent =
         pool_alloc(system->pool, (size_t)scene->independent_count * sizeof(char *));
     for (int i = 0; i < scene->independent_count; i++)
-        system->origin->independent[i] = system_keep(system, "%s", scene->independent[i]);
+        system->origin->independent[i] = keep_name(system, scene->independent[i]);
 }
 
 /* --- variables --- */
@@ -407,6 +413,7 @@ static Status build(System *system, Diag *diag)
     }
     add_drives(system);
     frames_build(system);
+    identities_build(system);
     alike_build(system);
     multi_turn_build(system);
     motion_build(system);

@@ -1,0 +1,152 @@
+/* identity.c: identities of chains and frames, and keys made of them */
+#include "formulate/kinematics/identity.h"
+
+#include "formulate/system/origin.h"
+#include "formulate/system/system_impl.h"
+
+#include <assert.h>
+#include <string.h>
+
+Key key_of(Expr identity)
+{
+    return (Key){.at = {identity}, .count = 1, .is_told = identity != NULL};
+}
+
+void key_add(Key *key, const void *entries, size_t size)
+{
+    const int count = (int)(size / sizeof(Expr));
+
+    assert(key->count + count <= MOST_KEY);
+    memcpy(key->at + key->count, entries, size);
+    for (int i = 0; i < count; i++)
+        key->is_told = key->is_told && key->at[key->count + i] != NULL;
+    key->count += count;
+}
+
+Expr key_end(const System *system, const Key *key)
+{
+    return key->is_told ? expr_tuple(system->arena, key->at, key->count) : NULL;
+}
+
+/* what a chain turns, beyond what is told of the one before it */
+static void add_turn(Key *key, const Chain *chain)
+{
+    if (chain->is_free) {
+        key_add(key, &chain->matrix, sizeof chain->matrix);
+        key_add(key, chain->parameter, sizeof chain->parameter);
+    } else {
+        key_add(key, &chain->axis, sizeof chain->axis);
+        key_add(key, &chain->angle, sizeof chain->angle);
+    }
+}
+
+/* the turns from one chain to another that hangs from it, or both as they are */
+static Expr turn_key(const System *system, int from, int to)
+{
+    const Chain *chains = system->kinematics->chains.at;
+    Expr turns = chains[0].identity;
+
+    if (to < from || chains[to].first < chains[from].first || chains[to].first > chains[from].last)
+        return expr_tuple(system->arena, (Expr[]){chains[from].identity, chains[to].identity}, 2);
+    for (int c = to; c != from; c = chains[c].parent) {
+        /* of several turns those about one line add up, from where the first of them stands */
+        const Expr is_whole =
+            expr_int(system->arena,
+                     chains[c].parent == from || chains[chains[c].run].depth > chains[from].depth);
+        Key key = key_of(turns);
+
+        add_turn(&key, &chains[c]);
+        key_add(&key, &is_whole, sizeof is_whole);
+        turns = key_end(system, &key);
+    }
+    return turns;
+}
+
+Expr key_passed(const System *system, int node, Expr beyond)
+{
+    const Frame *frames = system->kinematics->frames, *frame = &frames[node];
+    Key key = key_of(beyond);
+    Expr turns;
+
+    if (beyond == NULL || frame->identity == NULL)
+        return NULL;
+    turns = turn_key(system, frames[frame->parent].chain, frame->chain);
+    key_add(&key, &turns, sizeof turns);
+    key_add(&key, &frame->step, sizeof frame->step);
+    return key_end(system, &key);
+}
+
+Expr key_join(const System *system, Expr identity, Expr own, Expr passed)
+{
+    if (identity == NULL || passed == NULL)
+        return own;
+    return expr_tuple(system->arena, (Expr[]){own != NULL ? own : identity, passed}, 2);
+}
+
+bool derived_recall(const System *system, Expr key, Derived which, void *out, size_t size)
+{
+    return key != NULL && expr_recall(system->arena, key, which, out, size);
+}
+
+void derived_keep(const System *system, Expr key, Derived which, const void *values, size_t size)
+{
+    if (key != NULL)
+        expr_remember(system->arena, key, which, values, size);
+}
+
+/* what tells a plane from space, where each chain has axes of its own */
+static Expr datum_identity(const System *system)
+{
+    return expr_tuple(system->arena, (Expr[]){expr_int(system->arena, system->origin->planar)}, 1);
+}
+
+static Expr chain_identity(const System *system, int c)
+{
+    const Kinematics *kinematics = system->kinematics;
+    const Chain *chain = &kinematics->chains.at[c];
+    Key key = key_of(kinematics->chains.at[chain->parent].identity);
+
+    add_turn(&key, chain);
+    for (int j = chain->speed; j < chain->speed + chain->speed_count; j++) {
+        const Speed *speed = &kinematics->speeds[j];
+        const Expr is_own = expr_int(system->arena, speed->axis_chain == c);
+
+        key_add(&key, &kinematics->u.at[j].symbol, sizeof(Expr));
+        key_add(&key, &speed->axis, sizeof speed->axis);
+        key_add(&key, &is_own, sizeof is_own);
+    }
+    return key_end(system, &key);
+}
+
+static Expr frame_identity(const System *system, int node)
+{
+    const Kinematics *kinematics = system->kinematics;
+    const Frame *frame = &kinematics->frames[node];
+    Key key = key_of(kinematics->frames[frame->parent].identity);
+
+    key_add(&key, &kinematics->chains.at[frame->chain].identity, sizeof(Expr));
+    key_add(&key, &kinematics->chains.at[frame->step_chain].identity, sizeof(Expr));
+    key_add(&key, &frame->shift, sizeof frame->shift);
+    for (int k = 0; k < frame->slide_count; k++) {
+        key_add(&key, &kinematics->u.at[frame->slide[k].speed].symbol, sizeof(Expr));
+        key_add(&key, &frame->slide[k].axis, sizeof frame->slide[k].axis);
+    }
+    return key_end(system, &key);
+}
+
+void identities_build(System *system)
+{
+    Kinematics *kinematics = system->kinematics;
+    int nodes;
+    const int *order;
+
+    if (system->origin->trees[TREE_TRANSLATION] == NULL || kinematics->dependents.count > 0)
+        return;
+    kinematics->chains.at[0].identity = datum_identity(system);
+    for (int c = 1; c < kinematics->chains.count; c++)
+        kinematics->chains.at[c].identity = chain_identity(system, c);
+    order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
+    kinematics->frames[order[0]].identity = kinematics->chains.at[0].identity;
+    for (int i = 1; i < nodes; i++)
+        kinematics->frames[order[i]].identity = frame_identity(system, order[i]);
+}
