@@ -7,6 +7,7 @@
  * massless parts, or they leave nothing of the answer, rows are exchanged instead. */
 #include "algebra/kkt.h"
 
+#include "algebra/kkt_border.h"
 #include "algebra/ldl.h"
 #include "algebra/linear.h"
 #include "algebra/sparse.h"
@@ -38,6 +39,10 @@
 #define ROUNDING    1e-15
 #define LEAST_REACH 1e-9 /* of the largest: what is less is rounding */
 #define LEAST_NORM  1e-3 /* likewise */
+/* Pivots of G G^T over the norm of their row: less than DETERMINED, the row isn't left to its own
+ * speeds; with a new order those are that have FIRMLY more. Both are beyond NEAR. */
+#define DETERMINED 1.5e-2
+#define FIRMLY     4e-2
 
 struct Kkt {
     const Pattern *mass, *constraints;
@@ -48,6 +53,10 @@ struct Kkt {
     int *from, *place, *place_of;
     int *row, *column; /* here they are not */
     int entries, mass_entries;
+    int border; /* see kkt_border() */
+    int *class; /* of u_i, then of lambda_k */
+    bool *late; /* of the rows in use: their own speeds don't determine them */
+    bool is_factored;
     LdlOrder *order;
     Ldl *factors, *geometry;
     const Watch *watch;
@@ -89,13 +98,47 @@ static void close_order(Kkt *kkt)
     kkt->values = NULL;
 }
 
+static KktPlaces places_of(const Kkt *kkt)
+{
+    return (KktPlaces){.nu = kkt->nu,
+                       .m = kkt->m,
+                       .mass_entries = kkt->mass_entries,
+                       .entries = kkt->entries,
+                       .row = kkt->row,
+                       .column = kkt->column};
+}
+
+/* An order found in a call that fails goes with it; the one before comes back, without factors. */
+static void keep_order(Kkt *kkt)
+{
+    void *const pieces[] = {kkt,        kkt->rows,     kkt->from,  kkt->row, kkt->column,
+                            kkt->place, kkt->place_of, kkt->class, kkt->late};
+
+    kkt->is_factored = false;
+    for (int i = 0; i < COUNT(pieces); i++)
+        mem_keep(pieces[i]);
+}
+
+static void open_order(Kkt *kkt)
+{
+    const KktPlaces places = places_of(kkt);
+
+    close_order(kkt);
+    kkt_classes(&places, kkt->border, kkt->late, kkt->class);
+    kkt->order = ldl_order_new(kkt->size, kkt->class, kkt->entries, kkt->row, kkt->column,
+                               kkt->place, kkt->place_of);
+    kkt->factors = ldl_new(kkt->order);
+    if (kkt->m > 0)
+        kkt->geometry = ldl_new(kkt->order);
+}
+
 /* Elimination for these rows. */
 static void take_rows(Kkt *kkt, const int *rows)
 {
     const Pattern *mass = kkt->mass, *g = kkt->constraints;
-    int *class = NEW_ARRAY(int, kkt->size);
+    KktPlaces places;
 
-    close_order(kkt);
+    keep_order(kkt);
     kkt->entries = 0;
     for (int e = 0; e < mass->count; e++)
         if (mass->row[e] <= mass->column[e])
@@ -103,16 +146,13 @@ static void take_rows(Kkt *kkt, const int *rows)
     kkt->mass_entries = kkt->entries;
     for (int k = 0; k < kkt->m; k++) {
         kkt->rows[k] = rows[k];
-        class[kkt->nu + k] = 1;
+        kkt->late[k] = false;
         for (int e = g->start[rows[k]]; e < g->start[rows[k] + 1]; e++)
             push_entry(kkt, e, g->row[e], kkt->nu + k);
     }
-    kkt->order = ldl_order_new(kkt->size, class, kkt->entries, kkt->row, kkt->column, kkt->place,
-                               kkt->place_of);
-    kkt->factors = ldl_new(kkt->order);
-    if (kkt->m > 0)
-        kkt->geometry = ldl_new(kkt->order);
-    mem_free(class);
+    places = places_of(kkt);
+    kkt->border = kkt_border(&places);
+    open_order(kkt);
 }
 
 Kkt *kkt_new(const Pattern *mass, const Pattern *constraints, const int *rows, int m)
@@ -131,6 +171,8 @@ Kkt *kkt_new(const Pattern *mass, const Pattern *constraints, const int *rows, i
     kkt->column = NEW_ARRAY(int, most);
     kkt->place = NEW_ARRAY(int, most);
     kkt->place_of = NEW_ARRAY(int, size);
+    kkt->class = NEW_ARRAY(int, size);
+    kkt->late = NEW_ARRAY(bool, m);
     kkt->most = NEW_ARRAY(double, constraints->columns);
     kkt->reach = NEW_ARRAY(double, nu);
     kkt->row_reach = NEW_ARRAY(double, constraints->columns);
@@ -156,9 +198,9 @@ void kkt_free(Kkt *kkt)
     if (kkt == NULL)
         return;
     close_order(kkt);
-    MEM_FREE(kkt->rows, kkt->from, kkt->row, kkt->column, kkt->place, kkt->place_of, kkt->most,
-             kkt->kept, kkt->reach, kkt->row_reach, kkt->norm, kkt->reference, kkt->right,
-             kkt->answer, kkt->residual, kkt->weight, kkt->scale, kkt);
+    MEM_FREE(kkt->rows, kkt->from, kkt->row, kkt->column, kkt->place, kkt->place_of, kkt->class,
+             kkt->late, kkt->most, kkt->kept, kkt->reach, kkt->row_reach, kkt->norm, kkt->reference,
+             kkt->right, kkt->answer, kkt->residual, kkt->weight, kkt->scale, kkt);
 }
 
 static void keep_rows(Kkt *kkt, const int *rows)
@@ -191,12 +233,12 @@ static void measure_columns(Kkt *kkt, const double *phi_u)
             kkt->reach[g->row[e]] = fmax(kkt->reach[g->row[e]], fabs(phi_u[e]));
 }
 
-/* the least pivot of G R^-2 G^T over the largest norm that its row has had */
-static double least_pivot(Kkt *kkt, const double *phi_u)
+/* factors of [R^2 G^T; G 0], and norms of its rows */
+static void factor_geometry(Kkt *kkt, const double *phi_u)
 {
     const Pattern *g = kkt->constraints;
     const double least = LEAST_REACH * vector_largest(kkt->reach, kkt->nu);
-    double *entries = ldl_entries(kkt->geometry), found = 1;
+    double *entries = ldl_entries(kkt->geometry);
 
     for (int i = 0; i < kkt->nu; i++) {
         const double reach = fmax(kkt->reach[i], least);
@@ -215,14 +257,94 @@ static double least_pivot(Kkt *kkt, const double *phi_u)
         kkt->norm[kkt->place_of[kkt->nu + k]] = *reach;
     }
     (void)ldl_factor(kkt->geometry, kkt->norm, NULL);
-    for (int k = 0; k < kkt->m; k++) {
-        const int place = kkt->place_of[kkt->nu + k];
-        const double pivot = -ldl_pivots(kkt->geometry)[place] / kkt->norm[place];
+}
 
-        if (!(pivot >= found))
-            found = fmax(0, pivot); /* a row that always was 0: fmax() passes NaN over */
-    }
+/* what is left of the k-th row in use when those before are taken out, 1 at most */
+static double rest_of_row(const Kkt *kkt, int k)
+{
+    const int place = kkt->place_of[kkt->nu + k];
+
+    return -ldl_pivots(kkt->geometry)[place] / kkt->norm[place];
+}
+
+/* whether its own speeds determine this row, before those of the border */
+static bool is_early(const Kkt *kkt, int k)
+{
+    return kkt->border != NO_BORDER && kkt->class[kkt->nu + k] == CLASS_EARLY;
+}
+
+/* Rows of which less is left come last; false where there are none. */
+static bool put_off_rows(Kkt *kkt, double least)
+{
+    bool found = false;
+
+    for (int k = 0; k < kkt->m; k++)
+        if (is_early(kkt, k) && !(rest_of_row(kkt, k) >= least))
+            kkt->late[k] = found = true;
     return found;
+}
+
+/* Which rows their own speeds determine is asked anew, of all, where one isn't any more. What is
+ * left of others is more when one goes, so the second order holds. */
+static void renew_order(Kkt *kkt, const double *phi_u)
+{
+    keep_order(kkt);
+    memset(kkt->late, 0, (size_t)kkt->m * sizeof(bool));
+    open_order(kkt);
+    factor_geometry(kkt, phi_u);
+    if (!put_off_rows(kkt, FIRMLY))
+        return;
+    open_order(kkt);
+    factor_geometry(kkt, phi_u);
+}
+
+static bool has_lost_rows(const Kkt *kkt)
+{
+    for (int k = 0; k < kkt->m; k++)
+        if (is_early(kkt, k) && !(rest_of_row(kkt, k) >= DETERMINED))
+            return true;
+    return false;
+}
+
+/* Of rows that nearly cancel each other, the last one's pivot tells little where its own part in
+ * that is small. Their parts are in the column of row k of the inverse: what is left of the row of
+ * the largest part when all others are taken out, `pivot` at most. */
+static double as_last(const Kkt *kkt, int k, double pivot)
+{
+    const int place = kkt->place_of[kkt->nu + k];
+    const double size = sqrt(kkt->norm[place]);
+    double *x = kkt->residual, largest = 0, own;
+
+    memset(x, 0, (size_t)kkt->size * sizeof(double));
+    x[place] = size;
+    ldl_solve(kkt->geometry, x);
+    own = fabs(x[place]) * size;
+    for (int j = kkt->nu; j < kkt->size; j++)
+        largest = fmax(largest, fabs(x[kkt->place_of[j]]) * sqrt(kkt->norm[kkt->place_of[j]]));
+    return own > 0 && largest > own ? fmin(pivot, 1 / own) * (own / largest) * (own / largest)
+                                    : pivot;
+}
+
+/* The least pivot of G R^-2 G^T over the largest norm that its row has had. Rows in the midst of
+ * the order have more than what is left of them by their own speeds, which is beyond NEAR; behind
+ * the border pivots are those of G R^-2 G^T. */
+static double least_pivot(Kkt *kkt, const double *phi_u)
+{
+    double found = 1;
+    int least = -1;
+
+    factor_geometry(kkt, phi_u);
+    if (has_lost_rows(kkt))
+        renew_order(kkt, phi_u);
+    for (int k = 0; k < kkt->m; k++) {
+        const double rest = is_early(kkt, k) ? 1 : rest_of_row(kkt, k);
+
+        if (!(rest >= found)) {
+            found = fmax(0, rest); /* a row that always was 0: fmax() passes NaN over */
+            least = k;
+        }
+    }
+    return kkt->border != NO_BORDER && least >= 0 ? as_last(kkt, least, found) : found;
 }
 
 double kkt_independence(Kkt *kkt, const double *phi_u, const int *rows)
@@ -339,8 +461,10 @@ static bool factor_exchanging(Kkt *kkt)
     const double *pivots = kkt->m > 0 ? ldl_pivots(kkt->geometry) : NULL;
     int count = 0;
 
-    if (kkt->exchanging == NULL)
+    if (kkt->exchanging == NULL) {
+        keep_order(kkt);
         open_exchanging(kkt);
+    }
     choose_scale(kkt);
     for (int across = 0; across < 2; across++)
         for (int e = 0; e < kkt->entries; e++)
@@ -371,16 +495,23 @@ static void solve_exchanging(const Kkt *kkt, double *x)
 
 /* --- factors --- */
 
-/* of p to the largest that it has been for each row */
+/* of p to the largest that it has been for each row; what the border adds to p of a row before it
+ * is told by its diagonal */
 static void measure_rows(Kkt *kkt)
 {
-    const double *taken = ldl_taken(kkt->factors);
-    double largest = 0;
+    const double *taken = ldl_taken(kkt->factors), *entries = ldl_entries(kkt->factors);
+    double *size = kkt->weight, largest = 0;
 
+    for (int k = 0; k < kkt->m; k++)
+        size[kkt->nu + k] = taken[kkt->place_of[kkt->nu + k]];
+    for (int e = kkt->mass_entries; e < kkt->entries; e++)
+        if (kkt->class[kkt->row[e]] == CLASS_BORDER)
+            size[kkt->column[e]] += entries[kkt->place[e]] * entries[kkt->place[e]] /
+                                    entries[kkt->place_of[kkt->row[e]]];
     for (int k = 0; k < kkt->m; k++) {
         double *most = &kkt->most[kkt->rows[k]];
 
-        *most = fmax(*most, taken[kkt->place_of[kkt->nu + k]]);
+        *most = fmax(*most, size[kkt->nu + k]);
         largest = fmax(largest, *most);
     }
     for (int k = 0; k < kkt->m; k++)
@@ -399,11 +530,19 @@ static bool mass_is_regular(const Kkt *kkt)
     return regular;
 }
 
-/* The least d / p, 1 at most; NAN counts as 0. */
+/* The least d / p, 1 at most; NAN counts as 0. Of a speed of the border, which rows before it have
+ * made stiff: what is left of its pivot. */
 static double least_angle(const Kkt *kkt)
 {
-    const double *pivots = ldl_pivots(kkt->factors);
+    const double *pivots = ldl_pivots(kkt->factors), *taken = ldl_taken(kkt->factors);
     double least = 1;
+
+    for (int i = 0; i < kkt->nu; i++)
+        if (kkt->class[i] == CLASS_BORDER) {
+            const double pivot = pivots[kkt->place_of[i]];
+
+            least = fmin(least, pivot / (pivot + taken[kkt->place_of[i]]));
+        }
 
     for (int k = 0; k < kkt->m; k++) {
         const int place = kkt->place_of[kkt->nu + k];
@@ -445,21 +584,25 @@ static bool factor_massless(Kkt *kkt, const double *phi_u)
 
     kkt->is_exchanging = true;
     kkt->regularised = false;
-    kkt->pivot = 1;
     sound = factor_exchanging(kkt);
-    if (kkt->m == 0 || (sound && kkt->angle > SPLIT))
-        return sound;
-    kkt->pivot = least_pivot(kkt, phi_u);
+    if (kkt->border == NO_BORDER) {
+        kkt->pivot = 1;
+        if (kkt->m == 0 || (sound && kkt->angle > SPLIT))
+            return sound;
+        kkt->pivot = least_pivot(kkt, phi_u);
+    }
     kkt->regularised = !(kkt->pivot > SINGULAR);
     return kkt->regularised ? factor_exchanging(kkt) : sound;
 }
 
-bool kkt_factor(Kkt *kkt, const double *mass, const double *phi_u, const int *rows)
+/* Masses tell of a singular configuration where all speeds go before all rows. Where some don't,
+ * the geometry is asked at once: it tells the order too. */
+static bool factor(Kkt *kkt, const double *mass, const double *phi_u)
 {
     bool regular;
 
-    keep_rows(kkt, rows);
-    measure_columns(kkt, phi_u);
+    if (kkt->border != NO_BORDER)
+        kkt->pivot = least_pivot(kkt, phi_u);
     put_entries(kkt, mass, phi_u);
     if (lacks_mass(kkt))
         return factor_massless(kkt, phi_u);
@@ -471,12 +614,30 @@ bool kkt_factor(Kkt *kkt, const double *mass, const double *phi_u, const int *ro
         measure_rows(kkt);
         kkt->angle = least_angle(kkt);
     }
-    kkt->pivot = kkt->m == 0 || kkt->angle > SUSPECT ? 1 : least_pivot(kkt, phi_u);
+    if (kkt->border == NO_BORDER)
+        kkt->pivot = kkt->m == 0 || kkt->angle > SUSPECT ? 1 : least_pivot(kkt, phi_u);
     kkt->regularised = !(kkt->pivot > SINGULAR);
     if (kkt->regularised && regular && !factor_held(kkt))
         return false;
     kkt->is_exchanging = !regular || (!kkt->regularised && kkt->angle < LOST);
     return !kkt->is_exchanging || factor_exchanging(kkt);
+}
+
+bool kkt_factor(Kkt *kkt, const double *mass, const double *phi_u, const int *rows)
+{
+    keep_rows(kkt, rows);
+    measure_columns(kkt, phi_u);
+    return kkt->is_factored = factor(kkt, mass, phi_u);
+}
+
+bool kkt_is_factored(const Kkt *kkt)
+{
+    return kkt->is_factored;
+}
+
+double kkt_products(const Kkt *kkt)
+{
+    return ldl_order_products(kkt->order) * (kkt->border != NO_BORDER ? 2 : 1);
 }
 
 double kkt_blur(const Kkt *kkt)

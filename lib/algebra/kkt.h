@@ -6,6 +6,9 @@
  * against the true matrix take its effect back where the equations determine the answer
  * (quasi-definite regularisation, Vanderbei 1995).
  *
+ * Where few speeds are those of many rows, as of a platform on many legs, the others are eliminated
+ * with their rows first (kkt_border.h), and the work is linear in the legs.
+ *
  * A configuration is singular by its geometry, whatever the masses: what counts are the pivots of
  * G G^T, columns and rows of G brought to like size. */
 #ifndef COTREE_ALGEBRA_KKT_H
@@ -28,6 +31,12 @@ void kkt_free(Kkt *kkt); /* NULL is fine */
  * others than before, their order of elimination is found first. False when no solution can be had
  * at all: M singular where nothing holds it, or NaN; or it was stopped. */
 bool kkt_factor(Kkt *kkt, const double *mass, const double *phi_u, const int *rows);
+/* whether kkt_solve() may be called: kkt_independence() may have found another order, or a call
+ * that did have been taken back */
+bool kkt_is_factored(const Kkt *kkt);
+/* products that a kkt_factor() takes in the order as it is, by its pattern, but for those that only
+ * some positions need */
+double kkt_products(const Kkt *kkt);
 /* of the last kkt_factor(): whether a singular configuration is so near that epsilon is there */
 bool kkt_is_regularised(const Kkt *kkt);
 /* relative size of what rounding may leave of speeds and accelerations there; 0: as elsewhere */

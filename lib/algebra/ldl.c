@@ -178,6 +178,18 @@ int ldl_order_width(const LdlOrder *o)
     return width;
 }
 
+double ldl_order_products(const LdlOrder *o)
+{
+    double products = 0;
+
+    for (int j = 0; j < o->n; j++) {
+        const double below = o->below_start[j + 1] - o->below_start[j];
+
+        products += below * (below + 1) / 2;
+    }
+    return products;
+}
+
 /* --- factors --- */
 
 Ldl *ldl_new(const LdlOrder *order)

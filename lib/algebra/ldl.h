@@ -24,6 +24,8 @@ LdlOrder *ldl_order_new(int n, const int *class, int entries, const int *row, co
                         int *place, int *place_of);
 void ldl_order_free(LdlOrder *order);       /* NULL is fine */
 int ldl_order_width(const LdlOrder *order); /* in a row of L + L^T, at most */
+/* pairs of entries in columns of L, an entry with itself too: products that ldl_factor() takes */
+double ldl_order_products(const LdlOrder *order);
 
 Ldl *ldl_new(const LdlOrder *order); /* new, borrows the order; ldl_free() */
 void ldl_free(Ldl *ldl);             /* NULL is fine */

@@ -16,6 +16,8 @@ libcore_la_SOURCES += \
   lib/algebra/independence.h \
   lib/algebra/kkt.c \
   lib/algebra/kkt.h \
+  lib/algebra/kkt_border.c \
+  lib/algebra/kkt_border.h \
   lib/algebra/ldl.c \
   lib/algebra/ldl.h \
   lib/algebra/levenberg_marquardt.c \

@@ -15,6 +15,11 @@ family_subsystems_SOURCES = tests/family/family_subsystems.c tests/family/family
 	tests/random.h tests/unit/session_kit.h tests/unit/test.h
 family_subsystems_LDADD = libcotree.la $(unit_ldadd)
 
+FAMILIES += family_legs
+family_legs_SOURCES = tests/family/family_legs.c tests/family/family.h tests/family/script.h \
+	tests/random.h tests/unit/session_kit.h tests/unit/test.h
+family_legs_LDADD = libcotree.la $(unit_ldadd)
+
 FAMILIES += family_response
 family_response_SOURCES = tests/family/family_response.c tests/family/family.h \
 	tests/random.h tests/unit/session_kit.h tests/unit/test.h

@@ -10,9 +10,9 @@
 
 #include "algebra/linear.h"
 #include "base/memory.h"
-#include "simulate/analyse/factors.h"
 #include "simulate/analyse/search.h"
 #include "simulate/equations/causes.h"
+#include "simulate/equations/factors.h"
 #include "simulate/equations/rows.h"
 #include "simulate/run/begin.h"
 

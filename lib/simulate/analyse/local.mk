@@ -1,7 +1,5 @@
 libcore_la_SOURCES += \
   lib/simulate/analyse/equilibrium.c \
-  lib/simulate/analyse/factors.c \
-  lib/simulate/analyse/factors.h \
   lib/simulate/analyse/freedoms.c \
   lib/simulate/analyse/freedoms.h \
   lib/simulate/analyse/linear_equations.h \

@@ -4,7 +4,7 @@
 #include "algebra/dense.h"
 #include "algebra/linear.h"
 #include "base/memory.h"
-#include "simulate/analyse/factors.h"
+#include "simulate/equations/factors.h"
 
 #include <gsl/gsl_linalg.h>
 #include <kinsol/kinsol.h>

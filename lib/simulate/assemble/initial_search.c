@@ -79,6 +79,11 @@ static void column_motion(const Placing *p, const double *c, const PlaceColumn *
     }
 }
 
+static bool is_nothing(const double v[3])
+{
+    return v[0] == 0 && v[1] == 0 && v[2] == 0;
+}
+
 /* What a unit of a column does to every node: turns along the rotation tree; along the other one
  * each step turns with the tail of its edge. */
 static void move_nodes(Placing *p, const double *c, const PlaceColumn *column)
@@ -95,21 +100,25 @@ static void move_nodes(Placing *p, const double *c, const PlaceColumn *column)
     column_motion(p, c, column, turn, shift);
     if (turns)
         sense = tree_is_forward(rotation, tree_far_node(rotation, l->edge)) ? 1 : -1;
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < count; i++) {
+        const bool is_turned = turns && tree_is_beyond(rotation, l->edge, nodes[i]);
+
         for (int k = 0; k < 3; k++)
-            p->turned[3 * nodes[i] + k] =
-                turns && tree_is_beyond(rotation, l->edge, nodes[i]) ? sense * turn[k] : 0;
+            p->turned[3 * nodes[i] + k] = is_turned ? sense * turn[k] : 0;
+    }
     memset(p->shifted + (ptrdiff_t)3 * p->s->datum, 0, 3 * sizeof(double));
     for (int i = 1; i < count; i++) {
         const int node = nodes[i], parent = tree_parent(translation, node);
         const int edge = tree_parent_edge(translation, node);
         const int base = p->s->links[p->s->link_at[edge]].tail;
         const double way = tree_is_forward(translation, node) ? 1 : -1;
-        double step[3], carried[3];
+        const double *turned = p->turned + (ptrdiff_t)3 * base;
+        double step[3], carried[3] = {0};
 
         for (int k = 0; k < 3; k++)
             step[k] = p->poses[node].p[k] - p->poses[parent].p[k];
-        vector3_cross(p->turned + (ptrdiff_t)3 * base, step, carried);
+        if (!is_nothing(turned))
+            vector3_cross(turned, step, carried);
         for (int k = 0; k < 3; k++)
             p->shifted[3 * node + k] = p->shifted[3 * parent + k] + carried[k] +
                                        (slides && edge == l->edge ? way * shift[k] : 0);
@@ -211,12 +220,22 @@ typedef struct PlaceSearch {
     int *tails, *heads;
 } PlaceSearch;
 
+/* whether the column that nodes were moved by leaves this one where it is, as most of another leg's
+ * do */
+static bool stands(const Placing *p, int node)
+{
+    return is_nothing(p->turned + (ptrdiff_t)3 * node) &&
+           is_nothing(p->shifted + (ptrdiff_t)3 * node);
+}
+
 static double row_slope(const PlaceSearch *s, int row)
 {
     const Placing *p = s->p;
     const int t = s->tails[row], h = s->heads[row];
     double turn[3], shift[3], d[3], carried[3], back[9];
 
+    if (stands(p, t) && stands(p, h))
+        return 0;
     for (int i = 0; i < 3; i++) {
         turn[i] = p->turned[3 * h + i] - p->turned[3 * t + i];
         d[i] = p->poses[h].p[i] - p->poses[t].p[i];

@@ -3,6 +3,8 @@ libcore_la_SOURCES += \
   lib/simulate/equations/causes.h \
   lib/simulate/equations/partitioning.c \
   lib/simulate/equations/partitioning.h \
+  lib/simulate/equations/factors.c \
+  lib/simulate/equations/factors.h \
   lib/simulate/equations/input_layout.c \
   lib/simulate/equations/input_layout.h \
   lib/simulate/equations/articulated.c \

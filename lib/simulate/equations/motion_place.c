@@ -75,7 +75,7 @@ bool motion_factor_with(Motion *mo, Kkt *kkt, const double *mass)
 
 bool motion_factor(Motion *mo)
 {
-    if (!mo->is_factored)
+    if (!mo->is_factored || !kkt_is_factored(mo->kkt))
         mo->is_factored = motion_factor_with(mo, mo->kkt, equations_mass(mo->eq));
     return mo->is_factored;
 }

@@ -13,6 +13,7 @@
 #include "algebra/rank.h"
 #include "base/memory.h"
 #include "simulate/equations/rows.h"
+#include "simulate/run/inverse_steps.h"
 
 #include <math.h>
 #include <string.h>
@@ -21,6 +22,13 @@
 
 /* an unknown: its place in the layout, and its symbol */
 typedef LIST(int) Unknowns;
+
+/* rows, and what they are solved for */
+typedef struct Problem {
+    Probe *probe;
+    const Unknowns *unknowns;
+    InverseSteps *steps;
+} Problem;
 
 typedef struct Inverse {
     Phases *phases;
@@ -31,13 +39,14 @@ typedef struct Inverse {
     int multipliers;  /* how many of them */
     Unknowns sources; /* unknowns of the network's equations */
     Unknowns jerks;   /* u'' */
+    Unknowns none;
     bool by_source;
-    Probe *balance; /* R, by `forces` */
-    Probe *jerk;    /* (Phi_u u' - gamma)', by `jerks` */
-    Probe *moving;  /* R' at constant `forces` */
-    Probe *network; /* its rows, by `sources` */
-    double *values; /* a row, laid out */
-    bool *in_use;   /* m: constraints whose multipliers are solved for at this row */
+    Problem balance; /* R, by `forces` */
+    Problem jerk;    /* (Phi_u u' - gamma)', by `jerks` */
+    Problem moving;  /* R' at constant `forces` */
+    Problem network; /* its rows, by `sources` */
+    double *values;  /* a row, laid out */
+    bool *in_use;    /* m: constraints whose multipliers are solved for at this row */
 } Inverse;
 
 static bool is_symbol(Expr e, SymbolKind kind)
@@ -154,8 +163,8 @@ static Expr along(const Inverse *in, Expr e)
 }
 
 /* of rows by unknowns; the list of rows goes */
-static Status open_probe(Inverse *in, Roots *rows, const Unknowns *unknowns, Probe **out,
-                         Diag *diag)
+static Status open_problem(Inverse *in, Roots *rows, const Unknowns *unknowns, Problem *out,
+                           Diag *diag)
 {
     Expr *symbols = NEW_ARRAY(Expr, unknowns->count);
     const ProbeOrder order = {.roots = rows->at,
@@ -167,7 +176,10 @@ static Status open_probe(Inverse *in, Roots *rows, const Unknowns *unknowns, Pro
 
     for (int k = 0; k < unknowns->count; k++)
         symbols[k] = in->l->symbols[unknowns->at[k]];
-    status = probe_make(in->l, &in->phases->parameters, &order, out, diag);
+    status = probe_make(in->l, &in->phases->parameters, &order, &out->probe, diag);
+    out->unknowns = unknowns;
+    if (status == OK)
+        out->steps = inverse_steps_new(probe_residual(out->probe), unknowns->count);
     LIST_FREE(*rows);
     mem_free(symbols);
     return status;
@@ -176,30 +188,29 @@ static Status open_probe(Inverse *in, Roots *rows, const Unknowns *unknowns, Pro
 static Status compile(Inverse *in, Diag *diag)
 {
     const Layout *l = in->l;
-    const Unknowns none = {0};
     Roots rows = {0};
 
     TRY(system_form_mass(l->system, diag));
     for (int j = 0; j < l->nu; j++)
         LIST_PUSH(rows, row_balance(l, j));
-    TRY(open_probe(in, &rows, &in->forces, &in->balance, diag));
+    TRY(open_problem(in, &rows, &in->forces, &in->balance, diag));
     if (!in->by_source)
         return OK;
 
     for (int k = 0; k < l->m; k++)
         LIST_PUSH(rows, along(in, row_acceleration(l, k)));
-    TRY(open_probe(in, &rows, &in->jerks, &in->jerk, diag));
+    TRY(open_problem(in, &rows, &in->jerks, &in->jerk, diag));
     for (int j = 0; j < l->nu; j++)
         LIST_PUSH(rows, along(in, row_balance(l, j)));
-    TRY(open_probe(in, &rows, &none, &in->moving, diag));
+    TRY(open_problem(in, &rows, &in->none, &in->moving, diag));
     for (int i = 0; i < l->nx + l->nz; i++)
         LIST_PUSH(rows, row_network(l, i));
-    return open_probe(in, &rows, &in->sources, &in->network, diag);
+    return open_problem(in, &rows, &in->sources, &in->network, diag);
 }
 
 /* --- numbers --- */
 
-static const double *values_of(const Inverse *in, Probe *probe)
+static const double *values_of(const Inverse *in, const Problem *problem)
 {
     const Layout *l = in->l;
     const double *v = in->values;
@@ -215,7 +226,7 @@ static const double *values_of(const Inverse *in, Probe *probe)
                      .efforts = v + l->efforts,
                      .jerk = v + l->jerk};
 
-    return probe_values(probe, &row);
+    return probe_values(problem->probe, &row);
 }
 
 /* Of redundant constraints those are in use that are the least dependent where the row stands; the
@@ -247,28 +258,18 @@ static bool is_solved_for(const Inverse *in, int place)
     return row < 0 || row >= in->l->m || in->in_use[row];
 }
 
-/* The move d of the unknowns that are solved for, 0 of the others, by which J d comes nearest to
- * `right`: J by them of a probe whose values these are. False: they are dependent. */
-static bool solve_in_use(const Inverse *in, const Probe *probe, const double *values,
-                         const Unknowns *unknowns, const double *right, double *out)
+/* The move of the unknowns that are solved for, 0 of the others, by which the rows, whose
+ * values these are, come nearest to `right`. False: they are dependent. */
+static bool solve_in_use(const Inverse *in, const Problem *problem, const double *values,
+                         const double *right, double *out)
 {
-    const int all = unknowns->count, rows = residual_row_count(probe_residual(probe));
-    double *full = NEW_ARRAY(double, rows *all), *part = NEW_ARRAY(double, rows *all);
-    double *found = NEW_ARRAY(double, all);
-    int count = 0;
-    bool is_regular;
+    const Unknowns *unknowns = problem->unknowns;
+    bool *in_use = NEW_ARRAY(bool, unknowns->count), is_regular;
 
-    residual_jacobian(probe_residual(probe), values, full);
-    for (int k = 0; k < all; k++)
-        count += is_solved_for(in, unknowns->at[k]);
-    for (int i = 0; i < rows; i++)
-        for (int k = 0, column = 0; k < all; k++)
-            if (is_solved_for(in, unknowns->at[k]))
-                part[i * count + column++] = full[i * all + k];
-    is_regular = rows_solve(part, rows, count, right, found) == count;
-    for (int k = 0, column = 0; k < all && is_regular; k++)
-        out[k] = is_solved_for(in, unknowns->at[k]) ? found[column++] : 0;
-    MEM_FREE(full, part, found);
+    for (int k = 0; k < unknowns->count; k++)
+        in_use[k] = is_solved_for(in, unknowns->at[k]);
+    is_regular = inverse_step(problem->steps, values, in_use, right, out);
+    mem_free(in_use);
     return is_regular;
 }
 
@@ -312,18 +313,18 @@ static Status cant_produce(const Inverse *in, const Unknowns *unknowns, Diag *di
 }
 
 /* Newton's method: linear rows end after one step and a look. */
-static Status solve_rows(Inverse *in, Probe *probe, const Unknowns *unknowns, Diag *diag)
+static Status solve_rows(Inverse *in, const Problem *problem, Diag *diag)
 {
-    const int rows = residual_row_count(probe_residual(probe));
+    const Unknowns *unknowns = problem->unknowns;
+    const int rows = residual_row_count(probe_residual(problem->probe));
     double *step = NEW_ARRAY(double, unknowns->count);
     double size = INFINITY, scale = 1;
     Status status = OK;
 
     for (int i = 0; i < ITERATIONS && size > 1e-14 * scale; i++) {
-        const double *values = values_of(in, probe);
+        const double *values = values_of(in, problem);
 
-        if (!vector_is_finite(values, rows) ||
-            !solve_in_use(in, probe, values, unknowns, values, step))
+        if (!vector_is_finite(values, rows) || !solve_in_use(in, problem, values, values, step))
             CHECK(cant_produce(in, unknowns, diag));
         scale = 1;
         for (int k = 0; k < unknowns->count; k++) {
@@ -333,7 +334,7 @@ static Status solve_rows(Inverse *in, Probe *probe, const Unknowns *unknowns, Di
         size = vector_largest(step, unknowns->count);
     }
     if (rows > unknowns->count || size > 1e-8 * scale || in->start->row_count < in->l->m) {
-        const double *values = values_of(in, probe);
+        const double *values = values_of(in, problem);
 
         if (!(vector_largest(values, rows) <= 1e-7 * scale))
             CHECK(cant_produce(in, unknowns, diag));
@@ -349,15 +350,15 @@ static Status find_rates(Inverse *in, Diag *diag)
     const Layout *l = in->l;
     double *rates = NEW_ARRAY(double, in->forces.count);
     double *jerk = in->values + l->jerk; /* 0 still */
-    const double *values = values_of(in, in->jerk);
+    const double *values = values_of(in, &in->jerk);
     Status status = OK;
 
-    if (!solve_in_use(in, in->jerk, values, &in->jerks, values, jerk))
+    if (!solve_in_use(in, &in->jerk, values, values, jerk))
         CHECK(cant_produce(in, &in->forces, diag));
     for (int i = 0; i < l->nu; i++)
         jerk[i] = -jerk[i];
-    values = values_of(in, in->balance);
-    if (!solve_in_use(in, in->balance, values, &in->forces, values_of(in, in->moving), rates))
+    values = values_of(in, &in->balance);
+    if (!solve_in_use(in, &in->balance, values, values_of(in, &in->moving), rates))
         CHECK(cant_produce(in, &in->forces, diag));
     for (int k = in->multipliers; k < in->forces.count; k++) {
         int place = in->forces.at[k];
@@ -386,16 +387,22 @@ static Status solve_row(Inverse *in, double t, double *y, double *out, Diag *dia
     memcpy(in->values + l->q, y, (size_t)(l->n + l->nu + l->nx) * sizeof(double));
     memcpy(in->values + l->rates, solved.rates, (size_t)(l->nx + l->nz) * sizeof(double));
     memcpy(in->values + l->acceleration, solved.acceleration, (size_t)l->nu * sizeof(double));
-    TRY(solve_rows(in, in->balance, &in->forces, diag));
+    TRY(solve_rows(in, &in->balance, diag));
     if (in->by_source) {
         TRY(find_rates(in, diag));
-        TRY(solve_rows(in, in->network, &in->sources, diag));
+        TRY(solve_rows(in, &in->network, diag));
     }
     spread_multipliers(in);
     memcpy(y + l->n + l->nu, in->values + l->x, (size_t)l->nx * sizeof(double));
     /* x', z, u', lambda, efforts stand in the layout as they do here */
     memcpy(out, in->values + l->rates, (size_t)(l->jerk - l->rates) * sizeof(double));
     return OK;
+}
+
+static void close_problem(Problem *problem)
+{
+    inverse_steps_free(problem->steps);
+    probe_free(problem->probe);
 }
 
 Status inverse_solve(Phases *phases, const Assembled *start, Grid *rows, const Watch *watch,
@@ -429,10 +436,10 @@ Status inverse_solve(Phases *phases, const Assembled *start, Grid *rows, const W
                         out->values + (ptrdiff_t)row * out->length, diag));
     }
 done:
-    probe_free(in.balance);
-    probe_free(in.jerk);
-    probe_free(in.moving);
-    probe_free(in.network);
+    close_problem(&in.balance);
+    close_problem(&in.jerk);
+    close_problem(&in.moving);
+    close_problem(&in.network);
     LIST_FREE(in.forces);
     LIST_FREE(in.sources);
     LIST_FREE(in.jerks);

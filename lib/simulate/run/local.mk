@@ -16,6 +16,8 @@ libcore_la_SOURCES += \
   lib/simulate/run/active_run.c \
   lib/simulate/run/active_run.h \
   lib/simulate/run/inverse.h \
+  lib/simulate/run/inverse_steps.c \
+  lib/simulate/run/inverse_steps.h \
   lib/simulate/run/integration.c \
   lib/simulate/run/integration.h \
   lib/simulate/run/integration_chatter.c \

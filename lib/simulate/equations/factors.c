@@ -1,5 +1,5 @@
 /* factors.c: sparse factors as long as they are sound, full ones else */
-#include "simulate/analyse/factors.h"
+#include "simulate/equations/factors.h"
 
 #include "algebra/linear.h"
 #include "algebra/sparse.h"

@@ -2,8 +2,8 @@
  *
  * Sparse factors where they do; where the matrix is small or nearly singular full ones of as many
  * columns as are independent (rows_solve()). The pattern is given once, by columns. */
-#ifndef COTREE_SIMULATE_ANALYSE_FACTORS_H
-#define COTREE_SIMULATE_ANALYSE_FACTORS_H
+#ifndef COTREE_SIMULATE_EQUATIONS_FACTORS_H
+#define COTREE_SIMULATE_EQUATIONS_FACTORS_H
 
 #include <stdbool.h>
 

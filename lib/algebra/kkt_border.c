@@ -1,0 +1,76 @@
+/* kkt_border.c: the border of the matrix, by what elimination then takes */
+#include "algebra/kkt_border.h"
+
+#include "base/memory.h"
+
+#include <string.h>
+
+#define FEWEST    4 /* rows of a speed of the border; fewer are those of a pin */
+#define FACTORED  2 /* times with a border: as it is, and as its geometry */
+#define MOST_FULL 8 /* unknowns at most that no border is looked for in */
+
+/* rows that each speed has, new */
+static int *count_rows(const KktPlaces *p)
+{
+    int *count = NEW_ARRAY(int, p->nu);
+
+    for (int e = p->mass_entries; e < p->entries; e++)
+        count[p->row[e]]++;
+    return count;
+}
+
+void kkt_classes(const KktPlaces *p, int border, const bool *late, int *class)
+{
+    int *count = count_rows(p);
+
+    for (int i = 0; i < p->nu; i++)
+        class[i] = border != NO_BORDER && count[i] > border ? CLASS_BORDER : CLASS_OWN;
+    for (int k = 0; k < p->m; k++)
+        class[p->nu + k] = border != NO_BORDER ? CLASS_LATE : CLASS_EARLY;
+    for (int e = p->mass_entries; e < p->entries && border != NO_BORDER; e++)
+        if (class[p->row[e]] == CLASS_OWN && !late[p->column[e] - p->nu])
+            class[p->column[e]] = CLASS_EARLY;
+    mem_free(count);
+}
+
+static double products(const KktPlaces *p, int border)
+{
+    const int size = p->nu + p->m;
+    int *class = NEW_ARRAY(int, size), *place_of = NEW_ARRAY(int, size);
+    int *place = NEW_ARRAY(int, p->entries);
+    bool *late = NEW_ARRAY(bool, p->m);
+    LdlOrder *order;
+    double out;
+
+    kkt_classes(p, border, late, class);
+    order = ldl_order_new(size, class, p->entries, p->row, p->column, place, place_of);
+    out = ldl_order_products(order) * (border != NO_BORDER ? FACTORED : 1);
+    ldl_order_free(order);
+    MEM_FREE(class, place_of, place, late);
+    return out;
+}
+
+int kkt_border(const KktPlaces *p)
+{
+    int *count, most = 0, best = NO_BORDER;
+    double least;
+
+    if (p->nu + p->m <= MOST_FULL)
+        return NO_BORDER;
+    count = count_rows(p);
+    for (int i = 0; i < p->nu; i++)
+        most = count[i] > most ? count[i] : most;
+    mem_free(count);
+    if (most <= FEWEST)
+        return NO_BORDER;
+    least = products(p, NO_BORDER);
+    for (int border = FEWEST; border < most; border *= 2) {
+        const double tried = products(p, border);
+
+        if (tried < least) {
+            least = tried;
+            best = border;
+        }
+    }
+    return best;
+}
