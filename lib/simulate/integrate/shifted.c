@@ -15,7 +15,7 @@ struct Shifted {
     int n;
     bool is_linear;
     /* dense */
-    double *jacobian, *point, *column; /* n x n; y; its rate */
+    double *jacobian, *point, *column; /* rows of y' by n; y; its rate */
     Lu *real, *pair;                   /* n; 2n */
     /* of linear equations, where there are few: kept by them, or else here */
     const HessenbergForm *form;
@@ -48,7 +48,7 @@ Shifted *shifted_new(const Ode *ode, Counts *counts)
     s->right = NEW_ARRAY(double, 2 * (ode->dae.n > n ? ode->dae.n : n));
     if (is_sparse(s))
         return s;
-    s->jacobian = NEW_ARRAY(double, n *n);
+    s->jacobian = NEW_ARRAY(double, all *n);
     s->point = NEW_ARRAY(double, all);
     s->column = NEW_ARRAY(double, all);
     return s;
@@ -164,9 +164,21 @@ static bool by_rates(Shifted *s, double t, const double *y)
     return vector_is_finite(s->jacobian, n * n);
 }
 
+/* as the problem tells it */
+static bool by_problem(Shifted *s, double t, const double *y)
+{
+    const OdeJacobian *jacobian = &s->ode->jacobian;
+
+    if (jacobian->at == NULL)
+        return false;
+    s->counts->evaluations++;
+    return jacobian->at(jacobian->context, t, y, s->jacobian);
+}
+
 static bool find_dense(Shifted *s, double t, const double *y, const double *rate)
 {
-    return (s->ode->dae.pattern != NULL && by_rates(s, t, y)) || by_differences(s, t, y, rate);
+    return by_problem(s, t, y) || (s->ode->dae.pattern != NULL && by_rates(s, t, y)) ||
+           by_differences(s, t, y, rate);
 }
 
 /* J of linear equations, in its form for many shifts */
