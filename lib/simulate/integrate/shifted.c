@@ -4,6 +4,7 @@
 #include "algebra/linear.h"
 #include "algebra/sparse.h"
 #include "base/memory.h"
+#include "simulate/integrate/condensed.h"
 
 #include <string.h>
 
@@ -16,7 +17,7 @@ struct Shifted {
     bool is_linear;
     /* dense */
     double *jacobian, *point, *column; /* rows of y' by n; y; its rate */
-    Lu *real, *pair;                   /* n; 2n */
+    Condensed *dense;
     /* of linear equations, where there are few: kept by them, or else here */
     const HessenbergForm *form;
     HessenbergForm *own_form;
@@ -59,8 +60,7 @@ void shifted_free(Shifted *s)
     if (s == NULL)
         return;
     MEM_FREE(s->jacobian, s->point, s->column);
-    lu_free(s->real);
-    lu_free(s->pair);
+    condensed_free(s->dense);
     sparse_free(s->rates);
     hessenberg_form_free(s->own_form);
     shifted_factors_free(s->form_real);
@@ -216,7 +216,14 @@ bool shifted_differentiate(Shifted *s, double t, const double *y, const double *
     if (s->is_linear && !is_sparse(s))
         return find_form(s, t, y, rate);
     s->counts->jacobians++;
-    return is_sparse(s) ? by_equations(s, t, y) : find_dense(s, t, y, rate);
+    if (is_sparse(s))
+        return by_equations(s, t, y);
+    if (!find_dense(s, t, y, rate))
+        return false;
+    if (s->dense == NULL)
+        s->dense = condensed_new(s->n);
+    condensed_take(s->dense, s->jacobian);
+    return true;
 }
 
 bool shifted_is_linear(const Shifted *s)
@@ -226,30 +233,6 @@ bool shifted_is_linear(const Shifted *s)
 
 /* --- factors --- */
 
-static bool factor_dense(Shifted *s, double shift, double alpha, double beta)
-{
-    int n = s->n;
-    double *a, *b;
-
-    if (s->real == NULL) {
-        s->real = lu_new(n);
-        s->pair = lu_new(2 * n);
-    }
-    a = lu_matrix(s->real);
-    b = lu_matrix(s->pair);
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++) {
-            double *pair = b + i * 2 * n + j;
-            double entry = s->jacobian[i * n + j];
-
-            a[i * n + j] = (i == j) * shift - entry;
-            pair[0] = pair[2 * n * n + n] = (i == j) * alpha - entry;
-            pair[n] = (i == j) * beta;
-            pair[2 * n * n] = (i == j) * -beta;
-        }
-    return lu_factor(s->real) && lu_factor(s->pair);
-}
-
 bool shifted_factor(Shifted *s, double shift, double alpha, double beta)
 {
     if (s->n == 0)
@@ -258,7 +241,7 @@ bool shifted_factor(Shifted *s, double shift, double alpha, double beta)
         return hessenberg_form_factor(s->form, shift, s->form_real) &&
                hessenberg_form_factor_complex(s->form, alpha, -beta, s->form_pair);
     if (!is_sparse(s))
-        return factor_dense(s, shift, alpha, beta);
+        return condensed_factor(s->dense, shift, alpha, beta);
     for (int k = 0; k < s->entries; k++)
         s->values[k] = s->still[k] + shift * s->moving[k];
     if (!sparse_factor(s->sparse_real, s->values))
@@ -291,7 +274,7 @@ void shifted_solve(Shifted *s, double *b)
         return;
     }
     if (!is_sparse(s)) {
-        lu_solve(s->real, b);
+        condensed_solve(s->dense, b);
         return;
     }
     bring_right(s, b, s->right);
@@ -301,8 +284,8 @@ void shifted_solve(Shifted *s, double *b)
 
 void shifted_solve_pair(Shifted *s, double *b, double *c)
 {
-    size_t bytes = (size_t)s->n * sizeof(double);
-    int second = is_sparse(s) ? s->ode->dae.n : s->n;
+    const size_t bytes = (size_t)s->n * sizeof(double);
+    const int second = s->ode->dae.n;
 
     if (s->n == 0)
         return;
@@ -310,15 +293,13 @@ void shifted_solve_pair(Shifted *s, double *b, double *c)
         hessenberg_form_solve_complex(s->form, s->form_pair, b, c);
         return;
     }
-    if (is_sparse(s)) {
-        bring_right(s, b, s->right);
-        bring_right(s, c, s->right + second);
-        sparse_solve(s->sparse_pair, s->right);
-    } else {
-        memcpy(s->right, b, bytes);
-        memcpy(s->right + second, c, bytes);
-        lu_solve(s->pair, s->right);
+    if (!is_sparse(s)) {
+        condensed_solve_pair(s->dense, b, c);
+        return;
     }
+    bring_right(s, b, s->right);
+    bring_right(s, c, s->right + second);
+    sparse_solve(s->sparse_pair, s->right);
     memcpy(b, s->right, bytes);
     memcpy(c, s->right + second, bytes);
 }
