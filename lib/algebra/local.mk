@@ -40,6 +40,8 @@ libcore_la_SOURCES += \
   lib/algebra/schur.h \
   lib/algebra/sparse.c \
   lib/algebra/sparse.h \
+  lib/algebra/perron.c \
+  lib/algebra/perron.h \
   lib/algebra/spectrum.c \
   lib/algebra/spectrum.h \
   lib/algebra/square.c \

@@ -14,6 +14,7 @@
 
 #include "algebra/blocks.h"
 #include "algebra/enclosure.h"
+#include "algebra/perron.h"
 #include "algebra/schur.h"
 #include "base/memory.h"
 
@@ -53,16 +54,18 @@ bool root_is_doubtful(const Root *root)
     return !root->is_on_axis && root->error > 0 && root->real == 0;
 }
 
-/* `value` within `error` as a root, what can't be told from 0 being 0 */
+/* `value` within `error` as a root, what can't be told from 0 being 0, which is as much farther off
+ */
 static Root root_make(double complex value, double error)
 {
-    Root root = {.real = creal(value), .imaginary = cimag(value), .error = error};
+    Root root = {.real = creal(value), .imaginary = cimag(value)};
 
     if (fabs(root.real) <= error)
         root.real = 0;
     if (fabs(root.imaginary) <= error && root.real == 0)
         root.imaginary = 0;
     root.real += 0.0; /* never -0 */
+    root.error = error + hypot(root.real - creal(value), root.imaginary - cimag(value));
     return root;
 }
 
@@ -74,36 +77,6 @@ double complex root_with_noise(double complex value, double noise, double *error
     }
     *error += noise;
     return value;
-}
-
-double perron_bound(const double *matrix, int n)
-{
-    double *v = NEW_ARRAY(double, n), *w = NEW_ARRAY(double, n);
-    double bound = 0;
-
-    for (int i = 0; i < n; i++)
-        v[i] = 1;
-    /* each round bounds it from above; a few come close */
-    for (int round = 0; round < 12; round++) {
-        double largest = 0;
-
-        bound = 0;
-        for (int i = 0; i < n; i++) {
-            w[i] = 0;
-            for (int j = 0; j < n; j++)
-                w[i] += matrix[i * n + j] * v[j];
-            if (!(w[i] / v[i] <= bound))
-                bound = w[i] / v[i];
-            largest = fmax(largest, w[i]);
-        }
-        if (!isfinite(bound) || largest == 0)
-            break;
-        /* a little of the old keeps all above 0 */
-        for (int i = 0; i < n; i++)
-            v[i] = w[i] / largest + 1e-3 * v[i];
-    }
-    MEM_FREE(v, w);
-    return bound;
 }
 
 double disturbance(int i, int j)
@@ -251,55 +224,136 @@ void roots_join(const double complex *value, const double *error, int count, Gro
 
 /* --- one block --- */
 
-/* sum over members of (lambda - mean)^power x y^T, in size, times dA: its spectral radius */
-static double theta(const SpectrumPart *part, const double complex *value, const int *members,
-                    int count, double complex mean, int power)
-{
-    const int n = part->size;
-    double *product = NEW_ARRAY(double, n *n);
-    double radius;
-
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++) {
-            WideComplex sum = wide_real(wide_of(0));
-            double size;
-
-            for (int k = 0; k < count; k++) {
-                const int m = members[k];
-                WideComplex term = wide_cmul(part->right[i * n + m], part->left[m * n + j]);
-
-                for (int p = 0; p < power; p++)
-                    term = wide_cmul(term, wide_from(value[m] - mean));
-                sum = wide_cadd(sum, term);
-            }
-            size = cabs(wide_to(sum));
-            for (int c = 0; c < n && size > 0; c++)
-                product[i * n + c] += size * part->error[j * n + c];
-        }
-    radius = perron_bound(product, n);
-    mem_free(product);
-    return radius;
-}
-
+/* some roots of a part, which may be one */
 typedef struct Grouping {
     const SpectrumPart *part;
     const double complex *value; /* as disturbed */
+    const int *members;
+    int count;
+    double complex mean; /* of these, as disturbed, */
+    double spread;       /* from which none is farther */
+    int power;           /* j: what follows is about N_j */
+    double *size; /* |N_j| (size x size); NULL: only the sum of |lambda_k - mu|^j |x_k| |y_k^T|
+                   * that bounds it */
 } Grouping;
 
-/* r = max (m theta_j)^(1/(j+1)) has a sum of 1 at most */
-static double group_error(void *context, const int *members, int count, double complex mean)
+static double size_of(WideComplex a)
+{
+    return cabs(wide_to(a));
+}
+
+/* out = sum of |lambda_k - mu|^j |x_k| |y_k^T| v */
+static void apply_terms(const Grouping *g, const double *v, double *out)
+{
+    const SpectrumPart *part = g->part;
+    const int n = part->size;
+
+    memset(out, 0, (size_t)n * sizeof(double));
+    for (int k = 0; k < g->count; k++) {
+        const int m = g->members[k];
+        double along = 0;
+
+        for (int i = 0; i < n; i++)
+            along += size_of(part->left[m * n + i]) * v[i];
+        along *= pow(cabs(g->value[m] - g->mean), g->power);
+        for (int i = 0; i < n; i++)
+            out[i] += size_of(part->right[i * n + m]) * along;
+    }
+}
+
+static void apply_group(const void *context, const double *v, double *out)
 {
     const Grouping *g = context;
-    double complex middle = 0;
-    double radius = 0;
+    const int n = g->part->size;
+    double *moved = NEW_ARRAY(double, n);
+
+    perron_apply(g->part->error, n, v, moved);
+    if (g->size != NULL)
+        perron_apply(g->size, n, moved, out);
+    else
+        apply_terms(g, moved, out);
+    mem_free(moved);
+}
+
+/* |N_j|, which may be far less than its terms */
+static void find_sum(const Grouping *g)
+{
+    const SpectrumPart *part = g->part;
+    const int n = part->size;
+    WideComplex *by = NEW_ARRAY(WideComplex, g->count); /* (lambda_k - mu)^j */
+
+    for (int k = 0; k < g->count; k++) {
+        by[k] = wide_real(wide_of(1));
+        for (int p = 0; p < g->power; p++)
+            by[k] = wide_cmul(by[k], wide_from(g->value[g->members[k]] - g->mean));
+    }
+    for (int i = 0; i < n; i++) {
+        WideComplex *sum = NEW_ARRAY(WideComplex, n);
+
+        for (int k = 0; k < g->count; k++) {
+            const int m = g->members[k];
+            const WideComplex x = wide_cmul(part->right[i * n + m], by[k]);
+
+            for (int j = 0; j < n; j++)
+                sum[j] = wide_cadd(sum[j], wide_cmul(x, part->left[m * n + j]));
+        }
+        for (int j = 0; j < n; j++)
+            g->size[i * n + j] = size_of(sum[j]);
+        mem_free(sum);
+    }
+    mem_free(by);
+}
+
+/* theta_j of the terms, an upper bound; of the sum */
+static double theta_of_terms(Grouping *g, int power)
+{
+    g->power = power;
+    return perron_bound(apply_group, g, g->part->size);
+}
+
+static double theta(Grouping *g, int power)
+{
+    double radius;
+
+    g->power = power;
+    g->size = NEW_ARRAY(double, g->part->size * g->part->size);
+    find_sum(g);
+    radius = perron_bound(apply_group, g, g->part->size);
+    mem_free(g->size);
+    g->size = NULL;
+    return radius;
+}
+
+/* r = max (m theta_j)^(1/(j+1)) has a sum of 1 at most. With terms in the place of sums theta_j is
+ * theta_0 spread^j at most, so that r = spread + theta_0 has too; powers beyond one of which m
+ * theta_j is r^(j+1) at most, or spread^(j+1), add nothing. */
+static double radius_of(Grouping *g)
+{
+    const double all = theta_of_terms(g, 0);
+    double radius = g->spread;
+
+    if (all <= BETTER * g->spread)
+        return g->spread + all;
+    for (int power = 0; power < g->count; power++) {
+        if (g->count * theta_of_terms(g, power) <= pow(radius, power + 1))
+            break;
+        radius = fmax(radius, pow(g->count * theta(g, power), 1.0 / (power + 1)));
+    }
+    return fmin(radius, g->spread + all);
+}
+
+static double group_error(void *context, const int *members, int count, double complex mean)
+{
+    Grouping g = *(const Grouping *)context;
 
     (void)mean;
+    g.members = members;
+    g.count = count;
     for (int k = 0; k < count; k++)
-        middle += g->value[members[k]] / count;
-    for (int power = 0; power < count; power++)
-        radius = fmax(radius, pow(count * theta(g->part, g->value, members, count, middle, power),
-                                  1.0 / (power + 1)));
-    return radius;
+        g.mean += g.value[members[k]] / count;
+    for (int k = 0; k < count; k++)
+        g.spread = fmax(g.spread, cabs(g.value[members[k]] - g.mean));
+    return radius_of(&g);
 }
 
 /* |y|^T |dA| |x| */
@@ -497,7 +551,7 @@ static bool solve_in_more_digits(const SpectrumPart *part, const double *block, 
     const int n = part->size;
     double *disturbed = NEW_ARRAY(double, n *n), *error = NEW_ARRAY(double, n);
     double complex *taken_back = mem_array((size_t)n, sizeof *taken_back);
-    Grouping grouping = {part, value};
+    Grouping grouping = {.part = part, .value = value};
     bool sound;
 
     for (int i = 0; i < n; i++)

@@ -48,9 +48,6 @@ void roots_join(const double complex *value, const double *error, int count, Gro
  * rounding of the method itself is 0 by where the entries stand, without error. */
 double complex root_with_noise(double complex value, double noise, double *error);
 
-/* a bound of the spectral radius of a matrix of entries >= 0, overwritten (Collatz 1942) */
-double perron_bound(const double *matrix, int n);
-
 /* a number in (-1, 1) that is always the same at a place, for disturbances */
 double disturbance(int i, int j);
 

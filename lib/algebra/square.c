@@ -8,7 +8,7 @@
 #include "algebra/square.h"
 
 #include "algebra/blocks.h"
-#include "algebra/spectrum.h"
+#include "algebra/perron.h"
 #include "algebra/wide.h"
 #include "base/memory.h"
 
@@ -161,22 +161,24 @@ static void invert(Square *s)
     mem_free(x);
 }
 
-/* spectral radius of |B^-1| |dB| below 1 */
+/* |B^-1| |dB| v, dB with what elimination rounds */
+static void apply_change(const void *context, const double *v, double *out)
+{
+    const Square *s = context;
+    const int n = s->n;
+    double *moved = NEW_ARRAY(double, n);
+
+    for (int k = 0; k < n; k++)
+        for (int j = 0; j < n; j++)
+            moved[k] += (s->error[k * n + j] + n * WIDE_UNIT * fabs(s->matrix[k * n + j])) * v[j];
+    perron_apply(s->inverse, n, moved, out);
+    mem_free(moved);
+}
+
+/* its spectral radius below 1 */
 static bool stays_regular(const Square *s)
 {
-    const int n = s->n;
-    double *change = NEW_ARRAY(double, n *n);
-    double radius;
-
-    for (int i = 0; i < n; i++)
-        for (int k = 0; k < n; k++)
-            for (int j = 0; j < n && s->inverse[i * n + k] != 0; j++)
-                change[i * n + j] +=
-                    s->inverse[i * n + k] *
-                    (s->error[k * n + j] + n * WIDE_UNIT * fabs(s->matrix[k * n + j]));
-    radius = perron_bound(change, n);
-    mem_free(change);
-    return radius < 1; /* false for a NaN */
+    return perron_bound(apply_change, s, s->n) < 1; /* false for a NaN */
 }
 
 /* --- a system --- */

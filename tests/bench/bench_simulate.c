@@ -6,9 +6,8 @@
 
 #include "base/text.h"
 
-static void bench_case(const char *name, const char *path, Changes changes)
+static void bench_text(const char *name, const char *text, Changes changes)
 {
-    char *text = script_file(path);
     double least = 1e300;
     long evaluations = 0, steps = 0;
     char line[80];
@@ -35,7 +34,35 @@ static void bench_case(const char *name, const char *path, Changes changes)
     bench_line(line, (double)evaluations, "evaluations");
     (void)snprintf(line, sizeof line, "simulate.%s_steps", name);
     bench_line(line, (double)steps, "steps");
+}
+
+static void bench_case(const char *name, const char *path, Changes changes)
+{
+    char *text = script_file(path);
+
+    bench_text(name, text, changes);
     mem_free(text);
+}
+
+/* links on hinges with springs and dampers, thrown about: implicit methods renew their Jacobian */
+static void bench_stiff_chain(const char *name, const char *method)
+{
+    Text text = {0};
+
+    text_add(&text, "scene planar\ngravity [0, -9.81]\n");
+    for (int i = 1; i <= 40; i++) {
+        text_addf(&text,
+                  "body b%d mass=1 inertia=0.01\narm a%d b%d [-0.1, 0]\narm c%d b%d [0.1, 0]\n", i,
+                  i, i, i, i);
+        if (i == 1)
+            text_add(&text, "revolute h1 ground a1\n");
+        else
+            text_addf(&text, "revolute h%d c%d a%d\n", i, i - 1, i);
+        text_addf(&text, "spring k%d h%d k=200 d=0.02\n", i, i);
+    }
+    text_add(&text, "init h1 = 1, h2 = -2, h1' = 9\nsimulate 0.05\n");
+    bench_text(name, text.at, (Changes){.method = method});
+    text_free(&text);
 }
 
 int main(void)
@@ -76,5 +103,7 @@ int main(void)
 
     for (int i = 0; i < COUNT(cases); i++)
         bench_case(cases[i].name, cases[i].path, cases[i].changes);
+    bench_stiff_chain("stiff_chain_40_radau", "radau");
+    bench_stiff_chain("stiff_chain_40_bdf", "bdf");
     return test_faults > 0 ? 1 : 0;
 }

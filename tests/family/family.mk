@@ -138,3 +138,8 @@ FAMILIES += family_couplers
 family_couplers_SOURCES = tests/family/family_couplers.c tests/family/family.h \
 	tests/unit/session_kit.h tests/unit/test.h tests/random.h
 family_couplers_LDADD = libcotree.la $(unit_ldadd)
+FAMILIES += family_jacobians
+family_jacobians_SOURCES = tests/family/family_jacobians.c tests/family/family.h \
+	tests/family/jacobians.c tests/family/jacobians.h \
+	tests/unit/simulate_script.h tests/unit/form.h tests/unit/test.h tests/random.h
+family_jacobians_LDADD = $(unit_ldadd)

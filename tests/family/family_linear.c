@@ -608,6 +608,40 @@ static Verdict chains_of_masses(Member *member)
     return judge_model(member, script, known, 2 * n);
 }
 
+/* --- long chains that are known badly --- */
+
+/* Equal parts in a row, each entry off by as much as its error says at most: one matrix within the
+ * errors of what is given has eigenvalues a + 2 b cos(k pi/(n + 1)), most of which can't be told
+ * apart. */
+static Verdict long_chains_known_badly(Member *member)
+{
+    enum { MOST_PARTS = 60 };
+    static double a[MOST_PARTS * MOST_PARTS], error[MOST_PARTS * MOST_PARTS];
+    const int n = whole(member, 20, MOST_PARTS);
+    const double middle = test_uniform(&member->random, -3, 1), beside = decades(member, 1);
+    const double off = beside * pow(10, test_uniform(&member->random, -6, -0.5));
+    Known known[MOST_PARTS];
+    Spectrum *spectrum;
+    bool sound;
+
+    for (int i = 0; i < n * n; i++)
+        a[i] = error[i] = 0;
+    for (int i = 0; i < n; i++)
+        for (int j = i > 0 ? i - 1 : 0; j < n && j <= i + 1; j++) {
+            a[i * n + j] = (i == j ? middle : beside) + off * test_uniform(&member->random, -1, 1);
+            error[i * n + j] = off;
+        }
+    for (int k = 0; k < n; k++)
+        known[k] = (Known){middle + 2 * beside * cos((k + 1) * M_PI / (n + 1)), 0};
+    spectrum = spectrum_new(a, error, n);
+    if (spectrum == NULL)
+        return DISAGREES;
+    tell_roots(member, "eigenvalues", spectrum_roots(spectrum), known, n);
+    sound = match(spectrum_roots(spectrum), known, n);
+    spectrum_free(spectrum);
+    return sound ? AGREES : DISAGREES;
+}
+
 int main(int argc, char **argv)
 {
     static const Family families[] = {
@@ -618,6 +652,7 @@ int main(int argc, char **argv)
         {"ladders of any parts", 60, 0, 0, ladders_of_any_parts},
         {"stages behind each other", 60, 0, 0, stages_behind_each_other},
         {"chains of masses", 40, 0, 0, chains_of_masses},
+        {"long chains known badly", 20, 0, 0, long_chains_known_badly},
     };
 
     (void)test_faults; /* verdicts count here */

@@ -1,4 +1,5 @@
 /* test_integration.c: integrators, projection, switches on systems written by hand */
+#include "simulate/integrate/condensed.h"
 #include "simulate/integrate/shifted.h"
 #include "simulate/run/integration.h"
 
@@ -447,8 +448,56 @@ static void few_states_of_a_network_have_an_exact_jacobian_by_one_evaluation(voi
     shifted_free(shifted);
 }
 
+/* entries of random signs, most of the positions' 0: they are told by speeds, some by each other */
+static void fill_jacobian(double *jacobian, int n, int positions, uint64_t *random)
+{
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            jacobian[i * n + j] = i >= positions || (j >= positions && test_random(random) % 3 == 0)
+                                      ? test_uniform(random, -100, 100)
+                                      : 0;
+    if (positions > 2)
+        jacobian[1] = jacobian[n] = 1;
+}
+
+static void condensed_equations_have_the_solutions_of_all(void)
+{
+    enum { MOST = 12 };
+    uint64_t random = 7;
+
+    for (int trial = 0; trial < 50; trial++) {
+        const int n = 1 + (int)(test_random(&random) % MOST), positions = trial % (n + 1);
+        const double s = 30, alpha = 20, beta = 25;
+        Condensed *condensed = condensed_new(n);
+        double jacobian[MOST * MOST], b[MOST], c[MOST], d[MOST];
+
+        fill_jacobian(jacobian, n, positions, &random);
+        for (int i = 0; i < n; i++)
+            b[i] = c[i] = d[i] = i + 1;
+        condensed_take(condensed, jacobian);
+        EXPECT(condensed_factor(condensed, s, alpha, beta));
+        condensed_solve(condensed, b);
+        condensed_solve_pair(condensed, c, d);
+        for (int i = 0; i < n; i++) { /* (alpha - i beta - J)(c + i d) */
+            double real = s * b[i], re = alpha * c[i] + beta * d[i],
+                   im = alpha * d[i] - beta * c[i];
+
+            for (int j = 0; j < n; j++) {
+                real -= jacobian[i * n + j] * b[j];
+                re -= jacobian[i * n + j] * c[j];
+                im -= jacobian[i * n + j] * d[j];
+            }
+            EXPECT_NEAR(real, i + 1, 1e-9);
+            EXPECT_NEAR(re, i + 1, 1e-9);
+            EXPECT_NEAR(im, i + 1, 1e-9);
+        }
+        condensed_free(condensed);
+    }
+}
+
 int main(void)
 {
+    RUN(condensed_equations_have_the_solutions_of_all);
     RUN(few_states_of_a_network_have_an_exact_jacobian_by_one_evaluation);
     RUN(dop853_has_order_8_and_its_interpolant_7);
     RUN(rk4_has_order_4);

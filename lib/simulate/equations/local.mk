@@ -32,6 +32,8 @@ libcore_la_SOURCES += \
   lib/simulate/equations/parameters.h \
   lib/simulate/equations/probe.c \
   lib/simulate/equations/probe.h \
+  lib/simulate/equations/rate_jacobian.c \
+  lib/simulate/equations/rate_jacobian.h \
   lib/simulate/equations/redundant.c \
   lib/simulate/equations/redundant.h \
   lib/simulate/equations/remark.c \

@@ -145,6 +145,12 @@ void motion_window(Motion *mo, double low, double high)
     mo->high = high;
 }
 
+const int *motion_rows(const Motion *mo, int *count)
+{
+    *count = mo->used;
+    return mo->rows;
+}
+
 void motion_guess(Motion *mo, const double *network)
 {
     if (mo->eq->nx + mo->eq->nz > 0)
@@ -155,6 +161,11 @@ void motion_guess(Motion *mo, const double *network)
 void motion_offer(Motion *mo, const Dae *dae)
 {
     mo->ode.dae = *dae;
+}
+
+void motion_offer_jacobian(Motion *mo, OdeJacobian jacobian)
+{
+    mo->ode.jacobian = jacobian;
 }
 
 void motion_tolerance(Motion *mo, double tolerance)
@@ -277,13 +288,7 @@ bool motion_solve(Motion *mo, double t, const double *y, Solved *out)
 {
     if (!solve_row(mo, t, y))
         return false;
-    *out = (Solved){.acceleration = mo->du,
-                    .signs = mo->signs != NULL ? signs_values(mo->signs) : NULL,
-                    .multipliers = mo->lambda_all,
-                    .rates = mo->solved,
-                    .algebraic = mo->solved + mo->eq->nx};
-    return vector_is_finite(mo->du, mo->eq->nu) && vector_is_finite(mo->lambda_all, mo->eq->m) &&
-           vector_is_finite(mo->solved, mo->eq->nx + mo->eq->nz);
+    return motion_tell(mo, out);
 }
 
 /* --- projection --- */

@@ -160,6 +160,11 @@ const double *motion_network(Motion *motion, double t, const double *y);
 /* where the next search for x' and z begins: [x'; z] */
 void motion_guess(Motion *motion, const double *network);
 bool motion_solve(Motion *motion, double t, const double *y, Solved *out);
+/* The same from the constraint rows in use, as rates are: multipliers of others are 0. False where
+ * rates follow from more than the equations at y, too: on surfaces that are slid along, and near
+ * singular positions. */
+bool motion_solve_in_use(Motion *motion, double t, const double *y, Solved *out);
+const int *motion_rows(const Motion *motion, int *count); /* in use; borrowed */
 
 /* Slip where the signs are given (slide_count each). */
 bool motion_slip(Motion *motion, double t, const double *y, const double *signs, double *slip,
@@ -177,6 +182,8 @@ void motion_switches(Motion *motion, double t, const double *y, double *out);
  * never looks behind it. */
 void motion_window(Motion *motion, double low, double high);
 double motion_clock(const Motion *motion, double t); /* t within that */
+/* Derivatives of the rates for the motion's Ode; what they belong to is borrowed. */
+void motion_offer_jacobian(Motion *motion, OdeJacobian jacobian);
 /* Other implicit equations of the same unknowns, for the motion's Ode; borrowed. */
 void motion_offer(Motion *motion, const Dae *dae);
 

@@ -91,6 +91,8 @@ bool motion_solve_plain(Motion *motion);
 void motion_bring_power(Motion *motion, const double *acceleration);
 void motion_write_rates(const Motion *motion, double *out);
 void motion_spread_multipliers(Motion *motion);
+/* what has been solved for; false: not finite */
+bool motion_tell(const Motion *motion, Solved *out);
 
 /* --- motion_surfaces.c --- */
 

@@ -148,6 +148,30 @@ bool motion_solve_plain(Motion *mo)
     return mo->eq->network_reads != NULL ? motion_solve_together(mo) : motion_solve_augmented(mo);
 }
 
+bool motion_tell(const Motion *mo, Solved *out)
+{
+    const Equations *eq = mo->eq;
+
+    *out = (Solved){.acceleration = mo->du,
+                    .signs = mo->signs != NULL ? signs_values(mo->signs) : NULL,
+                    .multipliers = mo->lambda_all,
+                    .rates = mo->solved,
+                    .algebraic = mo->solved + eq->nx};
+    return vector_is_finite(mo->du, eq->nu) && vector_is_finite(mo->lambda_all, eq->m) &&
+           vector_is_finite(mo->solved, eq->nx + eq->nz);
+}
+
+bool motion_solve_in_use(Motion *mo, double t, const double *y, Solved *out)
+{
+    const bool spreads = mo->eq->network_reads != NULL && mo->used < mo->eq->m;
+
+    if (mo->signs != NULL || mo->is_projecting || spreads || !motion_evaluate(mo, t, y) ||
+        !motion_solve_plain(mo) || (mo->is_factored && kkt_is_regularised(mo->kkt)))
+        return false;
+    place_multipliers(mo);
+    return motion_tell(mo, out);
+}
+
 bool motion_solve_rates(Motion *mo)
 {
     if (mo->partitioning == NULL)

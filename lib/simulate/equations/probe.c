@@ -199,11 +199,16 @@ void probe_errors(const Probe *probe, const RowValues *errors, double *out)
     mem_free(inputs);
 }
 
+void probe_put(Probe *probe, const RowValues *row)
+{
+    put_row(probe->layout, row, probe_inputs(probe));
+}
+
 void probe_tangents(Probe *probe, const RowValues *row, const RowValues *errors, Tangents *tangents)
 {
     double *off = errors != NULL ? input_errors(probe, errors) : NULL;
 
-    put_row(probe->layout, row, probe_inputs(probe));
+    probe_put(probe, row);
     tangents_at(tangents, probe->inputs, off);
     mem_free(off);
 }

@@ -81,6 +81,8 @@ const double *probe_values(Probe *probe, const RowValues *row);
  * number_error() has them. */
 void probe_errors(const Probe *probe, const RowValues *errors, double *out);
 
+/* Take these numbers as inputs, for who computes with the program by other means. */
+void probe_put(Probe *probe, const RowValues *row);
 /* The same values, with their errors unless `errors` is NULL, in tangents of its program. */
 void probe_tangents(Probe *probe, const RowValues *row, const RowValues *errors,
                     Tangents *tangents);

@@ -30,12 +30,30 @@ static int rate(realtype t, N_Vector y, N_Vector out, void *data)
     return 0;
 }
 
+/* J as the problem tells it; false: it doesn't */
+static bool by_problem(Sundials *c, double t, N_Vector y)
+{
+    const OdeJacobian *offered = &c->base.ode->jacobian;
+    const int n = c->base.ode->n;
+
+    if (offered->at == NULL)
+        return false;
+    if (c->by_rows == NULL)
+        c->by_rows = stepper_numbers(&c->base, c->all * n);
+    c->base.counts.evaluations++;
+    if (!offered->at(offered->context, t, N_VGetArrayPointer(y), c->by_rows))
+        return false;
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < c->all; i++)
+            SUNDenseMatrix_Column(c->jacobian, j)[i] = c->by_rows[i * n + j];
+    return true;
+}
+
 /* CVODE's own differences move an unknown that is 0 by next to nothing where a first step is short,
  * and then see rounding alone. */
-static int jacobian(Sundials *c, double t, N_Vector y, N_Vector rate_there, N_Vector point,
-                    N_Vector column)
+static int by_differences(Sundials *c, double t, N_Vector y, N_Vector rate_there, N_Vector point,
+                          N_Vector column)
 {
-    c->jacobian_at = t;
     N_VScale(1, y, point);
     for (int j = 0; j < c->base.ode->n; j++) { /* nothing follows from quadratures */
         double *entries = SUNDenseMatrix_Column(c->jacobian, j);
@@ -64,8 +82,11 @@ static int linear_system(realtype t, N_Vector y, N_Vector rate_there, SUNMatrix 
 
     (void)more;
     *is_new = !may_keep || c->jacobian_at > t;
-    if (*is_new && jacobian(c, t, y, rate_there, point, column) != 0)
-        return 1;
+    if (*is_new) {
+        c->jacobian_at = t;
+        if (!by_problem(c, t, y) && by_differences(c, t, y, rate_there, point, column) != 0)
+            return 1;
+    }
     return SUNMatCopy(c->jacobian, matrix) != 0 || SUNMatScaleAddI(-gamma, matrix) != 0 ? -1 : 0;
 }
 

@@ -1,4 +1,6 @@
 libcore_la_SOURCES += \
+  lib/simulate/integrate/condensed.c \
+  lib/simulate/integrate/condensed.h \
   lib/simulate/integrate/cvode.c \
   lib/simulate/integrate/dop853.c \
   lib/simulate/integrate/dop853_table.h \

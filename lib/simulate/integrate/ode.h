@@ -41,6 +41,14 @@ typedef struct Dae {
     const HessenbergForm *(*keep)(void *context, HessenbergForm *given);
 } Dae;
 
+/* Derivatives of y' in closed form. */
+typedef struct OdeJacobian {
+    void *context;
+    /* Of all entries of y' by the n that count, row by row, at (t, y). False: they can't be told
+     * there but by differences. NULL: nowhere. */
+    bool (*at)(void *context, double t, const double *y, double *out);
+} OdeJacobian;
+
 typedef struct Ode {
     int n;           /* unknowns that count in the error test */
     int quadratures; /* further entries of y that f doesn't read, behind them */
@@ -64,6 +72,7 @@ typedef struct Ode {
     /* Largest relative error that rounding may have left of rates since the last call; NULL: as
      * anywhere. No step is shortened for the sake of less. */
     double (*blur)(void *context);
+    OdeJacobian jacobian;
     Dae dae; /* entries 0..n+quadratures-1 of w are y; n 0: not offered */
 } Ode;
 

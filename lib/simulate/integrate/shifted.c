@@ -4,6 +4,7 @@
 #include "algebra/linear.h"
 #include "algebra/sparse.h"
 #include "base/memory.h"
+#include "simulate/integrate/condensed.h"
 
 #include <string.h>
 
@@ -15,8 +16,8 @@ struct Shifted {
     int n;
     bool is_linear;
     /* dense */
-    double *jacobian, *point, *column; /* n x n; y; its rate */
-    Lu *real, *pair;                   /* n; 2n */
+    double *jacobian, *point, *column; /* rows of y' by n; y; its rate */
+    Condensed *dense;
     /* of linear equations, where there are few: kept by them, or else here */
     const HessenbergForm *form;
     HessenbergForm *own_form;
@@ -48,7 +49,7 @@ Shifted *shifted_new(const Ode *ode, Counts *counts)
     s->right = NEW_ARRAY(double, 2 * (ode->dae.n > n ? ode->dae.n : n));
     if (is_sparse(s))
         return s;
-    s->jacobian = NEW_ARRAY(double, n *n);
+    s->jacobian = NEW_ARRAY(double, all *n);
     s->point = NEW_ARRAY(double, all);
     s->column = NEW_ARRAY(double, all);
     return s;
@@ -59,8 +60,7 @@ void shifted_free(Shifted *s)
     if (s == NULL)
         return;
     MEM_FREE(s->jacobian, s->point, s->column);
-    lu_free(s->real);
-    lu_free(s->pair);
+    condensed_free(s->dense);
     sparse_free(s->rates);
     hessenberg_form_free(s->own_form);
     shifted_factors_free(s->form_real);
@@ -164,9 +164,21 @@ static bool by_rates(Shifted *s, double t, const double *y)
     return vector_is_finite(s->jacobian, n * n);
 }
 
+/* as the problem tells it */
+static bool by_problem(Shifted *s, double t, const double *y)
+{
+    const OdeJacobian *jacobian = &s->ode->jacobian;
+
+    if (jacobian->at == NULL)
+        return false;
+    s->counts->evaluations++;
+    return jacobian->at(jacobian->context, t, y, s->jacobian);
+}
+
 static bool find_dense(Shifted *s, double t, const double *y, const double *rate)
 {
-    return (s->ode->dae.pattern != NULL && by_rates(s, t, y)) || by_differences(s, t, y, rate);
+    return by_problem(s, t, y) || (s->ode->dae.pattern != NULL && by_rates(s, t, y)) ||
+           by_differences(s, t, y, rate);
 }
 
 /* J of linear equations, in its form for many shifts */
@@ -204,7 +216,14 @@ bool shifted_differentiate(Shifted *s, double t, const double *y, const double *
     if (s->is_linear && !is_sparse(s))
         return find_form(s, t, y, rate);
     s->counts->jacobians++;
-    return is_sparse(s) ? by_equations(s, t, y) : find_dense(s, t, y, rate);
+    if (is_sparse(s))
+        return by_equations(s, t, y);
+    if (!find_dense(s, t, y, rate))
+        return false;
+    if (s->dense == NULL)
+        s->dense = condensed_new(s->n);
+    condensed_take(s->dense, s->jacobian);
+    return true;
 }
 
 bool shifted_is_linear(const Shifted *s)
@@ -214,30 +233,6 @@ bool shifted_is_linear(const Shifted *s)
 
 /* --- factors --- */
 
-static bool factor_dense(Shifted *s, double shift, double alpha, double beta)
-{
-    int n = s->n;
-    double *a, *b;
-
-    if (s->real == NULL) {
-        s->real = lu_new(n);
-        s->pair = lu_new(2 * n);
-    }
-    a = lu_matrix(s->real);
-    b = lu_matrix(s->pair);
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++) {
-            double *pair = b + i * 2 * n + j;
-            double entry = s->jacobian[i * n + j];
-
-            a[i * n + j] = (i == j) * shift - entry;
-            pair[0] = pair[2 * n * n + n] = (i == j) * alpha - entry;
-            pair[n] = (i == j) * beta;
-            pair[2 * n * n] = (i == j) * -beta;
-        }
-    return lu_factor(s->real) && lu_factor(s->pair);
-}
-
 bool shifted_factor(Shifted *s, double shift, double alpha, double beta)
 {
     if (s->n == 0)
@@ -246,7 +241,7 @@ bool shifted_factor(Shifted *s, double shift, double alpha, double beta)
         return hessenberg_form_factor(s->form, shift, s->form_real) &&
                hessenberg_form_factor_complex(s->form, alpha, -beta, s->form_pair);
     if (!is_sparse(s))
-        return factor_dense(s, shift, alpha, beta);
+        return condensed_factor(s->dense, shift, alpha, beta);
     for (int k = 0; k < s->entries; k++)
         s->values[k] = s->still[k] + shift * s->moving[k];
     if (!sparse_factor(s->sparse_real, s->values))
@@ -279,7 +274,7 @@ void shifted_solve(Shifted *s, double *b)
         return;
     }
     if (!is_sparse(s)) {
-        lu_solve(s->real, b);
+        condensed_solve(s->dense, b);
         return;
     }
     bring_right(s, b, s->right);
@@ -289,8 +284,8 @@ void shifted_solve(Shifted *s, double *b)
 
 void shifted_solve_pair(Shifted *s, double *b, double *c)
 {
-    size_t bytes = (size_t)s->n * sizeof(double);
-    int second = is_sparse(s) ? s->ode->dae.n : s->n;
+    const size_t bytes = (size_t)s->n * sizeof(double);
+    const int second = s->ode->dae.n;
 
     if (s->n == 0)
         return;
@@ -298,15 +293,13 @@ void shifted_solve_pair(Shifted *s, double *b, double *c)
         hessenberg_form_solve_complex(s->form, s->form_pair, b, c);
         return;
     }
-    if (is_sparse(s)) {
-        bring_right(s, b, s->right);
-        bring_right(s, c, s->right + second);
-        sparse_solve(s->sparse_pair, s->right);
-    } else {
-        memcpy(s->right, b, bytes);
-        memcpy(s->right + second, c, bytes);
-        lu_solve(s->pair, s->right);
+    if (!is_sparse(s)) {
+        condensed_solve_pair(s->dense, b, c);
+        return;
     }
+    bring_right(s, b, s->right);
+    bring_right(s, c, s->right + second);
+    sparse_solve(s->sparse_pair, s->right);
     memcpy(b, s->right, bytes);
     memcpy(c, s->right + second, bytes);
 }

@@ -1,10 +1,10 @@
 /* shifted.h: the linear systems of implicit one-step methods, (s - J) d = b with J = df/dy
  *
- * Dense, in a Hessenberg form where the equations are linear, J by differences; or, of a network
- * that offers its equations F(t, w, w') = 0 with a sparse dF/dw + c dF/dw', by those: y' = J y
- * solves the linearised equations, so that d is the part of w in (dF/dw + s dF/dw') w = dF/dw' b,
- * and J, where there are few states, what they give y' by each. A complex s is a real system of
- * twice the size.
+ * Dense, in a Hessenberg form where the equations are linear, J as the problem tells it or by
+ * differences; or, of a network that offers its equations F(t, w, w') = 0 with a sparse dF/dw + c
+ * dF/dw', by those: y' = J y solves the linearised equations, so that d is the part of w in (dF/dw
+ * + s dF/dw') w = dF/dw' b, and J, where there are few states, what they give y' by each. A complex
+ * s is a real system of twice the size.
  */
 #ifndef COTREE_SIMULATE_INTEGRATE_SHIFTED_H
 #define COTREE_SIMULATE_INTEGRATE_SHIFTED_H

@@ -46,6 +46,7 @@ typedef struct Sundials {
     Counts earlier;     /* of integrations before the last restart */
     bool is_new;        /* no step since then */
     double jacobian_at; /* s */
+    double *by_rows;    /* the Jacobian as the problem told it; NULL: it hasn't yet */
     double power;       /* largest rate of a quadrature so far: what its errors count beside */
     char reason[200];
 } Sundials;

@@ -71,6 +71,13 @@ void phase_enter(const Phase *phase)
         layout_take_sides(phase->layout, phase->closed);
 }
 
+/* exact derivatives of the rates, for implicit methods */
+static void offer_jacobian(Phase *phase, Parameters *parameters)
+{
+    phase->jacobian = rate_jacobian_new(phase->layout, parameters, phase->motion);
+    motion_offer_jacobian(phase->motion, (OdeJacobian){phase->jacobian, rate_jacobian_at});
+}
+
 Status phase_open(Phase *phase, Parameters *parameters, const MotionOptions *options, Host *host,
                   Diag *diag)
 {
@@ -83,6 +90,8 @@ Status phase_open(Phase *phase, Parameters *parameters, const MotionOptions *opt
         phase->network = netdae_new(phase->layout, parameters, phase->motion);
     if (phase->network != NULL)
         motion_offer(phase->motion, netdae_equations(phase->network));
+    else
+        offer_jacobian(phase, parameters);
     CHECK(samples_new(phase->layout, parameters, phase->motion, host, &phase->samples, diag));
     CHECK(steep_new(phase->layout, parameters, phase->motion, numbers_equations(phase->numbers),
                     &phase->steep, diag));
@@ -109,6 +118,7 @@ void phase_free(Phase *phase)
     probe_free(phase->states);
     mem_free(phase->among_whole);
     netdae_free(phase->network);
+    rate_jacobian_free(phase->jacobian);
     motion_free(phase->motion);
     numbers_free(phase->numbers);
     layout_free(phase->layout);

@@ -10,6 +10,7 @@
 #include "simulate/assemble/initial.h"
 #include "simulate/equations/netdae.h"
 #include "simulate/equations/numbers.h"
+#include "simulate/equations/rate_jacobian.h"
 #include "simulate/run/events.h"
 #include "simulate/run/onset.h"
 #include "simulate/run/samples.h"
@@ -24,10 +25,11 @@ struct Phase {
     int on_count;
     Layout *layout;
     Numbers *numbers;
-    Motion *motion;  /* NULL, with all that follows, until phase_open() */
-    int length;      /* of y */
-    NetDae *network; /* NULL where there is mechanics */
-    Events *events;  /* of `like`; NULL: none, or not made yet */
+    Motion *motion;         /* NULL, with all that follows, until phase_open() */
+    int length;             /* of y */
+    NetDae *network;        /* NULL where there is mechanics */
+    RateJacobian *jacobian; /* NULL where there is none */
+    Events *events;         /* of `like`; NULL: none, or not made yet */
     Samples *samples;
     Steep *steep; /* what can act for a short time, and the search for it; NULL: nothing */
     Onset *onset;

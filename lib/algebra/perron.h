@@ -1,0 +1,11 @@
+/* perron.h: bounds of the spectral radius of matrices whose entries are >= 0 (Collatz 1942) */
+#ifndef COTREE_ALGEBRA_PERRON_H
+#define COTREE_ALGEBRA_PERRON_H
+
+/* The matrix is known by what it makes of a vector v > 0 (n). O(12 calls). */
+typedef void PerronApply(const void *context, const double *v, double *out);
+double perron_bound(PerronApply *apply, const void *context, int n);
+/* out = matrix v, n x n entries row by row */
+void perron_apply(const double *matrix, int n, const double *v, double *out);
+
+#endif

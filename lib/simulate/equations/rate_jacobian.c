@@ -1,0 +1,259 @@
+/* rate_jacobian.c: E, its derivatives, and what they make of each entry of the state */
+#include "simulate/equations/rate_jacobian.h"
+
+#include "algebra/linear.h"
+#include "algebra/sparse.h"
+#include "base/memory.h"
+#include "compile/jacobian.h"
+#include "simulate/equations/probe.h"
+#include "simulate/equations/rows.h"
+
+#include <string.h>
+
+typedef LIST(Expr) Roots;
+
+struct RateJacobian {
+    const Layout *l;
+    Parameters *parameters;
+    Motion *motion;
+    bool is_asked, is_made; /* made once, if it can be */
+    int follow, states;     /* entries of e and of w */
+    Probe *probe;           /* E, q', rates of references, power */
+    Jacobian *jacobian;     /* of these by e, then by w; */
+    double *values;         /* its entries */
+    Pattern matrix;         /* E_e, with room on the diagonal for multipliers that aren't in use */
+    int *place;             /* in it, of an entry of the Jacobian; -1: none; behind them of these */
+    double *entries;        /* of the matrix */
+    Sparse *factors;
+    double *right; /* follow */
+    bool *in_use;  /* constraint rows */
+};
+
+RateJacobian *rate_jacobian_new(const Layout *l, Parameters *parameters, Motion *motion)
+{
+    RateJacobian *j = NEW(RateJacobian);
+
+    j->l = l;
+    j->parameters = parameters;
+    j->motion = motion;
+    j->follow = l->nu + l->m + l->nx + l->nz;
+    j->states = l->n + l->nu + l->nx;
+    return j;
+}
+
+void rate_jacobian_free(RateJacobian *j)
+{
+    if (j == NULL)
+        return;
+    jacobian_free(j->jacobian);
+    probe_free(j->probe);
+    pattern_free(&j->matrix);
+    sparse_free(j->factors);
+    MEM_FREE(j->values, j->place, j->entries, j->right, j->in_use, j);
+}
+
+/* --- making --- */
+
+static Status push_rows(const RateJacobian *j, Roots *roots)
+{
+    const Layout *l = j->l;
+    Status status = OK;
+
+    LIST_ROOM(*roots, l->nu);
+    CHECK(rows_balance(l, roots->at, NULL));
+    roots->count = l->nu;
+    for (int k = 0; k < l->m; k++)
+        LIST_PUSH(*roots, row_acceleration(l, k));
+    for (int i = 0; i < l->nx + l->nz; i++)
+        LIST_PUSH(*roots, row_network(l, i));
+    for (int i = 0; i < l->n; i++)
+        LIST_PUSH(*roots, system_q_rate(l->system, i));
+    for (int k = 0; k < l->multi_turns; k++) {
+        Expr rate;
+
+        CHECK(system_multi_turn_rate(l->system, k, &rate, NULL));
+        LIST_PUSH(*roots, rate);
+    }
+    LIST_PUSH(*roots, system_power(l->system));
+done:
+    return status;
+}
+
+/* the inputs that e and w are, a column each */
+static ColumnMove *list_moves(const RateJacobian *j)
+{
+    const Layout *l = j->l;
+    const struct {
+        int first, count;
+    } parts[] = {{l->acceleration, l->nu},
+                 {l->multipliers, l->m},
+                 {l->rates, l->nx},
+                 {l->z, l->nz},
+                 {l->q, l->n},
+                 {l->u, l->nu},
+                 {l->x, l->nx}};
+    ColumnMove *moves = mem_array((size_t)(j->follow + j->states), sizeof *moves);
+    int column = 0;
+
+    for (int p = 0; p < COUNT(parts); p++)
+        for (int i = 0; i < parts[p].count; i++, column++)
+            moves[column] = (ColumnMove){column, parts[p].first + i};
+    return moves;
+}
+
+static void find_matrix(RateJacobian *j)
+{
+    const Pattern *p = jacobian_pattern(j->jacobian);
+    const int most = p->count + j->l->m;
+    int *row = NEW_ARRAY(int, 3 * most), *column = row + most, *at = column + most;
+    int count = 0;
+
+    j->place = NEW_ARRAY(int, most);
+    for (int k = 0; k < most; k++) {
+        const bool is_entry = k < p->count;
+        const int diagonal = j->l->nu + k - p->count;
+
+        j->place[k] = -1;
+        if (is_entry && (p->row[k] >= j->follow || p->column[k] >= j->follow))
+            continue;
+        row[count] = is_entry ? p->row[k] : diagonal;
+        column[count] = is_entry ? p->column[k] : diagonal;
+        j->place[k] = count++;
+    }
+    j->matrix = pattern_of(j->follow, j->follow, count, row, column, at);
+    for (int k = 0; k < most; k++)
+        if (j->place[k] >= 0)
+            j->place[k] = at[j->place[k]];
+    mem_free(row);
+}
+
+static void open_room(RateJacobian *j)
+{
+    j->values = NEW_ARRAY(double, jacobian_pattern(j->jacobian)->count);
+    j->entries = NEW_ARRAY(double, j->matrix.count);
+    j->factors = sparse_new(j->follow, j->matrix.count, j->matrix.row, j->matrix.column);
+    j->right = NEW_ARRAY(double, j->follow);
+    j->in_use = NEW_ARRAY(bool, j->l->m);
+}
+
+static bool make(RateJacobian *j)
+{
+    Roots roots = {0};
+    ColumnMove *moves = NULL;
+    bool sound = push_rows(j, &roots) == OK &&
+                 probe_new(j->l, j->parameters, roots.at, roots.count, &j->probe, NULL) == OK;
+
+    if (sound) {
+        moves = list_moves(j);
+        j->jacobian = jacobian_new(residual_program(probe_residual(j->probe)), roots.count,
+                                   j->follow + j->states, moves, j->follow + j->states);
+        find_matrix(j);
+        open_room(j);
+    }
+    mem_free(moves);
+    LIST_FREE(roots);
+    return sound;
+}
+
+/* --- at a state --- */
+
+/* E_e; multipliers of rows that aren't in use are 0 instead */
+static bool factor(RateJacobian *j)
+{
+    const Layout *l = j->l;
+    const Pattern *p = jacobian_pattern(j->jacobian);
+    int used;
+    const int *rows = motion_rows(j->motion, &used);
+
+    memset(j->in_use, 0, (size_t)l->m * sizeof *j->in_use);
+    for (int k = 0; k < used; k++)
+        j->in_use[rows[k]] = true;
+    memset(j->entries, 0, (size_t)j->matrix.count * sizeof(double));
+    for (int k = 0; k < p->count; k++) {
+        const int row = p->row[k] - l->nu;
+
+        if (j->place[k] >= 0 && !(row >= 0 && row < l->m && !j->in_use[row]))
+            j->entries[j->place[k]] = j->values[k];
+    }
+    for (int k = 0; k < l->m; k++)
+        if (!j->in_use[k])
+            j->entries[j->place[p->count + k]] = 1;
+    return sparse_factor(j->factors, j->entries);
+}
+
+/* what follows from an entry of the state: E_e de = -E_w */
+static void find_follow(RateJacobian *j, int state)
+{
+    const Layout *l = j->l;
+    const Pattern *p = jacobian_pattern(j->jacobian);
+    const int c = j->follow + state;
+
+    memset(j->right, 0, (size_t)j->follow * sizeof(double));
+    for (int k = p->start[c]; k < p->start[c + 1]; k++) {
+        const int row = p->row[k], constraint = row - l->nu;
+
+        if (row < j->follow && !(constraint >= 0 && constraint < l->m && !j->in_use[constraint]))
+            j->right[row] = -j->values[k];
+    }
+    sparse_solve(j->factors, j->right);
+}
+
+/* The row of y' that a row behind E tells: those of q, of references, of work. */
+static int rate_row(const RateJacobian *j, int row)
+{
+    const Layout *l = j->l;
+    const int own = row - j->follow;
+
+    return own < l->n ? own : layout_references(l) + own - l->n;
+}
+
+/* the entries of a column of the Jacobian behind E, so many times */
+static void add_column(const RateJacobian *j, int c, double by, double *out, int stride)
+{
+    const Pattern *p = jacobian_pattern(j->jacobian);
+
+    for (int k = p->start[c + 1] - 1; k >= p->start[c] && p->row[k] >= j->follow; k--)
+        out[rate_row(j, p->row[k]) * stride] += by * j->values[k];
+}
+
+/* the column of y', entries `stride` apart */
+static void write_column(RateJacobian *j, int state, double *out, int stride)
+{
+    const Layout *l = j->l;
+
+    find_follow(j, state);
+    for (int i = 0; i < l->nu; i++)
+        out[(l->n + i) * stride] = j->right[i];
+    for (int i = 0; i < l->nx; i++)
+        out[(l->n + l->nu + i) * stride] = j->right[l->nu + l->m + i];
+    add_column(j, j->follow + state, 1, out, stride);
+    for (int k = 0; k < j->follow; k++)
+        if (j->right[k] != 0)
+            add_column(j, k, j->right[k], out, stride);
+}
+
+bool rate_jacobian_at(void *context, double t, const double *y, double *out)
+{
+    RateJacobian *j = context;
+    const Layout *l = j->l;
+    const int n = layout_references(l) + l->multi_turns;
+    Solved solved;
+    RowValues row;
+
+    if (!motion_solve_in_use(j->motion, t, y, &solved))
+        return false;
+    if (!j->is_asked)
+        j->is_made = make(j);
+    j->is_asked = true;
+    if (!j->is_made)
+        return false;
+    row = row_of_solved(l, motion_clock(j->motion, t), y, &solved);
+    probe_put(j->probe, &row);
+    jacobian_at(j->jacobian, probe_inputs(j->probe), NULL, j->values);
+    if (!vector_is_finite(j->values, jacobian_pattern(j->jacobian)->count) || !factor(j))
+        return false;
+    memset(out, 0, (size_t)(n + 1) * (size_t)n * sizeof(double));
+    for (int state = 0; state < j->states; state++)
+        write_column(j, state, out + state, n);
+    return vector_is_finite(out, n * (n + 1));
+}

@@ -1,0 +1,199 @@
+/* condensed.c: which unknowns are told by others, and the equations of these */
+#include "simulate/integrate/condensed.h"
+
+#include "algebra/linear.h"
+#include "base/memory.h"
+
+#include <complex.h>
+#include <string.h>
+
+struct Condensed {
+    int n, told, left; /* unknowns; in D; in R */
+    int *order;        /* those of D, then those of R */
+    double *jacobian;  /* in that order */
+    double *through;   /* J_RD J_DR (left x left) */
+    double s, alpha, beta;
+    Lu *real, *pair; /* left; 2 left: for so many unknowns, */
+    int factored;    /* -1: none */
+    double *right;   /* 2 left */
+    double *shared;  /* 2 told: b_D / s */
+};
+
+Condensed *condensed_new(int n)
+{
+    Condensed *c = NEW(Condensed);
+
+    c->n = n;
+    c->factored = -1;
+    c->order = NEW_ARRAY(int, n);
+    c->jacobian = NEW_ARRAY(double, n *n);
+    c->through = NEW_ARRAY(double, n *n);
+    c->right = NEW_ARRAY(double, 2 * n);
+    c->shared = NEW_ARRAY(double, 2 * n);
+    return c;
+}
+
+void condensed_free(Condensed *c)
+{
+    if (c == NULL)
+        return;
+    lu_free(c->real);
+    lu_free(c->pair);
+    MEM_FREE(c->order, c->jacobian, c->through, c->right, c->shared, c);
+}
+
+/* --- J --- */
+
+/* whether neither its rate holds itself or one of D, nor theirs it */
+static bool is_apart(const Condensed *c, const double *jacobian, int i)
+{
+    if (jacobian[i * c->n + i] != 0)
+        return false;
+    for (int k = 0; k < c->told; k++) {
+        const int j = c->order[k];
+
+        if (jacobian[i * c->n + j] != 0 || jacobian[j * c->n + i] != 0)
+            return false;
+    }
+    return true;
+}
+
+/* one after the other, as they come */
+static void choose(Condensed *c, const double *jacobian)
+{
+    c->told = c->left = 0;
+    for (int i = 0; i < c->n; i++)
+        if (is_apart(c, jacobian, i))
+            c->order[c->told++] = i;
+    for (int i = 0, k = 0; i < c->n; i++)
+        if (k < c->told && c->order[k] == i)
+            k++;
+        else
+            c->order[c->told + c->left++] = i;
+}
+
+static const double *row_of(const Condensed *c, int i)
+{
+    return c->jacobian + (ptrdiff_t)i * c->n;
+}
+
+void condensed_take(Condensed *c, const double *jacobian)
+{
+    choose(c, jacobian);
+    for (int i = 0; i < c->n; i++)
+        for (int j = 0; j < c->n; j++)
+            c->jacobian[i * c->n + j] = jacobian[c->order[i] * c->n + c->order[j]];
+    memset(c->through, 0, (size_t)c->left * (size_t)c->left * sizeof(double));
+    for (int d = 0; d < c->told; d++)
+        for (int j = 0; j < c->left; j++) {
+            const double by = row_of(c, d)[c->told + j];
+
+            for (int i = 0; i < c->left && by != 0; i++)
+                c->through[i * c->left + j] += row_of(c, c->told + i)[d] * by;
+        }
+}
+
+/* --- factors --- */
+
+static void open_factors(Condensed *c)
+{
+    if (c->factored == c->left)
+        return;
+    lu_free(c->real);
+    lu_free(c->pair);
+    c->real = lu_new(c->left);
+    c->pair = lu_new(2 * c->left);
+    c->factored = c->left;
+}
+
+bool condensed_factor(Condensed *c, double s, double alpha, double beta)
+{
+    const int n = c->left;
+    const double complex over = 1 / (alpha - I * beta);
+    double *a, *b;
+
+    c->s = s;
+    c->alpha = alpha;
+    c->beta = beta;
+    open_factors(c);
+    a = lu_matrix(c->real);
+    b = lu_matrix(c->pair);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            const double entry = row_of(c, c->told + i)[c->told + j];
+            const double through = c->through[i * n + j];
+            double *pair = b + (ptrdiff_t)i * 2 * n + j;
+
+            a[i * n + j] = (i == j) * s - entry - through / s;
+            pair[0] = pair[2 * n * n + n] = (i == j) * alpha - entry - creal(over) * through;
+            pair[n] = (i == j) * beta + cimag(over) * through;
+            pair[2 * n * n] = -pair[n];
+        }
+    return lu_factor(c->real) && lu_factor(c->pair);
+}
+
+/* --- solutions --- */
+
+/* J_RD x_D, of an unknown of R */
+static double from_told(const Condensed *c, int i, const double *told)
+{
+    double sum = 0;
+
+    for (int d = 0; d < c->told; d++)
+        sum += row_of(c, c->told + i)[d] * told[d];
+    return sum;
+}
+
+/* J_DR x_R, of an unknown of D */
+static double from_left(const Condensed *c, int d, const double *x)
+{
+    double sum = 0;
+
+    for (int j = 0; j < c->left; j++)
+        sum += row_of(c, d)[c->told + j] * x[j];
+    return sum;
+}
+
+void condensed_solve(Condensed *c, double *b)
+{
+    double *told = c->shared;
+
+    for (int d = 0; d < c->told; d++)
+        told[d] = b[c->order[d]] / c->s;
+    for (int i = 0; i < c->left; i++)
+        c->right[i] = b[c->order[c->told + i]] + from_told(c, i, told);
+    lu_solve(c->real, c->right);
+    for (int i = 0; i < c->left; i++)
+        b[c->order[c->told + i]] = c->right[i];
+    for (int d = 0; d < c->told; d++)
+        b[c->order[d]] = told[d] + from_left(c, d, c->right) / c->s;
+}
+
+void condensed_solve_pair(Condensed *c, double *b, double *other)
+{
+    const double complex over = 1 / (c->alpha - I * c->beta);
+    double *told = c->shared, *turned = told + c->told;
+
+    for (int d = 0; d < c->told; d++) {
+        const double complex part = over * (b[c->order[d]] + I * other[c->order[d]]);
+
+        told[d] = creal(part);
+        turned[d] = cimag(part);
+    }
+    for (int i = 0; i < c->left; i++) {
+        c->right[i] = b[c->order[c->told + i]] + from_told(c, i, told);
+        c->right[c->left + i] = other[c->order[c->told + i]] + from_told(c, i, turned);
+    }
+    lu_solve(c->pair, c->right);
+    for (int i = 0; i < c->left; i++) {
+        b[c->order[c->told + i]] = c->right[i];
+        other[c->order[c->told + i]] = c->right[c->left + i];
+    }
+    for (int d = 0; d < c->told; d++) {
+        const double complex part =
+            over * (from_left(c, d, c->right) + I * from_left(c, d, c->right + c->left));
+
+        b[c->order[d]] = told[d] + creal(part);
+        other[c->order[d]] = turned[d] + cimag(part);
+    }
+}

@@ -1,0 +1,24 @@
+/* condensed.h: (s - J) x = b, dense, by as few equations as have to be solved together
+ *
+ * Unknowns whose rates hold none of each other, D, are told by the others, R: s x_D = b_D + J_DR
+ * x_R, as positions are by speeds. What is left is (s - J_RR - J_RD J_DR / s) x_R = b_R + J_RD b_D
+ * / s, of a mechanism half as many. A complex s is a real system of twice the size. */
+#ifndef COTREE_SIMULATE_INTEGRATE_CONDENSED_H
+#define COTREE_SIMULATE_INTEGRATE_CONDENSED_H
+
+#include <stdbool.h>
+
+typedef struct Condensed Condensed;
+
+Condensed *condensed_new(int n);           /* new; free with condensed_free() */
+void condensed_free(Condensed *condensed); /* NULL is fine */
+/* Take J (n x n, row by row), copied. Factors of an earlier one are void. O(n^2 + entries of J_DR
+ * times R). */
+void condensed_take(Condensed *condensed, const double *jacobian);
+/* Factor for a real s other than 0, and for alpha - i beta. False: singular. O(R^3) */
+bool condensed_factor(Condensed *condensed, double s, double alpha, double beta);
+/* b becomes the solution; of the complex system b + i c. */
+void condensed_solve(Condensed *condensed, double *b);
+void condensed_solve_pair(Condensed *condensed, double *b, double *c);
+
+#endif
