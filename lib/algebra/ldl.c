@@ -178,6 +178,18 @@ int ldl_order_width(const LdlOrder *o)
     return width;
 }
 
+int64_t ldl_order_products(const LdlOrder *o)
+{
+    int64_t sum = 0;
+
+    for (int j = 0; j < o->n; j++) {
+        const int64_t below = o->below_start[j + 1] - o->below_start[j];
+
+        sum += below * (below + 1) / 2;
+    }
+    return sum;
+}
+
 /* --- factors --- */
 
 Ldl *ldl_new(const LdlOrder *order)
