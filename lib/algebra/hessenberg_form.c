@@ -6,6 +6,7 @@
 #include "algebra/hessenberg_form.h"
 
 #include "algebra/dense.h"
+#include "base/four.h"
 #include "base/memory.h"
 
 #include <gsl/gsl_linalg.h>
@@ -29,13 +30,6 @@ struct ShiftedFactors {
 
 /* --- rows --- */
 
-/* Four at a time, as wide as the processor that runs has it: numbers are the same. */
-typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
-#if defined __x86_64__ && defined __GLIBC__ && !defined __clang__
-#define AS_WIDE_AS_CAN_BE __attribute__((target_clones("avx2", "default")))
-#else
-#define AS_WIDE_AS_CAN_BE
-#endif
 #define FOUR(row)     (*(Four *)(row))
 #define FOUR_OF(row)  (*(const Four *)(row))
 #define SUM_OF(four)  (((four)[0] + (four)[1]) + ((four)[2] + (four)[3]))

@@ -640,6 +640,33 @@ double kkt_products(const Kkt *kkt)
     return ldl_order_products(kkt->order) * (kkt->border != NO_BORDER ? 2 : 1);
 }
 
+bool kkt_is_plain(const Kkt *kkt)
+{
+    return kkt->m > 0 && !kkt->is_exchanging && kkt->angle > SUSPECT;
+}
+
+bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const int *rows)
+{
+    double largest = 0, least;
+    bool sound = true;
+
+    for (int k = 0; k < kkt->m; k++) {
+        double *most = &kkt->most[rows[k]];
+
+        if (taken[k] > *most)
+            *most = taken[k];
+        if (*most > largest)
+            largest = *most;
+    }
+    least = LEAST_NORM * LEAST_NORM * largest;
+    for (int k = 0; k < kkt->m; k++) {
+        const double most = kkt->most[rows[k]];
+
+        sound = sound && pivot[k] > SUSPECT * (most > least ? most : least);
+    }
+    return sound;
+}
+
 double kkt_blur(const Kkt *kkt)
 {
     return kkt->pivot < NEAR ? fmin(MOST_BLUR, ROUNDED / (kkt->pivot + 1e-300)) : 0;

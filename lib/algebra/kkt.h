@@ -48,6 +48,11 @@ double kkt_independence(Kkt *kkt, const double *phi_u, const int *rows);
  * come back where a step that was tried and given up has seen what the motion never does. */
 void kkt_keep_sizes(Kkt *kkt);
 void kkt_return_sizes(Kkt *kkt);
+/* of the last kkt_factor(): whether it needs neither epsilon, refinement nor rows exchanged */
+bool kkt_is_plain(const Kkt *kkt);
+/* Whether a factorisation that somebody else has made, speeds before multipliers, is as plain: by
+ * pivots d of these rows, signs reversed, and p. What they show of sizes counts from now on. */
+bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const int *rows);
 /* M du + G^T lambda = top, G du = bottom. `top` may be NULL for 0; du may be `top`. */
 void kkt_solve(Kkt *kkt, const double *top, const double *bottom, double *du, double *lambda);
 

@@ -178,16 +178,16 @@ int ldl_order_width(const LdlOrder *o)
     return width;
 }
 
-double ldl_order_products(const LdlOrder *o)
+int64_t ldl_order_products(const LdlOrder *o)
 {
-    double products = 0;
+    int64_t sum = 0;
 
     for (int j = 0; j < o->n; j++) {
-        const double below = o->below_start[j + 1] - o->below_start[j];
+        const int64_t below = o->below_start[j + 1] - o->below_start[j];
 
-        products += below * (below + 1) / 2;
+        sum += below * (below + 1) / 2;
     }
-    return products;
+    return sum;
 }
 
 /* --- factors --- */

@@ -12,6 +12,7 @@
 #include "base/watch.h"
 
 #include <stdbool.h>
+#include <stdint.h>
 
 typedef struct LdlOrder LdlOrder;
 typedef struct Ldl Ldl;
@@ -25,7 +26,7 @@ LdlOrder *ldl_order_new(int n, const int *class, int entries, const int *row, co
 void ldl_order_free(LdlOrder *order);       /* NULL is fine */
 int ldl_order_width(const LdlOrder *order); /* in a row of L + L^T, at most */
 /* pairs of entries in columns of L, an entry with itself too: products that ldl_factor() takes */
-double ldl_order_products(const LdlOrder *order);
+int64_t ldl_order_products(const LdlOrder *order);
 
 Ldl *ldl_new(const LdlOrder *order); /* new, borrows the order; ldl_free() */
 void ldl_free(Ldl *ldl);             /* NULL is fine */

@@ -31,6 +31,7 @@ libcore_la_SOURCES += \
 	lib/formulate/network/network_tree.c lib/formulate/network/scalar_edges.c \
 	lib/formulate/network/scalar_edges.h \
 	lib/formulate/dynamics/composite.c lib/formulate/dynamics/composite.h \
+	lib/formulate/dynamics/composite_entries.c \
 	lib/formulate/dynamics/composite_mass.c lib/formulate/dynamics/composite_mass.h \
 	lib/formulate/dynamics/cutset_equations.c lib/formulate/dynamics/cutset_equations.h \
 	lib/formulate/dynamics/efforts.c lib/formulate/dynamics/efforts.h lib/formulate/dynamics/energy.c \
@@ -51,6 +52,7 @@ libcore_la_SOURCES += \
 	lib/formulate/whole/tree_search.h lib/formulate/whole/variables.c \
 	lib/formulate/solved/accelerations.c lib/formulate/solved/accelerations.h \
 	lib/formulate/solved/along_trees.c lib/formulate/solved/along_trees.h \
+	lib/formulate/solved/constrained.c lib/formulate/solved/constrained.h \
 	lib/formulate/solved/groups.c lib/formulate/solved/groups.h lib/formulate/solved/linear_network.c \
 	lib/formulate/solved/linear_network.h lib/formulate/solved/prescribed.c lib/formulate/solved/prescribed.h \
 	lib/formulate/solved/price.h \

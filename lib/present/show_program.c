@@ -87,6 +87,38 @@ static void add_kept(const View *view, Text *out, const Equations *eq, const Wor
     }
 }
 
+/* With all rows in use: those that others repeat are known when a run begins. */
+static Status eliminate(const View *view, const Equations *eq, Diag *diag)
+{
+    const char *const *independent;
+    int count, *rows;
+    Status status;
+
+    if (eq->eliminate == NULL || model_form(view->model, &independent, &count) == FORM_EMBEDDED)
+        return OK;
+    rows = NEW_ARRAY(int, eq->m);
+    for (int k = 0; k < eq->m; k++)
+        rows[k] = k;
+    status = eq->eliminate(eq->context, rows, eq->m, diag);
+    mem_free(rows);
+    return status;
+}
+
+static void add_eliminated(const View *view, Text *out, const Equations *eq)
+{
+    Text line = {0};
+
+    if (eq->eliminated == NULL)
+        return;
+    text_add(&line, "factoring the matrix of accelerations and ");
+    layout_count(&line, eq->m, "multiplier", "multipliers");
+    text_addf(&line,
+              ", which these operations eliminate from the %dth time on, wherever no singular "
+              "position is near",
+              MOTION_HASTENS);
+    add_line(view, out, "skipped  ", &line);
+}
+
 static void add_skipped(const View *view, Text *out, const Equations *eq, const Work *work)
 {
     const Reading *r = system_run(view->system);
@@ -96,6 +128,7 @@ static void add_skipped(const View *view, Text *out, const Equations *eq, const 
     Text line = {0};
 
     add_zeros(view, out, "Phi_u", r->phi_u, m * nu);
+    add_eliminated(view, out, eq);
     if (eq->bring_mass == NULL) {
         add_zeros(view, out, "M", r->mass, nu * nu);
     } else {
@@ -144,6 +177,7 @@ Status show_program(const View *view, const Selection *selection, Text *out, Dia
     (void)selection;
     CHECK(numbers_new(layout, &parameters, &numbers, diag));
     eq = numbers_equations(numbers);
+    CHECK(eliminate(view, eq, diag));
     work = work_of(numbers);
     if (eq->bring_mass == NULL)
         CHECK(system_form_mass(view->system, diag));

@@ -2,6 +2,9 @@ UNIT_TESTS += test_formulate
 test_formulate_SOURCES = tests/unit/test_formulate.c tests/unit/test.h tests/unit/form.h tests/unit/scene.h
 test_formulate_LDADD = $(unit_ldadd)
 
+UNIT_TESTS += test_constrained
+test_constrained_SOURCES = tests/unit/test_constrained.c tests/unit/test.h tests/unit/form.h tests/unit/scene.h
+test_constrained_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_mass_matrix
 test_mass_matrix_SOURCES = tests/unit/test_mass_matrix.c tests/unit/test.h tests/unit/form.h tests/unit/scene.h
 test_mass_matrix_LDADD = $(unit_ldadd)

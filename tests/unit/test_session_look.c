@@ -117,9 +117,11 @@ static void a_program_tells_what_is_hoisted_kept_and_skipped(void)
          "operations of t and coordinates", "matrix of the network"},
         /* a matrix of six on six whose diagonal is all there is */
         {FREE_BODY, "skipped  30 of 36 entries of M, which are 0", "multiplier"},
-        {SLIDER_CRANK TWO_TREES, "solving at rows of t, coordinates, speeds", "multiplier"},
+        {SLIDER_CRANK TWO_TREES, "solving at rows of t, coordinates, speeds", "embedded"},
+        {SLIDER_CRANK TWO_TREES, "skipped  factoring the matrix of accelerations and 1 multiplier",
+         "multipliers"},
         {SLIDER_CRANK TWO_TREES "form embedded\n",
-         "skipped  1 multiplier, which the embedded form does without", NULL},
+         "skipped  1 multiplier, which the embedded form does without", "factoring"},
     };
 
     for (int i = 0; i < COUNT(cases); i++) {

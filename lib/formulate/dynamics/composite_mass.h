@@ -53,6 +53,12 @@ const CompositeMass *system_composite_mass(const System *system);
 /* what parts add to an entry of M beside that: rotors. NULL at the end */
 const Entry *system_mass_share(const System *system, int i);
 
+/* M written out from these: entries of one half, shares among them, of which several may stand at
+ * one place; and pairs of speeds that may have one. Where that is so, of a composite mass. */
+typedef LIST(Entry) MassEntries;
+int64_t composite_mass_pairs(const CompositeMass *mass);
+void composite_mass_entries(const System *system, MassEntries *out);
+
 /* true: it has been made, and M needn't be */
 bool composite_mass_build(System *system);
 void composite_mass_free(CompositeMass *mass);             /* NULL is fine */

@@ -5,10 +5,11 @@
 #include "formulate/system/system.h"
 
 typedef enum Told {
-    TOLD_NOT,        /* a speed moves nothing that has mass, or there is too much of it */
-    TOLD_BY_MASS,    /* from M and F */
-    TOLD_ALONG,      /* along the trees: neither M nor F is needed */
-    TOLD_PRESCRIBED, /* by rows of constraints (prescribed.h): neither is needed either */
+    TOLD_NOT,         /* a speed moves nothing that has mass, or there is too much of it */
+    TOLD_BY_MASS,     /* from M and F */
+    TOLD_ALONG,       /* along the trees: neither M nor F is needed */
+    TOLD_CONSTRAINED, /* with the multipliers of rows in use (constrained.h): they aren't needed */
+    TOLD_PRESCRIBED,  /* by rows of constraints (prescribed.h): neither is needed either */
 } Told;
 
 /* u'[j] for these F, of which `pushes` is what neither inertia nor gravity makes, and excess[j]:

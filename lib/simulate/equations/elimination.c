@@ -1,4 +1,4 @@
-/* elimination.c: the accelerations that a run's program tells, where nothing has to be solved */
+/* elimination.c: the accelerations that a run's program tells, so that nothing has to be solved */
 #include "simulate/equations/elimination.h"
 #include "formulate/dynamics/cutset_equations.h"
 #include "formulate/solved/accelerations.h"
@@ -7,9 +7,9 @@
 #include "compile/program.h"
 
 /* before they are known: nothing in them may follow from accelerations */
-static bool is_known_early(const Layout *l, const Expr *told)
+static bool is_known_early(const Expr *told, int count)
 {
-    for (int i = 0; i < 2 * l->nu; i++)
+    for (int i = 0; i < count; i++)
         if (stage_of(told[i]) > STAGE_NETWORK)
             return false;
     return true;
@@ -44,7 +44,26 @@ Status elimination_choose(const Layout *l, Told *by, Expr **out, Diag *diag)
     else if (l->nu > 0 && l->m == l->nu && l->surface_count == 0 &&
              system_prescribed(l->system, told, told + l->nu))
         *by = TOLD_PRESCRIBED;
-    if (*by != TOLD_NOT && !is_known_early(l, told))
+    if (*by != TOLD_NOT && !is_known_early(told, 2 * l->nu))
         *by = TOLD_NOT;
     return OK;
+}
+
+Constrained *elimination_of_rows(const Layout *l, const int *rows, int row_count)
+{
+    const Reading *r = system_run(l->system);
+    Expr *force = NEW_ARRAY(Expr, l->nu + l->m), *gamma = force + l->nu;
+    Constrained *out;
+
+    for (int j = 0; j < l->nu; j++)
+        force[j] = layout_on_surfaces(l, r->force[j]);
+    for (int k = 0; k < l->m; k++)
+        gamma[k] = layout_on_surfaces(l, r->gamma[k]);
+    out = constrained_new(l->system, rows, row_count, force, gamma);
+    mem_free(force);
+    if (out != NULL && !is_known_early(out->acceleration, (int)(out->step - out->acceleration))) {
+        constrained_free(out);
+        out = NULL;
+    }
+    return out;
 }

@@ -3,11 +3,16 @@
 #define COTREE_SIMULATE_EQUATIONS_ELIMINATION_H
 
 #include "formulate/solved/accelerations.h"
+#include "formulate/solved/constrained.h"
 #include "formulate/solved/prescribed.h"
 #include "simulate/equations/input_layout.h"
 
 /* u' on the layout's surfaces, then what tells its rounding, or where all is prescribed the
  * multipliers (2 nu): new, also where it is not told. */
 MUST_USE Status elimination_choose(const Layout *layout, Told *by, Expr **out, Diag *diag);
+
+/* Where these constraint rows hold the speeds: new, constrained_free(). NULL: it is left to
+ * numbers. */
+Constrained *elimination_of_rows(const Layout *layout, const int *rows, int row_count);
 
 #endif

@@ -401,14 +401,19 @@ static bool project_velocity(Motion *mo, double t, const double *y, double *u, c
 {
     const Equations *eq = mo->eq;
 
+    bool has_own;
+
     motion_at_position(mo, t, y);
-    if (!motion_is_prescribed(mo) && !motion_factor(mo))
+    has_own = motion_is_prescribed(mo) || motion_is_eliminated(mo);
+    if (!has_own && !motion_factor(mo))
         return false;
     eq->velocity(eq->context, u, x);
     for (int k = 0; k < mo->used; k++)
         mo->bottom[k] = eq->nu_rate[mo->rows[k]] - pattern_dot(eq->rows, eq->phi_u, mo->rows[k], u);
     if (motion_is_prescribed(mo))
         take_prescribed(mo);
+    else if (has_own)
+        eq->eliminated->step(eq->context, mo->bottom, mo->du);
     else
         kkt_solve(mo->kkt, NULL, mo->bottom, mo->du, mo->lambda);
     for (int j = 0; j < eq->nu; j++)

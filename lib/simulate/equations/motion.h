@@ -15,6 +15,7 @@
 #define COTREE_SIMULATE_EQUATIONS_MOTION_H
 
 #include "algebra/pattern.h"
+#include "base/diag.h"
 #include "base/watch.h"
 #include "simulate/integrate/ode.h"
 
@@ -29,6 +30,18 @@ typedef struct Guard {
     int end; /* of the interval of its sign that is left there: -1 or 1; 0: it isn't slid along */
     bool solved; /* what is 0 on it is solved for with the jump: it is always stayed on a side of */
 } Guard;
+
+/* What a program has eliminated itself, for these constraint rows in use. */
+typedef struct Eliminated {
+    const int *rows;
+    int row_count;
+    const double *acceleration, *multiplier; /* nu, row_count: as power is up to date */
+    const double *pivot, *taken;             /* row_count, by position(): for kkt_is_sound() */
+    /* whether M leaves more of its pivots than rounding, by position() */
+    bool (*has_pivots)(void *context);
+    /* du of M du + G^T mu = 0, G du = bottom, by position() */
+    void (*step)(void *context, const double *bottom, double *du);
+} Eliminated;
 
 typedef struct Equations {
     int n, nu, m, nx, nz;
@@ -72,6 +85,10 @@ typedef struct Equations {
     /* u' of M u' = force where there are no constraints, by other means than M; false: M leaves
      * nothing but rounding of it. NULL: by M */
     bool (*without_mass)(void *context, double *acceleration);
+    const Eliminated *eliminated; /* likewise where there are; NULL: by M and Phi_u, */
+    /* until this has written it out, unless it is more than a program is worth. Where it has,
+     * nothing is up to date. NULL: it isn't worth it, or there is nothing to eliminate. */
+    Status (*eliminate)(void *context, const int *rows, int row_count, Diag *diag);
     /* Where each speed has a row of its own, so that Phi_u is a permutation but for signs: u', and
      * the multipliers of all rows; NULL: not so */
     void (*prescribed)(void *context, double *acceleration, double *multiplier);
@@ -200,6 +217,11 @@ typedef struct Renewed {
 void motion_partition(Motion *motion, double t, const double *y);
 /* At y, just projected: choose anew what has worn out. */
 Renewed motion_renew(Motion *motion, double t, const double *y);
+/* Between steps: let the equations eliminate u' and multipliers themselves, once a run has factored
+ * so many matrices for them: about what writing the elimination out and compiling it costs, at any
+ * size. Fails as that does. */
+enum { MOTION_HASTENS = 500 };
+MUST_USE Status motion_hasten(Motion *motion, Diag *diag);
 
 typedef struct MotionCounts {
     int64_t factorisations;

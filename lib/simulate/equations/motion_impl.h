@@ -13,6 +13,7 @@ struct Motion {
     MotionOptions options;
     int *rows, *wanted;
     int used;              /* constraint rows in use */
+    int factored;          /* matrices that the equations could have eliminated */
     double row_ratio;      /* their pivots when they were chosen; 0: not known yet */
     bool is_repartitioned; /* since the last renewal */
     bool is_implicit;      /* multipliers of the rows in use are unknowns of a method */
@@ -68,6 +69,9 @@ bool motion_choose_independent(Motion *motion);
  * still) for motion_return_rows(). (motion_renew.c) */
 int *motion_take_rows(Motion *motion);
 void motion_return_rows(Motion *motion, int *rows);
+/* Whether what the equations have eliminated themselves serves there: it is of the rows in use, and
+ * as sound as factors that need no refinement. */
+bool motion_is_eliminated(Motion *motion);
 /* the network there; false: it can't be solved */
 bool motion_find_network(Motion *motion, double t, const double *y);
 /* Everything but the solution for u', with signs on surfaces as they are: false where the network

@@ -75,9 +75,27 @@ bool motion_factor_with(Motion *mo, Kkt *kkt, const double *mass)
 
 bool motion_factor(Motion *mo)
 {
-    if (!mo->is_factored || !kkt_is_factored(mo->kkt))
+    if (!mo->is_factored || !kkt_is_factored(mo->kkt)) {
         mo->is_factored = motion_factor_with(mo, mo->kkt, equations_mass(mo->eq));
+        mo->factored += mo->is_factored && kkt_is_plain(mo->kkt);
+    }
     return mo->is_factored;
+}
+
+bool motion_is_eliminated(Motion *mo)
+{
+    const Equations *eq = mo->eq;
+    const Eliminated *own = eq->eliminated;
+
+    if (own == NULL || own->row_count != mo->used ||
+        memcmp(own->rows, mo->rows, (size_t)mo->used * sizeof(int)) != 0)
+        return false;
+    if (!mo->is_alone) {
+        mo->is_alone =
+            own->has_pivots(eq->context) && kkt_is_sound(mo->kkt, own->pivot, own->taken, mo->rows);
+        mo->counts.factorisations += mo->is_alone;
+    }
+    return mo->is_alone;
 }
 
 bool motion_factor_embedded(Motion *mo)

@@ -122,3 +122,14 @@ Renewed motion_renew(Motion *mo, double t, const double *y)
         renewed.independent = motion_choose_independent(mo) || renewed.independent;
     return renewed;
 }
+
+Status motion_hasten(Motion *mo, Diag *diag)
+{
+    const Equations *eq = mo->eq;
+
+    if (eq->eliminate == NULL || mo->partitioning != NULL || mo->factored < MOTION_HASTENS)
+        return OK;
+    mo->factored = 0;
+    mo->is_evaluated = mo->is_factored = mo->is_alone = false;
+    return eq->eliminate(eq->context, mo->rows, mo->used, diag);
+}

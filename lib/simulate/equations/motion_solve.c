@@ -31,6 +31,11 @@ bool motion_solve_augmented(Motion *mo)
         mo->is_alone = true;
         return true;
     }
+    if (motion_is_eliminated(mo)) {
+        memcpy(mo->du, eq->eliminated->acceleration, (size_t)eq->nu * sizeof(double));
+        memcpy(mo->lambda, eq->eliminated->multiplier, (size_t)mo->used * sizeof(double));
+        return true;
+    }
     if (!motion_factor(mo))
         return false;
     pick_rows(mo, mo->eq->gamma, mo->bottom);

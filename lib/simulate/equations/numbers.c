@@ -40,15 +40,21 @@ static bool articulate(void *context, double *acceleration)
     return nb->is_articulated;
 }
 
+static bool has_pivots(const double *excess, int count)
+{
+    for (int j = 0; j < count; j++)
+        if (!(excess[j] > 0 && excess[j] < MOST_EXCESS))
+            return false;
+    return true;
+}
+
 /* what the program has eliminated itself */
 static bool tell_accelerations(void *context, double *acceleration)
 {
     const Numbers *nb = context;
-    const double *excess = nb->told_accelerations + nb->layout->nu;
 
-    for (int j = 0; j < nb->layout->nu; j++)
-        if (!(excess[j] > 0 && excess[j] < MOST_EXCESS))
-            return false;
+    if (!has_pivots(nb->told_accelerations + nb->layout->nu, nb->layout->nu))
+        return false;
     memcpy(acceleration, nb->told_accelerations, (size_t)nb->layout->nu * sizeof(double));
     return true;
 }
@@ -71,7 +77,8 @@ static bool outright(void *context, double t, const double *y, double *out)
 /* M and F are brought from a program of their own when somebody asks for them */
 static bool needs_no_mass(const Numbers *nb)
 {
-    return nb->told_by == TOLD_ALONG || nb->told_by == TOLD_PRESCRIBED;
+    return nb->told_by == TOLD_ALONG || nb->told_by == TOLD_CONSTRAINED ||
+           nb->told_by == TOLD_PRESCRIBED;
 }
 
 static bool may_be_outright(const Numbers *nb)
@@ -92,11 +99,30 @@ static void tell_prescribed(void *context, double *acceleration, double *multipl
     memcpy(multiplier, nb->told_accelerations + nb->layout->nu, size);
 }
 
+/* likewise with multipliers of rows in use */
+static bool constrained_has_pivots(void *context)
+{
+    const Numbers *nb = context;
+
+    return has_pivots(nb->eliminated.multiplier + nb->eliminated.row_count, nb->layout->nu);
+}
+
+static void constrained_step(void *context, const double *bottom, double *du)
+{
+    Numbers *nb = context;
+    double *asked = probe_inputs(nb->main) + nb->layout->multipliers;
+
+    for (int k = 0; k < nb->eliminated.row_count; k++)
+        asked[nb->eliminated.rows[k]] = bottom[k];
+    workspace_run(nb->main->workspace, STAGE_ACCELERATION, STAGE_ACCELERATION);
+    memcpy(du, nb->told_step, (size_t)nb->layout->nu * sizeof(double));
+}
+
 static void bring_mass(void *context)
 {
     Numbers *nb = context;
 
-    if (!nb->is_mass_old)
+    if (!nb->is_mass_old || nb->is_mass_kept)
         return;
     memcpy(probe_inputs(nb->massing), probe_inputs(nb->main),
            (size_t)nb->layout->count * sizeof(double));
@@ -104,6 +130,7 @@ static void bring_mass(void *context)
     if (nb->mass != NULL)
         mass_matrix_put(nb->mass, workspace_roots(nb->massing->workspace));
     nb->is_mass_old = false;
+    nb->is_mass_kept = nb->is_mass_constant;
 }
 
 static void bring_force(void *context)
@@ -239,6 +266,7 @@ static Stage network_shape(Numbers *nb)
     const Reading *r = system_run(nb->layout->system);
     Stage stage = STAGE_PARAMETER;
 
+    mem_free(nb->network_places);
     nb->network_places = NEW_ARRAY(int, 2 * r->network_entries);
     nb->eq.network_entries = r->network_entries;
     nb->eq.network_row = nb->network_places;
@@ -293,6 +321,7 @@ static int stored_block(Roots *roots, const Expr *entries, int rows, int columns
     int first = roots->count, count = 0, *place;
     int *row, *column;
 
+    pattern_free(out);
     for (int i = 0; i < rows * columns; i++)
         if (!expr_is_zero(entries[i]))
             LIST_PUSH(*roots, entries[i]);
@@ -310,20 +339,28 @@ static int stored_block(Roots *roots, const Expr *entries, int rows, int columns
     return first;
 }
 
+static bool is_constant(const Expr *entries, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (stage_of(entries[i]) > STAGE_PARAMETER)
+            return false;
+    return true;
+}
+
 /* M, or what it is made from */
 static int mass_block(Numbers *nb, Roots *roots)
 {
+    const int nu = nb->layout->nu;
     int count;
     const Expr *needs;
 
-    if (nb->mass == NULL)
-        return stored_block(roots, system_run(nb->layout->system)->mass, nb->layout->nu,
-                            nb->layout->nu, &nb->masses);
+    if (nb->mass == NULL) {
+        nb->is_mass_constant = is_constant(system_run(nb->layout->system)->mass, nu * nu);
+        return stored_block(roots, system_run(nb->layout->system)->mass, nu, nu, &nb->masses);
+    }
     needs = nb->articulated != NULL ? articulated_needs(nb->articulated, &count)
                                     : mass_matrix_needs(nb->mass, &count);
-    nb->is_mass_constant = true;
-    for (int i = 0; i < count && nb->is_mass_constant; i++)
-        nb->is_mass_constant = stage_of(needs[i]) == STAGE_PARAMETER;
+    nb->is_mass_constant = is_constant(needs, count);
     return block(roots, needs, count);
 }
 
@@ -341,6 +378,7 @@ static Status compile_mass(Numbers *nb, Parameters *parameters, Diag *diag)
     if (nb->mass != NULL) {
         needs = mass_matrix_needs(nb->mass, &count);
         (void)block(&roots, needs, count);
+        nb->is_mass_constant = is_constant(needs, count);
     } else {
         (void)mass_block(nb, &roots);
     }
@@ -350,18 +388,33 @@ static Status compile_mass(Numbers *nb, Parameters *parameters, Diag *diag)
         nb->eq.force = workspace_roots(nb->massing->workspace) + force;
         nb->eq.bring_force = bring_force;
     }
-    if (nb->mass == NULL) {
+    if (nb->mass == NULL)
         nb->eq.mass = workspace_roots(nb->massing->workspace);
-        nb->eq.masses = &nb->masses;
-    }
     nb->eq.bring_mass = bring_mass;
 done:
     LIST_FREE(roots);
     return status;
 }
 
-static Status compile_equations(Numbers *nb, Parameters *parameters, const Expr *accelerations,
-                                Diag *diag)
+/* as constrained.h has its arrays */
+static void place_eliminated(Numbers *nb)
+{
+    const int nu = nb->layout->nu, m = nb->eliminated.row_count;
+    Eliminated *own = &nb->eliminated;
+
+    own->acceleration = nb->told_accelerations;
+    own->multiplier = own->acceleration + nu;
+    own->pivot = own->multiplier + m + nu;
+    own->taken = own->pivot + m;
+    nb->told_step = own->taken + m;
+    own->has_pivots = constrained_has_pivots;
+    own->step = constrained_step;
+    nb->eq.eliminated = own;
+}
+
+/* `told` is what they tell of accelerations themselves, if they do */
+static Status compile_equations(Numbers *nb, Parameters *parameters, const Expr *told,
+                                int told_count, Diag *diag)
 {
     const Layout *l = nb->layout;
     const Reading *r = system_run(l->system);
@@ -379,7 +432,7 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, const Expr 
     int network = iterates ? 0 : network_block(l, &roots);
     int rhs = block_on(l, &roots, r->network_rhs, iterates ? 0 : l->nx + l->nz);
     int force = block_on(l, &roots, r->force, needs_no_mass(nb) ? 0 : l->nu);
-    int told = block(&roots, accelerations, nb->told_by != TOLD_NOT ? 2 * l->nu : 0);
+    int accelerations = block(&roots, told, told_count);
     int work = block_on(l, &roots, &power, 1);
     int angles = roots.count;
     int map = roots.count + 2 * l->multi_turns;
@@ -396,17 +449,25 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, const Expr 
     nb->eq.phi_u = at + phi_u;
     nb->mass_needs = mass;
     nb->eq.rows = &nb->rows;
-    nb->eq.mass = nb->mass != NULL ? mass_matrix_at(nb->mass) : at + mass;
     nb->eq.masses = nb->mass != NULL ? mass_matrix_places(nb->mass) : &nb->masses;
+    if (nb->mass != NULL)
+        nb->eq.mass = mass_matrix_at(nb->mass);
+    else if (!needs_no_mass(nb))
+        nb->eq.mass = at + mass;
     nb->eq.nu_rate = at + nu_rate;
     nb->eq.gamma = at + gamma;
     nb->eq.q_rate = at + q_rate;
-    nb->eq.network = at + network;
-    nb->eq.network_rhs = at + rhs;
-    nb->eq.force = at + force;
-    nb->told_accelerations = at + told;
+    if (!iterates) {
+        nb->eq.network = at + network;
+        nb->eq.network_rhs = at + rhs;
+    }
+    if (!needs_no_mass(nb))
+        nb->eq.force = at + force;
+    nb->told_accelerations = at + accelerations;
     if (nb->told_by == TOLD_PRESCRIBED)
         nb->eq.prescribed = tell_prescribed;
+    else if (nb->told_by == TOLD_CONSTRAINED)
+        place_eliminated(nb);
     else if (nb->told_by != TOLD_NOT)
         nb->eq.without_mass = tell_accelerations;
     else if (nb->articulated != NULL)
@@ -419,7 +480,7 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, const Expr 
     if (may_be_outright(nb))
         nb->eq.outright = outright;
     nb->eq.network_reads = stage == STAGE_ACCELERATION ? network_reads : NULL;
-    if (iterates)
+    if (iterates && nb->network == NULL)
         CHECK(compile_network(nb, parameters, diag));
 done:
     LIST_FREE(roots);
@@ -448,6 +509,46 @@ static double *units_of(const Layout *layout)
     return unit;
 }
 
+static Status compile_constrained(Numbers *nb, const Constrained *solved, const int *rows,
+                                  int row_count, Diag *diag)
+{
+    mem_free(nb->told_rows);
+    nb->told_rows = NEW_ARRAY(int, row_count);
+    memcpy(nb->told_rows, rows, (size_t)row_count * sizeof(int));
+    nb->told_by = TOLD_CONSTRAINED;
+    nb->eliminated = (Eliminated){.rows = nb->told_rows, .row_count = row_count};
+    probe_free(nb->main);
+    nb->main = NULL;
+    TRY(compile_equations(nb, nb->parameters, solved->acceleration, solved->count, diag));
+    return nb->massing == NULL ? compile_mass(nb, nb->parameters, diag) : OK;
+}
+
+static bool is_of_rows(const Eliminated *own, const int *rows, int row_count)
+{
+    return own->row_count == row_count &&
+           memcmp(own->rows, rows, (size_t)row_count * sizeof(int)) == 0;
+}
+
+static Status eliminate(void *context, const int *rows, int row_count, Diag *diag)
+{
+    Numbers *nb = context;
+    Constrained *solved;
+    bool before;
+    Status status = OK;
+
+    if (nb->eq.eliminated != NULL && is_of_rows(nb->eq.eliminated, rows, row_count))
+        return OK;
+    before = mem_scratch(true);
+    solved = elimination_of_rows(nb->layout, rows, row_count);
+    if (solved != NULL)
+        status = compile_constrained(nb, solved, rows, row_count, diag);
+    else
+        nb->eq.eliminate = NULL;
+    constrained_free(solved);
+    (void)mem_scratch(before);
+    return status;
+}
+
 Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out, Diag *diag)
 {
     Numbers *nb = NEW(Numbers);
@@ -456,6 +557,7 @@ Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out, 
     Status status = OK;
 
     nb->layout = layout;
+    nb->parameters = parameters;
     nb->eq = (Equations){.n = layout->n,
                          .nu = layout->nu,
                          .m = layout->m,
@@ -490,7 +592,10 @@ Status numbers_new(const Layout *layout, Parameters *parameters, Numbers **out, 
     CHECK(elimination_choose(layout, &nb->told_by, &accelerations, diag));
     if (layout->m == 0 && nb->mass != NULL && nb->told_by == TOLD_NOT)
         nb->articulated = articulated_new(layout->system);
-    CHECK(compile_equations(nb, parameters, accelerations, diag));
+    if (layout->m > 0 && nb->told_by == TOLD_NOT)
+        nb->eq.eliminate = eliminate;
+    CHECK(compile_equations(nb, parameters, accelerations,
+                            nb->told_by != TOLD_NOT ? 2 * layout->nu : 0, diag));
     CHECK(compile_mass(nb, parameters, diag));
     CHECK(numbers_watch(nb, parameters, diag));
     CHECK(numbers_slide(nb, parameters, diag));
@@ -519,9 +624,7 @@ void numbers_free(Numbers *nb)
     mem_free(nb->network_places);
     MEM_FREE(nb->cap, nb->unit);
     probe_free(nb->slip);
-    mem_free(nb->guards);
-    mem_free(nb->told);
-    mem_free(nb);
+    MEM_FREE(nb->guards, nb->told, nb->told_rows, nb);
 }
 
 const Program *numbers_program(const Numbers *nb, NumbersPart part)

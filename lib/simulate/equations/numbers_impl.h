@@ -13,6 +13,7 @@ typedef LIST(Expr) Roots;
 struct Numbers {
     Equations eq;
     const Layout *layout;
+    Parameters *parameters;
     Probe *main, *switching, *network;
     Pattern rows, masses; /* where entries of Phi_u and M stand */
     /* M: of the main program; or NULL. By a matrix, from what that holds from mass_needs on; where
@@ -25,9 +26,12 @@ struct Numbers {
     bool is_articulated, is_mass_old;    /* factors are there; M is of another position */
     bool is_mass_constant, is_mass_kept; /* with the parameters of now: of bodies without joints */
     const double *told_accelerations;    /* of the main program, and what tells their rounding */
-    Probe *slip;   /* of surfaces that are slid along: h', or what of it they reach, and h */
-    Guard *guards; /* of the conditions, */
-    Expr *told;    /* which are these for a user; NULL: margins */
+    Eliminated eliminated;               /* of constrained speeds, */
+    const double *told_step;
+    int *told_rows; /* for these rows */
+    Probe *slip;    /* of surfaces that are slid along: h', or what of it they reach, and h */
+    Guard *guards;  /* of the conditions, */
+    Expr *told;     /* which are these for a user; NULL: margins */
     int *quaternions, *network_places;
     LIST(int) margins;   /* whose they are, of the switches */
     bool is_network_new; /* its program has seen t, q, u, x as they are */

@@ -9,6 +9,7 @@
 #include "simulate/integrate/dop853_table.h"
 #include "simulate/integrate/ode.h"
 
+#include "base/four.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -27,10 +28,13 @@
 #define CALM_COUNT     6
 #define DIFFERENCE     1e-7 /* of y, for a derivative */
 
+enum { TOGETHER = 8 /* entries that are summed together: two Fours */ };
+
 typedef struct Dop853 {
     Stepper base;
     int n, all; /* in the error test; with quadratures */
-    double *k[STAGES];
+    int room;   /* of k and sums: all, and what fills a multiple of TOGETHER, which is 0 */
+    double *k[STAGES], *sums[3];
     double *old, *new, *stage_point, *scale;
     double *dense[7];
     bool has_dense; /* dense[] belong to the last step */
@@ -58,20 +62,32 @@ static const Terms dense_rows[4] = {
 };
 /* clang-format on */
 
-static double weighted(const Dop853 *d, const Terms *terms, int i)
+/* The weighted sums of stages, in the order of their terms whatever stands beside. */
+AS_WIDE_AS_CAN_BE static const double *weigh(const Dop853 *d, const Terms *terms, double *sums)
 {
-    double sum = 0;
+    for (int first = 0; first < d->room; first += TOGETHER) {
+        Four low = {0}, high = {0};
 
-    for (int j = 0; j < terms->count; j++)
-        sum += terms->at[j].weight * d->k[terms->at[j].stage][i];
-    return sum;
+        for (int j = 0; j < terms->count; j++) {
+            const double weight = terms->at[j].weight;
+            const Four *k = (const Four *)(d->k[terms->at[j].stage] + first);
+
+            low += weight * k[0];
+            high += weight * k[1];
+        }
+        *(Four *)(sums + first) = low;
+        *(Four *)(sums + first + 4) = high;
+    }
+    return sums;
 }
 
 /* k[stage] from the stages before it; false where f is undefined */
 static bool take_stage(Dop853 *d, int stage, double h, double *point)
 {
+    const double *sum = weigh(d, &stages[stage], d->sums[0]);
+
     for (int i = 0; i < d->all; i++)
-        point[i] = d->old[i] + h * weighted(d, &stages[stage], i);
+        point[i] = d->old[i] + h * sum[i];
     return stepper_rate(&d->base, d->base.before + nodes[stage] * h, point, d->k[stage]);
 }
 
@@ -130,12 +146,14 @@ static double first_step(Dop853 *d, double t, double span)
 static double step_error(Dop853 *d, double h)
 {
     static const Terms five = {error5, COUNT(error5)}, three = {third, COUNT(third)};
+    const double *fifth = weigh(d, &five, d->sums[0]), *eighth = weigh(d, &stages[12], d->sums[1]);
+    const double *of_third = weigh(d, &three, d->sums[2]);
     double sum5 = 0, sum3 = 0, under, third_order;
 
     choose_scale(d, d->old, d->new);
     for (int i = 0; i < d->n; i++) {
-        double e5 = weighted(d, &five, i) / d->scale[i];
-        double e3 = (weighted(d, &stages[12], i) - weighted(d, &three, i)) / d->scale[i];
+        double e5 = fifth[i] / d->scale[i];
+        double e3 = (eighth[i] - of_third[i]) / d->scale[i];
 
         sum5 += e5 * e5;
         sum3 += e3 * e3;
@@ -237,12 +255,15 @@ static void watch_stiffness(Dop853 *d, double h)
  * 11. */
 static bool try_step(Dop853 *d, double h)
 {
+    const double *sum;
+
     stepper_begin(&d->base, d->base.before, d->old, h);
     for (int stage = 1; stage < 12; stage++)
         if (!take_stage(d, stage, h, d->stage_point))
             return false;
+    sum = weigh(d, &stages[12], d->sums[0]);
     for (int i = 0; i < d->all; i++)
-        d->new[i] = d->old[i] + h *weighted(d, &stages[12], i);
+        d->new[i] = d->old[i] + h *sum[i];
     return true;
 }
 
@@ -269,8 +290,11 @@ static Stepper *create(const Ode *ode, const Control *control)
     stepper_init(&d->base, &method_dop853, ode, control);
     d->n = ode->n;
     d->all = stepper_length(&d->base);
+    d->room = (d->all + TOGETHER - 1) / TOGETHER * TOGETHER;
     for (int i = 0; i < STAGES; i++)
-        d->k[i] = stepper_numbers(&d->base, d->all);
+        d->k[i] = stepper_numbers(&d->base, d->room);
+    for (int i = 0; i < COUNT(d->sums); i++)
+        d->sums[i] = stepper_numbers(&d->base, d->room);
     for (int i = 0; i < COUNT(d->dense); i++)
         d->dense[i] = stepper_numbers(&d->base, d->all);
     d->old = stepper_numbers(&d->base, d->all);
@@ -362,8 +386,12 @@ static void make_dense(Dop853 *d)
         d->dense[0][i] = dy;
         d->dense[1][i] = h * d->k[0][i] - dy;
         d->dense[2][i] = dy - h * d->k[12][i] - d->dense[1][i];
-        for (int j = 0; j < 4; j++)
-            d->dense[3 + j][i] = h * weighted(d, &dense_rows[j], i);
+    }
+    for (int j = 0; j < 4; j++) {
+        const double *sum = weigh(d, &dense_rows[j], d->sums[0]);
+
+        for (int i = 0; i < d->all; i++)
+            d->dense[3 + j][i] = h * sum[i];
     }
     d->has_dense = true;
 }

@@ -34,6 +34,7 @@ static Status renew(Integration *m, Diag *diag)
 
     if (renewed.independent)
         remarks_add(&m->out->remarks, (Remark){.kind = REMARK_INDEPENDENT_ANEW, .t = s->t});
+    TRY(motion_hasten(m->segment.motion, diag));
     if (!renewed.rows || !s->method->solves_dae)
         return OK;
     memcpy(m->y, s->y, (size_t)m->length * sizeof(double));

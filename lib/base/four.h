@@ -1,0 +1,15 @@
+/* four.h: four numbers at a time, as wide as the processor that runs has it: numbers are the same
+ */
+#ifndef COTREE_BASE_FOUR_H
+#define COTREE_BASE_FOUR_H
+
+typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
+
+/* before a function that computes with them */
+#if defined __x86_64__ && defined __GLIBC__ && !defined __clang__
+#define AS_WIDE_AS_CAN_BE __attribute__((target_clones("avx2", "default")))
+#else
+#define AS_WIDE_AS_CAN_BE
+#endif
+
+#endif

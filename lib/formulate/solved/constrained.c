@@ -1,0 +1,297 @@
+/* constrained.c: L D L^T of [M G^T; G 0] in symbols, speeds before multipliers
+ *
+ * That order needs no exchange of rows: all pivots of M are positive, those that follow negative,
+ * as long as the rows are independent. In either class the order is one that fills in little, found
+ * from the pattern (algebra/ldl.h), and what it costs is counted before anything is written. A
+ * multiplier's pivot d is what earlier multipliers leave of p, its entry of G M^-1 G^T: d / p tells
+ * how far a singular configuration is (algebra/kkt.h). */
+#include "formulate/solved/constrained.h"
+
+#include "algebra/ldl.h"
+#include "algebra/pattern.h"
+#include "base/memory.h"
+#include "formulate/dynamics/composite_mass.h"
+#include "formulate/dynamics/cutset_equations.h"
+#include "formulate/solved/price.h"
+#include "formulate/system/system_impl.h"
+
+enum {
+    MOST_PAIRS = 20000,      /* of speeds with an entry of M */
+    MOST_PRODUCTS = 60000,   /* of elimination, */
+    MOST_OPERATIONS = 100000 /* and of all that is told: more leaves the processor's caches */
+};
+
+typedef struct Term {
+    int column;
+    Expr value; /* of the matrix, then of L^T */
+} Term;
+
+typedef struct Row { /* of an unknown, as they are eliminated */
+    LIST(Term) beyond;
+    Expr own, inverse;
+    Expr right, asked; /* right sides: F and gamma, s; then what they are solved by */
+} Row;
+
+typedef struct Elimination {
+    System *system;
+    Arena *arena;
+    int nu, m, size;
+    const int *rows; /* constraint rows in use */
+    MassEntries entries;
+    int *place_of; /* of an unknown, speeds before multipliers */
+    Row *row;      /* by place */
+} Elimination;
+
+/* --- the matrix --- */
+
+/* false: there are too many */
+static bool list_mass(Elimination *e)
+{
+    const CompositeMass *composite = system_composite_mass(e->system);
+    const Expr *mass = system_run(e->system)->mass;
+
+    if (mass == NULL) {
+        if (composite == NULL || composite_mass_pairs(composite) > MOST_PAIRS)
+            return false;
+        composite_mass_entries(e->system, &e->entries);
+        return true;
+    }
+    for (int i = 0; i < e->nu; i++)
+        for (int j = i; j < e->nu; j++)
+            if (!expr_is_zero(mass[i * e->nu + j]))
+                LIST_PUSH(e->entries, (Entry){i, j, mass[i * e->nu + j]});
+    return e->entries.count <= MOST_PAIRS;
+}
+
+static void list_constraints(Elimination *e)
+{
+    for (int k = 0; k < e->m; k++) {
+        const Expr *row = system_run(e->system)->phi_u + (ptrdiff_t)e->rows[k] * e->nu;
+
+        for (int j = 0; j < e->nu; j++)
+            if (!expr_is_zero(row[j]))
+                LIST_PUSH(e->entries, (Entry){j, e->nu + k, expr_hold(e->arena, row[j])});
+    }
+}
+
+/* its entry in the half that is kept, 0 at first */
+static Expr *entry_at(Elimination *e, int a, int b)
+{
+    Row *row = &e->row[a < b ? a : b];
+    const int column = a < b ? b : a;
+
+    if (a == b)
+        return &row->own;
+    for (int i = 0; i < row->beyond.count; i++)
+        if (row->beyond.at[i].column == column)
+            return &row->beyond.at[i].value;
+    LIST_PUSH(row->beyond, (Term){column, expr_int(e->arena, 0)});
+    return &row->beyond.at[row->beyond.count - 1].value;
+}
+
+/* The entries by place, each once, and what stands at them. */
+static void place_entries(Elimination *e)
+{
+    for (int i = 0; i < e->size; i++)
+        e->row[i].own = e->row[i].right = e->row[i].asked = expr_int(e->arena, 0);
+    for (int i = 0; i < e->entries.count; i++) {
+        const Entry *entry = &e->entries.at[i];
+        Expr *at = entry_at(e, e->place_of[entry->row], e->place_of[entry->column]);
+
+        *at = expr_add(e->arena, *at, entry->value);
+    }
+}
+
+/* products that elimination takes in the order that is found */
+static int64_t find_order(Elimination *e)
+{
+    const int count = e->entries.count;
+    int *class = NEW_ARRAY(int, e->size), *row = NEW_ARRAY(int, 3 * count);
+    int *column = row + count, *place = column + count, kept = 0;
+    Pattern once;
+    LdlOrder *order;
+    int64_t products;
+
+    for (int k = 0; k < e->m; k++)
+        class[e->nu + k] = 1;
+    for (int i = 0; i < count; i++) {
+        const Entry *entry = &e->entries.at[i];
+
+        row[i] = entry->row < entry->column ? entry->row : entry->column;
+        column[i] = entry->row < entry->column ? entry->column : entry->row;
+    }
+    once = pattern_of(e->size, e->size, count, row, column, place);
+    kept = once.count;
+    order = ldl_order_new(e->size, class, kept, once.row, once.column, place, e->place_of);
+    products = ldl_order_products(order);
+    ldl_order_free(order);
+    pattern_free(&once);
+    MEM_FREE(class, row);
+    return products;
+}
+
+/* --- elimination --- */
+
+static void take_off(Arena *arena, Expr *from, Expr factor, Expr value)
+{
+    if (!expr_is_zero(value))
+        *from = expr_sub(arena, *from, expr_mul(arena, factor, value));
+}
+
+/* false: there is no pivot */
+static bool eliminate_row(Elimination *e, int k)
+{
+    Row *row = &e->row[k];
+    const int count = row->beyond.count;
+
+    row->own = expr_hold(e->arena, row->own);
+    row->right = expr_hold(e->arena, row->right);
+    row->asked = expr_hold(e->arena, row->asked);
+    if (expr_is_zero(row->own))
+        return false;
+    row->inverse = expr_hold(e->arena, expr_div(e->arena, expr_int(e->arena, 1), row->own));
+    for (int i = 0; i < count; i++)
+        row->beyond.at[i].value = expr_hold(e->arena, row->beyond.at[i].value);
+    for (int i = 0; i < count; i++) {
+        const int column = row->beyond.at[i].column;
+        const Expr value = row->beyond.at[i].value;
+        const Expr part = expr_hold(e->arena, expr_mul(e->arena, value, row->inverse));
+
+        for (int j = i; j < count; j++)
+            take_off(e->arena, entry_at(e, column, row->beyond.at[j].column), part,
+                     row->beyond.at[j].value);
+        take_off(e->arena, &e->row[column].right, part, row->right);
+        take_off(e->arena, &e->row[column].asked, part, row->asked);
+        row->beyond.at[i].value = part;
+    }
+    return true;
+}
+
+static bool eliminate(Elimination *e, const Constrained *out)
+{
+    for (int i = 0; i < e->size; i++) {
+        for (int k = 0; i == e->nu && k < e->m; k++) {
+            const Row *row = &e->row[e->place_of[e->nu + k]];
+
+            out->taken[k] = expr_hold(e->arena, expr_neg(e->arena, row->own));
+        }
+        if (!eliminate_row(e, i) || arena_status(e->arena) != OK)
+            return false;
+    }
+    return true;
+}
+
+static void substitute_back(Elimination *e)
+{
+    for (int i = e->size - 1; i >= 0; i--) {
+        Row *row = &e->row[i];
+
+        row->right = expr_mul(e->arena, row->right, row->inverse);
+        row->asked = expr_mul(e->arena, row->asked, row->inverse);
+        for (int k = 0; k < row->beyond.count; k++) {
+            const Term *term = &row->beyond.at[k];
+
+            take_off(e->arena, &row->right, term->value, e->row[term->column].right);
+            take_off(e->arena, &row->asked, term->value, e->row[term->column].asked);
+        }
+        row->right = expr_hold(e->arena, row->right);
+        row->asked = expr_hold(e->arena, row->asked);
+    }
+}
+
+static void tell(const Elimination *e, const MassEntries *entries, const Constrained *out)
+{
+    for (int j = 0; j < e->nu; j++) {
+        const Row *row = &e->row[e->place_of[j]];
+
+        out->acceleration[j] = row->right;
+        out->step[j] = row->asked;
+        out->excess[j] = expr_int(e->arena, 0);
+    }
+    for (int i = 0; i < entries->count; i++) {
+        const Entry *entry = &entries->at[i];
+
+        if (entry->row == entry->column)
+            out->excess[entry->row] = expr_add(e->arena, out->excess[entry->row], entry->value);
+    }
+    for (int j = 0; j < e->nu; j++)
+        out->excess[j] = expr_mul(e->arena, out->excess[j], e->row[e->place_of[j]].inverse);
+    for (int k = 0; k < e->m; k++) {
+        const Row *row = &e->row[e->place_of[e->nu + k]];
+
+        out->multiplier[k] = row->right;
+        out->pivot[k] = expr_hold(e->arena, expr_neg(e->arena, row->own));
+    }
+}
+
+static Constrained *arrays_new(int nu, int m)
+{
+    Constrained *out = NEW(Constrained);
+
+    out->count = 3 * (nu + m);
+    out->acceleration = NEW_ARRAY(Expr, out->count);
+    out->multiplier = out->acceleration + nu;
+    out->excess = out->multiplier + m;
+    out->pivot = out->excess + nu;
+    out->taken = out->pivot + m;
+    out->step = out->taken + m;
+    return out;
+}
+
+/* NULL: it can't be, or isn't worth it */
+static Constrained *solve(Elimination *e, const Expr *force, const Expr *gamma)
+{
+    Constrained *out = arrays_new(e->nu, e->m);
+
+    place_entries(e);
+    for (int j = 0; j < e->nu; j++)
+        e->row[e->place_of[j]].right = force[j];
+    for (int k = 0; k < e->m; k++) {
+        Row *row = &e->row[e->place_of[e->nu + k]];
+
+        row->right = gamma[e->rows[k]];
+        row->asked = system_multiplier(e->system, e->rows[k]);
+    }
+    if (eliminate(e, out)) {
+        substitute_back(e);
+        tell(e, &e->entries, out);
+        if (price_of(out->acceleration, out->count) <= MOST_OPERATIONS)
+            return out;
+    }
+    constrained_free(out);
+    return NULL;
+}
+
+Constrained *constrained_new(System *system, const int *rows, int row_count, const Expr *force,
+                             const Expr *gamma)
+{
+    const int nu = system_nu(system);
+    Elimination e = {.system = system,
+                     .arena = system->arena,
+                     .nu = nu,
+                     .m = row_count,
+                     .size = nu + row_count,
+                     .rows = rows};
+    Constrained *out = NULL;
+
+    system_touch(system);
+    e.place_of = NEW_ARRAY(int, e.size);
+    e.row = NEW_ARRAY(Row, e.size);
+    if (list_mass(&e)) {
+        list_constraints(&e);
+        if (find_order(&e) <= MOST_PRODUCTS)
+            out = solve(&e, force, gamma);
+    }
+    for (int i = 0; i < e.size; i++)
+        LIST_FREE(e.row[i].beyond);
+    LIST_FREE(e.entries);
+    MEM_FREE(e.place_of, e.row);
+    return out;
+}
+
+void constrained_free(Constrained *constrained)
+{
+    if (constrained == NULL)
+        return;
+    MEM_FREE(constrained->acceleration, constrained);
+}

@@ -1,0 +1,25 @@
+/* constrained.h: M u' + G^T lambda = F, G u' = gamma solved in symbols, where a run's program does
+ * that: G are the constraint rows in use */
+#ifndef COTREE_FORMULATE_SOLVED_CONSTRAINED_H
+#define COTREE_FORMULATE_SOLVED_CONSTRAINED_H
+
+#include "formulate/system/system.h"
+
+/* Arrays in one, which the first begins. */
+typedef struct Constrained {
+    Expr *acceleration; /* nu: u' */
+    Expr *multiplier;   /* rows: lambda */
+    Expr *excess;       /* nu: of pivots of M (accelerations.h) */
+    /* rows: pivot d of a multiplier, its sign reversed, and p, of which that is the rest */
+    Expr *pivot, *taken;
+    Expr *step; /* nu: du of M du + G^T mu = 0, G du = s, where s_k is the multiplier's symbol */
+    int count;  /* all of them */
+} Constrained;
+
+/* With these F, and gamma of all m rows. New; constrained_free(). NULL: some M has no pivot, rows
+ * are dependent whatever the numbers, or it is more than a straight line is worth. */
+Constrained *constrained_new(System *view, const int *rows, int row_count, const Expr *force,
+                             const Expr *gamma);
+void constrained_free(Constrained *constrained); /* NULL is fine */
+
+#endif

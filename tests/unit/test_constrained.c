@@ -1,0 +1,354 @@
+/* test_constrained.c: accelerations and multipliers eliminated in symbols are those of the
+ * equations by dense factors, and of four-bars by hand */
+#include "scene.h"
+
+#include "base/text.h"
+#include "formulate/dynamics/composite_mass.h"
+#include "formulate/solved/constrained.h"
+#include "simulate/equations/motion.h"
+#include "simulate/equations/numbers.h"
+
+#include <gsl/gsl_linalg.h>
+#include <math.h>
+#include <string.h>
+
+#define GRAVITY 9.81
+
+/* --- against dense factors --- */
+
+/* a tree of bodies, and joints that close loops in it */
+static char *looped(uint64_t *random, bool planar, int bodies, int loops)
+{
+    Text text = {0};
+
+    text_add(&text, planar ? "scene planar\n" : "gravity [0, 0, -9.81]\n");
+    for (int i = 0; i < bodies; i++) {
+        const int before = i < 2 ? i - 1 : (int)test_uniform(random, i - 2, i);
+        const char *z = planar ? "]" : ", 0.3]";
+
+        text_addf(&text, "body b%d mass=%g inertia=", i, test_uniform(random, 0.5, 2));
+        text_addf(&text, planar ? "%g\n" : "[%g, 1, 2, 0.1, 0.2, 0.3]\n",
+                  test_uniform(random, 1, 2));
+        text_addf(&text, "arm h%d b%d [%g, 0.1%s\n", i, i, test_uniform(random, -1, 1), z);
+        text_addf(&text, "arm e%d b%d [%g, 0.7%s\n", i, i, test_uniform(random, -1, 1), z);
+        if (before < 0)
+            text_addf(&text, "revolute j%d ground h%d%s\n", i, i, planar ? "" : " axis=[1, 2, 2]");
+        else if (planar || i % 3 == 0)
+            text_addf(&text, "revolute j%d b%d h%d\n", i, before, i);
+        else
+            text_addf(&text, "spherical j%d b%d h%d\n", i, before, i);
+    }
+    for (int i = 0; i < loops; i++)
+        text_addf(&text, "%s c%d e%d e%d\n", planar ? "revolute" : "spherical", i,
+                  bodies - 1 - 3 * i, bodies - 3 - 3 * i);
+    return text_done(&text);
+}
+
+typedef struct Dense {
+    int nu, m;
+    double *mass, *rows, *force, *gamma, *asked;
+} Dense;
+
+static double value(Expr e, SceneState *state)
+{
+    return expr_evaluate(e, scene_value, state);
+}
+
+static Dense dense_new(System *system, SceneState *state)
+{
+    const Reading *r = system_run(system);
+    const int nu = system_nu(system), m = system_m(system);
+    Dense d = {.nu = nu, .m = m};
+
+    d.mass = NEW_ARRAY(double, nu *nu);
+    d.rows = NEW_ARRAY(double, m *nu);
+    d.force = NEW_ARRAY(double, nu);
+    d.gamma = NEW_ARRAY(double, m);
+    d.asked = NEW_ARRAY(double, m);
+    for (int i = 0; i < nu * nu; i++)
+        d.mass[i] = value(r->mass[i], state);
+    for (int i = 0; i < m * nu; i++)
+        d.rows[i] = value(r->phi_u[i], state);
+    for (int j = 0; j < nu; j++)
+        d.force[j] = value(r->force[j], state);
+    for (int k = 0; k < m; k++) {
+        d.gamma[k] = value(r->gamma[k], state);
+        d.asked[k] = value(system_multiplier(system, k), state);
+    }
+    return d;
+}
+
+static void dense_free(Dense *d)
+{
+    MEM_FREE(d->mass, d->rows, d->force, d->gamma, d->asked);
+}
+
+/* [M G^T; G 0] x = [top; bottom]; top may be NULL for 0 */
+static void dense_solve(const Dense *d, const double *top, const double *bottom, double *x)
+{
+    const int n = d->nu + d->m;
+    gsl_matrix *a = gsl_matrix_calloc((size_t)n, (size_t)n);
+    gsl_vector *b = gsl_vector_calloc((size_t)n);
+    gsl_vector_view out = gsl_vector_view_array(x, (size_t)n);
+    gsl_permutation *p = gsl_permutation_alloc((size_t)n);
+    int sign;
+
+    for (int i = 0; i < d->nu; i++)
+        for (int j = 0; j < d->nu; j++)
+            gsl_matrix_set(a, (size_t)i, (size_t)j, d->mass[i * d->nu + j]);
+    for (int k = 0; k < d->m; k++)
+        for (int j = 0; j < d->nu; j++) {
+            gsl_matrix_set(a, (size_t)(d->nu + k), (size_t)j, d->rows[k * d->nu + j]);
+            gsl_matrix_set(a, (size_t)j, (size_t)(d->nu + k), d->rows[k * d->nu + j]);
+        }
+    for (int i = 0; i < n; i++)
+        gsl_vector_set(b, (size_t)i, i >= d->nu ? bottom[i - d->nu] : top != NULL ? top[i] : 0);
+    (void)gsl_linalg_LU_decomp(a, p, &sign);
+    (void)gsl_linalg_LU_solve(a, p, b, &out.vector);
+    gsl_permutation_free(p);
+    gsl_vector_free(b);
+    gsl_matrix_free(a);
+}
+
+static double largest(const double *x, int count)
+{
+    double most = 0;
+
+    for (int i = 0; i < count; i++)
+        most = fmax(most, fabs(x[i]));
+    return most;
+}
+
+/* p_k is the k-th diagonal entry of G M^-1 G^T, whatever the order */
+static void expect_taken(const Dense *d, const Constrained *solved, SceneState *state)
+{
+    const Dense free = {.nu = d->nu, .mass = d->mass};
+    double *x = NEW_ARRAY(double, d->nu);
+
+    for (int k = 0; k < d->m; k++) {
+        double sum = 0;
+
+        dense_solve(&free, d->rows + (ptrdiff_t)k * d->nu, NULL, x);
+        for (int j = 0; j < d->nu; j++)
+            sum += d->rows[k * d->nu + j] * x[j];
+        EXPECT_NEAR(value(solved->taken[k], state), sum, 1e-9 * (1 + sum));
+        EXPECT(value(solved->pivot[k], state) > 0);
+        EXPECT(value(solved->pivot[k], state) < (1 + 1e-9) * sum);
+    }
+    mem_free(x);
+}
+
+static void compare(System *system, SceneState *state)
+{
+    const int nu = system_nu(system), m = system_m(system);
+    double *x = NEW_ARRAY(double, nu + m), *s = NEW_ARRAY(double, nu + m), size, step;
+    int *rows = NEW_ARRAY(int, m);
+    Constrained *solved;
+    Diag diag = {0};
+    Dense d;
+
+    for (int k = 0; k < m; k++)
+        rows[k] = k;
+    /* before M is written out: long mechanisms do without */
+    solved = constrained_new(system, rows, m, system_run(system)->force, system_run(system)->gamma);
+    EXPECT(solved != NULL && m > 0 && system_form_mass(system, &diag) == OK);
+    if (solved == NULL)
+        return;
+    d = dense_new(system, state);
+    dense_solve(&d, d.force, d.gamma, x);
+    dense_solve(&d, NULL, d.asked, s);
+    size = largest(x, nu + m);
+    step = largest(s, nu);
+    for (int j = 0; j < nu; j++) {
+        EXPECT_NEAR(value(solved->acceleration[j], state), x[j], 1e-8 * size);
+        EXPECT_NEAR(value(solved->step[j], state), s[j], 1e-8 * step);
+        EXPECT(value(solved->excess[j], state) > 1 - 1e-12);
+    }
+    for (int k = 0; k < m; k++)
+        EXPECT_NEAR(value(solved->multiplier[k], state), x[nu + k], 1e-8 * size);
+    expect_taken(&d, solved, state);
+    dense_free(&d);
+    constrained_free(solved);
+    MEM_FREE(x, s, rows);
+}
+
+static void symbols_solve_what_dense_factors_solve(void)
+{
+    uint64_t random = 1904;
+
+    for (int i = 0; i < 16 && test_faults == 0; i++) {
+        char *text = looped(&random, i % 2 == 0, 6 + i / 2 + (i > 11 ? 8 : 0), i % 4 < 2 ? 1 : 2);
+        Model *model = scene_new(text);
+        System *system;
+
+        scene_add(model, i % 4 < 2 ? "tree joint" : "tree absolute");
+        system = scene_system(model);
+        if (system != NULL)
+            compare(system, &(SceneState){model, 5U + (unsigned)i});
+        if (test_faults > 0)
+            printf("    in\n%s", text);
+        system_free(system);
+        model_free(model);
+        mem_free(text);
+    }
+}
+
+/* --- against four-bars by hand --- */
+
+/* cranks of 1 m that stand on the ground 1 m apart, side by side, and couplers between their tops
+ */
+static char *parallelograms(int n)
+{
+    Text text = {0};
+
+    text_addf(&text, "scene planar\ngravity [0, -%g]\n", GRAVITY);
+    for (int i = 0; i <= n; i++)
+        text_addf(&text,
+                  "body c%d mass=1 inertia=1/12\narm g%d ground [%d, 0]\narm cl%d c%d [0, -1/2]\n"
+                  "arm ch%d c%d [0, 1/2]\nrevolute a%d g%d cl%d\n",
+                  i, i, i, i, i, i, i, i, i, i);
+    for (int i = 0; i < n; i++)
+        text_addf(&text,
+                  "body k%d mass=1 inertia=1/12\narm kl%d k%d [-1/2, 0]\narm kr%d k%d [1/2, 0]\n"
+                  "revolute l%d ch%d kl%d\nrevolute r%d kr%d ch%d\n",
+                  i, i, i, i, i, i, i, i, i, i, i + 1);
+    return text_done(&text);
+}
+
+/* its coordinate and rate where all cranks lean by `angle` and turn with `speed` */
+static void place_one(const char *name, double angle, double speed, double *q, double *u)
+{
+    const char kind = name[0];
+    const char *component = strchr(name, '.');
+    const int i = (int)strtol(name + 1, NULL, 10);
+    const double reach = kind == 'c' ? 0.5 : 1;
+
+    if (component == NULL) { /* of joints: couplers stay level */
+        *q = kind == 'l' ? -angle : angle;
+        *u = kind == 'l' ? -speed : speed;
+    } else if (component[1] == 'x') {
+        *q = i + (kind == 'k' ? 0.5 : 0) - reach * sin(angle);
+        *u = -reach * speed * cos(angle);
+    } else if (component[1] == 'y') {
+        *q = reach * cos(angle);
+        *u = -reach * speed * sin(angle);
+    } else {
+        *q = kind == 'c' ? angle : 0;
+        *u = kind == 'c' ? speed : 0;
+    }
+}
+
+static void place(const System *system, double angle, double speed, double *y)
+{
+    const int n = system_n(system);
+
+    for (int i = 0; i < n; i++)
+        place_one(system_q(system, i)->name, angle, speed, &y[i], &y[n + i]);
+}
+
+/* whether crank 0 has the acceleration that it has by hand */
+static void expect_motion(Motion *motion, const System *system, int n, double angle, double speed)
+{
+    const int length = motion_length(motion);
+    const double by_hand = GRAVITY * sin(angle) * ((n + 1) / 2.0 + n) / ((n + 1) / 3.0 + n);
+    double *y = NEW_ARRAY(double, length);
+    Solved solved;
+
+    place(system, angle, speed, y);
+    EXPECT(motion_solve(motion, 0, y, &solved));
+    for (int i = 0; i < system_n(system); i++) {
+        const char *name = system_q(system, i)->name;
+
+        if (strcmp(name, "a0") == 0 || strcmp(name, "c0.theta") == 0)
+            EXPECT_NEAR(solved.acceleration[i], by_hand, 1e-11 * n * n * GRAVITY);
+    }
+    mem_free(y);
+}
+
+/* a state off by a little is brought back alike by factors and by what is eliminated */
+static void projected(Motion *motion, const System *system, double *y)
+{
+    place(system, 0.7, 1.2, y);
+    for (int i = 0; i < 2 * system_n(system); i++)
+        y[i] += 1e-4 * sin(1 + i);
+    EXPECT(motion_project(motion, 0, y));
+}
+
+static void expect_alike(const Equations *eq, Motion *motion, const System *system, int n)
+{
+    const int length = motion_length(motion), all = 2 * system_n(system);
+    double *before = NEW_ARRAY(double, length), *after = NEW_ARRAY(double, length);
+    int64_t factored;
+    Diag diag = {0};
+
+    EXPECT(motion_hasten(motion, &diag) == OK && eq->eliminated == NULL); /* it hasn't paid yet */
+    for (int i = 0; i < MOTION_HASTENS; i++)
+        expect_motion(motion, system, n, 0.4 + 1e-4 * i, -1.5);
+    projected(motion, system, before);
+    EXPECT(motion_hasten(motion, &diag) == OK && eq->eliminated != NULL);
+    factored = motion_counts(motion).factorisations;
+    for (int i = 0; i < 6; i++) /* near the flat position, where factors are due again, too */
+        expect_motion(motion, system, n, 0.3 + 0.25 * i, 2 - 0.7 * i);
+    EXPECT(motion_counts(motion).factorisations >= factored + 6);
+    projected(motion, system, after);
+    for (int i = 0; i < all; i++)
+        EXPECT_NEAR(after[i], before[i], 1e-12);
+    MEM_FREE(before, after);
+}
+
+static double parameter(void *model, Expr symbol)
+{
+    return model_parameter_value(model, symbol);
+}
+
+static void measure(int n, const char *coordinates)
+{
+    char *text = parallelograms(n);
+    Model *model = scene_new(text);
+    Parameters parameters = {.value = parameter, .context = model};
+    Numbers *numbers = NULL;
+    Layout *layout;
+    System *system;
+    Diag diag = {0};
+
+    scene_add(model, coordinates);
+    system = scene_system(model);
+    layout = layout_new(system);
+    EXPECT(numbers_new(layout, &parameters, &numbers, &diag) == OK);
+    if (numbers != NULL) {
+        int *rows = NEW_ARRAY(int, layout->m);
+        Motion *motion;
+
+        for (int k = 0; k < layout->m; k++)
+            rows[k] = k;
+        motion =
+            motion_new(numbers_equations(numbers),
+                       &(MotionOptions){.rows = rows, .row_count = layout->m, .tolerance = 1e-9});
+        expect_alike(numbers_equations(numbers), motion, system, n);
+        motion_free(motion);
+        mem_free(rows);
+    }
+    numbers_free(numbers);
+    parameters_free(&parameters);
+    layout_free(layout);
+    system_free(system);
+    model_free(model);
+    mem_free(text);
+}
+
+static void four_bars_move_as_by_hand(void)
+{
+    static const int cells[] = {1, 3, 8};
+
+    for (int i = 0; i < COUNT(cells) && test_faults == 0; i++) {
+        measure(cells[i], "tree joint");
+        measure(cells[i], "tree absolute");
+    }
+}
+
+int main(void)
+{
+    RUN(symbols_solve_what_dense_factors_solve);
+    RUN(four_bars_move_as_by_hand);
+    return test_end();
+}
