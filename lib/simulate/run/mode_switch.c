@@ -653,11 +653,13 @@ static bool holds_at_once(const ModeSwitching *c, const Looking *look, bool chan
 
 /* Diodes that are seen to go over a step ahead may still be on their sides at the instant itself:
  * from nearer to it they are. What is meant is a step that vanishes, but that tells no side from
- * the other where one begins at 0. Where no step shows what holds, the first one is believed. */
+ * the other where one begins at 0, least where it was seen before that margins end although none
+ * goes over. Where no step shows what holds, the first one is believed. */
 static Status look_nearer(const ModeSwitching *c, Looking *look, double nearest, bool *changed,
                           Diag *diag)
 {
     const double first = look->at.step;
+    const bool is_stuck = fmax(c->again, c->told) > 1;
 
     if (first <= nearest)
         return OK;
@@ -665,7 +667,7 @@ static Status look_nearer(const ModeSwitching *c, Looking *look, double nearest,
         if (holds_at_once(c, look, *changed))
             return OK;
         look->at.step /= FURTHER;
-        if (look_ahead(c, look, changed, NULL) != OK)
+        if (look_ahead(c, look, changed, NULL) != OK || (is_stuck && !*changed))
             break;
     }
     look->at.step = first;
