@@ -47,11 +47,15 @@ double mode_margins_off(Phase *phase, double t, double behind, double step, cons
     const Ode *ode = motion_ode(phase->motion);
     const int count = eq->margin_count, first = eq->switch_count - count;
     const double way = SHORT * step;
-    double *room = NEW_ARRAY(double, 2 * eq->switch_count + 2 * phase->length);
-    double *here = room, *ahead = here + eq->switch_count;
-    double *rate = ahead + eq->switch_count, *moved = rate + phase->length;
-    double noise, off = 0;
+    double *room, *here, *ahead, *rate, *moved, noise, off = 0;
 
+    if (count == 0)
+        return 0;
+    room = NEW_ARRAY(double, 2 * eq->switch_count + 2 * phase->length);
+    here = room;
+    ahead = here + eq->switch_count;
+    rate = ahead + eq->switch_count;
+    moved = rate + phase->length;
     phase_enter(phase);
     motion_window(phase->motion, behind, INFINITY);
     motion_switches(phase->motion, behind, y, here);

@@ -645,8 +645,8 @@ static bool holds_at_once(const ModeSwitching *c, const Looking *look, bool chan
     entered = NEW_ARRAY(double, next->length);
     enter(next, look->y, look->x, look->y + layout_references(look->now->layout),
           look->y[look->now->length - 1], entered);
-    holds = would_jump(r, next, look->t, entered, look->x) ||
-            mode_margins_off(next, look->t, look->at.t, look->at.step, entered, &c->control) <= 1;
+    holds = mode_margins_off(next, look->t, look->at.t, look->at.step, entered, &c->control) <= 1 ||
+            would_jump(r, next, look->t, entered, look->x);
     mem_free(entered);
     return holds;
 }
