@@ -421,6 +421,20 @@ static Verdict coils_behind_diodes(Member *m)
     return run_network(m, &net);
 }
 
+/* As part of a run of many thousand periods, with few rows: no step is cut by them, and steps that
+ * are short against the run get far enough all the same. */
+static Verdict coils_in_long_runs(Member *m)
+{
+    Network net;
+
+    make_coil(&net, &m->random);
+    net.method = "auto";
+    net.tolerance = test_decades(&m->random, 1e-8, 1e-5);
+    net.end *= 10;
+    net.longer = 1000;
+    return run_network(m, &net);
+}
+
 /* --- those that failed --- */
 
 static void make_ideal(Network *net, uint64_t *random)
@@ -599,6 +613,7 @@ int main(int argc, char **argv)
         {"networks of ideal parts follow fine steps", 15, 0, 0, networks_of_ideal_parts},
         {"networks of exponential diodes follow them", 4, 0, 0, networks_of_exponential_diodes},
         {"coils behind exponential diodes follow them", 30, 0.5, 0, coils_behind_diodes},
+        {"coils in long runs follow them", 6, 0.1, 0, coils_in_long_runs},
         {"networks that failed once follow them", 6, 0, 0, networks_that_failed},
         {"rectifiers follow their closed form", 40, 0, 0, rectifiers},
         {"multipliers end where no diode conducts", 3, 0, 0, multipliers},

@@ -286,6 +286,22 @@ static void a_switch_in_the_state_is_located(void)
     grid_free(&grid);
 }
 
+static void messages_speak_of_a_network_where_nothing_moves(void)
+{
+    const MotionOptions options = {.tolerance = 1e-8};
+    Problem p;
+    Motion *motion;
+    Diag diag = {0};
+
+    EXPECT(ode_undefined(&(Ode){.is_network = true}, 0.5, &diag) == E_SOLVER);
+    EXPECT_TEXT(diag.message, "at t = 0.5 s: the network's rates are undefined");
+    problem_spring(&p);
+    motion = motion_new(&p.eq, &options);
+    EXPECT(ode_undefined(motion_ode(motion), 0.5, &diag) == E_SOLVER);
+    EXPECT_TEXT(diag.message, "at t = 0.5 s: the accelerations are undefined");
+    motion_free(motion);
+}
+
 /* --- a margin that is negative where the run begins --- */
 
 /* y = sin t, and two margins: one far above 0, and size (sin t - 3/2), which rises and stays
@@ -534,6 +550,7 @@ int main(void)
     RUN(four_bar_passes_its_singular_positions);
     RUN(a_switch_in_time_is_met_exactly);
     RUN(a_switch_in_the_state_is_located);
+    RUN(messages_speak_of_a_network_where_nothing_moves);
     RUN(a_margin_that_stays_negative_is_not_integrated_through);
     RUN(stiffness_is_noticed_and_handed_over);
     RUN(output_times_are_multiples_of_the_step);

@@ -229,7 +229,7 @@ static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
     sundials_place(&d->s, t, y);
     if (!dae->start(dae->context, t, stepper->y, N_VGetArrayPointer(d->s.w),
                     N_VGetArrayPointer(d->s.rate)))
-        return solver_failure(diag, t, "the accelerations are undefined");
+        return ode_undefined(stepper->ode, t, diag);
     code = d->s.linear == NULL ? first_start(d, t) : IDAReInit(d->s.memory, t, d->s.w, d->s.rate);
     if (code == IDA_MEM_FAIL)
         transaction_fail();
