@@ -32,6 +32,7 @@ typedef struct Network {
     bool exponential;
     double omega, end;  /* rad/s, s */
     double tolerance;   /* of the run, relative and absolute; 0: next to none */
+    double longer;      /* times `end` that the run is asked to go, though it is stopped; 0: none */
     const char *method; /* NULL: by itself */
     Part part[PARTS];
 } Network;

@@ -73,8 +73,12 @@ static void write_script(Script *script, const Network *net)
             put(script, "%s C%d.v = %.17g", any ? "," : "init", i, net->part[i].start);
             any = true;
         }
+    if (net->longer > 0)
+        put(script, "%sevent over when=t > %.17g do=stop", any ? "\n" : "", 1.001 * net->end);
+    any = any || net->longer > 0;
     put(script, "%ssimulate %.17g every=%.17g rtol=%.3g atol=%.3g method=%s\n", any ? "\n" : "",
-        net->end, net->end / POINTS, /* rows at the points: between them a transient may lie */
+        net->longer > 0 ? net->longer * net->end : net->end,
+        net->end / POINTS, /* rows at the points: between them a transient may lie */
         net->tolerance > 0 ? net->tolerance : 1e-9, net->tolerance > 0 ? net->tolerance : 1e-10,
         net->method != NULL ? net->method : "auto");
 }

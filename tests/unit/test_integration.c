@@ -287,6 +287,96 @@ static void a_switch_in_the_state_is_located(void)
     grid_free(&grid);
 }
 
+static void messages_speak_of_a_network_where_nothing_moves(void)
+{
+    const MotionOptions options = {.tolerance = 1e-8};
+    Problem p;
+    Motion *motion;
+    Diag diag = {0};
+
+    EXPECT(ode_undefined(&(Ode){.is_network = true}, 0.5, &diag) == E_SOLVER);
+    EXPECT_TEXT(diag.message, "at t = 0.5 s: the network's rates are undefined");
+    problem_spring(&p);
+    motion = motion_new(&p.eq, &options);
+    EXPECT(ode_undefined(motion_ode(motion), 0.5, &diag) == E_SOLVER);
+    EXPECT_TEXT(diag.message, "at t = 0.5 s: the accelerations are undefined");
+    motion_free(motion);
+}
+
+/* --- a margin that is negative where the run begins --- */
+
+/* y = sin t, and two margins: one far above 0, and size (sin t - 3/2), which rises and stays
+ * negative */
+static double margin_size;
+
+static void hopeless_margin(void *context, double t, const double *q, const double *u,
+                            const double *x, double *out)
+{
+    (void)context, (void)t, (void)u, (void)x;
+    out[0] = 1;
+    out[1] = margin_size * (q[0] - 1.5);
+}
+
+/* the segment is always the right one; when it was asked for is noted */
+typedef struct Asked {
+    int times;
+    double last; /* s */
+} Asked;
+
+static Status no_other(void *context, double t, double behind, Nearness near, const double *y,
+                       Segment *segment, const double **out, Diag *diag)
+{
+    Asked *asked = context;
+
+    (void)behind, (void)near, (void)y, (void)segment, (void)out, (void)diag;
+    asked->times++;
+    asked->last = t;
+    return OK;
+}
+
+static Status run_beside_margin(double size, Asked *asked, Diag *diag)
+{
+    static const double start[3] = {0, 1, 0};
+    const MotionOptions options = {.tolerance = 1e-8};
+    Problem p;
+    IntegrationPlan plan = {.control = {.rtol = 1e-8, .atol = 1e-8},
+                            .mode_switch = no_other,
+                            .context = asked,
+                            .to = 100,
+                            .every = 1};
+    Grid grid = {0};
+    IntegrationReport out;
+    Status status;
+
+    problem_spring(&p);
+    margin_size = size;
+    p.eq.switches = hopeless_margin;
+    p.eq.switch_count = p.eq.margin_count = 2;
+    plan.segment = (Segment){.equations = &p.eq, .motion = motion_new(&p.eq, &options)};
+    *asked = (Asked){0};
+    status = integrate(&plan, start, &grid, &out, diag);
+    motion_free(plan.segment.motion);
+    remarks_free(&out.remarks);
+    LIST_FREE(out.jumps);
+    grid_free(&grid);
+    return status;
+}
+
+/* On its way up at first, a margin of 1e-7 of the largest may be what an instant that is located
+ * badly leaves, but not ten times longer than it should take to rise: 3/2 s. A margin that is large
+ * is none of that. */
+static void a_margin_that_stays_negative_is_not_integrated_through(void)
+{
+    Diag diag = {0};
+    Asked asked;
+
+    EXPECT(run_beside_margin(1e-7, &asked, &diag) == OK);
+    EXPECT(asked.times == 2);
+    EXPECT_NEAR(asked.last, 15, 1e-3); /* slopes are told by differences */
+    EXPECT(run_beside_margin(1, &asked, &diag) == E_SOLVER);
+    EXPECT(strstr(diag.message, "switches to and fro without end") != NULL);
+}
+
 static void stiffness_is_noticed_and_handed_over(void)
 {
     static const double start[4] = {0, 0, 0, 0};
@@ -509,6 +599,8 @@ int main(void)
     RUN(four_bar_passes_its_singular_positions);
     RUN(a_switch_in_time_is_met_exactly);
     RUN(a_switch_in_the_state_is_located);
+    RUN(messages_speak_of_a_network_where_nothing_moves);
+    RUN(a_margin_that_stays_negative_is_not_integrated_through);
     RUN(stiffness_is_noticed_and_handed_over);
     RUN(output_times_are_multiples_of_the_step);
     RUN(a_stopped_run_keeps_its_rows);

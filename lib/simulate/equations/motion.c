@@ -44,6 +44,7 @@ static void describe_ode(Motion *mo)
     int y = motion_length(mo);
 
     mo->ode = (Ode){.n = multi_turn_place(eq) + eq->multi_turn_count,
+                    .is_network = eq->n == 0 && eq->nu == 0,
                     .quadratures = 1,
                     .context = mo,
                     .rate = rate,

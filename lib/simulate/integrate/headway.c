@@ -23,6 +23,14 @@
 #define WANING 3    /* times on end that it has become less; a transient's steps grow */
 #define SHORT  1e-6 /* of the run, each time */
 
+/* Whether the method takes its steps by rates as a function of y alone. One that solves for a
+ * network's unknowns together with its states doesn't read what rounding of a coil's current leaves
+ * of a diode's voltage. */
+static bool goes_by_rates(const Stepper *s)
+{
+    return !s->method->solves_dae || s->ode->dae.has_rate == NULL;
+}
+
 /* Largest part of its tolerance that rounding leaves of an entry's rate, times h: what is rough of
  * rates on the way ahead, by their fourth differences. (Last bits of y may leave them as they are
  * where a sum that loses most of its terms, as of masses decades apart, goes in steps.) */
@@ -30,7 +38,7 @@ static double rounding(Stepper *s, double h)
 {
     const int all = stepper_length(s), length = POINTS * all;
     double *rates = NEW_ARRAY(double, length), *ahead = NEW_ARRAY(double, all), largest = 0;
-    bool sound = true;
+    bool sound = goes_by_rates(s);
 
     for (int k = 0; sound && k < POINTS; k++) {
         const double part = h * AHEAD * k / POINTS;
@@ -65,18 +73,22 @@ static Status give_up(const Stepper *s, double h, Diag *diag)
     const double rtol = s->control.rtol;
     const double coarser = pow(10, ceil(log10(rtol * s->control.span / (h * ENOUGH_STEPS))));
     const char *other = other_method(s)->name;
+    const char *less = s->ode->is_network ? "a resistor across a steep part" : "another tree";
 
-    (void)solver_failure(diag, s->t,
-                         "the tolerance is below what rounding leaves of the accelerations: steps "
-                         "have become too short to get anywhere");
+    (void)diag_set(diag, E_SOLVER,
+                   "at t = %.9g s: the tolerance is below what rounding leaves of %s: steps have "
+                   "become too short to get anywhere",
+                   s->t, ode_rates(s->ode));
     if (coarser <= COARSEST)
-        diag_hint(diag, "another tree may leave less rounding; or try rtol=%.0e, or method=%s",
-                  coarser, other);
+        diag_hint(diag, "%s may leave less rounding; or try rtol=%.0e, or method=%s", less, coarser,
+                  other);
     else
         diag_hint(diag,
-                  "another tree may leave less rounding, and method=%s may need less; lengths, "
-                  "masses or stiffnesses many decades apart leave much",
-                  other);
+                  "%s may leave less rounding, and method=%s may need less; %s many decades apart "
+                  "leave much",
+                  less, other,
+                  s->ode->is_network ? "resistances, capacitances or inductances"
+                                     : "lengths, masses or stiffnesses");
     return E_SOLVER;
 }
 

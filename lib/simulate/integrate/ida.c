@@ -12,11 +12,14 @@
 #include <sunlinsol/sunlinsol_klu.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunmatrix/sunmatrix_sparse.h>
+#include <sunnonlinsol/sunnonlinsol_newton.h>
 
 #define LONG_BEFORE 0.1  /* of the step before: shorter ones don't know their error; */
 #define BEGIN       0.01 /* with so much of one it begins anew */
 #define FINER       1e-2 /* of the tolerance: for what has no rate, */
 #define FINE        1e-4 /* but not finer than this where the tolerance itself isn't */
+#define AT_ONCE     1e-2 /* of what Newton's method may leave: a first correction that is the last */
+#define SLOWEST     0.9  /* from correction to correction: else it doesn't converge */
 
 typedef struct Ida {
     Sundials s;
@@ -25,8 +28,9 @@ typedef struct Ida {
     const int *row;
     int *place, *start;
     double *entries;
-    bool jumps;      /* what has no rate may move any way in the step that is being taken */
-    bool has_jumped; /* it did in the last one, whose history tells nothing of the next */
+    double corrected; /* by Newton's method, last, in tolerances */
+    bool jumps;       /* what has no rate may move any way in the step that is being taken */
+    bool has_jumped;  /* it did in the last one, whose history tells nothing of the next */
 } Ida;
 
 static const SundialsCalls calls = {
@@ -157,6 +161,37 @@ static int find_weights(N_Vector w, N_Vector weights, void *data)
     return 0;
 }
 
+/* Whether Newton's method has come near enough: its last correction is within the tolerance, and so
+ * is what will follow. IDA takes fewer words for it, by how fast corrections have become less since
+ * the first one, or in earlier steps: with the tangent of a diode that conducted then a step would
+ * be believed that passes over its end, and from that of one that blocked, which leads far up the
+ * exponential, the way back begins with a correction that is next to nothing beside it. */
+static int converges(SUNNonlinearSolver solver, N_Vector w, N_Vector correction, realtype tolerance,
+                     N_Vector weights, void *data)
+{
+    Ida *d = data;
+    const double size = N_VWrmsNorm(correction, weights), rate = size / d->corrected;
+    int count = 0;
+
+    (void)w;
+    (void)SUNNonlinSolGetCurIter(solver, &count);
+    d->corrected = size;
+    if (count == 0)
+        return size <= AT_ONCE * tolerance ? SUN_NLS_SUCCESS : SUN_NLS_CONTINUE;
+    if (!(rate <= SLOWEST))
+        return SUN_NLS_CONV_RECVR;
+    return fmax(1, rate / (1 - rate)) * size <= tolerance ? SUN_NLS_SUCCESS : SUN_NLS_CONTINUE;
+}
+
+static int set_newton(Ida *d)
+{
+    int code;
+
+    d->s.nonlinear = MEM_GIVEN(SUNNonlinSol_Newton(d->s.w, d->s.context));
+    code = IDASetNonlinearSolver(d->s.memory, d->s.nonlinear);
+    return code == 0 ? SUNNonlinSolSetConvTestFn(d->s.nonlinear, converges, d) : code;
+}
+
 static int first_start(Ida *d, double t)
 {
     const Control *control = &d->s.base.control;
@@ -174,6 +209,8 @@ static int first_start(Ida *d, double t)
         code = IDASetMaxStep(d->s.memory, control_largest(control));
     if (code == 0)
         code = suppress(d);
+    if (code == 0 && d->s.base.ode->dae.has_rate != NULL)
+        code = set_newton(d);
     if (code != 0)
         return code;
     if (d->s.base.ode->dae.pattern != NULL)
@@ -192,7 +229,7 @@ static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
     sundials_place(&d->s, t, y);
     if (!dae->start(dae->context, t, stepper->y, N_VGetArrayPointer(d->s.w),
                     N_VGetArrayPointer(d->s.rate)))
-        return solver_failure(diag, t, "the accelerations are undefined");
+        return ode_undefined(stepper->ode, t, diag);
     code = d->s.linear == NULL ? first_start(d, t) : IDAReInit(d->s.memory, t, d->s.w, d->s.rate);
     if (code == IDA_MEM_FAIL)
         transaction_fail();

@@ -73,8 +73,15 @@ typedef struct Ode {
      * anywhere. No step is shortened for the sake of less. */
     double (*blur)(void *context);
     OdeJacobian jacobian;
-    Dae dae; /* entries 0..n+quadratures-1 of w are y; n 0: not offered */
+    Dae dae;         /* entries 0..n+quadratures-1 of w are y; n 0: not offered */
+    bool is_network; /* nothing moves in it: messages speak of a network */
 } Ode;
+
+/* what y' is called in messages */
+static inline const char *ode_rates(const Ode *ode)
+{
+    return ode->is_network ? "the network's rates" : "the accelerations";
+}
 
 static inline double ode_unit(const Ode *ode, int i)
 {
@@ -265,6 +272,8 @@ const Method *method_for(MethodNeed need);
 
 /* An error of the solver at time t, in words: "at t = 0.3 s: ...". */
 Status solver_failure(Diag *diag, double t, const char *reason);
+/* what is said where y' has no value */
+Status ode_undefined(const Ode *ode, double t, Diag *diag);
 
 /* what a method's create() begins with; `stepper` is the first member of the method's own struct */
 void stepper_init(Stepper *stepper, const Method *method, const Ode *ode, const Control *control);

@@ -42,7 +42,7 @@ Status stepper_start(Stepper *s, double t, const double *y, double *rate, Diag *
 {
     stepper_place(s, t, y);
     if (!stepper_rate(s, t, s->y, rate))
-        return solver_failure(diag, t, "the accelerations are undefined");
+        return ode_undefined(s->ode, t, diag);
     return OK;
 }
 
@@ -78,4 +78,9 @@ Status stepper_take_back(Stepper *s, double t, const double *last, Diag *diag)
 Status solver_failure(Diag *diag, double t, const char *reason)
 {
     return diag_set(diag, E_SOLVER, "at t = %.9g s: %s", t, reason);
+}
+
+Status ode_undefined(const Ode *ode, double t, Diag *diag)
+{
+    return diag_set(diag, E_SOLVER, "at t = %.9g s: %s are undefined", t, ode_rates(ode));
 }

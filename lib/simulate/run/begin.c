@@ -74,19 +74,22 @@ done:
     return status;
 }
 
-/* the start has accelerations at all */
+/* the start has accelerations at all, or the network a solution */
 static Status check_start(ActiveRun *r, Diag *diag)
 {
+    const bool is_network = motion_ode(r->phase->motion)->is_network;
+    const char *what = is_network ? "the network has no solution at the start"
+                                  : "no accelerations can be found at the start";
     Solved solved;
 
     if (motion_solve(r->phase->motion, 0, r->begin, &solved))
         return OK;
-    if (cause_tell(r->phase->layout, &r->phases->parameters, 0, r->begin,
-                   "no accelerations can be found at the start", diag))
+    if (cause_tell(r->phase->layout, &r->phases->parameters, 0, r->begin, what, diag))
         return E_SINGULAR;
-    (void)diag_set(diag, E_SINGULAR, "no accelerations can be found at the start");
-    diag_hint(diag, "a part that moves freely needs a mass or an inertia; a circuit needs every "
-                    "current and voltage determined");
+    (void)diag_set(diag, E_SINGULAR, "%s", what);
+    diag_hint(diag, is_network ? "a circuit needs every current and voltage determined"
+                               : "a part that moves freely needs a mass or an inertia; a circuit "
+                                 "needs every current and voltage determined");
     return E_SINGULAR;
 }
 

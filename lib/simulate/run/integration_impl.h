@@ -39,6 +39,7 @@ typedef struct Integration {
     int *looked_at, looked_count; /* by steps: those that aren't left out */
     double *band;                 /* sizes too small to tell a sign from, behind a switch, */
     double *noise;                /* and anywhere: of margins */
+    double *band_ends;            /* s: the time from which on they tell by their noise; INFINITY */
     double *depth, *depth_low, *depth_high; /* of conditions in their modes, where one is located */
     int next_row, rows;
     double scanned;        /* of the last step, up to here conditions are followed */
@@ -125,8 +126,9 @@ double integration_condition_rate(Integration *m, int condition, double *value);
 /* what says that the segment is the right one, as long as it is positive, */
 bool integration_is_margin(const Integration *m, int condition);
 double
-integration_largest_margin(const Integration *m);  /* its largest size so far, of all of them, */
-double integration_rounding(const Integration *m); /* and what rounding does to any */
+integration_largest_margin(const Integration *m);    /* its largest size so far, of all of them, */
+double integration_rounding(const Integration *m);   /* what rounding does to any, */
+double integration_most_noise(const Integration *m); /* and the most that is taken for noise */
 /* all conditions where the stepper's interpolant is at t, which goes into m->y */
 void integration_conditions_at(Integration *m, double t);
 /* Margins that are still negative where a segment begins, on their way up, tell nothing as long as

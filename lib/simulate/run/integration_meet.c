@@ -8,7 +8,6 @@
 #include <math.h>
 #include <string.h>
 
-#define MOST_NOISE  1e-6  /* of the largest margin: more than that is no noise */
 #define SHORT       1e-3  /* of a step: a move of its end that needn't take it again, */
 #define NEXT_TO     1e-12 /* or of the run */
 #define WIDER       5     /* times a step that ended where a longer one had erred */
@@ -208,7 +207,7 @@ Status integration_meet_switch(Integration *m, int i, double when, bool *again, 
         m->mode[i] = guard.end != 0 ? 1 : guard.side;
     if (is_told && !entered) {
         m->noise[i] = m->band[i] =
-            fmin(10 * fmax(m->noise[i], m->band[i]), MOST_NOISE * integration_largest_margin(m));
+            fmin(10 * fmax(m->noise[i], m->band[i]), integration_most_noise(m));
         integration_let_margins_rise(m);
     }
     return OK;

@@ -72,11 +72,14 @@ void integration_open_segment(Integration *m, const Segment *segment)
     m->largest = NEW_ARRAY(double, conditions);
     m->band = NEW_ARRAY(double, conditions);
     m->noise = NEW_ARRAY(double, conditions);
+    m->band_ends = NEW_ARRAY(double, conditions);
     m->depth = NEW_ARRAY(double, conditions);
     m->depth_low = NEW_ARRAY(double, conditions);
     m->depth_high = NEW_ARRAY(double, conditions);
     m->mode = NEW_ARRAY(int, conditions);
     m->looked_at = NEW_ARRAY(int, conditions);
+    for (int i = 0; i < conditions; i++)
+        m->band_ends[i] = INFINITY;
     integration_choose_conditions(m);
     open_surfaces(m);
     if (m->count > 0)
@@ -89,8 +92,8 @@ void integration_close_segment(Integration *m)
     integration_give_up_stepper(m);
     onset_watch(m->segment.onset, NULL, NULL);
     motion_window(m->segment.motion, -INFINITY, INFINITY);
-    MEM_FREE(m->y, m->slope, m->conditions, m->largest, m->band, m->noise, m->depth, m->depth_low,
-             m->depth_high, m->mode, m->looked_at);
+    MEM_FREE(m->y, m->slope, m->conditions, m->largest, m->band, m->noise, m->band_ends, m->depth,
+             m->depth_low, m->depth_high, m->mode, m->looked_at);
 }
 
 static void add_corner(Integration *m, double t, const double *y)

@@ -3,6 +3,7 @@
 
 #include "algebra/linear.h"
 #include "base/random.h"
+#include "simulate/run/mode_margins.h"
 
 #include <math.h>
 #include <string.h>
@@ -10,9 +11,10 @@
 #define LOOKS     20000 /* at conditions that follow sources, in a run */
 #define POINTS    5     /* of a step, where they are looked at */
 #define SLIDING   40    /* likewise, where a force may leave its interval for a moment */
-#define ROUNDING  1e-13 /* of the largest margin: what rounding does to any */
-#define NOTHING   1e-4  /* of the absolute tolerance: where all is next to nothing, as at rest */
-#define DEEPER    2     /* times what a margin begins with */
+#define DEEPER    2     /* times what a margin begins with, */
+#define LASTS     10    /* or times as long as it ought to take to rise above 0, */
+#define NEXT_TO   1e-12 /* or of the run: it isn't let go on like that */
+#define MOST      1e-6  /* of the largest margin: more than that is no noise */
 #define MOVES     3     /* that tell how far errors reach */
 #define PAUSELESS 20    /* switches at one instant, more than sides of diodes take to be found */
 #define BY_HALVES 4     /* so often a search goes by halves */
@@ -123,7 +125,12 @@ double integration_largest_margin(const Integration *m)
 
 double integration_rounding(const Integration *m)
 {
-    return ROUNDING * integration_largest_margin(m);
+    return MARGIN_ROUNDING * integration_largest_margin(m);
+}
+
+double integration_most_noise(const Integration *m)
+{
+    return MOST * integration_largest_margin(m);
 }
 
 /* What errors of the state within the tolerance do to margins where the stepper stands, into bands:
@@ -156,7 +163,7 @@ static void widen_bands(Integration *m)
  * come clear of them. */
 static void find_noise(Integration *m)
 {
-    const double least = fmax(integration_rounding(m), NOTHING * m->control.atol);
+    const double least = mode_margins_noise(integration_largest_margin(m), &m->control);
 
     if (m->eq->margin_count == 0)
         return;
@@ -166,15 +173,24 @@ static void find_noise(Integration *m)
         widen_bands(m);
 }
 
+/* The margin is negative where the segment begins, and will have risen above 0 in so long a time,
+ * as it goes there: whether it is so because the instant is located only so well. */
+static bool is_badly_located(const Integration *m, double margin, double time)
+{
+    return fabs(margin) <= integration_most_noise(m) ||
+           mode_margins_moves(time, m->stepper->y, m->slope, m->length - 1, &m->control) <= 1;
+}
+
 /* The segment is the one that goes on a little behind where it begins. Margins that are still
  * negative there, and on their way up, are so because an instant is located only so well: they tell
- * nothing as long as they fall no deeper. */
+ * nothing as long as they fall no deeper, until they should be far above 0. */
 void integration_let_margins_rise(Integration *m)
 {
     const Ode *ode = motion_ode(m->segment.motion);
     const Stepper *s = m->stepper;
+    const double soon = NEXT_TO * (m->plan->to - m->plan->from);
     bool negative = false;
-    double *here;
+    double *here, way;
 
     integration_conditions_at(m, s->t);
     for (int i = m->eq->time_only; i < m->eq->switch_count; i++)
@@ -183,10 +199,16 @@ void integration_let_margins_rise(Integration *m)
         return;
     here = NEW_ARRAY(double, m->eq->switch_count);
     memcpy(here, m->conditions, (size_t)m->eq->switch_count * sizeof(double));
-    conditions_ahead(m);
-    for (int i = m->eq->time_only; i < m->eq->switch_count; i++)
-        if (integration_is_margin(m, i) && here[i] < -m->noise[i] && m->conditions[i] > here[i])
-            m->band[i] = fmax(m->band[i], -DEEPER * here[i]);
+    way = conditions_ahead(m);
+    for (int i = m->eq->time_only; i < m->eq->switch_count; i++) {
+        const double time = way * here[i] / (here[i] - m->conditions[i]);
+
+        if (!integration_is_margin(m, i) || !(here[i] < -m->noise[i]) ||
+            !(m->conditions[i] > here[i]) || !is_badly_located(m, here[i], time))
+            continue;
+        m->band[i] = fmax(m->band[i], -DEEPER * here[i]);
+        m->band_ends[i] = s->t + fmax(LASTS * time, soon);
+    }
     mem_free(here);
 }
 
@@ -199,19 +221,26 @@ void integration_begin_modes(Integration *m)
         m->mode[i] = integration_is_margin(m, i) ? 1 : sign_of(m->conditions[i]);
         m->largest[i] = fabs(m->conditions[i]);
         m->band[i] = 0;
+        m->band_ends[i] = INFINITY;
     }
     find_noise(m);
     integration_let_margins_rise(m);
     integration_begin_surfaces(m);
 }
 
-/* whether condition i, as evaluated last, has left its mode; learns a mode not known yet */
-static bool has_switched(Integration *m, int i)
+/* sizes of condition i at t that are too small to tell a sign from */
+static double band_at(const Integration *m, int i, double t)
+{
+    return t <= m->band_ends[i] ? m->band[i] : m->noise[i];
+}
+
+/* whether condition i, as evaluated last, at t, has left its mode; learns a mode not known yet */
+static bool has_switched(Integration *m, int i, double t)
 {
     double value = m->conditions[i];
 
     m->largest[i] = fmax(m->largest[i], fabs(value));
-    if (!(fabs(value) > m->band[i]))
+    if (!(fabs(value) > band_at(m, i, t)))
         return false;
     if (m->mode[i] == 0) /* what had no value till now becomes what it is */
         m->mode[i] = integration_is_of_event(m, i) ? -sign_of(value) : sign_of(value);
@@ -245,16 +274,16 @@ static int points_in(const Integration *m, double length)
     return (int)fmax(points, onset_pieces(m->segment.onset, end - length, end, looks));
 }
 
-/* How far inside its mode each condition that is looked at is, as evaluated last; negative: beyond
- * its band, and so switched. */
-static void find_depths(const Integration *m, double *out)
+/* How far inside its mode each condition that is looked at is, as evaluated last, at t; negative:
+ * beyond its band, and so switched. */
+static void find_depths(const Integration *m, double t, double *out)
 {
     for (int k = 0; k < m->looked_count; k++) {
         const int i = m->looked_at[k];
 
         out[k] = m->conditions[i] == 0 || m->mode[i] == 0
                      ? INFINITY
-                     : m->mode[i] * m->conditions[i] + m->band[i];
+                     : m->mode[i] * m->conditions[i] + band_at(m, i, t);
     }
 }
 
@@ -290,9 +319,9 @@ static int locate_first(Integration *m, double low, double *high, int found)
     double share_low = 1, share_high = 1;
     int last = 0; /* end that moved last: -1 low, 1 high */
 
-    find_depths(m, m->depth_high);
+    find_depths(m, *high, m->depth_high);
     integration_conditions_at(m, low);
-    find_depths(m, m->depth_low);
+    find_depths(m, low, m->depth_low);
     for (int k = 1; k <= 100; k++) {
         const double least = 2e-16 * fmax(fabs(*high), 1e-300), width = *high - low;
         double part = k % BY_HALVES == 0 ? 0.5 : first_crossing(m, share_low, share_high);
@@ -303,7 +332,7 @@ static int locate_first(Integration *m, double low, double *high, int found)
         if (!(width > 2 * least))
             break;
         integration_conditions_at(m, t);
-        find_depths(m, depth);
+        find_depths(m, t, depth);
         which = one_switched(m, depth);
         if (which >= 0) {
             *high = t;
@@ -349,19 +378,19 @@ static int switched_at(Integration *m, double t)
 
     integration_conditions_at(m, t);
     for (int k = 0; k < m->looked_count; k++)
-        if (has_switched(m, m->looked_at[k]) && found < 0)
+        if (has_switched(m, m->looked_at[k], t) && found < 0)
             found = m->looked_at[k];
     return found;
 }
 
-static void next_depths(Integration *m)
+static void next_depths(Integration *m, double t)
 {
     double *oldest = m->depth_low;
 
     m->depth_low = m->depth;
     m->depth = m->depth_high;
     m->depth_high = oldest;
-    find_depths(m, m->depth_high);
+    find_depths(m, t, m->depth_high);
 }
 
 /* The first point of the last step at which a condition has switched, *at, and a point *low before
@@ -380,7 +409,7 @@ static int find_switched(Integration *m, double *low, double *at)
             continue;
         *at = t;
         found = switched_at(m, t);
-        next_depths(m);
+        next_depths(m, t);
         dip = ++looked >= 3 && found < 0 ? dip_between(m) : NAN;
         if (!isnan(dip)) {
             *low = t - 2 * length / points;

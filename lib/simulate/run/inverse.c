@@ -378,7 +378,7 @@ static Status solve_row(Inverse *in, double t, double *y, double *out, Diag *dia
     Solved solved;
 
     if (!motion_solve(in->phase->motion, t, y, &solved))
-        return solver_failure(diag, t, "the accelerations are undefined");
+        return ode_undefined(motion_ode(in->phase->motion), t, diag);
     choose_rows(in);
     memset(in->values, 0, (size_t)l->count * sizeof(double));
     in->values[l->t] = t;

@@ -7,6 +7,7 @@
 #include "algebra/linear.h"
 #include "base/memory.h"
 #include "simulate/run/charge_sharing.h"
+#include "simulate/run/mode_margins.h"
 
 #include <math.h>
 #include <string.h>
@@ -22,6 +23,7 @@
 #define FURTHEST   1e-6 /* and no more than this, */
 #define FURTHER    10   /* times as far, where a margin has ended and no side is seen to change, */
 #define STUCK      1e-4 /* or this, where the sides stay and all the same their margins end */
+#define NEARER     6    /* times that it is looked nearer, each a tenth as far */
 
 /* --- states of the whole --- */
 
@@ -430,14 +432,14 @@ done:
 }
 
 /* whether the phase can't have these states of the whole */
-static bool would_jump(const ActiveRun *r, Phase *phase, double *y, const double *x)
+static bool would_jump(const ActiveRun *r, Phase *phase, double t, double *y, const double *x)
 {
     const int nx = phases_whole(r->phases)->layout->nx;
     double *now = NEW_ARRAY(double, nx);
     RowValues row;
     bool found = false;
 
-    if (phase_states(phase, 0, y, nx, &row, now))
+    if (phase_states(phase, t, y, nx, &row, now))
         for (int i = 0; i < nx; i++)
             found = found || share_is_jump(r, i, x[i], now[i]);
     mem_free(now);
@@ -475,7 +477,7 @@ Status mode_switch_begin(ActiveRun *r, const Setting *setting, Diag *diag)
     Status status = OK;
 
     CHECK(begin_phase(r, setting, &at, closed, diag));
-    if (would_jump(r, r->phase, r->begin, x)) {
+    if (would_jump(r, r->phase, 0, r->begin, x)) {
         CHECK(follow_wires(r, setting, closed, x, diag));
         CHECK(begin_phase(r, setting, &at, closed, diag));
     }
@@ -571,54 +573,138 @@ static double step_from(ModeSwitching *c, double t, Nearness near)
     return fmin(c->again * step, STUCK * c->control.span);
 }
 
-/* Enter the phase of `closed` from y of another one. Behind what is shared at once diodes may be
- * the wrong way round, and conditions may read something else: sides are looked for again. */
-static Status go_over(ModeSwitching *c, double t, const ModeSearchAt *at, double *x,
-                      double *x_behind, bool *closed, const Phase *from, const double *y,
+/* an instant at which sides are looked for: its phase, and y there */
+typedef struct Looking {
+    Phase *now;
+    double t;
+    const double *y;
+    ModeSearchAt at;
+    double *x, *x_behind, *ahead; /* what `at` reads; ahead: y a step on */
+    bool *closed;                 /* the sides that were found */
+} Looking;
+
+static Looking looking_new(const ModeSwitching *c, Phase *now, double t, double behind,
+                           const double *y)
+{
+    const Layout *whole = phases_whole(c->run->phases)->layout;
+    Looking look = {.now = now,
+                    .t = t,
+                    .y = y,
+                    .x = NEW_ARRAY(double, whole->nx),
+                    .x_behind = NEW_ARRAY(double, whole->nx),
+                    .ahead = NEW_ARRAY(double, now->length),
+                    .closed = NEW_ARRAY(bool, system_ideal_count(c->run->system))};
+
+    look.at = (ModeSearchAt){.t = behind,
+                             .q = look.ahead,
+                             .u = look.ahead + whole->n,
+                             .references = look.ahead + layout_references(now->layout),
+                             .x = look.x,
+                             .x_behind = look.x_behind};
+    return look;
+}
+
+static void looking_free(Looking *look)
+{
+    MEM_FREE(look->x, look->x_behind, look->ahead, look->closed);
+}
+
+/* Sides as they are a step on, where all goes on from (t, y) as it did; *changed: they are others
+ * than now. */
+static Status look_ahead(const ModeSwitching *c, Looking *look, bool *changed, Diag *diag)
+{
+    const int nx = phases_whole(c->run->phases)->layout->nx;
+    const size_t bytes = (size_t)system_ideal_count(c->run->system) * sizeof(bool);
+    RowValues row = {.t = look->t};
+    ModeSearchAt *at = &look->at;
+
+    memcpy(look->closed, look->now->closed, bytes);
+    phase_enter(look->now);
+    at->when = at->t + at->step;
+    go_ahead(look->now, look->t, at->step, look->y, look->ahead);
+    if (!phase_states(look->now, look->t + at->step, look->ahead, nx, &row, look->x_behind))
+        memcpy(look->x_behind, look->x, (size_t)nx * sizeof(double));
+    at->acceleration = row.acceleration;
+    at->multipliers = row.multipliers;
+    TRY(mode_search_find(c->run->mode_search, at, look->closed, diag));
+    *changed = memcmp(look->closed, look->now->closed, bytes) != 0;
+    return OK;
+}
+
+/* Whether the sides that were found may hold at the instant itself. Where states jump, what they
+ * jump to is for others to tell. */
+static bool holds_at_once(const ModeSwitching *c, const Looking *look, bool changed)
+{
+    ActiveRun *r = c->run;
+    Phase *next = look->now;
+    double *entered;
+    bool holds;
+
+    if (changed && mode_switch_phase(r, c->setting, look->closed, &next, NULL) != OK)
+        return true;
+    entered = NEW_ARRAY(double, next->length);
+    enter(next, look->y, look->x, look->y + layout_references(look->now->layout),
+          look->y[look->now->length - 1], entered);
+    holds = mode_margins_off(next, look->t, look->at.t, look->at.step, entered, &c->control) <= 1 ||
+            would_jump(r, next, look->t, entered, look->x);
+    mem_free(entered);
+    return holds;
+}
+
+/* Diodes that are seen to go over a step ahead may still be on their sides at the instant itself:
+ * from nearer to it they are. What is meant is a step that vanishes, but that tells no side from
+ * the other where one begins at 0, least where it was seen before that margins end although none
+ * goes over. Where no step shows what holds, the first one is believed. */
+static Status look_nearer(const ModeSwitching *c, Looking *look, double nearest, bool *changed,
+                          Diag *diag)
+{
+    const double first = look->at.step;
+    const bool is_stuck = fmax(c->again, c->told) > 1;
+
+    if (first <= nearest)
+        return OK;
+    for (int k = 0; k <= NEARER && look->at.step > nearest; k++) {
+        if (holds_at_once(c, look, *changed))
+            return OK;
+        look->at.step /= FURTHER;
+        if (look_ahead(c, look, changed, NULL) != OK || (is_stuck && !*changed))
+            break;
+    }
+    look->at.step = first;
+    return look_ahead(c, look, changed, diag);
+}
+
+/* Enter the phase of the sides that were found from y of another one. Behind what is shared at once
+ * diodes may be the wrong way round, and conditions may read something else: sides are looked for
+ * again. */
+static Status go_over(ModeSwitching *c, double t, Looking *look, const Phase *from, const double *y,
                       Phase **out, Diag *diag)
 {
     ActiveRun *r = c->run;
     const size_t bytes = (size_t)system_ideal_count(r->system) * sizeof(bool);
 
     for (int round = 0; round < ROUNDS; round++) {
-        Entering entry = {.t = t, .step = at->step, .before = from->closed, .may_share = true};
+        Entering entry = {.t = t, .step = look->at.step, .before = from->closed, .may_share = true};
         double *entered;
 
-        TRY(next_phase(c, t, closed, out, diag));
+        TRY(next_phase(c, t, look->closed, out, diag));
         entered = NEW_ARRAY(double, (*out)->length);
-        enter(*out, y, x, y + layout_references(from->layout), y[from->length - 1], entered);
+        enter(*out, y, look->x, y + layout_references(from->layout), y[from->length - 1], entered);
         mode_switching_free(c);
         c->y = entered;
-        TRY(check_impulse(r, *out, &entry, c->y, x, diag));
+        TRY(check_impulse(r, *out, &entry, c->y, look->x, diag));
         if (!entry.shared)
             return OK;
         mode_search_calm(r->mode_search);
-        memcpy(x_behind, x, (size_t)phases_whole(r->phases)->layout->nx * sizeof(double));
-        TRY(mode_search_find(r->mode_search, at, closed, diag));
-        if (memcmp(closed, (*out)->closed, bytes) == 0)
+        memcpy(look->x_behind, look->x,
+               (size_t)phases_whole(r->phases)->layout->nx * sizeof(double));
+        TRY(mode_search_find(r->mode_search, &look->at, look->closed, diag));
+        if (memcmp(look->closed, (*out)->closed, bytes) == 0)
             return OK;
         from = *out;
         y = c->y;
     }
     return solver_failure(diag, t, "what is shared makes ideal switches go over without end");
-}
-
-/* Sides as they are a step on, where all goes on from (t, y) as it did: into `closed`, states then
- * and there into x and x_behind. `ahead`: room. */
-static Status look_ahead(const ModeSwitching *c, Phase *now, double t, const double *y,
-                         ModeSearchAt *at, double *ahead, double *x_behind, bool *closed,
-                         Diag *diag)
-{
-    const int nx = phases_whole(c->run->phases)->layout->nx;
-    RowValues row = {.t = t};
-
-    at->when = at->t + at->step;
-    go_ahead(now, t, at->step, y, ahead);
-    if (!phase_states(now, t + at->step, ahead, nx, &row, x_behind))
-        memcpy(x_behind, at->x, (size_t)nx * sizeof(double));
-    at->acceleration = row.acceleration;
-    at->multipliers = row.multipliers;
-    return mode_search_find(c->run->mode_search, at, closed, diag);
 }
 
 Status mode_switch(void *context, double t, double behind, Nearness near, const double *y,
@@ -627,42 +713,32 @@ Status mode_switch(void *context, double t, double behind, Nearness near, const 
     ModeSwitching *c = context;
     ActiveRun *r = c->run;
     Phase *now = r->phases->at[segment->phase], *next = NULL;
-    const Layout *whole = phases_whole(r->phases)->layout;
-    int count = system_ideal_count(r->system);
-    bool *closed = NEW_ARRAY(bool, count);
-    double *x = NEW_ARRAY(double, whole->nx);
-    double *x_behind = NEW_ARRAY(double, whole->nx);
-    double *ahead = NEW_ARRAY(double, now->length);
+    Looking look = looking_new(c, now, t, behind, y);
     Events *events = segment->events;
     RowValues row = {.t = t};
-    ModeSearchAt at = {.t = behind,
-                       .step = step_from(c, behind, near),
-                       .q = ahead,
-                       .u = ahead + whole->n,
-                       .references = ahead + layout_references(now->layout),
-                       .x = x,
-                       .x_behind = x_behind};
-    const double furthest = fmin(c->told * near.ahead, STUCK * c->control.span);
+    double furthest;
     Status status = OK;
 
-    if (!phase_states(now, t, y, whole->nx, &row, x))
+    look.at.step = step_from(c, behind, near);
+    furthest = fmin(c->told * near.ahead, STUCK * c->control.span);
+    if (!phase_states(now, t, y, phases_whole(r->phases)->layout->nx, &row, look.x))
         CHECK(solver_failure(diag, t, "the network has no solution"));
-    memcpy(closed, now->closed, (size_t)count * sizeof(bool));
-    for (;; at.step = fmin(FURTHER * at.step, furthest)) {
-        CHECK(look_ahead(c, now, t, y, &at, ahead, x_behind, closed, diag));
-        c->changed = memcmp(closed, now->closed, (size_t)count * sizeof(bool)) != 0;
-        if (c->changed || at.step >= furthest)
+    for (;; look.at.step = fmin(FURTHER * look.at.step, furthest)) {
+        CHECK(look_ahead(c, &look, &c->changed, diag));
+        if (c->changed || look.at.step >= furthest)
             break;
     }
+    CHECK(look_nearer(c, &look, near.ahead, &c->changed, diag));
     c->stuck = behind;
     if (!c->changed)
         goto done;
-    c->again = fmax(1, at.step / step_near(c, behind, near.last));
-    CHECK(go_over(c, behind, &at, x, x_behind, closed, now, y, &next, diag));
+    c->again = fmax(1, look.at.step / step_near(c, behind, near.last));
+    CHECK(go_over(c, behind, &look, now, y, &next, diag));
     CHECK(mode_switch_events(r, now, next, c->setting, &events, diag));
     *segment = phases_segment(next, events);
     *out = c->y;
 done:
-    MEM_FREE(closed, x, x_behind, ahead);
+    phase_enter(r->phases->at[segment->phase]);
+    looking_free(&look);
     return status;
 }
