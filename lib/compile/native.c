@@ -50,13 +50,15 @@ Native *native_new(const Program *program, const NativeTarget *target)
 {
     X86Code code = {.isa = target->isa, .width = target->width};
     StageSteps steps = {0};
-    StepMaker *maker = step_maker_new(program, target->fused);
+    StepMaker *maker = step_maker_new(program, target);
     Native *native = NEW(Native);
     int begin[STAGE_COUNT];
     uint32_t frame = 0;
 
     for (int stage = 0; stage < STAGE_COUNT; stage++) {
         begin[stage] = -1;
+        if (target->joined && stage != NATIVE_JOINED)
+            continue;
         step_maker_stage(maker, (Stage)stage, &steps);
         if (steps.steps.count > 0) {
             uint32_t own;

@@ -14,9 +14,14 @@ typedef struct NativeTarget {
     int width;     /* evaluations at once: 1, up to 2, 4, 8 as the instructions have it */
     int registers; /* of those there are, FEWEST_REGISTERS at least */
     bool fused;    /* a product and sum is rounded once where the processor does so */
+    bool joined;   /* one function, of the stages from NATIVE_JOINED to NATIVE_JOINED_END alone */
 } NativeTarget;
 
 enum { FEWEST_REGISTERS = 6, WIDEST = 8 };
+/* Along a chain each sum waits for the one before; those of positions and of speeds are next to
+ * each other where their stages are one, and wait together. */
+#define NATIVE_JOINED     STAGE_TIME
+#define NATIVE_JOINED_END STAGE_NETWORK
 
 /* the best that there is here, for up to `width` evaluations at once; false: nothing */
 bool native_target(int width, bool fused, NativeTarget *out);
@@ -30,7 +35,8 @@ void native_free(Native *native); /* NULL is fine */
 typedef void NativeFrame;
 NativeFrame *native_frame_new(const Native *native);
 void native_frame_free(NativeFrame *frame);
-/* Stages from..to, both included. Slots, then roots, each of `width` numbers. */
+/* Stages from..to, both included; all that are joined, or none of them. Slots, then roots, each of
+ * `width` numbers. */
 void native_run(const Native *native, Stage from, Stage to, double *slots, NativeFrame *frame);
 
 #endif

@@ -62,9 +62,9 @@ typedef struct StageSteps {
 } StageSteps;
 
 typedef struct StepMaker StepMaker;
-StepMaker *step_maker_new(const Program *program, bool fused);
+StepMaker *step_maker_new(const Program *program, const NativeTarget *target);
 void step_maker_free(StepMaker *maker);
-/* the steps of a stage, in `out`, which is emptied first */
+/* the steps of a stage, of the first of those that are joined, in `out`, which is emptied first */
 void step_maker_stage(StepMaker *maker, Stage stage, StageSteps *out);
 void stage_steps_free(StageSteps *steps);
 /* what stood in a slot before a stage began */

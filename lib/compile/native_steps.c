@@ -12,7 +12,7 @@ enum { NOT_MADE = -1 };
 
 struct StepMaker {
     const Program *program;
-    bool fused;
+    bool fused, joined;
     uint32_t slots;
     uint8_t *code;    /* of the instruction that makes a slot */
     int *operands;    /* where they begin in the tape; NOT_MADE: an input or a constant */
@@ -57,9 +57,26 @@ static const uint32_t *operands_of(const StepMaker *m, uint32_t slot)
     return m->program->tape.at + m->operands[slot];
 }
 
+/* the stages that are one function with this one */
+static Stage begin_of(const StepMaker *m, Stage stage)
+{
+    return m->joined && stage >= NATIVE_JOINED && stage <= NATIVE_JOINED_END ? NATIVE_JOINED
+                                                                             : stage;
+}
+
+static Stage end_of(const StepMaker *m, Stage stage)
+{
+    return begin_of(m, stage) == NATIVE_JOINED && m->joined ? NATIVE_JOINED_END : stage;
+}
+
+static uint32_t slots_end(const StepMaker *m, Stage stage)
+{
+    return m->first_slot[end_of(m, stage) + 1];
+}
+
 static bool is_of_stage(const StepMaker *m, uint32_t slot, Stage stage)
 {
-    return slot >= m->first_slot[stage] && slot < m->first_slot[stage + 1];
+    return slot >= m->first_slot[stage] && slot < slots_end(m, stage);
 }
 
 static void note_run(StepMaker *m, const OpcodeRun *run, Stage stage)
@@ -75,7 +92,7 @@ static void note_run(StepMaker *m, const OpcodeRun *run, Stage stage)
         for (int k = 0; k < operands; k++) {
             const uint32_t operand = operands_of(m, slot)[k];
 
-            if (operand < m->first_slot[stage])
+            if (operand < m->first_slot[begin_of(m, stage)])
                 m->is_late[operand] = true;
             else if (m->level[operand] > level)
                 level = m->level[operand];
@@ -84,12 +101,13 @@ static void note_run(StepMaker *m, const OpcodeRun *run, Stage stage)
     }
 }
 
-StepMaker *step_maker_new(const Program *program, bool fused)
+StepMaker *step_maker_new(const Program *program, const NativeTarget *target)
 {
     StepMaker *m = NEW(StepMaker);
 
     m->program = program;
-    m->fused = fused;
+    m->fused = target->fused;
+    m->joined = target->joined;
     m->slots = (uint32_t)program->slot_count;
     m->code = NEW_ARRAY(uint8_t, m->slots);
     m->operands = NEW_ARRAY(int, m->slots);
@@ -381,7 +399,7 @@ static void add_functions(StepMaker *m, Stage stage)
     int levels = 0;
 
     m->functions.count = 0;
-    for (uint32_t slot = m->first_slot[stage]; slot < m->first_slot[stage + 1]; slot++) {
+    for (uint32_t slot = m->first_slot[stage]; slot < slots_end(m, stage); slot++) {
         const Opcode code = (Opcode)m->code[slot];
 
         if (!is_call(code))
@@ -410,7 +428,7 @@ void step_maker_stage(StepMaker *m, Stage stage, StageSteps *out)
     for (int i = 0; i < program->derived.count; i++)
         if (is_of_stage(m, program->derived.at[i], stage))
             add_with_operands(m, program->derived.at[i], stage);
-    for (int i = program->first_root[stage]; i < program->first_root[stage + 1]; i++) {
+    for (int i = program->first_root[stage]; i < program->first_root[end_of(m, stage) + 1]; i++) {
         const Handover *root = &program->roots[i];
 
         if (m->operands[root->slot] == NOT_MADE)

@@ -63,6 +63,9 @@ void workspace_choose(Workspace *workspace, Evaluator evaluator);
 double *workspace_inputs(Workspace *workspace);
 /* Compute stages from..to, both included. No failure; NaN travels. */
 void workspace_run(Workspace *workspace, Stage from, Stage to);
+/* STAGE_TIME to STAGE_NETWORK in one go, which is faster than one by one. A later run begins with
+ * one of these again, with STAGE_TIME, or behind them. */
+void workspace_run_joined(Workspace *workspace);
 /* The values of the roots, in order; a root's is current once its stage was run. Borrowed. */
 const double *workspace_roots(const Workspace *workspace);
 /* How far the roots of the last run may be off, every stage being current: by what was rounded on

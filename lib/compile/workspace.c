@@ -12,13 +12,17 @@ enum { MAKING = 0, MEMORY = 1, CALLING = 1 };
 enum { MAKING = 100, MEMORY = 40000, CALLING = 10 };
 #endif
 
+typedef struct NativePart {
+    long interpreted; /* instructions, until they have paid for native code; -1: they have */
+    Native *native;   /* NULL: not yet, or there is none */
+    NativeFrame *frame;
+} NativePart;
+
 struct Workspace {
     const Program *program;
     double *slots; /* then roots */
     Evaluator evaluator;
-    long interpreted; /* instructions, until they have paid for native code */
-    Native *native;
-    NativeFrame *frame;
+    NativePart single, joined;
 };
 
 Workspace *workspace_new(const Program *program)
@@ -35,12 +39,18 @@ Workspace *workspace_new(const Program *program)
     return workspace;
 }
 
+static void free_part(NativePart *part)
+{
+    native_frame_free(part->frame);
+    native_free(part->native);
+}
+
 void workspace_free(Workspace *workspace)
 {
     if (workspace == NULL)
         return;
-    native_frame_free(workspace->frame);
-    native_free(workspace->native);
+    free_part(&workspace->single);
+    free_part(&workspace->joined);
     MEM_FREE(workspace->slots, workspace);
 }
 
@@ -60,45 +70,56 @@ const double *workspace_roots(const Workspace *workspace)
 }
 
 /* Where there is no native code the interpreter goes on. */
-static void make_native(Workspace *workspace)
+static void make_native(Workspace *workspace, NativePart *part)
 {
     NativeTarget target;
     bool was_scratch;
 
     if (!native_target(1, workspace->evaluator == EVALUATOR_NATIVE, &target))
         return;
+    target.joined = part == &workspace->joined;
     mem_keep(workspace);
     was_scratch = mem_scratch(true);
-    workspace->native = native_new(workspace->program, &target);
-    if (workspace->native != NULL)
-        workspace->frame = native_frame_new(workspace->native);
+    part->native = native_new(workspace->program, &target);
+    if (part->native != NULL)
+        part->frame = native_frame_new(part->native);
     (void)mem_scratch(was_scratch);
 }
 
-void workspace_run(Workspace *workspace, Stage from, Stage to)
+static void run(Workspace *workspace, NativePart *part, Stage from, Stage to)
 {
     const Program *program = workspace->program;
     double *slots = workspace->slots;
 
-    if (workspace->native != NULL) {
-        native_run(workspace->native, from, to, slots, workspace->frame);
+    if (part->native != NULL) {
+        native_run(part->native, from, to, slots, part->frame);
         return;
     }
     program_interpret(program, from, to, slots);
     program_hand_over(program, from, to, slots, slots + program->slot_count);
-    if (workspace->evaluator == EVALUATOR_INTERPRETER || workspace->interpreted < 0)
+    if (workspace->evaluator == EVALUATOR_INTERPRETER || part->interpreted < 0)
         return;
-    workspace->interpreted += CALLING + program->work[to + 1] - program->work[from];
-    if (workspace->interpreted > MEMORY + (long)MAKING * program->work[STAGE_COUNT]) {
-        workspace->interpreted = -1;
-        make_native(workspace);
+    part->interpreted += CALLING + program->work[to + 1] - program->work[from];
+    if (part->interpreted > MEMORY + (long)MAKING * program->work[STAGE_COUNT]) {
+        part->interpreted = -1;
+        make_native(workspace, part);
     }
+}
+
+void workspace_run(Workspace *workspace, Stage from, Stage to)
+{
+    run(workspace, &workspace->single, from, to);
+}
+
+void workspace_run_joined(Workspace *workspace)
+{
+    run(workspace, &workspace->joined, NATIVE_JOINED, NATIVE_JOINED_END);
 }
 
 void workspace_errors(const Workspace *workspace, const double *input_errors, double *root_errors)
 {
     /* native code keeps but what later stages need */
-    if (workspace->native != NULL)
+    if (workspace->single.native != NULL || workspace->joined.native != NULL)
         program_interpret(workspace->program, STAGE_PARAMETER, STAGE_COUNT - 1, workspace->slots);
     program_bound(workspace->program, workspace->slots, input_errors, root_errors);
 }

@@ -255,6 +255,29 @@ static bool turns_agree(Member *member, Lanes *l)
     return lanes_agree(member, l, "by turns");
 }
 
+/* a function of joined stages does what their own do, behind them too */
+static bool joined_agrees(Member *member, Lanes *l)
+{
+    NativeTarget target = l->target;
+    Native *joined;
+    NativeFrame *frame;
+    bool agrees;
+
+    target.joined = true;
+    joined = native_new(l->program, &target);
+    if (joined == NULL)
+        return false;
+    frame = native_frame_new(joined);
+    draw_inputs(member, l, STAGE_PARAMETER);
+    native_run(l->native, STAGE_PARAMETER, NATIVE_JOINED - 1, l->slots, l->frame);
+    native_run(joined, NATIVE_JOINED, NATIVE_JOINED_END, l->slots, frame);
+    native_run(l->native, NATIVE_JOINED_END + 1, STAGE_ACCELERATION, l->slots, l->frame);
+    agrees = lanes_agree(member, l, "joined");
+    native_frame_free(frame);
+    native_free(joined);
+    return agrees;
+}
+
 static Verdict native_code(Member *member)
 {
     Sample made;
@@ -277,7 +300,9 @@ static Verdict native_code(Member *member)
             for (int k = 0; k < l.target.width; k++)
                 *lane(&l, INPUTS + i, k) = made.program->constants.at[i];
         }
-        verdict = stages_agree(member, &l) && turns_agree(member, &l) ? AGREES : DISAGREES;
+        verdict = stages_agree(member, &l) && joined_agrees(member, &l) && turns_agree(member, &l)
+                      ? AGREES
+                      : DISAGREES;
     }
     mem_free(l.slots);
     mem_free(l.other);

@@ -68,7 +68,7 @@ static bool outright(void *context, double t, const double *y, double *out)
 
     inputs[l->t] = t;
     memcpy(inputs + l->q, y, (size_t)(l->n + l->nu) * sizeof(double));
-    workspace_run(nb->main->workspace, STAGE_TIME, STAGE_NETWORK);
+    workspace_run_joined(nb->main->workspace);
     memcpy(out, nb->eq.q_rate, (size_t)l->n * sizeof(double));
     out[l->n + l->nu] = *nb->eq.power;
     return tell_accelerations(nb, out + l->n);
