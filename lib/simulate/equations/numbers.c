@@ -509,18 +509,28 @@ static double *units_of(const Layout *layout)
     return unit;
 }
 
+/* Where this fails the equations are as they were, but for what they may have eliminated before. */
 static Status compile_constrained(Numbers *nb, const Constrained *solved, const int *rows,
                                   int row_count, Diag *diag)
 {
+    Probe *before = nb->main;
+    const Told told_before = nb->told_by;
+    Status status;
+
     mem_free(nb->told_rows);
     nb->told_rows = NEW_ARRAY(int, row_count);
     memcpy(nb->told_rows, rows, (size_t)row_count * sizeof(int));
     nb->told_by = TOLD_CONSTRAINED;
     nb->eliminated = (Eliminated){.rows = nb->told_rows, .row_count = row_count};
-    probe_free(nb->main);
-    nb->main = NULL;
-    TRY(compile_equations(nb, nb->parameters, solved->acceleration, solved->count, diag));
-    return nb->massing == NULL ? compile_mass(nb, nb->parameters, diag) : OK;
+    nb->eq.eliminated = NULL;
+    status = nb->massing == NULL ? compile_mass(nb, nb->parameters, diag) : OK;
+    if (status == OK)
+        status = compile_equations(nb, nb->parameters, solved->acceleration, solved->count, diag);
+    if (status == OK)
+        probe_free(before);
+    else
+        nb->told_by = told_before;
+    return status;
 }
 
 static bool is_of_rows(const Eliminated *own, const int *rows, int row_count)
