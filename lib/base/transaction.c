@@ -148,7 +148,8 @@ MemPiece *piece_new(size_t size, bool zeroed, const void *maker)
     } else {
         const size_t bytes = bytes_of(size);
 
-        piece = bytes > 0 ? system_allocate(bytes, zeroed) : NULL;
+        /* with FAULTS what was never written is not to be taken for an address */
+        piece = bytes > 0 ? system_allocate(bytes, zeroed || FAULTS) : NULL;
         if (piece == NULL)
             transaction_fail();
     }

@@ -548,6 +548,7 @@ static Status eliminate(void *context, const int *rows, int row_count, Diag *dia
 
     if (nb->eq.eliminated != NULL && is_of_rows(nb->eq.eliminated, rows, row_count))
         return OK;
+    mem_keep(nb);
     before = mem_scratch(true);
     solved = elimination_of_rows(nb->layout, rows, row_count);
     if (solved != NULL)

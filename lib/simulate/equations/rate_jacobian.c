@@ -138,6 +138,7 @@ static void open_room(RateJacobian *j)
 
 static bool make(RateJacobian *j)
 {
+    const bool before = mem_scratch(true); /* numbers that each call finds anew */
     Roots roots = {0};
     ColumnMove *moves = NULL;
     bool sound = push_rows(j, &roots) == OK &&
@@ -152,6 +153,7 @@ static bool make(RateJacobian *j)
     }
     mem_free(moves);
     LIST_FREE(roots);
+    (void)mem_scratch(before);
     return sound;
 }
 
@@ -242,9 +244,11 @@ bool rate_jacobian_at(void *context, double t, const double *y, double *out)
 
     if (!motion_solve_in_use(j->motion, t, y, &solved))
         return false;
-    if (!j->is_asked)
+    if (!j->is_asked) {
+        mem_keep(j);
         j->is_made = make(j);
-    j->is_asked = true;
+        j->is_asked = true;
+    }
     if (!j->is_made)
         return false;
     row = row_of_solved(l, motion_clock(j->motion, t), y, &solved);
