@@ -591,6 +591,7 @@ ArenaMark *arena_mark(Arena *arena)
     return mark;
 }
 
+/* Lists keep nothing of what is gone: places of before may be anybody's later. */
 void arena_release(Arena *arena, ArenaMark *mark)
 {
     arena_keep_whole(arena);
@@ -598,16 +599,17 @@ void arena_release(Arena *arena, ArenaMark *mark)
         if (arena->made.at[i].newest >= (uint32_t)mark->nodes)
             drop_made(arena, i);
     while (arena->memories.count > mark->memories) {
-        const Memory *memory = &arena->memories.at[arena->memories.count - 1];
+        Memory *memory = &arena->memories.at[arena->memories.count - 1];
 
         slots_drop(arena->memory_slots, arena->memory_size, memory_hash(memory->e, memory->symbol),
                    (uint32_t)arena->memories.count);
+        *memory = (Memory){0};
         arena->memories.count--;
     }
     while (arena->nodes.count > mark->nodes) {
         slots_drop(arena->slots, arena->size, arena->nodes.at[arena->nodes.count - 1]->hash,
                    (uint32_t)arena->nodes.count);
-        arena->nodes.count--;
+        arena->nodes.at[--arena->nodes.count] = NULL;
     }
     arena->symbols = mark->symbols;
     pool_release(arena->pool, mark->pool);
