@@ -115,7 +115,7 @@ static NativeTarget any_target(Member *member)
 {
     static const int registers[] = {16, 16, 32}, widths[] = {2, 3, 4};
     Isa isa;
-    NativeTarget target;
+    NativeTarget target = {0};
 
     do
         isa = (Isa)member_one_of(member, 3);

@@ -102,7 +102,10 @@ static void dense_solve(const Dense *d, const double *top, const double *bottom,
             gsl_matrix_set(a, (size_t)j, (size_t)(d->nu + k), d->rows[k * d->nu + j]);
         }
     for (int i = 0; i < n; i++)
-        gsl_vector_set(b, (size_t)i, i >= d->nu ? bottom[i - d->nu] : top != NULL ? top[i] : 0);
+        gsl_vector_set(b, (size_t)i,
+                       i < d->nu        ? (top != NULL ? top[i] : 0)
+                       : bottom != NULL ? bottom[i - d->nu]
+                                        : 0);
     (void)gsl_linalg_LU_decomp(a, p, &sign);
     (void)gsl_linalg_LU_solve(a, p, b, &out.vector);
     gsl_permutation_free(p);
