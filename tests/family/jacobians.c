@@ -12,7 +12,7 @@ static bool difference(const Ode *ode, double t, double *y, int j, double h, dou
 {
     const int all = ode->n + ode->quadratures;
     const double was = y[j];
-    double back[MOST_STATES + 1];
+    double back[MOST_STATES + 1] = {0};
     bool sound;
 
     y[j] = was + h;
@@ -46,7 +46,7 @@ static double compare(const Ode *ode, double t, double *y)
 {
     const int n = ode->n, all = n + ode->quadratures;
     double *exact = NEW_ARRAY(double, n *all), *rate = NEW_ARRAY(double, all);
-    double value[MOST_STATES + 1], apart[MOST_STATES + 1], worst = 0;
+    double value[MOST_STATES + 1] = {0}, apart[MOST_STATES + 1] = {0}, worst = 0;
     bool sound = ode->jacobian.at != NULL && ode->rate(ode->context, t, y, rate) &&
                  ode->jacobian.at(ode->jacobian.context, t, y, exact);
 

@@ -98,8 +98,8 @@ static void dense_solve(const Dense *d, const double *top, const double *bottom,
             gsl_matrix_set(a, (size_t)i, (size_t)j, d->mass[i * d->nu + j]);
     for (int k = 0; k < d->m; k++)
         for (int j = 0; j < d->nu; j++) {
-            gsl_matrix_set(a, (size_t)(d->nu + k), (size_t)j, d->rows[k * d->nu + j]);
-            gsl_matrix_set(a, (size_t)j, (size_t)(d->nu + k), d->rows[k * d->nu + j]);
+            gsl_matrix_set(a, (size_t)d->nu + (size_t)k, (size_t)j, d->rows[k * d->nu + j]);
+            gsl_matrix_set(a, (size_t)j, (size_t)d->nu + (size_t)k, d->rows[k * d->nu + j]);
         }
     for (int i = 0; i < n; i++)
         gsl_vector_set(b, (size_t)i,

@@ -108,12 +108,12 @@ static void draw_angles(uint64_t *seed, Robot *r, int stretched, double left)
 static gsl_matrix *in_full(const Robot *r)
 {
     const int nu = 2 * r->n + 3;
-    gsl_matrix *a = gsl_matrix_calloc((size_t)(4 * r->n + 3), (size_t)(4 * r->n + 3));
+    gsl_matrix *a = gsl_matrix_calloc(4 * (size_t)r->n + 3, 4 * (size_t)r->n + 3);
 
     for (int k = 0; k < r->mass.count; k++)
         gsl_matrix_set(a, (size_t)r->mass.row[k], (size_t)r->mass.column[k], r->masses[k]);
     for (int k = 0; k < r->rows.count; k++) {
-        const size_t i = (size_t)r->rows.row[k], j = (size_t)(nu + r->rows.column[k]);
+        const size_t i = (size_t)r->rows.row[k], j = (size_t)nu + (size_t)r->rows.column[k];
 
         gsl_matrix_set(a, i, j, r->entries[k]);
         gsl_matrix_set(a, j, i, r->entries[k]);
@@ -124,7 +124,7 @@ static gsl_matrix *in_full(const Robot *r)
 /* G, columns over their largest entry, then rows of unit length; its least singular value */
 static double least_singular_value(const Robot *r)
 {
-    const size_t nu = (size_t)(2 * r->n + 3), m = (size_t)(2 * r->n);
+    const size_t nu = 2 * (size_t)r->n + 3, m = 2 * (size_t)r->n;
     gsl_matrix *g = gsl_matrix_calloc(nu, m), *v = gsl_matrix_alloc(m, m);
     gsl_vector *s = gsl_vector_alloc(m), *work = gsl_vector_alloc(m);
     double out;
@@ -157,7 +157,7 @@ static double least_singular_value(const Robot *r)
 /* how far du is off the least-squares solution of least norm, over its largest entry */
 static double error_of(const Robot *r, const double *top, const double *bottom, const double *du)
 {
-    const size_t size = (size_t)(4 * r->n + 3);
+    const size_t size = 4 * (size_t)r->n + 3;
     const int nu = 2 * r->n + 3;
     gsl_matrix *a = in_full(r), *v = gsl_matrix_alloc(size, size);
     gsl_vector *s = gsl_vector_alloc(size), *x = gsl_vector_alloc(size),
@@ -185,7 +185,7 @@ static double error_of(const Robot *r, const double *top, const double *bottom, 
 
 static double solve_somewhere(uint64_t *seed, Robot *r, bool at_rest)
 {
-    double top[SPEEDS], bottom[ROWS], du[SPEEDS], lambda[ROWS];
+    double top[SPEEDS] = {0}, bottom[ROWS] = {0}, du[SPEEDS], lambda[ROWS];
 
     for (int i = 0; i < 2 * r->n + 3; i++)
         top[i] = test_uniform(seed, -1, 1);

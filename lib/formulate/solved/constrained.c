@@ -255,7 +255,8 @@ static Constrained *solve(Elimination *e, const Expr *force, const Expr *gamma)
     if (eliminate(e, out)) {
         substitute_back(e);
         tell(e, &e->entries, out);
-        if (price_of(out->acceleration, out->count) <= MOST_OPERATIONS)
+        if (arena_status(e->arena) == OK &&
+            price_of(out->acceleration, out->count) <= MOST_OPERATIONS)
             return out;
     }
     constrained_free(out);

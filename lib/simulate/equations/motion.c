@@ -253,8 +253,10 @@ static bool rate_outright(Motion *mo, double t, const double *y, double *out)
     if (eq->outright == NULL || mo->signs != NULL || mo->partitioning != NULL)
         return false;
     mo->is_evaluated = false;
+    if (!eq->outright(eq->context, motion_clock(mo, t), y, out))
+        return false;
     mo->counts.factorisations++;
-    return eq->outright(eq->context, motion_clock(mo, t), y, out);
+    return true;
 }
 
 static bool rate(void *context, double t, const double *y, double *out)
@@ -401,7 +403,6 @@ static bool project_position(Motion *mo, double t, double *y)
 static bool project_velocity(Motion *mo, double t, const double *y, double *u, const double *x)
 {
     const Equations *eq = mo->eq;
-
     bool has_own;
 
     motion_at_position(mo, t, y);

@@ -9,8 +9,8 @@
  * a are references of angles that only a sine and a cosine tell: each such angle is the one nearest
  * to its a, over any number of turns. They are integrated by the angles' rates, and a projection
  * puts them on the angles. The rest reads no more of them than the turn, and doesn't feel them
- * move. It evaluates nothing twice for the same arguments, and allocates nothing after
- * motion_new(). */
+ * move. Positions that stay are evaluated once, and nothing is allocated after motion_new() but by
+ * motion_hasten(). */
 #ifndef COTREE_SIMULATE_EQUATIONS_MOTION_H
 #define COTREE_SIMULATE_EQUATIONS_MOTION_H
 

@@ -131,5 +131,6 @@ Status motion_hasten(Motion *mo, Diag *diag)
         return OK;
     mo->factored = 0;
     mo->is_evaluated = mo->is_factored = mo->is_alone = false;
+    mem_keep(mo); /* as it is now: where the call fails, so does what was evaluated behind it */
     return eq->eliminate(eq->context, mo->rows, mo->used, diag);
 }

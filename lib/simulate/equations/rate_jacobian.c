@@ -92,7 +92,7 @@ static ColumnMove *list_moves(const RateJacobian *j)
                  {l->q, l->n},
                  {l->u, l->nu},
                  {l->x, l->nx}};
-    ColumnMove *moves = mem_array((size_t)(j->follow + j->states), sizeof *moves);
+    ColumnMove *moves = NEW_ARRAY(ColumnMove, j->follow + j->states);
     int column = 0;
 
     for (int p = 0; p < COUNT(parts); p++)

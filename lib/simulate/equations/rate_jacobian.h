@@ -17,7 +17,8 @@ typedef struct RateJacobian RateJacobian;
 RateJacobian *rate_jacobian_new(const Layout *layout, Parameters *parameters, Motion *motion);
 void rate_jacobian_free(RateJacobian *jacobian); /* NULL is fine */
 /* As of an Ode: derivatives of all rates at (t, y), those of quadratures too. False where it can't
- * tell them: on a surface that is slid along, near a singular position. O((states + unknowns) times
+ * tell them: on a surface that is slid along, near a singular position, where a network reads
+ * multipliers of redundant rows. O((states + unknowns) times
  * instructions / lanes), and a solution a state. */
 bool rate_jacobian_at(void *jacobian, double t, const double *y, double *out);
 

@@ -68,6 +68,7 @@ double mode_margins_off(Phase *phase, double t, double behind, double step, cons
         off = mode_margins_moves(time_to_rise(here + first, ahead + first, count, way, noise), y,
                                  rate, phase->length - 1, control);
     }
+    motion_window(phase->motion, -INFINITY, INFINITY);
     mem_free(room);
     return off;
 }
