@@ -425,12 +425,34 @@ static void borrow_masses(const Kkt *kkt, double least, double *mass)
             mass[i] = fmax(mass[i], borrowed[i]);
 }
 
+/* Keeps the largest that each row in use has been, and tells what counts of a row at least. `size`
+ * is a number a row. */
+static double keep_most(Kkt *kkt, const int *rows, const double *size)
+{
+    double largest = 0;
+
+    for (int k = 0; k < kkt->m; k++) {
+        double *most = &kkt->most[rows[k]];
+
+        if (size[k] > *most)
+            *most = size[k];
+        if (*most > largest)
+            largest = *most;
+    }
+    return LEAST_NORM * LEAST_NORM * largest;
+}
+
+static double reference_of(const Kkt *kkt, int row, double least)
+{
+    return kkt->most[row] > least ? kkt->most[row] : least;
+}
+
 /* Unknowns are scaled to unit mass, rows of G to unit mass-norm at its largest so far. */
 static void choose_scale(Kkt *kkt)
 {
     const double *entries = ldl_entries(kkt->factors);
     double *size = kkt->weight; /* mass, and norm squared */
-    double heaviest = 0, largest = 0;
+    double heaviest = 0, least;
 
     memset(size, 0, (size_t)kkt->size * sizeof(double));
     for (int i = 0; i < kkt->nu; i++) {
@@ -443,14 +465,9 @@ static void choose_scale(Kkt *kkt)
 
         size[kkt->column[e]] += entry * entry / (mass > 0 ? mass : 1);
     }
-    for (int k = 0; k < kkt->m; k++) {
-        double *most = &kkt->most[kkt->rows[k]];
-
-        *most = fmax(*most, size[kkt->nu + k]);
-        largest = fmax(largest, *most);
-    }
+    least = keep_most(kkt, kkt->rows, size + kkt->nu);
     for (int k = 0; k < kkt->m; k++)
-        size[kkt->nu + k] = fmax(kkt->most[kkt->rows[k]], LEAST_NORM * LEAST_NORM * largest);
+        size[kkt->nu + k] = reference_of(kkt, kkt->rows[k], least);
     for (int i = 0; i < kkt->size; i++)
         kkt->scale[kkt->place_of[i]] = size[i] > 0 ? 1 / sqrt(size[i]) : 1;
 }
@@ -500,7 +517,7 @@ static void solve_exchanging(const Kkt *kkt, double *x)
 static void measure_rows(Kkt *kkt)
 {
     const double *taken = ldl_taken(kkt->factors), *entries = ldl_entries(kkt->factors);
-    double *size = kkt->weight, largest = 0;
+    double *size = kkt->weight, least;
 
     for (int k = 0; k < kkt->m; k++)
         size[kkt->nu + k] = taken[kkt->place_of[kkt->nu + k]];
@@ -508,15 +525,9 @@ static void measure_rows(Kkt *kkt)
         if (kkt->class[kkt->row[e]] == CLASS_BORDER)
             size[kkt->column[e]] += entries[kkt->place[e]] * entries[kkt->place[e]] /
                                     entries[kkt->place_of[kkt->row[e]]];
-    for (int k = 0; k < kkt->m; k++) {
-        double *most = &kkt->most[kkt->rows[k]];
-
-        *most = fmax(*most, size[kkt->nu + k]);
-        largest = fmax(largest, *most);
-    }
+    least = keep_most(kkt, kkt->rows, size + kkt->nu);
     for (int k = 0; k < kkt->m; k++)
-        kkt->reference[kkt->place_of[kkt->nu + k]] =
-            fmax(kkt->most[kkt->rows[k]], LEAST_NORM * LEAST_NORM * largest);
+        kkt->reference[kkt->place_of[kkt->nu + k]] = reference_of(kkt, kkt->rows[k], least);
 }
 
 /* whether M has pivots of its own */
@@ -543,7 +554,6 @@ static double least_angle(const Kkt *kkt)
 
             least = fmin(least, pivot / (pivot + taken[kkt->place_of[i]]));
         }
-
     for (int k = 0; k < kkt->m; k++) {
         const int place = kkt->place_of[kkt->nu + k];
         const double angle = -pivots[place] / kkt->reference[place];
@@ -637,7 +647,7 @@ bool kkt_is_factored(const Kkt *kkt)
 
 double kkt_products(const Kkt *kkt)
 {
-    return ldl_order_products(kkt->order) * (kkt->border != NO_BORDER ? 2 : 1);
+    return kkt_order_products(kkt->order, kkt->border);
 }
 
 bool kkt_is_plain(const Kkt *kkt)
@@ -647,23 +657,11 @@ bool kkt_is_plain(const Kkt *kkt)
 
 bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const int *rows)
 {
-    double largest = 0, least;
+    const double least = keep_most(kkt, rows, taken);
     bool sound = true;
 
-    for (int k = 0; k < kkt->m; k++) {
-        double *most = &kkt->most[rows[k]];
-
-        if (taken[k] > *most)
-            *most = taken[k];
-        if (*most > largest)
-            largest = *most;
-    }
-    least = LEAST_NORM * LEAST_NORM * largest;
-    for (int k = 0; k < kkt->m; k++) {
-        const double most = kkt->most[rows[k]];
-
-        sound = sound && pivot[k] > SUSPECT * (most > least ? most : least);
-    }
+    for (int k = 0; k < kkt->m; k++)
+        sound = sound && pivot[k] > SUSPECT * reference_of(kkt, rows[k], least);
     return sound;
 }
 

@@ -33,6 +33,11 @@ void kkt_classes(const KktPlaces *p, int border, const bool *late, int *class)
     mem_free(count);
 }
 
+double kkt_order_products(const LdlOrder *order, int border)
+{
+    return (double)ldl_order_products(order) * (border != NO_BORDER ? FACTORED : 1);
+}
+
 static double products(const KktPlaces *p, int border)
 {
     const int size = p->nu + p->m;
@@ -44,7 +49,7 @@ static double products(const KktPlaces *p, int border)
 
     kkt_classes(p, border, late, class);
     order = ldl_order_new(size, class, p->entries, p->row, p->column, place, place_of);
-    out = ldl_order_products(order) * (border != NO_BORDER ? FACTORED : 1);
+    out = kkt_order_products(order, border);
     ldl_order_free(order);
     MEM_FREE(class, place_of, place, late);
     return out;

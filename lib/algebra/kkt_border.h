@@ -29,5 +29,7 @@ typedef struct KktPlaces {
 int kkt_border(const KktPlaces *places);
 /* The class of speeds and then of rows; late[k]: rows that come last in any case. */
 void kkt_classes(const KktPlaces *places, int border, const bool *late, int *class);
+/* products that a factorisation takes; with a border of the geometry, too */
+double kkt_order_products(const LdlOrder *order, int border);
 
 #endif

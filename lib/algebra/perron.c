@@ -33,12 +33,3 @@ double perron_bound(PerronApply *apply, const void *context, int n)
     MEM_FREE(v, w);
     return bound;
 }
-
-void perron_apply(const double *matrix, int n, const double *v, double *out)
-{
-    for (int i = 0; i < n; i++) {
-        out[i] = 0;
-        for (int j = 0; j < n; j++)
-            out[i] += matrix[i * n + j] * v[j];
-    }
-}

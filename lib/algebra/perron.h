@@ -5,7 +5,5 @@
 /* The matrix is known by what it makes of a vector v > 0 (n). O(12 calls). */
 typedef void PerronApply(const void *context, const double *v, double *out);
 double perron_bound(PerronApply *apply, const void *context, int n);
-/* out = matrix v, n x n entries row by row */
-void perron_apply(const double *matrix, int n, const double *v, double *out);
 
 #endif

@@ -14,6 +14,7 @@
 
 #include "algebra/blocks.h"
 #include "algebra/enclosure.h"
+#include "algebra/linear.h"
 #include "algebra/perron.h"
 #include "algebra/schur.h"
 #include "base/memory.h"
@@ -267,9 +268,9 @@ static void apply_group(const void *context, const double *v, double *out)
     const int n = g->part->size;
     double *moved = NEW_ARRAY(double, n);
 
-    perron_apply(g->part->error, n, v, moved);
+    matrix_times(g->part->error, n, n, v, moved);
     if (g->size != NULL)
-        perron_apply(g->size, n, moved, out);
+        matrix_times(g->size, n, n, moved, out);
     else
         apply_terms(g, moved, out);
     mem_free(moved);

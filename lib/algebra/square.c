@@ -8,6 +8,7 @@
 #include "algebra/square.h"
 
 #include "algebra/blocks.h"
+#include "algebra/linear.h"
 #include "algebra/perron.h"
 #include "algebra/wide.h"
 #include "base/memory.h"
@@ -171,7 +172,7 @@ static void apply_change(const void *context, const double *v, double *out)
     for (int k = 0; k < n; k++)
         for (int j = 0; j < n; j++)
             moved[k] += (s->error[k * n + j] + n * WIDE_UNIT * fabs(s->matrix[k * n + j])) * v[j];
-    perron_apply(s->inverse, n, moved, out);
+    matrix_times(s->inverse, n, n, moved, out);
     mem_free(moved);
 }
 

@@ -115,7 +115,7 @@ static void add_eliminated(const View *view, Text *out, const Equations *eq)
     text_addf(&line,
               ", which these operations eliminate from the %dth time on, wherever no singular "
               "position is near",
-              MOTION_HASTENS);
+              MOTION_FACTORS_FIRST);
     add_line(view, out, "skipped  ", &line);
 }
 

@@ -285,7 +285,7 @@ static void expect_alike(const Equations *eq, Motion *motion, const System *syst
     Diag diag = {0};
 
     EXPECT(motion_hasten(motion, &diag) == OK && eq->eliminated == NULL); /* it hasn't paid yet */
-    for (int i = 0; i < MOTION_HASTENS; i++)
+    for (int i = 0; i < MOTION_FACTORS_FIRST; i++)
         expect_motion(motion, system, n, 0.4 + 1e-4 * i, -1.5);
     projected(motion, system, before);
     EXPECT(motion_hasten(motion, &diag) == OK && eq->eliminated != NULL);

@@ -107,7 +107,7 @@ static int64_t find_order(Elimination *e)
 {
     const int count = e->entries.count;
     int *class = NEW_ARRAY(int, e->size), *row = NEW_ARRAY(int, 3 * count);
-    int *column = row + count, *place = column + count, kept = 0;
+    int *column = row + count, *place = column + count, kept;
     Pattern once;
     LdlOrder *order;
     int64_t products;
@@ -167,14 +167,21 @@ static bool eliminate_row(Elimination *e, int k)
     return true;
 }
 
+/* what masses, eliminated before, leave of the rows */
+static void tell_taken(Elimination *e, const Constrained *out)
+{
+    for (int k = 0; k < e->m; k++) {
+        const Row *row = &e->row[e->place_of[e->nu + k]];
+
+        out->taken[k] = expr_hold(e->arena, expr_neg(e->arena, row->own));
+    }
+}
+
 static bool eliminate(Elimination *e, const Constrained *out)
 {
     for (int i = 0; i < e->size; i++) {
-        for (int k = 0; i == e->nu && k < e->m; k++) {
-            const Row *row = &e->row[e->place_of[e->nu + k]];
-
-            out->taken[k] = expr_hold(e->arena, expr_neg(e->arena, row->own));
-        }
+        if (i == e->nu)
+            tell_taken(e, out);
         if (!eliminate_row(e, i) || arena_status(e->arena) != OK)
             return false;
     }

@@ -220,7 +220,7 @@ Renewed motion_renew(Motion *motion, double t, const double *y);
 /* Between steps: let the equations eliminate u' and multipliers themselves, once a run has factored
  * so many matrices for them: about what writing the elimination out and compiling it costs, at any
  * size. Fails as that does. */
-enum { MOTION_HASTENS = 500 };
+enum { MOTION_FACTORS_FIRST = 500 };
 MUST_USE Status motion_hasten(Motion *motion, Diag *diag);
 
 typedef struct MotionCounts {

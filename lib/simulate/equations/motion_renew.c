@@ -127,7 +127,7 @@ Status motion_hasten(Motion *mo, Diag *diag)
 {
     const Equations *eq = mo->eq;
 
-    if (eq->eliminate == NULL || mo->partitioning != NULL || mo->factored < MOTION_HASTENS)
+    if (eq->eliminate == NULL || mo->partitioning != NULL || mo->factored < MOTION_FACTORS_FIRST)
         return OK;
     mo->factored = 0;
     mo->is_evaluated = mo->is_factored = mo->is_alone = false;
