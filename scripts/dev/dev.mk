@@ -67,7 +67,7 @@ bench: benches
 	done >bench.out
 	@$(dev)/bench-table $(srcdir)/tests/bench/record.txt <bench.out
 	@status=0; ! grep '^# bench_.*: failed' bench.out || status=1; \
-	for part in bench-precision bench-scaling bench-estimates bench-peers bench-latency; do $(MAKE) -s $$part || status=1; done; \
+	for part in bench-precision bench-scaling bench-estimates bench-peers bench-races bench-latency; do $(MAKE) -s $$part || status=1; done; \
 		exit $$status
 
 # work against precision of every reference and stress case, by method: a table, and pictures in
@@ -96,6 +96,11 @@ bench-peers: all
 	@$(MAKE) -s bench_dynamics
 	@rm -rf bench.work; mkdir bench.work
 	@PYTHONDONTWRITEBYTECODE=1 $(srcdir)/tests/bench/peers.py ./bench_dynamics bench.work
+
+# whole runs of chains and four-bars by them, beside ours at the same error
+bench-races: all
+	@rm -rf bench.work; mkdir bench.work
+	@PYTHONDONTWRITEBYTECODE=1 $(srcdir)/tests/bench/races.py bench.work ./cotree $(srcdir)
 
 # a key and Ctrl-C at the prompt, with 300 bodies
 bench-latency: all
@@ -150,4 +155,4 @@ mostlyclean-local:
 distclean-local:
 	rm -rf san small faults coverage bench.work precision scaling
 
-.PHONY: check-total check-hacking check-san check-small check-faults lint format bench benches bench-precision bench-scaling bench-estimates bench-peers bench-latency bench-record precision-record scaling-record fuzz stress check-coverage
+.PHONY: check-total check-hacking check-san check-small check-faults lint format bench benches bench-precision bench-scaling bench-estimates bench-peers bench-races bench-latency bench-record precision-record scaling-record fuzz stress check-coverage

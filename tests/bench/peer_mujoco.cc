@@ -1,10 +1,16 @@
-// peer_mujoco.cc: accelerations and joint torques of a tree by MuJoCo: peer_mujoco MODEL.xml
+// peer_mujoco.cc: a model by MuJoCo
 //
-// At the angles and rates of bench_dynamics.c, in two places in turn. Built by peers.py.
+// peer_mujoco MODEL.xml: accelerations and joint torques of a tree, at the angles and rates of
+// bench_dynamics.c, in two places in turn.
+// peer_mujoco MODEL.xml SECONDS ROWS STEPS [SPEED...]: a run from angles of 0 by its Runge-Kutta
+// method, in so many steps a row; the joints' angles at each row, and the processor's time.
+// Built by peers.py and races.py.
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 #include <mujoco/mujoco.h>
+#include <vector>
 
 static double now()
 {
@@ -39,15 +45,44 @@ static double least(const mjModel *model, mjData *data, void (*call)(const mjMod
     return 1e9 * best;
 }
 
+static void run(mjModel *model, mjData *data, double seconds, int rows, int steps)
+{
+    std::vector<double> angles;
+    double taken = now();
+
+    model->opt.integrator = mjINT_RK4;
+    model->opt.timestep = seconds / rows / steps;
+    for (int e = 0; e < model->neq; e++)
+        model->eq_solref[mjNREF * e] = 2 * model->opt.timestep; /* as stiff as steps allow */
+    angles.reserve((size_t)rows * model->nq);
+    for (int row = 0; row < rows; row++) {
+        for (int step = 0; step < steps; step++)
+            mj_step(model, data);
+        angles.insert(angles.end(), data->qpos, data->qpos + model->nq);
+    }
+    taken = now() - taken;
+    for (size_t i = 0; i < angles.size(); i++)
+        printf("%.15g%c", angles[i], (i + 1) % model->nq == 0 ? '\n' : ' ');
+    printf("# ms %.6g\n", 1e3 * taken);
+}
+
 int main(int argc, char **argv)
 {
     char error[500] = "";
-    mjModel *model = argc == 2 ? mj_loadXML(argv[1], NULL, error, sizeof error) : NULL;
+    mjModel *model = argc >= 2 ? mj_loadXML(argv[1], NULL, error, sizeof error) : NULL;
     mjData *data = model != NULL ? mj_makeData(model) : NULL;
 
     if (data == NULL) {
         printf("# mujoco: %s\n", error);
         return 1;
+    }
+    if (argc > 4) {
+        for (int j = 0; j < model->nv && 5 + j < argc; j++)
+            data->qvel[j] = atof(argv[5 + j]);
+        run(model, data, atof(argv[2]), atoi(argv[3]), atoi(argv[4]));
+        mj_deleteData(data);
+        mj_deleteModel(model);
+        return 0;
     }
     place(model, data, 0);
     mj_forward(model, data);

@@ -1,10 +1,15 @@
-// peer_simbody.cc: accelerations and joint torques of a tree by Simbody: peer_simbody < TREE
+// peer_simbody.cc: a tree by Simbody
 //
-// A line a body, as peers.py writes it: parent, axis, place of the joint in the parent's and in its
-// own frame, mass, principal moments; the first line is gravity. Built by peers.py.
+// peer_simbody < TREE: accelerations and joint torques at the angles and rates of bench_dynamics.c.
+// peer_simbody METHOD SECONDS ACCURACY < TREE: a run from angles of 0 at rest by merson, fehlberg
+// or adams (of CPODES); the joints' angles at the end, and the processor's time. TREE has a line a
+// body, as peers.py writes it: parent, axis, place of the joint in the parent's and in its own
+// frame, mass, principal moments; the first line is gravity. Built by peers.py and races.py.
 #include <Simbody.h>
 #include <ctime>
 #include <iostream>
+#include <memory>
+#include <string>
 
 using namespace SimTK;
 
@@ -24,7 +29,35 @@ static Vec3 vector()
     return v;
 }
 
-int main()
+static std::unique_ptr<Integrator> method_of(const std::string &name, const MultibodySystem &system)
+{
+    if (name == "merson")
+        return std::unique_ptr<Integrator>(new RungeKuttaMersonIntegrator(system));
+    if (name == "fehlberg")
+        return std::unique_ptr<Integrator>(new RungeKuttaFeldbergIntegrator(system));
+    return std::unique_ptr<Integrator>(new CPodesIntegrator(system, CPodes::Adams));
+}
+
+static void run(const MultibodySystem &system, const State &start, char **how)
+{
+    const double seconds = std::stod(how[1]);
+    const double begin = now();
+    const std::unique_ptr<Integrator> method = method_of(how[0], system);
+
+    method->setAccuracy(std::stod(how[2]));
+    method->setInternalStepLimit(100000000);
+    method->initialize(start);
+    while (method->getTime() < seconds)
+        method->stepTo(seconds);
+    const double taken = now() - begin;
+
+    std::cout.precision(15);
+    for (int i = 0; i < method->getState().getNQ(); i++)
+        std::cout << method->getState().getQ()[i] << ' ';
+    std::cout << "\n# ms " << 1e3 * taken << '\n';
+}
+
+int main(int argc, char **argv)
 {
     MultibodySystem system;
     SimbodyMatterSubsystem matter(system);
@@ -47,6 +80,11 @@ int main()
             MobilizedBody::Pin(before, Transform(turn, place), body, Transform(turn, own)));
     }
     State state = system.realizeTopology();
+
+    if (argc == 4) {
+        run(system, state, argv + 1);
+        return 0;
+    }
     const int n = state.getNU(), few = 2 + 2 * (200 / (10 + n));
     Vector asked(n), torques;
 
