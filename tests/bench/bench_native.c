@@ -2,7 +2,8 @@
  *
  * Chains of N joints of a spatial robot with axes of its own each, and of planar links; parameters
  * are numbers here, which the equations keep as such. Rows of ratios are by how much the
- * interpreter takes longer. */
+ * interpreter takes longer, and by how much eight evaluations one by one take longer than eight
+ * lanes. */
 #include "../random.h"
 #include "../unit/form.h"
 #include "../unit/session_kit.h"
@@ -10,6 +11,7 @@
 #include "bench_model.h"
 
 #include "base/text.h"
+#include "compile/lanes.h"
 #include "compile/program.h"
 
 #include <math.h>
@@ -63,6 +65,33 @@ static double evaluation(const Program *program, Evaluator evaluator)
     return 1e9 * seconds / 20;
 }
 
+/* Nanoseconds of eight evaluations of all that moves, side by side; NAN: no native code. */
+static double side_by_side(const Program *program)
+{
+    enum { LANES = 8 };
+    Native *native = lanes_native(program, LANES, EVALUATOR_NATIVE);
+    Lanes *lanes = native != NULL ? lanes_new(program, native, LANES) : NULL;
+    double values[2][LANES], seconds = NAN;
+
+    for (int i = program_input_count(program) - 1; lanes != NULL && i >= 0; i--) {
+        for (int k = 0; k < LANES; k++) {
+            values[0][k] = 1 + 0.1 * sin(i) + 0.01 * k;
+            values[1][k] = 0.1 + values[0][k];
+        }
+        lanes_put(lanes, i, STAGE_TIME, values[0]);
+    }
+    if (lanes != NULL)
+        BENCH_LEAST(
+            200, seconds, for (int i = 1; i <= 20; i++) { /* what is put again runs nothing */
+                                                          lanes_put(lanes, 0, STAGE_TIME,
+                                                                    values[i % 2]);
+                                                          lanes_run(lanes);
+            });
+    lanes_free(lanes);
+    native_free(native);
+    return 1e9 * seconds / 20;
+}
+
 static void line(const char *what, const char *name, double value, const char *unit)
 {
     char row[64];
@@ -75,12 +104,16 @@ static void measure(const Program *program, const char *name)
 {
     const double interpreter = evaluation(program, EVALUATOR_INTERPRETER),
                  strict = evaluation(program, EVALUATOR_STRICT),
-                 native = evaluation(program, EVALUATOR_NATIVE);
+                 native = evaluation(program, EVALUATOR_NATIVE), lanes = side_by_side(program);
 
     line("interpreter", name, interpreter, "ns");
     line("strict", name, strict, "ns");
     line("fused", name, native, "ns");
     line("strict_part", name, strict / interpreter, "of the interpreter's");
+    if (!isnan(lanes)) {
+        line("eight_lanes", name, lanes, "ns");
+        line("eight_by_lanes", name, 8 * native / lanes, "one by one");
+    }
 }
 
 static void measure_chain(bool is_planar, int joints, const char *name)
@@ -138,6 +171,7 @@ int main(void)
     measure_chain(false, 6, "6r");
     measure_chain(true, 10, "chain_10");
     measure_chain(true, 50, "chain_50");
+    measure_chain(false, 10, "spatial_10");
     measure_chain(false, 20, "spatial_20");
     interpreter = run("interpreter");
     strict = run("strict");
