@@ -208,10 +208,14 @@ Expr expr_substitute(Arena *arena, Expr e, const Expr *symbols, const Expr *valu
 void expr_replace(Arena *arena, Expr *roots, int root_count, const Expr *from, const Expr *to,
                   int count);
 /* Symbols whose names begin with one prefix (behind a '#', if there is one) replaced by those of
- * the same kinds with another prefix, in any number of expressions: what was met once isn't visited
- * again. */
+ * the same kinds with another prefix, in any number of expressions: the Original walks what it
+ * meets once for all renamings of it, and each of these builds what it met once. Both borrow the
+ * texts, and a Renaming its Original. */
+typedef struct Original Original;
 typedef struct Renaming Renaming;
-Renaming *renaming_new(Arena *arena, const char *from, const char *to); /* new; borrows the texts */
+Original *original_new(Arena *arena, const char *prefix); /* new */
+void original_free(Original *original);                   /* NULL is fine */
+Renaming *renaming_new(Original *original, const char *to); /* new */
 /* From now on `from`, a symbol or what is held, becomes `to`; a number becomes itself. False: they
  * can't, or something else became of it. */
 bool renaming_pair(Renaming *renaming, Expr from, Expr to);

@@ -24,6 +24,7 @@ typedef struct Inside { /* what an instance made, those inside it too */
     Numbers nodes, chains, speeds, masses;
     bool is_open; /* something else hangs on it */
     LIST(FirstWay) ways;
+    Original *original; /* what others rename; NULL: nobody asked */
 } Inside;
 
 struct Follower {
@@ -334,7 +335,9 @@ static void look_for_first(const System *system, Alike *alike, const int *order,
         if (strcmp(made[first].definition, made[use].definition) != 0 ||
             is_taken(system, alike, first))
             continue;
-        p.renaming = renaming_new(system->arena, p.first->prefix, p.own->prefix);
+        if (p.first->original == NULL)
+            p.first->original = original_new(system->arena, p.first->prefix);
+        p.renaming = renaming_new(p.first->original, p.own->prefix);
         if (are_alike(&p)) {
             follow(alike, &p, use);
             made[use].first = first;
@@ -437,6 +440,8 @@ void alike_free(Alike *alike)
             renaming_free(alike->of[i]->renaming);
         mem_free(alike->of[i]);
     }
+    for (int i = 0; i < alike->count; i++)
+        original_free(alike->inside[i].original);
     MEM_FREE(alike->inside, alike->of, alike->use_of_node, alike->use_of_chain, alike->place,
              alike->of_node, alike->of_chain, alike->of_speed, alike->node, alike->chain,
              alike->speed);
