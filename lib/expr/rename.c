@@ -137,11 +137,15 @@ static Expr base_of(Expr factor)
     return is_call(factor, OP_SQRT) ? node_args(factor)[0] : factor;
 }
 
-/* whether arguments that are built as those of e stand in order, too */
+/* whether arguments that are built as those of e stand in order, too, and none twice */
 static bool are_ordered(Expr e, const Expr *args)
 {
     const bool is_sum = e->kind == EXPR_SUM;
 
+    for (int i = 1; e->kind == EXPR_CALL && i < e->count; i++)
+        for (int j = 0; j < i; j++)
+            if (args[i] == args[j] && node_args(e)[i] != node_args(e)[j])
+                return false;
     if (e->kind == EXPR_CALL && e->count == 2)
         return (expr_compare(args[0], args[1]) < 0) ==
                (expr_compare(node_args(e)[0], node_args(e)[1]) < 0);
@@ -234,8 +238,9 @@ bool renaming_pair(Renaming *renaming, Expr from, Expr to)
         return false;
     place = image_place(renaming, from);
     image = &renaming->of.at[place];
+    /* nothing that it stands in looks into the one or the other */
     if (image->e == NULL)
-        *image = (Image){to, from == to};
+        *image = (Image){to, to->kind == EXPR_SYMBOL || held(to) != to};
     return image->e == to;
 }
 
