@@ -213,8 +213,8 @@ void expr_replace(Arena *arena, Expr *roots, int root_count, const Expr *from, c
  * texts, and a Renaming its Original. */
 typedef struct Original Original;
 typedef struct Renaming Renaming;
-Original *original_new(Arena *arena, const char *prefix); /* new */
-void original_free(Original *original);                   /* NULL is fine */
+Original *original_new(Arena *arena, const char *prefix);   /* new */
+void original_free(Original *original);                     /* NULL is fine */
 Renaming *renaming_new(Original *original, const char *to); /* new */
 /* From now on `from`, a symbol or what is held, becomes `to`; a number becomes itself. False: they
  * can't, or something else became of it. */
@@ -265,6 +265,12 @@ void expr_share(Arena *arena, Expr *roots, int count);
 typedef double (*SymbolValue)(void *context, Expr symbol);
 /* The value of one expression, slowly: for tests and constants. NAN where undefined. */
 double expr_evaluate(Expr e, SymbolValue value, void *context);
+/* Those of many expressions at one place: a value is asked for once, and no node's is computed
+ * again. Takes 9 bytes a node of the arena. */
+typedef struct Evaluation Evaluation;
+Evaluation *evaluation_new(SymbolValue value, void *context); /* new; borrows the context */
+double evaluation_of(Evaluation *evaluation, Expr e);
+void evaluation_free(Evaluation *evaluation); /* NULL is fine */
 
 /* --- counting (the rule is in the manual: n-ary sum n-1 additions, x^k k-1
  * multiplications, each call one function, a coefficient other than 1 and -1 is a

@@ -172,8 +172,8 @@ static Image rebuilt(Renaming *renaming, int place)
     renaming->args.count = 0;
     LIST_ROOM(renaming->args, e->count);
     for (int k = 0; k < e->count; k++) {
-        const Image own = places[k] == NUMBER ? (Image){node_args(e)[k], true}
-                                              : renaming->of.at[places[k]];
+        const Image own =
+            places[k] == NUMBER ? (Image){node_args(e)[k], true} : renaming->of.at[places[k]];
 
         renaming->args.at[k] = own.e;
         changed = changed || own.e != node_args(e)[k];

@@ -208,16 +208,16 @@ static void name_symbols(World *w, const char *const own[], const char *const ot
                             k < 3 || k == 4 ? SYMBOL_PARAMETER : SYMBOL_COORDINATE);
     }
     for (int i = 0; i < TEST_SYMBOLS; i++)
-        w->symbols[i] = expr_symbol(w->arena, own[i],
-                                    i < 3 || i == 4 ? SYMBOL_PARAMETER : SYMBOL_COORDINATE);
+        w->symbols[i] =
+            expr_symbol(w->arena, own[i], i < 3 || i == 4 ? SYMBOL_PARAMETER : SYMBOL_COORDINATE);
 }
 
 /* two renamings of one original in turn, and each asked first now and then */
 static void renaming_is_substitution(void)
 {
     static const char *const own[TEST_SYMBOLS] = {"p.a", "p.b", "#p.c", "p.x", "q.b", "z"};
-    static const char *const others[2][TEST_SYMBOLS] = {
-        {"q.a", "q.b", "#q.c", "q.x", "q.b", "z"}, {"r.a", "r.b", "#r.c", "r.x", "q.b", "z"}};
+    static const char *const others[2][TEST_SYMBOLS] = {{"q.a", "q.b", "#q.c", "q.x", "q.b", "z"},
+                                                        {"r.a", "r.b", "#r.c", "r.x", "q.b", "z"}};
 
     for (uint64_t seed = 1; seed <= 300; seed++) {
         World w = world_new(seed);
@@ -239,9 +239,9 @@ static void renaming_is_substitution(void)
             for (int k = 0; k < 2; k++) {
                 Renaming *renaming = renamings[(which + k) % 2];
 
-                EXPECT(
-                    renaming_of(renaming, e) ==
-                    expr_substitute(w.arena, e, w.symbols, values[(which + k) % 2], TEST_SYMBOLS));
+                EXPECT(renaming_of(renaming, e) == expr_substitute(w.arena, e, w.symbols,
+                                                                   values[(which + k) % 2],
+                                                                   TEST_SYMBOLS));
                 EXPECT(renaming_of(renaming, e) == renaming_of(renaming, e));
             }
         }

@@ -253,8 +253,7 @@ static void find_asked(Summing *s, SumsFor whom)
         const int n = order[i];
 
         s->asks_force[n] = s->asks_force[n] || whom == SUMS_FOR_JOINTS;
-        s->asks_torque[n] =
-            whom == SUMS_FOR_JOINTS || system->kinematics->frames[n].chain != 0;
+        s->asks_torque[n] = whom == SUMS_FOR_JOINTS || system->kinematics->frames[n].chain != 0;
     }
 }
 
@@ -294,7 +293,7 @@ Sums *loads_sum(const System *system, const Loads *loads, SumsFor whom)
     find_alike(&s, loads);
     sum_forces(&s);
     sum_torques(&s);
-    MEM_FREE(s.asks_force, s.asks_torque, s.forces, s.torques, s.force_key, s.torque_key, s.knows_force, s.knows_torque,
-             s.alike);
+    MEM_FREE(s.asks_force, s.asks_torque, s.forces, s.torques, s.force_key, s.torque_key,
+             s.knows_force, s.knows_torque, s.alike);
     return sums;
 }
