@@ -101,7 +101,7 @@ Expr expr_tuple(Arena *arena, const Expr *at, int count);
 /* What follows from a tuple and nothing else, `which` of it, kept as long as the arena keeps its
  * nodes: an array or a struct of expressions, of that size in bytes. */
 void expr_remember(Arena *arena, Expr tuple, int which, const void *values, size_t size);
-/* Those remembered; false: none are. */
+/* Those remembered (out NULL: only asks); false: none are. */
 bool expr_recall(Arena *arena, Expr tuple, int which, void *out, size_t size);
 int64_t arena_nodes(const Arena *arena);
 size_t arena_bytes(const Arena *arena);

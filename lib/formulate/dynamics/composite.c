@@ -164,8 +164,9 @@ static void recall_composites(const System *system, const Passing *passing, Comp
         all->is_known[node] = derived_recall(system, all->key[node], DERIVED_COMPOSITE,
                                              &all->at[node], sizeof all->at[node]);
         if (passes_on(system, passing, node))
-            all->key[parent] = key_join(system, system->kinematics->chains.at[0].identity,
-                                        all->key[parent], key_passed(system, node, all->key[node]));
+            all->key[parent] =
+                key_join(system, system->kinematics->chains.at[0].identity, all->key[parent],
+                         PASSED_WHOLE, key_passed(system, node, all->key[node]));
     }
 }
 

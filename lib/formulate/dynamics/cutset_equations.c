@@ -290,14 +290,9 @@ static Inertia find_inertia(const System *system, const Loads *loads, const Mass
                             const Follower *follower, int first, const Vec *gravity)
 {
     const Kinematics *kinematics = system->kinematics;
-    Key key = key_of(kinematics->frames[mass->node].identity);
+    const Expr told = key_of_inertia(system, mass);
     Inertia inertia;
-    Expr told;
 
-    key_add(&key, &mass->mass, sizeof mass->mass);
-    key_add(&key, &mass->inertia, sizeof mass->inertia);
-    key_add(&key, &system->origin->gravity, sizeof system->origin->gravity);
-    told = key_end(system, &key);
     if (derived_recall(system, told, DERIVED_INERTIA, &inertia, sizeof inertia))
         return inertia;
     inertia = follower != NULL && alike_moves(follower)

@@ -82,11 +82,11 @@ static void recall_forces(Summing *s)
         s->knows_force[n] =
             recall_sum(system, n, s->force_key[n], DERIVED_FORCE, &s->sums->force[n]);
         if (s->asks_force[parent])
-            s->force_key[parent] =
-                key_join(system, frames[parent].identity, s->force_key[parent], s->force_key[n]);
+            s->force_key[parent] = key_join(system, frames[parent].identity, s->force_key[parent],
+                                            PASSED_FORCE, s->force_key[n]);
         if (s->asks_torque[base])
-            s->torque_key[base] =
-                key_join(system, frames[base].identity, s->torque_key[base], s->force_key[n]);
+            s->torque_key[base] = key_join(system, frames[base].identity, s->torque_key[base],
+                                           PASSED_MOMENT, s->force_key[n]);
     }
 }
 
@@ -102,8 +102,9 @@ static void recall_torques(Summing *s)
         s->knows_torque[n] =
             recall_sum(system, n, s->torque_key[n], DERIVED_TORQUE, &s->sums->torque[n]);
         if (s->asks_torque[parent])
-            s->torque_key[parent] = key_join(system, system->kinematics->frames[parent].identity,
-                                             s->torque_key[parent], s->torque_key[n]);
+            s->torque_key[parent] =
+                key_join(system, system->kinematics->frames[parent].identity, s->torque_key[parent],
+                         PASSED_TORQUE, s->torque_key[n]);
     }
 }
 
@@ -157,9 +158,9 @@ static Vec as_first(const System *system, int node, const Vec *of)
     return alike_vec(follower, of[first]);
 }
 
-typedef struct Passed {
+typedef struct Carried {
     Vec force, moment; /* in the axes of the parent, and of the base */
-} Passed;
+} Carried;
 
 /* a shift passes on the moment of what it carries to the frame that it is fixed in */
 static void pass_force(const Summing *s, int n)
@@ -171,7 +172,7 @@ static void pass_force(const Summing *s, int n)
     Vec *onto = &s->sums->force[frame->parent], *about = &s->sums->torque[frame->base];
     const bool adds = s->asks_force[frame->parent] && !s->knows_force[frame->parent];
     const bool turns = s->asks_torque[frame->base] && !s->knows_torque[frame->base];
-    Passed passed;
+    Carried passed;
 
     if (!adds && !turns)
         return;

@@ -7,6 +7,7 @@
 #include "formulate/kinematics/alike.h"
 
 #include "base/names.h"
+#include "formulate/kinematics/identity.h"
 #include "formulate/system/dynamics.h"
 #include "formulate/system/kinematics.h"
 #include "formulate/system/origin.h"
@@ -138,6 +139,25 @@ static void find_open(const System *system, Alike *alike)
         hang(system, alike, order[i], system->kinematics->frames[order[i]].base);
         hang(system, alike, order[i], tree_parent(system->origin->trees[TREE_ROTATION], order[i]));
     }
+}
+
+/* whether an earlier System derived its motion and its masses; nothing of this one's is yet */
+static bool is_recalled(const System *system, const Inside *inside)
+{
+    const Kinematics *kinematics = system->kinematics;
+    bool known = inside->nodes.count > 0;
+
+    for (int k = 0; known && k < inside->chains.count; k++)
+        known = derived_is_kept(system, kinematics->chains.at[inside->chains.at[k]].identity,
+                                DERIVED_TURN);
+    for (int k = 0; known && k < inside->nodes.count; k++)
+        known =
+            derived_is_kept(system, kinematics->frames[inside->nodes.at[k]].identity, DERIVED_STEP);
+    for (int k = 0; known && k < inside->masses.count; k++)
+        known = derived_is_kept(
+            system, key_of_inertia(system, &system->dynamics->masses.at[inside->masses.at[k]]),
+            DERIVED_INERTIA);
+    return known;
 }
 
 /* --- whether two are alike --- */
@@ -399,7 +419,7 @@ void alike_build(System *system)
     Names *uses;
     int *order, count;
 
-    if (origin->use_count < 2 || origin->trees[TREE_TRANSLATION] == NULL ||
+    if (origin->use_count < 1 || origin->trees[TREE_TRANSLATION] == NULL ||
         system->kinematics->dependents.count > 0)
         return;
     alike = system->alike = alike_new(system);
@@ -415,6 +435,8 @@ void alike_build(System *system)
     gather(system, uses, alike);
     names_free(uses);
     find_open(system, alike);
+    for (int i = 0; i < origin->use_count; i++)
+        origin->uses[i].is_recalled = is_recalled(system, &alike->inside[i]);
     order = NEW_ARRAY(int, origin->use_count);
     count = in_order(alike, order);
     for (int i = 1; i < count; i++)
