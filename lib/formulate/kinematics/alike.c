@@ -52,10 +52,8 @@ static int innermost(const Names *uses, const char *name)
     int found = -1;
 
     for (const char *dot = strchr(name, '.'); dot != NULL; dot = strchr(dot + 1, '.')) {
-        char *head = mem_text(name, (size_t)(dot - name));
-        const int use = names_find(uses, head);
+        const int use = names_find_part(uses, name, (size_t)(dot - name));
 
-        mem_free(head);
         if (use >= 0)
             found = use;
     }
@@ -210,7 +208,7 @@ static bool same_names(const Pairing *p)
 static bool pair_nodes(const Pairing *p)
 {
     const size_t prefix = strlen(p->first->prefix), own = strlen(p->own->prefix);
-    Names *names = names_new();
+    Names *names = names_borrowing();
     bool same = true;
 
     for (int k = 0; k < p->first->nodes.count; k++)
@@ -423,7 +421,7 @@ void alike_build(System *system)
         system->kinematics->dependents.count > 0)
         return;
     alike = system->alike = alike_new(system);
-    uses = names_new();
+    uses = names_borrowing();
     for (int i = 0; i < origin->use_count; i++) {
         Text prefix = {0};
 
