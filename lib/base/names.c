@@ -6,27 +6,49 @@
 #include <stdint.h>
 #include <string.h>
 
+typedef struct Named {
+    const char *text;
+    char *own; /* a copy; NULL: it is borrowed */
+    uint32_t hash;
+} Named;
+
 struct Names {
-    LIST(char *) list;
+    bool borrows;
+    LIST(Named) list;
     int *slots; /* number + 1, or 0 where free */
     int size;   /* a power of two */
 };
 
 /* FNV-1a (Fowler, Noll, Vo) */
-static uint32_t hash(const char *name)
+static uint32_t hash(const char *name, size_t length)
 {
     uint32_t h = 2166136261U;
 
-    for (; *name != '\0'; name++)
-        h = (h ^ (unsigned char)*name) * 16777619U;
+    for (size_t i = 0; i < length; i++)
+        h = (h ^ (unsigned char)name[i]) * 16777619U;
     return h ^ (h >> 15);
 }
 
-static int slot_of(const Names *names, const char *name)
+/* whose it is, or the one where its way ends */
+static int slot_of(const Names *names, uint32_t key, const char *name, size_t length)
 {
-    int slot = (int)(hash(name) & (uint32_t)(names->size - 1));
+    int slot = (int)(key & (uint32_t)(names->size - 1));
 
-    while (names->slots[slot] != 0 && strcmp(names->list.at[names->slots[slot] - 1], name) != 0)
+    for (; names->slots[slot] != 0; slot = (slot + 1) & (names->size - 1)) {
+        const Named *other = &names->list.at[names->slots[slot] - 1];
+
+        if (other->hash == key && strncmp(other->text, name, length) == 0 &&
+            other->text[length] == '\0')
+            break;
+    }
+    return slot;
+}
+
+static int free_slot(const Names *names, uint32_t key)
+{
+    int slot = (int)(key & (uint32_t)(names->size - 1));
+
+    while (names->slots[slot] != 0)
         slot = (slot + 1) & (names->size - 1);
     return slot;
 }
@@ -45,7 +67,7 @@ static void resize(Names *names, int size)
     names->slots = slots;
     names->size = size;
     for (int i = 0; i < names->list.count; i++)
-        names->slots[slot_of(names, names->list.at[i])] = i + 1;
+        names->slots[free_slot(names, names->list.at[i].hash)] = i + 1;
 }
 
 Names *names_new(void)
@@ -56,19 +78,32 @@ Names *names_new(void)
     return names;
 }
 
+Names *names_borrowing(void)
+{
+    Names *names = names_new();
+
+    names->borrows = true;
+    return names;
+}
+
 void names_free(Names *names)
 {
     if (names == NULL)
         return;
-    for (int i = 0; i < names->list.count; i++)
-        mem_free(names->list.at[i]);
+    for (int i = 0; !names->borrows && i < names->list.count; i++)
+        mem_free(names->list.at[i].own);
     LIST_FREE(names->list);
     MEM_FREE(names->slots, names);
 }
 
+int names_find_part(const Names *names, const char *name, size_t length)
+{
+    return names->slots[slot_of(names, hash(name, length), name, length)] - 1;
+}
+
 int names_find(const Names *names, const char *name)
 {
-    return names->slots[slot_of(names, name)] - 1;
+    return names_find_part(names, name, strlen(name));
 }
 
 static void set_slot(Names *names, int slot, int number)
@@ -79,17 +114,23 @@ static void set_slot(Names *names, int slot, int number)
 
 int names_add(Names *names, const char *name)
 {
-    int number = names_find(names, name);
+    const size_t length = strlen(name);
+    const uint32_t key = hash(name, length);
+    int slot = slot_of(names, key, name, length);
+    Named named = {.text = name, .hash = key};
 
-    if (number >= 0)
-        return number;
+    if (names->slots[slot] != 0)
+        return names->slots[slot] - 1;
     mem_keep(names);
-    if ((names->list.count + 1) * 4 > names->size * 3)
+    if ((names->list.count + 1) * 4 > names->size * 3) {
         resize(names, names->size * 2);
-    LIST_PUSH(names->list, mem_text(name, strlen(name)));
-    number = names->list.count - 1;
-    set_slot(names, slot_of(names, name), number + 1);
-    return number;
+        slot = free_slot(names, key);
+    }
+    if (!names->borrows)
+        named.text = named.own = mem_text(name, length);
+    LIST_PUSH(names->list, named);
+    set_slot(names, slot, names->list.count);
+    return names->list.count - 1;
 }
 
 /* Nobody who came before stepped over the slot of the last one. */
@@ -97,17 +138,17 @@ void names_trim(Names *names, int count)
 {
     mem_keep(names);
     while (names->list.count > count) {
-        char *last = names->list.at[names->list.count - 1];
+        const Named last = names->list.at[names->list.count - 1];
 
-        set_slot(names, slot_of(names, last), 0);
+        set_slot(names, slot_of(names, last.hash, last.text, strlen(last.text)), 0);
         names->list.count--;
-        mem_free(last);
+        mem_free(last.own);
     }
 }
 
 const char *names_get(const Names *names, int number)
 {
-    return names->list.at[number];
+    return names->list.at[number].text;
 }
 
 int names_count(const Names *names)

@@ -41,6 +41,8 @@ void text_add(Text *text, const char *more)
     text_add_n(text, more, strlen(more));
 }
 
+enum { USUAL = 60 }; /* characters of what is formatted; longer ones are twice */
+
 void text_addf(Text *text, const char *format, ...)
 {
     va_list args;
@@ -49,14 +51,17 @@ void text_addf(Text *text, const char *format, ...)
 
     va_start(args, format);
     va_copy(again, args);
-    length = vsnprintf(NULL, 0, format, args);
+    reserve(text, USUAL);
+    length = vsnprintf(text->at + text->length, USUAL + 1, format, args);
     va_end(args);
-    if (length > 0) {
+    if (length > USUAL) {
         reserve(text, (size_t)length);
         (void)vsnprintf(text->at + text->length, (size_t)length + 1, format, again);
-        text->length += (size_t)length;
     }
     va_end(again);
+    if (length > 0)
+        text->length += (size_t)length;
+    text->at[text->length] = '\0';
 }
 
 void text_char(Text *text, char c)

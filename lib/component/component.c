@@ -138,7 +138,11 @@ Expr instance_literal(const Instance *instance, Arena *arena, int param, int ent
     Text name = {0};
     Expr symbol;
 
-    text_addf(&name, "#%s.%s[%d]", instance->name, instance->row->params[param].name, entry);
+    text_char(&name, '#');
+    text_add(&name, instance->name);
+    text_char(&name, '.');
+    text_add(&name, instance->row->params[param].name);
+    text_addf(&name, "[%d]", entry);
     symbol = expr_symbol(arena, name.at, SYMBOL_PARAMETER);
     text_free(&name);
     return symbol;

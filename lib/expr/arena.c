@@ -443,8 +443,8 @@ bool expr_recall(Arena *arena, Expr tuple, int which, void *out, size_t size)
 {
     const Expr kept = arena_recall(arena, tuple, node_rational(arena, 1 + which, 1));
 
-    if (kept == NULL)
-        return false;
+    if (kept == NULL || out == NULL)
+        return kept != NULL;
     assert((size_t)kept->count * sizeof(Expr) == size);
     memcpy(out, node_args(kept), size);
     return true;

@@ -101,7 +101,7 @@ Expr expr_tuple(Arena *arena, const Expr *at, int count);
 /* What follows from a tuple and nothing else, `which` of it, kept as long as the arena keeps its
  * nodes: an array or a struct of expressions, of that size in bytes. */
 void expr_remember(Arena *arena, Expr tuple, int which, const void *values, size_t size);
-/* Those remembered; false: none are. */
+/* Those remembered (out NULL: only asks); false: none are. */
 bool expr_recall(Arena *arena, Expr tuple, int which, void *out, size_t size);
 int64_t arena_nodes(const Arena *arena);
 size_t arena_bytes(const Arena *arena);
@@ -208,10 +208,14 @@ Expr expr_substitute(Arena *arena, Expr e, const Expr *symbols, const Expr *valu
 void expr_replace(Arena *arena, Expr *roots, int root_count, const Expr *from, const Expr *to,
                   int count);
 /* Symbols whose names begin with one prefix (behind a '#', if there is one) replaced by those of
- * the same kinds with another prefix, in any number of expressions: what was met once isn't visited
- * again. */
+ * the same kinds with another prefix, in any number of expressions: the Original walks what it
+ * meets once for all renamings of it, and each of these builds what it met once. Both borrow the
+ * texts, and a Renaming its Original. */
+typedef struct Original Original;
 typedef struct Renaming Renaming;
-Renaming *renaming_new(Arena *arena, const char *from, const char *to); /* new; borrows the texts */
+Original *original_new(Arena *arena, const char *prefix);   /* new */
+void original_free(Original *original);                     /* NULL is fine */
+Renaming *renaming_new(Original *original, const char *to); /* new */
 /* From now on `from`, a symbol or what is held, becomes `to`; a number becomes itself. False: they
  * can't, or something else became of it. */
 bool renaming_pair(Renaming *renaming, Expr from, Expr to);
@@ -261,6 +265,12 @@ void expr_share(Arena *arena, Expr *roots, int count);
 typedef double (*SymbolValue)(void *context, Expr symbol);
 /* The value of one expression, slowly: for tests and constants. NAN where undefined. */
 double expr_evaluate(Expr e, SymbolValue value, void *context);
+/* Those of many expressions at one place: a value is asked for once, and no node's is computed
+ * again. Takes 9 bytes a node of the arena. */
+typedef struct Evaluation Evaluation;
+Evaluation *evaluation_new(SymbolValue value, void *context); /* new; borrows the context */
+double evaluation_of(Evaluation *evaluation, Expr e);
+void evaluation_free(Evaluation *evaluation); /* NULL is fine */
 
 /* --- counting (the rule is in the manual: n-ary sum n-1 additions, x^k k-1
  * multiplications, each call one function, a coefficient other than 1 and -1 is a

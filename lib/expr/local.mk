@@ -5,6 +5,6 @@ libcore_la_SOURCES += \
 	lib/expr/notations.def lib/expr/greek.c lib/expr/greek.h lib/expr/heap.c lib/expr/number.c lib/expr/order.c \
 	lib/expr/print.c lib/expr/print_code.c lib/expr/print_impl.h lib/expr/print_latex.c \
 	lib/expr/print_text.c lib/expr/print_tree.c lib/expr/product.c \
-	lib/expr/range.c lib/expr/range.h \
+	lib/expr/range.c lib/expr/range.h lib/expr/rename.c \
 	lib/expr/share.c lib/expr/substitute.c lib/expr/sum.c lib/expr/curve.c lib/expr/curve.h \
 	lib/expr/units.c lib/expr/units.h lib/expr/walk.c

@@ -60,8 +60,8 @@ Graph *graph_new(void)
 {
     Graph *graph = NEW(Graph);
 
-    graph->node_names = names_new();
-    graph->edge_names = names_new();
+    graph->node_names = names_borrowing();
+    graph->edge_names = names_borrowing();
     graph->texts = pool_new(0);
     return graph;
 }
@@ -96,7 +96,7 @@ int graph_add_node(Graph *graph, const char *name, Domain domain, bool datum)
     int node = graph->nodes.count;
     Node new_node = {pool_text(graph->texts, name, strlen(name)), domain, datum};
 
-    if (names_add(graph->node_names, name) == graph->first_node.count)
+    if (names_add(graph->node_names, new_node.name) == graph->first_node.count)
         LIST_PUSH(graph->first_node, node);
     LIST_PUSH(graph->nodes, new_node);
     LIST_PUSH(graph->at, (Incident){.edges = {0}});
@@ -115,7 +115,7 @@ int graph_add_edge(Graph *graph, const Edge *edge)
 
     mem_keep(graph);
     copy.name = pool_text(graph->texts, edge->name, strlen(edge->name));
-    if (names_add(graph->edge_names, edge->name) == graph->first_edge.count)
+    if (names_add(graph->edge_names, copy.name) == graph->first_edge.count)
         LIST_PUSH(graph->first_edge, number);
     LIST_PUSH(graph->edges, copy);
     keep_incident(graph, edge->tail);

@@ -172,7 +172,9 @@ static void add_blocks(const System *system, const Lines *speeds, const Lines *r
         table_cell(&table, one->name);
         table_cell(&table, one->definition);
         add_counts(&table, speeds, rows, network, i);
-        if (taken_from(system, i, &first))
+        if (one->is_recalled)
+            table_cell(&table, "recalled");
+        else if (taken_from(system, i, &first))
             table_cellf(&table, "those of %s", first.at);
         else
             table_cell(&table, "derived");
@@ -186,7 +188,8 @@ static void add_blocks(const System *system, const Lines *speeds, const Lines *r
     table_free(&table);
 }
 
-/* how often each definition was derived, at the first of its instances */
+/* how often each definition was derived, at the first of its instances; never where earlier
+ * equations were recalled */
 static void add_counters(const System *system, Text *out)
 {
     const Instanced *one, *other;
@@ -202,16 +205,18 @@ static void add_counters(const System *system, Text *out)
                 continue;
             is_later = is_later || k < i;
             instances++;
-            derived += !taken_from(system, k, &first);
+            derived += !other->is_recalled && !taken_from(system, k, &first);
             text_free(&first);
         }
         if (is_later)
             continue;
-        text_addf(out, "%s: derived ", one->definition);
-        if (derived == 1)
-            text_add(out, "once");
+        text_addf(out, "%s: ", one->definition);
+        if (derived == 0)
+            text_add(out, "recalled");
+        else if (derived == 1)
+            text_add(out, "derived once");
         else
-            text_addf(out, "%d times", derived);
+            text_addf(out, "derived %d times", derived);
         text_add(out, ", ");
         layout_count(out, instances, "instance", "instances");
         text_char(out, '\n');

@@ -1,8 +1,10 @@
 /* bench_subsystems.c: a planar robot of 30 legs, and a platform on 30 spatial ones, each leg an
  * instance of one definition, against the same parts written out: forming the equations in
- * milliseconds, both in one run, and after one leg was changed, removed and added again */
+ * milliseconds, both in turn, alone and with the programs that a run steps with, and after one leg
+ * was changed, removed and added again */
 #include "formulate/system/system.h"
 #include "model/model.h"
+#include "simulate/equations/numbers.h"
 
 #include "base/text.h"
 #include "bench.h"
@@ -11,7 +13,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { LEGS = 30, TRIES = 5 };
+enum { LEGS = 30, TRIES = 9 };
 
 static void add_planar(Text *text, const char *p, const char *base)
 {
@@ -86,11 +88,11 @@ static void apply(Model *model, const char *line)
     statement_free(statement);
 }
 
-/* seconds, from the equations before an edit (NULL: none) to those of the model as it is, as a
- * session does it; *system: NULL where they are to be freed */
+/* seconds, from the equations before an edit (*before NULL: none) to those of the model as it is,
+ * as a session does it */
 static double form(Model *model, System **before)
 {
-    const SystemOptions options = {.has_literals = before != NULL};
+    const SystemOptions options = {.has_literals = true};
     Scene scene = {0};
     System *system = NULL;
     Diag diag = {0};
@@ -98,19 +100,41 @@ static double form(Model *model, System **before)
     const double began = clock_now();
 
     status = model_scene(model, &scene, &diag);
-    if (status == OK && (before == NULL || *before == NULL || !system_follows(*before, &scene)))
+    if (status == OK && (*before == NULL || !system_follows(*before, &scene)))
         status = system_new_view(&scene, &options, &system, &diag);
     const double took = clock_now() - began;
 
     if (status != OK)
         printf("# %s\n", diag.message);
-    if (before == NULL)
-        system_free(system);
-    else if (system != NULL) {
+    if (system != NULL) {
         system_free(*before);
         *before = system;
     }
     scene_free(&scene);
+    return took;
+}
+
+static double parameter(void *context, Expr symbol)
+{
+    return model_number(context, symbol);
+}
+
+/* the programs that a run steps with: seconds */
+static double compile(const Model *model, System *system)
+{
+    const double began = clock_now();
+    Layout *layout = layout_new(system);
+    Parameters parameters = {.value = parameter, .context = (void *)model};
+    Numbers *numbers = NULL;
+    Diag diag = {0};
+    const Status status = numbers_new(layout, &parameters, &numbers, &diag);
+    const double took = clock_now() - began;
+
+    if (status != OK)
+        printf("# %s\n", diag.message);
+    numbers_free(numbers);
+    parameters_free(&parameters);
+    layout_free(layout);
     return took;
 }
 
@@ -150,28 +174,41 @@ static void bench_edits(bool planar, const char *text)
         line(planar, what[k], least[k] / all, "of all");
 }
 
+typedef struct Times {
+    double formed, compiled; /* seconds, the least; compiled: both together */
+} Times;
+
+static void time_once(const char *text, Times *least)
+{
+    Model *model = bench_model(text);
+    System *system = NULL;
+    double formed;
+
+    if (model == NULL)
+        return;
+    formed = form(model, &system);
+    least->formed = fmin(least->formed, formed);
+    least->compiled = fmin(least->compiled, formed + compile(model, system));
+    system_free(system);
+    model_free(model);
+}
+
 static void bench_robot(bool planar)
 {
-    double least[2] = {1e300, 1e300};
+    char *texts[] = {robot_text(planar, false), robot_text(planar, true)};
+    Times least[] = {{1e300, 1e300}, {1e300, 1e300}};
 
-    for (int flat = 0; flat < 2; flat++) {
-        char *text = robot_text(planar, flat == 1);
-
-        for (int i = 0; i < TRIES; i++) {
-            Model *model = bench_model(text);
-
-            if (model == NULL)
-                break;
-            least[flat] = fmin(least[flat], form(model, NULL));
-            model_free(model);
-        }
-        if (flat == 0)
-            bench_edits(planar, text);
-        mem_free(text);
-    }
-    line(planar, "time", 1e3 * least[0], "ms");
-    line(planar, "flat_time", 1e3 * least[1], "ms");
-    line(planar, "ratio", least[0] / least[1], "of flat");
+    for (int i = 0; i < TRIES; i++)
+        for (int flat = 0; flat < 2; flat++)
+            time_once(texts[flat], &least[flat]);
+    bench_edits(planar, texts[0]);
+    line(planar, "time", 1e3 * least[0].formed, "ms");
+    line(planar, "flat_time", 1e3 * least[1].formed, "ms");
+    line(planar, "ratio", least[0].formed / least[1].formed, "of flat");
+    line(planar, "compiled", 1e3 * least[0].compiled, "ms");
+    line(planar, "compiled_ratio", least[0].compiled / least[1].compiled, "of flat");
+    mem_free(texts[0]);
+    mem_free(texts[1]);
 }
 
 int main(void)

@@ -31,6 +31,14 @@ delete left
 show structure
 END
 cotree -q within.ct
+echo '--- what an edit leaves alone is recalled, what comes with it follows, and a mass is another one'
+cat >>within.ct <<'END'
+use arm other A=ground
+show structure
+set right.low.b.mass = 2
+show structure
+END
+cotree -q within.ct | grep -A9 '^block' | sed -n '23,32p;34,43p'
 echo '--- thirty legs: patterns of blocks'
 {
     printf 'scene planar\nbody m mass=1 inertia=1\n'

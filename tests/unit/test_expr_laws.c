@@ -196,41 +196,58 @@ static void substitution_is_simultaneous(void)
 }
 
 /* Other names in any order, some of which stand there already, and a symbol that becomes a sum. */
+/* symbols as they are, and those that take their places, made in another order */
+static void name_symbols(World *w, const char *const own[], const char *const others[], Expr *to)
+{
+    const int first = pick(w, TEST_SYMBOLS);
+
+    for (int i = 0; i < TEST_SYMBOLS; i++) {
+        const int k = (first + 5 * i) % TEST_SYMBOLS;
+
+        to[k] = expr_symbol(w->arena, others[k],
+                            k < 3 || k == 4 ? SYMBOL_PARAMETER : SYMBOL_COORDINATE);
+    }
+    for (int i = 0; i < TEST_SYMBOLS; i++)
+        w->symbols[i] =
+            expr_symbol(w->arena, own[i], i < 3 || i == 4 ? SYMBOL_PARAMETER : SYMBOL_COORDINATE);
+}
+
+/* two renamings of one original in turn, and each asked first now and then */
 static void renaming_is_substitution(void)
 {
     static const char *const own[TEST_SYMBOLS] = {"p.a", "p.b", "#p.c", "p.x", "q.b", "z"};
-    static const char *const others[TEST_SYMBOLS] = {"q.a", "q.b", "#q.c", "q.x", "q.b", "z"};
+    static const char *const others[2][TEST_SYMBOLS] = {{"q.a", "q.b", "#q.c", "q.x", "q.b", "z"},
+                                                        {"r.a", "r.b", "#r.c", "r.x", "q.b", "z"}};
 
     for (uint64_t seed = 1; seed <= 300; seed++) {
         World w = world_new(seed);
-        Renaming *renaming = renaming_new(w.arena, "p.", "q.");
-        Expr values[TEST_SYMBOLS];
-        const int first = pick(&w, TEST_SYMBOLS);
+        Original *original = original_new(w.arena, "p.");
+        Renaming *renamings[2] = {renaming_new(original, "q."), renaming_new(original, "r.")};
+        Expr values[2][TEST_SYMBOLS];
 
-        for (int i = 0; i < TEST_SYMBOLS; i++) {
-            const int k = (first + 5 * i) % TEST_SYMBOLS; /* in another order */
-            const SymbolKind kind = k < 3 || k == 4 ? SYMBOL_PARAMETER : SYMBOL_COORDINATE;
-
-            values[k] = expr_symbol(w.arena, others[k], kind);
-        }
-        for (int i = 0; i < TEST_SYMBOLS; i++) {
-            const SymbolKind kind = i < 3 || i == 4 ? SYMBOL_PARAMETER : SYMBOL_COORDINATE;
-
-            w.symbols[i] = expr_symbol(w.arena, own[i], kind);
-        }
+        for (int k = 0; k < 2; k++)
+            name_symbols(&w, own, others[k], values[k]);
         if (seed % 3 == 0) {
-            values[5] = expr_sub(w.arena, values[0], w.symbols[4]);
-            EXPECT(renaming_pair(renaming, w.symbols[5], values[5]));
-            EXPECT(!renaming_pair(renaming, w.symbols[5], w.symbols[4]));
+            values[1][5] = expr_sub(w.arena, values[1][0], w.symbols[4]);
+            EXPECT(renaming_pair(renamings[1], w.symbols[5], values[1][5]));
+            EXPECT(!renaming_pair(renamings[1], w.symbols[5], w.symbols[4]));
         }
-        for (int i = 0; i < 4; i++) {
-            const Expr e = random_expr(&w, 1 + i, &(double){0});
+        for (int i = 0; i < 8; i++) {
+            const Expr e = random_expr(&w, 1 + i / 2, &(double){0});
+            const int which = pick(&w, 2);
 
-            EXPECT(renaming_of(renaming, e) ==
-                   expr_substitute(w.arena, e, w.symbols, values, TEST_SYMBOLS));
-            EXPECT(renaming_of(renaming, e) == renaming_of(renaming, e));
+            for (int k = 0; k < 2; k++) {
+                Renaming *renaming = renamings[(which + k) % 2];
+
+                EXPECT(renaming_of(renaming, e) == expr_substitute(w.arena, e, w.symbols,
+                                                                   values[(which + k) % 2],
+                                                                   TEST_SYMBOLS));
+                EXPECT(renaming_of(renaming, e) == renaming_of(renaming, e));
+            }
         }
-        renaming_free(renaming);
+        renaming_free(renamings[0]);
+        renaming_free(renamings[1]);
+        original_free(original);
         arena_free(w.arena);
     }
 }

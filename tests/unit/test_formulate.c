@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "compile/program.h"
 #include "form.h"
+#include "formulate/kinematics/identity.h"
 #include "formulate/system/system_impl.h"
 
 #include <string.h>
@@ -706,8 +707,46 @@ static void asking_for_rates_costs_no_memory(void)
     text_free(&text);
 }
 
+/* what doesn't fit into a key is derived anew, not found under a shorter one */
+static void a_key_too_long_is_none(void)
+{
+    Arena *arena = arena_new();
+    const System system = {.arena = arena};
+    const Expr one = expr_int(arena, 1), kept[] = {expr_int(arena, 2)};
+    Expr found[1] = {NULL};
+    Key key = key_of(expr_symbol(arena, "x", SYMBOL_COORDINATE));
+
+    for (int i = 1; i < MOST_KEY; i++)
+        key_add(&key, &one, sizeof one);
+    derived_keep(&system, key_end(&system, &key), DERIVED_TURN, kept, sizeof kept);
+    EXPECT(derived_recall(&system, key_end(&system, &key), DERIVED_TURN, found, sizeof found));
+    EXPECT(found[0] == kept[0]);
+    key_add(&key, &one, sizeof one);
+    EXPECT(key_end(&system, &key) == NULL);
+    EXPECT(!derived_is_kept(&system, key_end(&system, &key), DERIVED_TURN));
+    arena_free(arena);
+}
+
+/* a force that is passed on has a moment, a torque that is passed on is one: of the same key they
+ * are told apart */
+static void keys_tell_how_a_load_is_passed_on(void)
+{
+    Arena *arena = arena_new();
+    const System system = {.arena = arena};
+    const Expr place = expr_symbol(arena, "x", SYMBOL_COORDINATE), load = expr_int(arena, 3);
+    const Expr moment = key_join(&system, place, NULL, PASSED_MOMENT, load);
+
+    EXPECT(moment == key_join(&system, place, NULL, PASSED_MOMENT, load));
+    EXPECT(moment != key_join(&system, place, NULL, PASSED_TORQUE, load));
+    EXPECT(moment != key_join(&system, place, NULL, PASSED_FORCE, load));
+    EXPECT(key_join(&system, NULL, moment, PASSED_FORCE, load) == moment);
+    arena_free(arena);
+}
+
 int main(void)
 {
+    RUN(a_key_too_long_is_none);
+    RUN(keys_tell_how_a_load_is_passed_on);
     RUN(asking_for_rates_costs_no_memory);
     RUN(long_chains_are_not_written_out);
     RUN(frames_turned_halfway_tell_their_attitude);

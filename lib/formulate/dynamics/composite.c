@@ -108,22 +108,6 @@ Composite composite_at(const System *system, const Composites *all, int node)
     return own;
 }
 
-/* those that some speed moves, a flag a node: new, mem_free() */
-static bool *moving_nodes(const System *system)
-{
-    int nodes;
-    const int *order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
-    bool *moves = NEW_ARRAY(bool, graph_node_count(system->origin->graph));
-
-    for (int i = 1; i < nodes; i++) {
-        const Frame *frame = &system->kinematics->frames[order[i]];
-
-        moves[order[i]] = moves[frame->parent] || frame->slide_count > 0 || frame->chain != 0 ||
-                          frame->step_chain != 0;
-    }
-    return moves;
-}
-
 static bool is_nothing(const Composite *part)
 {
     for (int k = 0; k < 9; k++)
@@ -180,8 +164,9 @@ static void recall_composites(const System *system, const Passing *passing, Comp
         all->is_known[node] = derived_recall(system, all->key[node], DERIVED_COMPOSITE,
                                              &all->at[node], sizeof all->at[node]);
         if (passes_on(system, passing, node))
-            all->key[parent] = key_join(system, system->kinematics->chains.at[0].identity,
-                                        all->key[parent], key_passed(system, node, all->key[node]));
+            all->key[parent] =
+                key_join(system, system->kinematics->chains.at[0].identity, all->key[parent],
+                         PASSED_WHOLE, key_passed(system, node, all->key[node]));
     }
 }
 
@@ -212,7 +197,7 @@ Composites composites_new(const System *system, const int *place)
     Composites all = {.at = pool_alloc(system->pool, count * sizeof *all.at),
                       .key = pool_alloc(system->pool, count * sizeof *all.key),
                       .is_known = pool_alloc(system->pool, count * sizeof *all.is_known)};
-    Passing passing = {.place = place, .moves = moving_nodes(system)};
+    Passing passing = {.place = place, .moves = frames_moving(system)};
     int first;
 
     passing.inward = alike_inward(system, TREE_TRANSLATION, &passing.count);

@@ -242,7 +242,7 @@ static Status mass_matrix(System *system)
             CHECK(unit_motion(system, k, v));
             CHECK(unit_loads(system, k, v, &loads));
         }
-        sums = loads_sum(system, &loads);
+        sums = loads_sum(system, &loads, SUMS_FOR_SPEEDS);
         for (int j = 0; j < n; j++)
             columns[(size_t)k * (size_t)n + (size_t)j] = sums_project(system, sums, j);
         pool_release(system->pool, mark);
@@ -290,14 +290,9 @@ static Inertia find_inertia(const System *system, const Loads *loads, const Mass
                             const Follower *follower, int first, const Vec *gravity)
 {
     const Kinematics *kinematics = system->kinematics;
-    Key key = key_of(kinematics->frames[mass->node].identity);
+    const Expr told = key_of_inertia(system, mass);
     Inertia inertia;
-    Expr told;
 
-    key_add(&key, &mass->mass, sizeof mass->mass);
-    key_add(&key, &mass->inertia, sizeof mass->inertia);
-    key_add(&key, &system->origin->gravity, sizeof system->origin->gravity);
-    told = key_end(system, &key);
     if (derived_recall(system, told, DERIVED_INERTIA, &inertia, sizeof inertia))
         return inertia;
     inertia = follower != NULL && alike_moves(follower)
@@ -588,7 +583,7 @@ static Status take_inertial_laws(System *system, Diag *diag)
         Loads loads = loads_new(system);
 
         CHECK(efforts_add(system, &loads, k, diag));
-        project(system, loads_sum(system, &loads), rows);
+        project(system, loads_sum(system, &loads, SUMS_FOR_SPEEDS), rows);
         pool_release(system->pool, mark);
         for (int j = 0; j < n; j++)
             add_share(system, j, k, expr_neg(system->arena, rows[j]));
@@ -628,7 +623,7 @@ Status dynamics_build(System *system, Diag *diag)
     loads = loads_new(system);
     loads_add_inertia(system, &loads, system->kinematics->alpha0, system->kinematics->a0, NULL);
     TRY(efforts_add(system, &loads, TAKE_AT_REST, diag));
-    project(system, loads_sum(system, &loads), system->run.force);
+    project(system, loads_sum(system, &loads, SUMS_FOR_SPEEDS), system->run.force);
     TRY(take_inertial_laws(system, diag));
     return joint_efforts(system, diag);
 }
@@ -649,7 +644,7 @@ Status system_pushes(System *system, Expr *out, Diag *diag)
     for (int j = 0; j < system->kinematics->u.count; j++)
         out[j] = expr_add(system->arena, loads.own[j], system->dynamics->pushes[j]);
     if (!none) {
-        const Sums *sums = loads_sum(system, &loads);
+        const Sums *sums = loads_sum(system, &loads, SUMS_FOR_SPEEDS);
 
         for (int j = 0; j < system->kinematics->u.count; j++)
             out[j] = expr_hold(system->arena, expr_add(system->arena, system->dynamics->pushes[j],
@@ -692,7 +687,7 @@ bool dynamics_lack(System *system, const Expr *acceleration, Expr *out)
     loads = loads_new(system);
     loads_add_inertia(system, &loads, alpha, a, acceleration);
     if (efforts_add(system, &loads, TAKE_AT_REST, NULL) == OK) {
-        const Sums *sums = loads_sum(system, &loads);
+        const Sums *sums = loads_sum(system, &loads, SUMS_FOR_SPEEDS);
 
         for (int j = 0; j < nu; j++) {
             const Expr there =

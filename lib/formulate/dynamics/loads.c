@@ -41,10 +41,10 @@ void loads_add_torque(const System *system, Loads *loads, int node, Vec torque, 
 typedef struct Summing {
     const System *system;
     Sums *sums;
-    int datum;             /* no branch leads there */
     int *forces, *torques; /* nodes inward, of each tree; without the datum */
     int force_count, torque_count;
     /* a node each */
+    bool *asks_force, *asks_torque;   /* somebody asks for the sum */
     Expr *force_key, *torque_key;     /* of what adds up there; NULL: nothing, or it isn't told */
     bool *knows_force, *knows_torque; /* the sum is recalled, or nothing */
     bool *alike;                      /* the sums are those of the first's */
@@ -77,12 +77,16 @@ static void recall_forces(Summing *s)
     for (int i = 0; i < s->force_count; i++) {
         const int n = s->forces[i], parent = frames[n].parent, base = frames[n].base;
 
+        if (!s->asks_force[n])
+            continue;
         s->knows_force[n] =
             recall_sum(system, n, s->force_key[n], DERIVED_FORCE, &s->sums->force[n]);
-        s->force_key[parent] =
-            key_join(system, frames[parent].identity, s->force_key[parent], s->force_key[n]);
-        s->torque_key[base] =
-            key_join(system, frames[base].identity, s->torque_key[base], s->force_key[n]);
+        if (s->asks_force[parent])
+            s->force_key[parent] = key_join(system, frames[parent].identity, s->force_key[parent],
+                                            PASSED_FORCE, s->force_key[n]);
+        if (s->asks_torque[base])
+            s->torque_key[base] = key_join(system, frames[base].identity, s->torque_key[base],
+                                           PASSED_MOMENT, s->force_key[n]);
     }
 }
 
@@ -93,10 +97,14 @@ static void recall_torques(Summing *s)
     for (int i = 0; i < s->torque_count; i++) {
         const int n = s->torques[i], parent = tree_parent(system->origin->trees[TREE_ROTATION], n);
 
+        if (!s->asks_torque[n])
+            continue;
         s->knows_torque[n] =
             recall_sum(system, n, s->torque_key[n], DERIVED_TORQUE, &s->sums->torque[n]);
-        s->torque_key[parent] = key_join(system, system->kinematics->frames[parent].identity,
-                                         s->torque_key[parent], s->torque_key[n]);
+        if (s->asks_torque[parent])
+            s->torque_key[parent] =
+                key_join(system, system->kinematics->frames[parent].identity, s->torque_key[parent],
+                         PASSED_TORQUE, s->torque_key[n]);
     }
 }
 
@@ -127,7 +135,9 @@ static void find_alike(const Summing *s, const Loads *loads)
         const Follower *follower = alike_node(s->system, n, &first);
         const int *member;
 
-        if (follower == NULL || asked[n] || (s->knows_force[n] && s->knows_torque[n]))
+        if (follower == NULL || asked[n] ||
+            ((s->knows_force[n] || !s->asks_force[n]) &&
+             (s->knows_torque[n] || !s->asks_torque[n])))
             continue;
         member = alike_members(follower, &members);
         for (int k = 0; k < members; k++)
@@ -148,9 +158,9 @@ static Vec as_first(const System *system, int node, const Vec *of)
     return alike_vec(follower, of[first]);
 }
 
-typedef struct Passed {
+typedef struct Carried {
     Vec force, moment; /* in the axes of the parent, and of the base */
-} Passed;
+} Carried;
 
 /* a shift passes on the moment of what it carries to the frame that it is fixed in */
 static void pass_force(const Summing *s, int n)
@@ -160,10 +170,11 @@ static void pass_force(const Summing *s, int n)
     const Vec force = s->sums->force[n];
     const int axes = node_axes(system, n);
     Vec *onto = &s->sums->force[frame->parent], *about = &s->sums->torque[frame->base];
-    Passed passed;
+    const bool adds = s->asks_force[frame->parent] && !s->knows_force[frame->parent];
+    const bool turns = s->asks_torque[frame->base] && !s->knows_torque[frame->base];
+    Carried passed;
 
-    if ((frame->parent == s->datum || s->knows_force[frame->parent]) &&
-        (frame->base == s->datum || s->knows_torque[frame->base]))
+    if (!adds && !turns)
         return;
     if (!derived_recall(system, s->force_key[n], DERIVED_PASSED, &passed, sizeof passed)) {
         passed.force = vec_carry_held(system, force, axes, node_axes(system, frame->parent));
@@ -171,9 +182,9 @@ static void pass_force(const Summing *s, int n)
                                        node_axes(system, frame->base));
         derived_keep(system, s->force_key[n], DERIVED_PASSED, &passed, sizeof passed);
     }
-    if (frame->parent != s->datum && !s->knows_force[frame->parent])
+    if (adds)
         *onto = vec_add(system->arena, *onto, passed.force);
-    if (frame->base != s->datum && !s->knows_torque[frame->base])
+    if (turns)
         *about = vec_add(system->arena, *about, passed.moment);
 }
 
@@ -182,7 +193,7 @@ static void pass_torque(const Summing *s, int n, int parent)
     const System *system = s->system;
     Vec passed;
 
-    if (parent == s->datum || s->knows_torque[parent])
+    if (!s->asks_torque[parent] || s->knows_torque[parent])
         return;
     if (!derived_recall(system, s->torque_key[n], DERIVED_TURNED, &passed, sizeof passed)) {
         passed = vec_carry_held(system, s->sums->torque[n], node_axes(system, n),
@@ -206,6 +217,8 @@ static void sum_forces(const Summing *s)
     for (int i = 0; i < s->force_count; i++) {
         const int n = s->forces[i], parent = s->system->kinematics->frames[n].parent;
 
+        if (!s->asks_force[n])
+            continue;
         end_sum(s, n, s->knows_force[n], s->force_key[n], DERIVED_FORCE, s->sums->force);
         /* most loads of a motion of few bodies are none */
         if (!(s->alike[n] && s->alike[parent]) && !vec_is_zero(s->sums->force[n]))
@@ -219,13 +232,33 @@ static void sum_torques(const Summing *s)
         const int n = s->torques[i],
                   parent = tree_parent(s->system->origin->trees[TREE_ROTATION], n);
 
+        if (!s->asks_torque[n])
+            continue;
         end_sum(s, n, s->knows_torque[n], s->torque_key[n], DERIVED_TORQUE, s->sums->torque);
         if (!(s->alike[n] && s->alike[parent]) && !vec_is_zero(s->sums->torque[n]))
             pass_torque(s, n, parent);
     }
 }
 
-Sums *loads_sum(const System *system, const Loads *loads)
+/* no joint leads to the datum; a turn is one of the chain, wherever its nodes stand */
+static void find_asked(Summing *s, SumsFor whom)
+{
+    const System *system = s->system;
+    const int *order;
+    int nodes;
+
+    s->asks_force = frames_moving(system);
+    s->asks_torque = NEW_ARRAY(bool, graph_node_count(system->origin->graph));
+    order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
+    for (int i = 1; i < nodes; i++) {
+        const int n = order[i];
+
+        s->asks_force[n] = s->asks_force[n] || whom == SUMS_FOR_JOINTS;
+        s->asks_torque[n] = whom == SUMS_FOR_JOINTS || system->kinematics->frames[n].chain != 0;
+    }
+}
+
+Sums *loads_sum(const System *system, const Loads *loads, SumsFor whom)
 {
     const int count = graph_node_count(system->origin->graph);
     const size_t size = (size_t)count * sizeof(Vec);
@@ -234,13 +267,13 @@ Sums *loads_sum(const System *system, const Loads *loads)
     const int *order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
     Summing s = {.system = system,
                  .sums = sums,
-                 .datum = order[0],
                  .force_key = NEW_ARRAY(Expr, count),
                  .torque_key = NEW_ARRAY(Expr, count),
                  .knows_force = NEW_ARRAY(bool, count),
                  .knows_torque = NEW_ARRAY(bool, count),
                  .alike = NEW_ARRAY(bool, count)};
 
+    find_asked(&s, whom);
     sums->own = loads->own;
     sums->force = pool_alloc(system->pool, size);
     sums->torque = pool_alloc(system->pool, size);
@@ -249,8 +282,10 @@ Sums *loads_sum(const System *system, const Loads *loads)
 
         sums->force[n] = loads->force[n];
         sums->torque[n] = loads->torque[n];
-        s.force_key[n] = load_key(system, n, FORCE, loads->force[n]);
-        s.torque_key[n] = load_key(system, n, TORQUE, loads->torque[n]);
+        if (s.asks_force[n])
+            s.force_key[n] = load_key(system, n, FORCE, loads->force[n]);
+        if (s.asks_torque[n])
+            s.torque_key[n] = load_key(system, n, TORQUE, loads->torque[n]);
     }
     s.forces = alike_inward(system, TREE_TRANSLATION, &s.force_count);
     s.torques = alike_inward(system, TREE_ROTATION, &s.torque_count);
@@ -259,7 +294,7 @@ Sums *loads_sum(const System *system, const Loads *loads)
     find_alike(&s, loads);
     sum_forces(&s);
     sum_torques(&s);
-    MEM_FREE(s.forces, s.torques, s.force_key, s.torque_key, s.knows_force, s.knows_torque,
-             s.alike);
+    MEM_FREE(s.asks_force, s.asks_torque, s.forces, s.torques, s.force_key, s.torque_key,
+             s.knows_force, s.knows_torque, s.alike);
     return sums;
 }

@@ -19,8 +19,14 @@ typedef struct Sums {
     const Expr *own;
 } Sums;
 
+/* who asks for sums */
+typedef enum SumsFor {
+    SUMS_FOR_SPEEDS, /* at nodes that no speed moves they are none */
+    SUMS_FOR_JOINTS  /* what holds them still, too */
+} SumsFor;
+
 /* sums inward over both trees of what acts on nodes; new arrays in the system's pool */
-Sums *loads_sum(const System *system, const Loads *loads);
+Sums *loads_sum(const System *system, const Loads *loads, SumsFor whom);
 Loads loads_new(const System *system);
 /* m (g - a) and -(I alpha + w x I w) of every mass, and what deforms, with u' or (NULL) without */
 void loads_add_inertia(const System *system, Loads *loads, const Vec *alpha, const Vec *a,

@@ -79,7 +79,7 @@ Status actual_build(System *system, Diag *diag)
     for (int k = 0; k < system->constraints->redundant_rows.count; k++)
         loads_add_row(system, &loads, &system->constraints->redundant_rows.at[k],
                       system->shown->recovery->multipliers[k]);
-    system->shown->actual = loads_sum(system, &loads);
+    system->shown->actual = loads_sum(system, &loads, SUMS_FOR_JOINTS);
     return OK;
 }
 

@@ -85,7 +85,7 @@ static void unit_sums(System *system, Recovery *recovery)
 
         loads_add_row(system, &unit, &system->constraints->redundant_rows.at[k],
                       expr_int(system->arena, 1));
-        recovery->sums[k] = loads_sum(system, &unit);
+        recovery->sums[k] = loads_sum(system, &unit, SUMS_FOR_JOINTS);
     }
 }
 
@@ -260,7 +260,7 @@ void recovery_build(System *system, const Loads *loads)
 {
     Recovery *recovery = pool_alloc(system->pool, sizeof *recovery);
     int count = system->constraints->redundant_rows.count;
-    const Sums *sums = loads_sum(system, loads);
+    const Sums *sums = loads_sum(system, loads, SUMS_FOR_JOINTS);
     RedundancyMatrix m = {.columns = count};
     Elimination e;
 

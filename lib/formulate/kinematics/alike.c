@@ -7,6 +7,7 @@
 #include "formulate/kinematics/alike.h"
 
 #include "base/names.h"
+#include "formulate/kinematics/identity.h"
 #include "formulate/system/dynamics.h"
 #include "formulate/system/kinematics.h"
 #include "formulate/system/origin.h"
@@ -24,6 +25,7 @@ typedef struct Inside { /* what an instance made, those inside it too */
     Numbers nodes, chains, speeds, masses;
     bool is_open; /* something else hangs on it */
     LIST(FirstWay) ways;
+    Original *original; /* what others rename; NULL: nobody asked */
 } Inside;
 
 struct Follower {
@@ -50,10 +52,8 @@ static int innermost(const Names *uses, const char *name)
     int found = -1;
 
     for (const char *dot = strchr(name, '.'); dot != NULL; dot = strchr(dot + 1, '.')) {
-        char *head = mem_text(name, (size_t)(dot - name));
-        const int use = names_find(uses, head);
+        const int use = names_find_part(uses, name, (size_t)(dot - name));
 
-        mem_free(head);
         if (use >= 0)
             found = use;
     }
@@ -139,6 +139,25 @@ static void find_open(const System *system, Alike *alike)
     }
 }
 
+/* whether an earlier System derived its motion and its masses; nothing of this one's is yet */
+static bool is_recalled(const System *system, const Inside *inside)
+{
+    const Kinematics *kinematics = system->kinematics;
+    bool known = inside->nodes.count > 0;
+
+    for (int k = 0; known && k < inside->chains.count; k++)
+        known = derived_is_kept(system, kinematics->chains.at[inside->chains.at[k]].identity,
+                                DERIVED_TURN);
+    for (int k = 0; known && k < inside->nodes.count; k++)
+        known =
+            derived_is_kept(system, kinematics->frames[inside->nodes.at[k]].identity, DERIVED_STEP);
+    for (int k = 0; known && k < inside->masses.count; k++)
+        known = derived_is_kept(
+            system, key_of_inertia(system, &system->dynamics->masses.at[inside->masses.at[k]]),
+            DERIVED_INERTIA);
+    return known;
+}
+
 /* --- whether two are alike --- */
 
 typedef struct Pairing {
@@ -189,7 +208,7 @@ static bool same_names(const Pairing *p)
 static bool pair_nodes(const Pairing *p)
 {
     const size_t prefix = strlen(p->first->prefix), own = strlen(p->own->prefix);
-    Names *names = names_new();
+    Names *names = names_borrowing();
     bool same = true;
 
     for (int k = 0; k < p->first->nodes.count; k++)
@@ -334,7 +353,9 @@ static void look_for_first(const System *system, Alike *alike, const int *order,
         if (strcmp(made[first].definition, made[use].definition) != 0 ||
             is_taken(system, alike, first))
             continue;
-        p.renaming = renaming_new(system->arena, p.first->prefix, p.own->prefix);
+        if (p.first->original == NULL)
+            p.first->original = original_new(system->arena, p.first->prefix);
+        p.renaming = renaming_new(p.first->original, p.own->prefix);
         if (are_alike(&p)) {
             follow(alike, &p, use);
             made[use].first = first;
@@ -396,11 +417,11 @@ void alike_build(System *system)
     Names *uses;
     int *order, count;
 
-    if (origin->use_count < 2 || origin->trees[TREE_TRANSLATION] == NULL ||
+    if (origin->use_count < 1 || origin->trees[TREE_TRANSLATION] == NULL ||
         system->kinematics->dependents.count > 0)
         return;
     alike = system->alike = alike_new(system);
-    uses = names_new();
+    uses = names_borrowing();
     for (int i = 0; i < origin->use_count; i++) {
         Text prefix = {0};
 
@@ -412,6 +433,8 @@ void alike_build(System *system)
     gather(system, uses, alike);
     names_free(uses);
     find_open(system, alike);
+    for (int i = 0; i < origin->use_count; i++)
+        origin->uses[i].is_recalled = is_recalled(system, &alike->inside[i]);
     order = NEW_ARRAY(int, origin->use_count);
     count = in_order(alike, order);
     for (int i = 1; i < count; i++)
@@ -437,6 +460,8 @@ void alike_free(Alike *alike)
             renaming_free(alike->of[i]->renaming);
         mem_free(alike->of[i]);
     }
+    for (int i = 0; i < alike->count; i++)
+        original_free(alike->inside[i].original);
     MEM_FREE(alike->inside, alike->of, alike->use_of_node, alike->use_of_chain, alike->place,
              alike->of_node, alike->of_chain, alike->of_speed, alike->node, alike->chain,
              alike->speed);

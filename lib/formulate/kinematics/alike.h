@@ -14,7 +14,7 @@
 
 typedef struct Follower Follower; /* an instance that follows another one */
 
-/* behind the frames and masses; what system_derived() tells, too */
+/* behind the frames and masses, before anything follows from them; what system_instanced() tells */
 void alike_build(System *system);
 void alike_free(struct Alike *alike); /* NULL is fine */
 

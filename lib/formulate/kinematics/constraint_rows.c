@@ -546,8 +546,10 @@ Status constraints_build(System *system, Diag *diag)
     int kept = 0;
     Status status = OK;
 
-    for (int i = 0; i < SAMPLES; i++)
+    for (int i = 0; i < SAMPLES; i++) {
         samples[i] = sample_new(system, (uint64_t)i, true);
+        sample_remember(samples[i]);
+    }
     CHECK(all_rows(system, diag));
     for (int k = 0; k < system->constraints->rows.count; k++) {
         Row *row = &system->constraints->rows.at[k];
@@ -561,6 +563,8 @@ Status constraints_build(System *system, Diag *diag)
     system->constraints->rows.count = kept;
     CHECK(run_rows(system, patterns, diag));
 done:
+    for (int i = 0; i < SAMPLES; i++)
+        sample_forget(samples[i]);
     row_patterns_free(patterns);
     return status;
 }

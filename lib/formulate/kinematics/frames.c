@@ -580,3 +580,18 @@ Expr rotation_angle(Arena *arena, const Rotation *rotation, Vec axis)
     cosine = expr_sum(arena, (Expr[]){R[0], R[4], R[8], expr_int(arena, -1)}, 4);
     return expr_call2(arena, OP_ATAN2, sine, expr_mul(arena, half, cosine));
 }
+
+bool *frames_moving(const System *system)
+{
+    int nodes;
+    const int *order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
+    bool *moves = NEW_ARRAY(bool, graph_node_count(system->origin->graph));
+
+    for (int i = 1; i < nodes; i++) {
+        const Frame *frame = &system->kinematics->frames[order[i]];
+
+        moves[order[i]] = moves[frame->parent] || frame->slide_count > 0 || frame->chain != 0 ||
+                          frame->step_chain != 0;
+    }
+    return moves;
+}

@@ -39,5 +39,7 @@ Expr rotation_angle(Arena *arena, const Rotation *rotation, Vec axis);
 Vec frame_vector(const System *system, int node, Vec in_frame);
 /* the row's steps of an instance */
 void instance_steps(const System *system, const Instance *instance, Steps *steps);
+/* those that some speed moves, a flag a node: new, mem_free() */
+bool *frames_moving(const System *system);
 
 #endif

@@ -4,7 +4,6 @@
 #include "formulate/system/origin.h"
 #include "formulate/system/system_impl.h"
 
-#include <assert.h>
 #include <string.h>
 
 Key key_of(Expr identity)
@@ -16,7 +15,11 @@ void key_add(Key *key, const void *entries, size_t size)
 {
     const int count = (int)(size / sizeof(Expr));
 
-    assert(key->count + count <= MOST_KEY);
+    /* whoever follows from more is derived anew each time */
+    if (count > MOST_KEY - key->count) {
+        key->is_told = false;
+        return;
+    }
     memcpy(key->at + key->count, entries, size);
     for (int i = 0; i < count; i++)
         key->is_told = key->is_told && key->at[key->count + i] != NULL;
@@ -76,11 +79,28 @@ Expr key_passed(const System *system, int node, Expr beyond)
     return key_end(system, &key);
 }
 
-Expr key_join(const System *system, Expr identity, Expr own, Expr passed)
+Expr key_join(const System *system, Expr identity, Expr own, Passed how, Expr passed)
 {
     if (identity == NULL || passed == NULL)
         return own;
-    return expr_tuple(system->arena, (Expr[]){own != NULL ? own : identity, passed}, 2);
+    return expr_tuple(system->arena,
+                      (Expr[]){own != NULL ? own : identity, expr_int(system->arena, how), passed},
+                      3);
+}
+
+Expr key_of_inertia(const System *system, const Mass *mass)
+{
+    Key key = key_of(system->kinematics->frames[mass->node].identity);
+
+    key_add(&key, &mass->mass, sizeof mass->mass);
+    key_add(&key, &mass->inertia, sizeof mass->inertia);
+    key_add(&key, &system->origin->gravity, sizeof system->origin->gravity);
+    return key_end(system, &key);
+}
+
+bool derived_is_kept(const System *system, Expr key, Derived which)
+{
+    return key != NULL && expr_recall(system->arena, key, which, NULL, 0);
 }
 
 bool derived_recall(const System *system, Expr key, Derived which, void *out, size_t size)

@@ -8,6 +8,7 @@
 #ifndef COTREE_FORMULATE_KINEMATICS_IDENTITY_H
 #define COTREE_FORMULATE_KINEMATICS_IDENTITY_H
 
+#include "formulate/system/dynamics.h"
 #include "formulate/system/kinematics.h"
 
 /* what follows from an identity, or from a key */
@@ -36,18 +37,22 @@ enum { MOST_KEY = 48 };
 typedef struct Key {
     Expr at[MOST_KEY];
     int count;
-    bool is_told; /* no identity in it is missing */
+    bool is_told; /* no identity in it is missing, and all fitted in */
 } Key;
 Key key_of(Expr identity);
 void key_add(Key *key, const void *entries, size_t size); /* an array or a struct of expressions */
 Expr key_end(const System *system, const Key *key);       /* NULL: it isn't told */
+Expr key_of_inertia(const System *system, const Mass *mass); /* of DERIVED_INERTIA */
 /* What is there and beyond it, as the parent of the frame sees it: it stands and turns alike
  * against the parent, wherever that is. Behind its motion. */
 Expr key_passed(const System *system, int node, Expr beyond);
+/* what is passed on to a frame: what hangs there as a whole, or of that */
+typedef enum Passed { PASSED_WHOLE, PASSED_FORCE, PASSED_MOMENT, PASSED_TORQUE } Passed;
 /* Of what is at a frame (NULL: nothing so far), and of what is passed on to it (NULL: nothing). */
-Expr key_join(const System *system, Expr identity, Expr own, Expr passed);
+Expr key_join(const System *system, Expr identity, Expr own, Passed how, Expr passed);
 
 /* expr_recall() and expr_remember(); of NULL nothing is. */
+bool derived_is_kept(const System *system, Expr key, Derived which);
 bool derived_recall(const System *system, Expr key, Derived which, void *out, size_t size);
 void derived_keep(const System *system, Expr key, Derived which, const void *values, size_t size);
 

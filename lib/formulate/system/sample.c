@@ -98,9 +98,21 @@ static double symbol_value(void *context, Expr symbol)
     return sample->others != 0 ? some_value(&sample->others, symbol) : NAN;
 }
 
+void sample_remember(Sample *sample)
+{
+    sample->evaluation = evaluation_new(symbol_value, sample);
+}
+
+void sample_forget(Sample *sample)
+{
+    evaluation_free(sample->evaluation);
+    sample->evaluation = NULL;
+}
+
 double sample_number(Sample *sample, Expr e)
 {
-    return expr_is_number(e) ? expr_value(e) : expr_evaluate(e, symbol_value, sample);
+    return sample->evaluation != NULL ? evaluation_of(sample->evaluation, e)
+                                      : expr_evaluate(e, symbol_value, sample);
 }
 
 double expr_value_somewhere(Expr e, uint32_t seed)

@@ -97,8 +97,9 @@ int system_quaternion(const System *system, int i);
 
 typedef struct Instanced {
     const char *name, *definition;
-    int outer; /* the one around it; -1 */
-    int first; /* whose equations it took over, in its own names; -1: they were derived */
+    int outer;        /* the one around it; -1 */
+    int first;        /* whose equations it took over, in its own names; -1: they were derived */
+    bool is_recalled; /* those of all its frames and masses were known from an earlier System */
 } Instanced;
 
 /* an outer one before those inside; NULL at the end */

@@ -165,7 +165,7 @@ void literals_put(System *system, const Scene *scene)
                 origin->instances[i].values[k].at[c] = e;
                 origin->literals++;
                 LIST_PUSH(origin->parameters,
-                          (GivenParameter){e, scene->number(scene->context, e)});
+                          (GivenParameter){e, expr_evaluate(from->values[k].at[c], NULL, NULL)});
             }
     }
     LIST_FREE(literals.axes);

@@ -110,8 +110,8 @@ static void copy_instances(System *system, const Scene *scene)
 /* the first that bears a name is found by it */
 static void enter_names(System *system)
 {
-    system->origin->instance_names = names_new();
-    system->origin->coordinate_names = names_new();
+    system->origin->instance_names = names_borrowing();
+    system->origin->coordinate_names = names_borrowing();
     for (int i = 0; i < system->origin->instance_count; i++) {
         const Instance *instance = &system->origin->instances[i];
 
