@@ -413,7 +413,7 @@ static Verdict long_chain(Member *m)
     text_add(&text, "tree absolute\nassemble\n");
     agrees = (kit_do(&kit, text.at) == CT_OK) == (wrong < 0);
     for (int i = 0; i < n && agrees && wrong < 0; i++) {
-        char name[16];
+        char name[32];
 
         (void)snprintf(name, sizeof name, "b%d.theta'", i);
         agrees = keeps(m, name, fabs(kit_value(&kit, name) - rate[i]), 1e-9);
