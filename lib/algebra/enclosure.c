@@ -150,6 +150,8 @@ static bool find_sizes(const Enclosure *e, const double complex *residual,
     for (int i = 0; i < n; i++)
         unity[i * n + i] -= 1;
     inexact = largest_row(unity, n) + 4 * n * UNIT * left * largest_row(e->right, n);
+    for (int i = 0; i < n * n; i++)
+        e->turn_left[i] = 2 * (cabs(unity[i]) + 4 * n * UNIT * left);
     for (int k = 0; k < n; k++) {
         const double rounded =
             left * (4 * n * UNIT * largest_of_column(residual, n, k) + 4 * n * WIDE_UNIT * norm);
@@ -168,6 +170,47 @@ static double apart(const Enclosure *e, int i, int k)
     return cabs(e->value[i] - e->value[k]);
 }
 
+/* W: (L + E)(1 + w) = l (1 + w) for column k, |E| being `size`, has w_j (l - L_j) = E_jk + sum over
+ * i of E_ji w_i, in which rows reach a quarter of the distance at most, so that no w_i is more than
+ * twice the largest of first order. */
+static void turn_right(const Enclosure *e, const double *size, const double *reach)
+{
+    const int n = e->n;
+
+    for (int k = 0; k < n; k++) {
+        double largest = 0;
+
+        for (int j = 0; j < n; j++)
+            if (j != k)
+                largest = fmax(largest, 2 * size[j * n + k] / apart(e, j, k));
+        for (int j = 0; j < n; j++)
+            e->turn_right[j * n + k] =
+                j == k ? 0 : (2 * size[j * n + k] + 4 * reach[j] * largest) / apart(e, j, k);
+    }
+}
+
+/* Z: (1 + W)^-1 - 1 on top of what `left` misses as an inverse; false: not bounded */
+static bool turn_left(const Enclosure *e)
+{
+    const int n = e->n;
+    double *column = NEW_ARRAY(double, n), widest = 0;
+
+    for (int i = 0; i < n; i++) {
+        double sum = 0;
+
+        for (int k = 0; k < n; k++) {
+            sum += e->turn_right[i * n + k];
+            column[k] = fmax(column[k], e->turn_right[i * n + k]);
+        }
+        widest = sum <= widest ? widest : sum; /* a NaN stays */
+    }
+    for (int i = 0; i < n && widest < 0.1; i++)
+        for (int k = 0; k < n; k++)
+            e->turn_left[i * n + k] += 2 * (e->turn_right[i * n + k] + widest * column[k]);
+    mem_free(column);
+    return widest < 0.1;
+}
+
 /* No row reaches farther than a quarter of the way to the next value; row k times `scale` and
  * column k over it keep the others within half, and k's disc as small as that scale. */
 static bool bound(const Enclosure *e, const double *size)
@@ -182,18 +225,18 @@ static bool bound(const Enclosure *e, const double *size)
     for (int k = 0; k < n && sound; k++) {
         double scale = 0;
 
-        e->slant[k] = 0;
         for (int j = 0; j < n && sound; j++) {
             if (j == k)
                 continue;
             sound = reach[k] <= apart(e, j, k) / 4 && apart(e, j, k) > 0;
             scale = fmax(scale, 4 * size[j * n + k] / apart(e, j, k));
-            e->slant[k] += 2 * (size[j * n + k] + size[k * n + j]) / apart(e, j, k);
         }
         e->error[k] += scale * reach[k];
     }
+    if (sound)
+        turn_right(e, size, reach);
     mem_free(reach);
-    return sound;
+    return sound && turn_left(e);
 }
 
 /* --- an enclosure --- */
@@ -241,12 +284,13 @@ bool enclosure_find(const Wide *a, int n, Enclosure *out)
                        mem_array((size_t)n * (size_t)n, sizeof *out->right),
                        mem_array((size_t)n * (size_t)n, sizeof *out->left),
                        NEW_ARRAY(double, n),
-                       NEW_ARRAY(double, n)};
+                       NEW_ARRAY(double, n *n),
+                       NEW_ARRAY(double, n *n)};
     return francis(a, out) && invert(out) && correct(a, out);
 }
 
 void enclosure_free(Enclosure *enclosure)
 {
     MEM_FREE(enclosure->value, enclosure->right, enclosure->left, enclosure->error,
-             enclosure->slant);
+             enclosure->turn_right, enclosure->turn_left);
 }

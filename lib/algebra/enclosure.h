@@ -16,7 +16,8 @@ typedef struct Enclosure {
     double complex *right; /* vectors as columns, of length 1 */
     double complex *left;  /* as rows: the inverse of `right`, nearly */
     double *error;         /* each disc of this radius about a value holds one eigenvalue */
-    double *slant; /* right vector k is off by that at most, left ones by it times their size */
+    /* true vectors are X (1 + W) and (1 + Z) Y, |W| and |Z| being these at most */
+    double *turn_right, *turn_left; /* n x n */
 } Enclosure;
 
 /* The matrix stands row by row, balanced. False where the discs can't be proved to lie apart. Free

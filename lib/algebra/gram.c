@@ -39,36 +39,26 @@ void gram_free(Gram *p)
     MEM_FREE(p->diagonal, p->last, p->met, p->at, p->place_of, p);
 }
 
-/* Row i times all before it that share a column with it. */
-static void multiply(Gram *p, int i, const double *row, int nu, double norm)
+/* An entry of row i, in column j, times all before it there. */
+static void multiply(Gram *p, int i, int j, double value)
 {
-    int filled = 0;
+    p->diagonal[i] += value * value;
+    for (int e = p->last[j] - 1; e >= 0; e = p->before.at[e]) {
+        const int other = p->of.at[e];
 
-    for (int j = 0; j < nu; j++) {
-        const double value = row[j] / norm;
-
-        if (row[j] == 0)
-            continue;
-        filled++;
-        p->diagonal[i] += value * value;
-        for (int e = p->last[j] - 1; e >= 0; e = p->before.at[e]) {
-            const int other = p->of.at[e];
-
-            if (p->met[other] != i + 1) {
-                p->met[other] = i + 1;
-                p->at[other] = p->value.count;
-                LIST_PUSH(p->row, other);
-                LIST_PUSH(p->column, i);
-                LIST_PUSH(p->value, 0);
-            }
-            p->value.at[p->at[other]] += value * p->entry.at[e];
+        if (p->met[other] != i + 1) {
+            p->met[other] = i + 1;
+            p->at[other] = p->value.count;
+            LIST_PUSH(p->row, other);
+            LIST_PUSH(p->column, i);
+            LIST_PUSH(p->value, 0);
         }
-        LIST_PUSH(p->of, i);
-        LIST_PUSH(p->before, p->last[j] - 1);
-        LIST_PUSH(p->entry, value);
-        p->last[j] = p->of.count;
+        p->value.at[p->at[other]] += value * p->entry.at[e];
     }
-    p->filled = filled > p->filled ? filled : p->filled;
+    LIST_PUSH(p->of, i);
+    LIST_PUSH(p->before, p->last[j] - 1);
+    LIST_PUSH(p->entry, value);
+    p->last[j] = p->of.count;
 }
 
 static void put_entries(Gram *p)
@@ -83,7 +73,7 @@ static void put_entries(Gram *p)
     MEM_FREE(class, place);
 }
 
-Gram *gram_new(const double *matrix, int m, int nu, const double *norm)
+static Gram *gram_open(int m, int nu)
 {
     Gram *p = NEW(Gram);
 
@@ -93,8 +83,40 @@ Gram *gram_new(const double *matrix, int m, int nu, const double *norm)
     p->met = NEW_ARRAY(int, m);
     p->at = NEW_ARRAY(int, m);
     p->place_of = NEW_ARRAY(int, m);
-    for (int i = 0; i < m; i++)
-        multiply(p, i, matrix + (ptrdiff_t)i * nu, nu, norm != NULL ? norm[i] : 1);
+    return p;
+}
+
+Gram *gram_new(const double *matrix, int m, int nu, const double *norm)
+{
+    Gram *p = gram_open(m, nu);
+
+    for (int i = 0; i < m; i++) {
+        const double *row = matrix + (ptrdiff_t)i * nu;
+        int filled = 0;
+
+        for (int j = 0; j < nu; j++)
+            if (row[j] != 0) {
+                multiply(p, i, j, row[j] / (norm != NULL ? norm[i] : 1));
+                filled++;
+            }
+        p->filled = filled > p->filled ? filled : p->filled;
+    }
+    put_entries(p);
+    return p;
+}
+
+Gram *gram_of_columns(const Pattern *pattern, const double *values, const double *norm)
+{
+    Gram *p = gram_open(pattern->columns, pattern->rows);
+
+    for (int i = 0; i < pattern->columns; i++) {
+        const int first = pattern->start[i], end = pattern->start[i + 1];
+
+        for (int k = first; k < end; k++)
+            if (values[k] != 0)
+                multiply(p, i, pattern->row[k], values[k] / (norm != NULL ? norm[i] : 1));
+        p->filled = end - first > p->filled ? end - first : p->filled;
+    }
     put_entries(p);
     return p;
 }

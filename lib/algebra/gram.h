@@ -2,6 +2,7 @@
 #ifndef COTREE_ALGEBRA_GRAM_H
 #define COTREE_ALGEBRA_GRAM_H
 
+#include "algebra/pattern.h"
 #include "base/watch.h"
 
 #include <stdbool.h>
@@ -11,6 +12,8 @@ typedef struct Gram Gram;
 /* Of an m x nu matrix, each row divided by its norm (NULL: by 1). New; gram_free(). O(m nu) beside
  * products of rows that share a column. */
 Gram *gram_new(const double *matrix, int m, int nu, const double *norm);
+/* The same of rows that stand as columns of a pattern. O(entries) beside those products. */
+Gram *gram_of_columns(const Pattern *pattern, const double *values, const double *norm);
 void gram_free(Gram *gram);
 double gram_largest(const Gram *gram); /* on the diagonal */
 /* Where no diagonal entry is more than 1: how much rounding moves the eigenvalues of what is

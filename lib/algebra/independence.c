@@ -16,18 +16,12 @@
 #define NOTHING 1e-10 /* of the largest row: rounding alone */
 #define LARGE   1e100 /* squares of more, or less than its inverse, lose digits or are none */
 
-/* norms of rows; false when one is as good as 0, or can't be squared */
-static bool find_norms(const double *matrix, int m, int nu, double *norm)
+/* whether norms are those of rows of which none is as good as 0, or can't be squared */
+static bool are_sound(const double *norm, int m)
 {
     double least = INFINITY, largest = 0;
 
     for (int i = 0; i < m; i++) {
-        const double *row = matrix + (ptrdiff_t)i * nu;
-        double square = 0;
-
-        for (int j = 0; j < nu; j++)
-            square += row[j] * row[j];
-        norm[i] = sqrt(square);
         least = fmin(least, norm[i]);
         largest = fmax(largest, norm[i]);
         if (!(norm[i] < LARGE))
@@ -36,19 +30,49 @@ static bool find_norms(const double *matrix, int m, int nu, double *norm)
     return least > 1 / LARGE && least > NOTHING * largest;
 }
 
+static double norm_of(const double *row, int count)
+{
+    double square = 0;
+
+    for (int j = 0; j < count; j++)
+        square += row[j] * row[j];
+    return sqrt(square);
+}
+
+/* `gram`, of rows of unit size, is given */
+static bool is_definite(Gram *gram, double threshold, const Watch *watch)
+{
+    const double shift = fmax(SAFE * gram_rounding(gram), 4 * threshold * threshold);
+    const bool is = gram_factor(gram, -shift, 0, watch);
+
+    gram_free(gram);
+    return is;
+}
+
 bool rows_are_independent(const double *matrix, int m, int nu, double threshold, const Watch *watch)
 {
     double *norm = NEW_ARRAY(double, m);
-    bool independent = m <= nu && find_norms(matrix, m, nu, norm);
+    bool independent = m <= nu;
 
-    if (independent) {
-        Gram *gram = gram_new(matrix, m, nu, norm);
+    for (int i = 0; i < m && independent; i++)
+        norm[i] = norm_of(matrix + (ptrdiff_t)i * nu, nu);
+    independent = independent && are_sound(norm, m) &&
+                  is_definite(gram_new(matrix, m, nu, norm), threshold, watch);
+    mem_free(norm);
+    return independent;
+}
 
-        const double shift = fmax(SAFE * gram_rounding(gram), 4 * threshold * threshold);
+bool columns_are_independent(const Pattern *pattern, const double *values, double threshold,
+                             const Watch *watch)
+{
+    const int m = pattern->columns;
+    double *norm = NEW_ARRAY(double, m);
+    bool independent = m <= pattern->rows;
 
-        independent = gram_factor(gram, -shift, 0, watch);
-        gram_free(gram);
-    }
+    for (int i = 0; i < m && independent; i++)
+        norm[i] = norm_of(values + pattern->start[i], pattern->start[i + 1] - pattern->start[i]);
+    independent = independent && are_sound(norm, m) &&
+                  is_definite(gram_of_columns(pattern, values, norm), threshold, watch);
     mem_free(norm);
     return independent;
 }

@@ -2,6 +2,7 @@
 #ifndef COTREE_ALGEBRA_INDEPENDENCE_H
 #define COTREE_ALGEBRA_INDEPENDENCE_H
 
+#include "algebra/pattern.h"
 #include "base/watch.h"
 
 #include <stdbool.h>
@@ -12,5 +13,8 @@
  * where rows share few columns. */
 bool rows_are_independent(const double *matrix, int m, int nu, double threshold,
                           const Watch *watch);
+/* The same of rows that stand as columns of a pattern, without the O(m nu). */
+bool columns_are_independent(const Pattern *pattern, const double *values, double threshold,
+                             const Watch *watch);
 
 #endif

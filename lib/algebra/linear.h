@@ -34,6 +34,8 @@ void cholesky_backward(const double *l, int n, double *b); /* b becomes L^-T b *
 
 /* out = matrix * v, rows x columns */
 void matrix_times(const double *matrix, int rows, int columns, const double *v, double *out);
+/* out = a b, n x n each; rows of a that are mostly 0 are passed over quickly */
+void matrices_times(const double *a, const double *b, int n, double *out);
 /* out (rows x rows, its lower half) = matrix * matrix^T, of rows that may be mostly 0 */
 void matrix_gram(const double *matrix, int rows, int columns, double *out);
 double vector_largest(const double *v, int n); /* max |v_i|; NAN when one is */

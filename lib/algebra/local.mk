@@ -26,6 +26,9 @@ libcore_la_SOURCES += \
   lib/algebra/linear.h \
   lib/algebra/matrix3.c \
   lib/algebra/matrix3.h \
+  lib/algebra/modal.c \
+  lib/algebra/modal.h \
+  lib/algebra/modal_groups.c \
   lib/algebra/multinomial.c \
   lib/algebra/multinomial.h \
   lib/algebra/multinomial_gcd.c \
@@ -36,6 +39,8 @@ libcore_la_SOURCES += \
   lib/algebra/polynomial.h \
   lib/algebra/rank.c \
   lib/algebra/rank.h \
+  lib/algebra/roots.c \
+  lib/algebra/roots.h \
   lib/algebra/schur.c \
   lib/algebra/schur.h \
   lib/algebra/sparse.c \

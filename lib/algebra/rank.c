@@ -199,27 +199,60 @@ static void put_order(const Pivoted *p, int m, int count, int *order)
     qsort(order + count, (size_t)(m - count), sizeof(int), rising);
 }
 
-Status rank_rows(const double *matrix, int m, int nu, double threshold, const Watch *watch,
-                 int *rank, int *order)
+static void take_all(int m, int *order)
 {
-    Pivoted p;
+    for (int k = 0; k < m; k++)
+        order[k] = k;
+}
+
+/* by pivots of the largest size */
+static Status rank_written(const double *matrix, int m, int nu, double threshold,
+                           const Watch *watch, int *rank, int *order)
+{
+    Pivoted p = unit_rows(matrix, nu, NULL, m, 0);
     Status status = OK;
 
     *rank = 0;
-    for (int k = 0; k < m; k++)
-        order[k] = k;
-    if (m == 0 || nu == 0)
-        return OK;
-    if (m >= MANY && rows_are_independent(matrix, m, nu, threshold, watch)) {
-        *rank = m;
-        return OK;
-    }
-    p = unit_rows(matrix, nu, NULL, m, 0);
+    take_all(m, order);
     CHECK(factor(&p, threshold, watch));
     *rank = p.rank;
     put_order(&p, m, p.rank, order);
 done:
     release(&p);
+    return status;
+}
+
+Status rank_rows(const double *matrix, int m, int nu, double threshold, const Watch *watch,
+                 int *rank, int *order)
+{
+    *rank = 0;
+    take_all(m, order);
+    if (m == 0 || nu == 0)
+        return OK;
+    if (m < MANY || !rows_are_independent(matrix, m, nu, threshold, watch))
+        return rank_written(matrix, m, nu, threshold, watch, rank, order);
+    *rank = m;
+    return OK;
+}
+
+Status rank_columns(const Pattern *pattern, const double *values, double threshold,
+                    const Watch *watch, int *rank, int *order)
+{
+    const int m = pattern->columns;
+    double *matrix;
+    Status status;
+
+    *rank = 0;
+    take_all(m, order);
+    if (m == 0 || pattern->rows == 0)
+        return OK;
+    if (m >= MANY && columns_are_independent(pattern, values, threshold, watch)) {
+        *rank = m;
+        return OK;
+    }
+    matrix = pattern_spread(pattern, values);
+    status = rank_written(matrix, m, pattern->rows, threshold, watch, rank, order);
+    mem_free(matrix);
     return status;
 }
 

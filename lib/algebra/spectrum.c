@@ -19,14 +19,11 @@
 #include "algebra/schur.h"
 #include "base/memory.h"
 
-#include <stdint.h>
 #include <string.h>
 
-#define UNIT       0x1p-53 /* an entry is a double at best */
-#define SECOND     2       /* of the first order, for what it leaves out */
-#define WITHIN     4       /* errors: m equal ones split to pi of them, and no farther */
-#define BETTER     0.1     /* of what entries tell: rounding that hardly adds to it */
-#define STRUCTURAL 1e3     /* of the method's rounding: what is below, and stays there, is 0 */
+#define UNIT   0x1p-53 /* an entry is a double at best */
+#define SECOND 2       /* of the first order, for what it leaves out */
+#define BETTER 0.1     /* of what entries tell: rounding that hardly adds to it */
 
 /* of one block: right vectors as columns, left ones as rows */
 typedef struct SpectrumPart {
@@ -48,181 +45,6 @@ struct Spectrum {
     int *part_of;          /* by root */
 };
 
-/* --- roots --- */
-
-bool root_is_doubtful(const Root *root)
-{
-    return !root->is_on_axis && root->error > 0 && root->real == 0;
-}
-
-/* `value` within `error` as a root, what can't be told from 0 being 0, which is as much farther off
- */
-static Root root_make(double complex value, double error)
-{
-    Root root = {.real = creal(value), .imaginary = cimag(value)};
-
-    if (fabs(root.real) <= error)
-        root.real = 0;
-    if (fabs(root.imaginary) <= error && root.real == 0)
-        root.imaginary = 0;
-    root.real += 0.0; /* never -0 */
-    root.error = error + hypot(root.real - creal(value), root.imaginary - cimag(value));
-    return root;
-}
-
-double complex root_with_noise(double complex value, double noise, double *error)
-{
-    if (cabs(value) <= STRUCTURAL * noise && *error <= UNIT * STRUCTURAL * noise) {
-        *error = 0;
-        return 0;
-    }
-    *error += noise;
-    return value;
-}
-
-double disturbance(int i, int j)
-{
-    uint64_t z = ((uint64_t)i << 32) + (uint64_t)j + 0x9E3779B97F4A7C15U;
-
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U; /* splitmix64 (Steele, Lea and Flood 2014) */
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
-    return ((double)((z ^ (z >> 31)) >> 11) + 0.5) * 0x1p-52 - 1;
-}
-
-/* --- groups --- */
-
-typedef struct Groups {
-    const double complex *value;
-    int count;
-    int *group, *partner; /* of a root; the conjugate one, itself where real */
-    double complex *mean; /* of a group, by the number of its first root */
-    double *error;
-    int *members; /* room */
-    GroupError *error_of;
-    void *context;
-} Groups;
-
-/* Real ones are those that are farther from every other's conjugate than from their own. */
-static void find_partners(Groups *g)
-{
-    for (int i = 0; i < g->count; i++)
-        g->partner[i] = -1;
-    for (int i = 0; i < g->count; i++) {
-        double best = fabs(cimag(g->value[i]));
-
-        if (g->partner[i] >= 0)
-            continue;
-        g->partner[i] = i;
-        for (int j = i + 1; j < g->count; j++) {
-            const double off = cabs(g->value[i] - conj(g->value[j]));
-
-            if (g->partner[j] >= 0 || off >= best)
-                continue;
-            best = off;
-            g->partner[i] = j;
-        }
-        g->partner[g->partner[i]] = i;
-    }
-}
-
-static int members_of(const Groups *g, int group)
-{
-    int count = 0;
-
-    for (int i = 0; i < g->count; i++)
-        if (g->group[i] == group)
-            g->members[count++] = i;
-    return count;
-}
-
-static void measure(Groups *g, int group)
-{
-    const int count = members_of(g, group);
-    bool is_real = true;
-    double complex sum = 0;
-    double spread = 0;
-    int mirror;
-
-    for (int k = 0; k < count; k++) {
-        sum += g->value[g->members[k]] / count;
-        is_real = is_real && g->group[g->partner[g->members[k]]] == group;
-    }
-    g->mean[group] = is_real ? creal(sum) : sum;
-    for (int k = 0; k < count; k++)
-        spread = fmax(spread, cabs(g->value[g->members[k]] - sum));
-    g->error[group] = fmax(spread, g->error_of(g->context, g->members, count, sum));
-    /* the conjugate ones exactly */
-    mirror = g->group[g->partner[group]];
-    g->mean[mirror] = conj(g->mean[group]);
-    g->error[mirror] = g->error[group];
-}
-
-static int unite(Groups *g, int one, int other)
-{
-    const int kept = one < other ? one : other, gone = one < other ? other : one;
-
-    for (int i = 0; i < g->count; i++)
-        if (g->group[i] == gone)
-            g->group[i] = kept;
-    return kept;
-}
-
-/* the two groups about within each other's errors that are closest */
-static bool closest_groups(const Groups *g, int *one, int *other)
-{
-    double best = INFINITY;
-
-    for (int i = 0; i < g->count; i++)
-        for (int j = i + 1; j < g->count; j++) {
-            double off;
-
-            if (g->group[i] != i || g->group[j] != j)
-                continue;
-            off = cabs(g->mean[i] - g->mean[j]);
-            if (off > WITHIN * (g->error[i] + g->error[j]) || off >= best)
-                continue;
-            best = off;
-            *one = i;
-            *other = j;
-        }
-    return isfinite(best);
-}
-
-void roots_join(const double complex *value, const double *error, int count, GroupError *error_of,
-                void *context, Root *out)
-{
-    Groups g = {value,
-                count,
-                NEW_ARRAY(int, count),
-                NEW_ARRAY(int, count),
-                mem_array((size_t)count, sizeof(double complex)),
-                NEW_ARRAY(double, count),
-                NEW_ARRAY(int, count),
-                error_of,
-                context};
-    int one = 0, other = 0;
-
-    find_partners(&g);
-    for (int i = 0; i < count; i++) {
-        const int p = g.partner[i];
-
-        g.group[i] = i;
-        /* conjugate ones exactly */
-        g.mean[i] = p == i ? creal(value[i]) : (value[i] + conj(value[p])) / 2;
-        g.error[i] = fmax(error[i], error[p]);
-    }
-    while (closest_groups(&g, &one, &other)) {
-        const int mirror_one = g.group[g.partner[one]], mirror_other = g.group[g.partner[other]];
-        const int kept = unite(&g, one, other);
-
-        (void)unite(&g, g.group[mirror_one], g.group[mirror_other]);
-        measure(&g, g.group[kept]);
-    }
-    for (int i = 0; i < count; i++)
-        out[i] = root_make(g.mean[g.group[i]], SECOND * g.error[g.group[i]]);
-    MEM_FREE(g.group, g.partner, g.mean, g.error, g.members);
-}
-
 /* --- one block --- */
 
 /* some roots of a part, which may be one */
@@ -236,6 +58,8 @@ typedef struct Grouping {
     int power;           /* j: what follows is about N_j */
     double *size; /* |N_j| (size x size); NULL: only the sum of |lambda_k - mu|^j |x_k| |y_k^T|
                    * that bounds it */
+    const double *open; /* how far off x_k y_k^T may be, in balanced states; NULL: nowhere */
+    const double *scale;
 } Grouping;
 
 static double size_of(WideComplex a)
@@ -262,6 +86,22 @@ static void apply_terms(const Grouping *g, const double *v, double *out)
     }
 }
 
+/* and what vectors leave open of it */
+static void add_open(const Grouping *g, const double *v, double *out)
+{
+    const int n = g->part->size;
+    double along = 0, open = 0;
+
+    for (int k = 0; k < g->count && g->open != NULL; k++)
+        open += g->open[g->members[k]] * pow(cabs(g->value[g->members[k]] - g->mean), g->power);
+    if (open == 0)
+        return;
+    for (int i = 0; i < n; i++)
+        along += g->scale[i] * v[i];
+    for (int i = 0; i < n; i++)
+        out[i] += open * along / g->scale[i];
+}
+
 static void apply_group(const void *context, const double *v, double *out)
 {
     const Grouping *g = context;
@@ -273,6 +113,7 @@ static void apply_group(const void *context, const double *v, double *out)
         matrix_times(g->size, n, n, moved, out);
     else
         apply_terms(g, moved, out);
+    add_open(g, moved, out);
     mem_free(moved);
 }
 
@@ -479,14 +320,34 @@ static void place_on_axis(const SpectrumPart *part, const double *block, Root *r
     mem_free(pattern);
 }
 
-/* what doubles leave open about the error that entries make of root k, in balanced states */
-static double open_error(const Enclosure *e, int k, double all_errors)
+/* What doubles leave open in balanced states, dA being `moved`: of |y_k|^T |dA| |x_k|, from what
+ * other vectors they may have in them, into out; of any entry of x_k y_k^T into `open`. */
+static void open_errors(const Enclosure *e, const double *moved, double *out, double *open)
 {
+    const int n = e->n;
+    double *x = NEW_ARRAY(double, n *n), *y = NEW_ARRAY(double, n *n);
+    double *across = NEW_ARRAY(double, n *n), *by = NEW_ARRAY(double, n *n);
     double left = 0;
 
-    for (int i = 0; i < e->n; i++)
-        left = fmax(left, cabs(e->left[k * e->n + i]));
-    return e->error[k] + 2 * e->slant[k] * left * all_errors;
+    for (int i = 0; i < n * n; i++) {
+        x[i] = cabs(e->right[i]);
+        y[i] = cabs(e->left[i]);
+        left = fmax(left, y[i]);
+    }
+    matrices_times(moved, x, n, across);
+    matrices_times(y, across, n, by);
+    for (int k = 0; k < n; k++) {
+        double turned = 0;
+
+        out[k] = e->error[k];
+        for (int j = 0; j < n; j++) {
+            out[k] += 2 * (e->turn_right[j * n + k] * by[k * n + j] +
+                           e->turn_left[k * n + j] * by[j * n + k]);
+            turned += e->turn_right[j * n + k] + e->turn_left[k * n + j];
+        }
+        open[k] = 2 * turned * left;
+    }
+    MEM_FREE(x, y, across, by);
 }
 
 static void take_vectors(const SpectrumPart *part, const Enclosure *e, const double *scale)
@@ -504,7 +365,7 @@ static bool are_apart(const double complex *value, const double *error, int n)
 {
     for (int i = 0; i < n; i++)
         for (int j = i + 1; j < n; j++)
-            if (!(cabs(value[i] - value[j]) > WITHIN * (error[i] + error[j])))
+            if (!(cabs(value[i] - value[j]) > ROOTS_WITHIN * (error[i] + error[j])))
                 return false;
     return true;
 }
@@ -515,34 +376,36 @@ static bool solve_in_doubles(const SpectrumPart *part, const double *block, cons
 {
     const int n = part->size;
     Wide *a = NEW_ARRAY(Wide, n * n);
-    double *error = NEW_ARRAY(double, n);
-    double all_errors = 0;
+    double *error = NEW_ARRAY(double, n), *open = NEW_ARRAY(double, n);
+    double *left_open = NEW_ARRAY(double, n), *moved = NEW_ARRAY(double, n *n);
+    Grouping grouping = {.part = part, .value = value, .open = open, .scale = scale};
     Enclosure e;
     bool sound;
 
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
             a[i * n + j] = wide_of(block[i * n + j] * (scale[i] / scale[j]));
-            all_errors += part->error[i * n + j] * scale[i] / scale[j];
+            moved[i * n + j] = part->error[i * n + j] * scale[i] / scale[j];
         }
     sound = enclosure_find(a, n, &e);
     if (sound) {
         take_vectors(part, &e, scale);
         normalise(part);
+        open_errors(&e, moved, left_open, open);
     }
     for (int k = 0; k < n && sound; k++) {
-        const double left_open = open_error(&e, k, all_errors);
-
         error[k] = single_error(part, k);
-        sound = left_open <= BETTER * error[k];
-        error[k] += left_open;
+        sound = left_open[k] <= BETTER * error[k];
+        error[k] += left_open[k];
         value[k] = e.value[k];
     }
-    sound = sound && are_apart(value, error, n);
-    for (int k = 0; k < n && sound; k++)
-        root[k] = root_make(value[k], SECOND * error[k]);
+    if (sound && are_apart(value, error, n))
+        for (int k = 0; k < n; k++)
+            root[k] = root_make(value[k], SECOND * error[k]);
+    else if (sound)
+        roots_join(value, error, n, group_error, &grouping, root);
     enclosure_free(&e);
-    MEM_FREE(a, error);
+    MEM_FREE(a, error, open, left_open, moved);
     return sound;
 }
 

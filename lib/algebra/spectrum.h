@@ -5,21 +5,8 @@
 #ifndef COTREE_ALGEBRA_SPECTRUM_H
 #define COTREE_ALGEBRA_SPECTRUM_H
 
-#include "algebra/wide.h"
+#include "algebra/roots.h"
 #include "base/diag.h"
-
-#include <stdbool.h>
-
-/* an eigenvalue, a pole or a zero, 1/s */
-typedef struct Root {
-    double real, imaginary;
-    double error;    /* the true one lies within */
-    bool is_on_axis; /* the real part is 0 whatever the errors: nothing damps */
-} Root;
-
-/* the sign of the real part can't be told, which is 0 then; so is a root that may be 0 altogether
- */
-bool root_is_doubtful(const Root *root);
 
 typedef struct Spectrum Spectrum;
 
@@ -34,21 +21,5 @@ const Root *spectrum_roots(const Spectrum *spectrum);
 /* What moves with root k: an eigenvector (n), the largest entry about 1; where there is none, what
  * grows in its place. */
 void spectrum_vector(const Spectrum *spectrum, int k, double complex *out);
-
-/* --- parts that serve elsewhere --- */
-
-/* Mean of those that can't be told apart: count roots with their errors, of which `value` holds all
- * conjugate ones. `error_of` tells the error of some of them together. */
-typedef double GroupError(void *context, const int *members, int count, double complex mean);
-void roots_join(const double complex *value, const double *error, int count, GroupError *error_of,
-                void *context, Root *out);
-
-/* A root that errors of the data move by `error`, found with a method whose rounding is `noise`:
- * their sum. A root other than 0 moves with the data in proportion; one that doesn't move and is
- * rounding of the method itself is 0 by where the entries stand, without error. */
-double complex root_with_noise(double complex value, double noise, double *error);
-
-/* a number in (-1, 1) that is always the same at a place, for disturbances */
-double disturbance(int i, int j);
 
 #endif

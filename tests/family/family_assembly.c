@@ -5,6 +5,8 @@
  * trees are changed, and what was told is forgotten. The poses come from scenes.h. */
 #include "standing.h"
 
+#include "base/text.h"
+
 /* Where nothing is told any more loops close again from where they stood: near a singular position
  * that tells the root of rounding alone. */
 #define CARRIED 1e-4
@@ -369,11 +371,70 @@ static Verdict guessed_four_bar(Member *m)
     return agrees ? AGREES : DISAGREES;
 }
 
+/* Rods in a row in absolute coordinates, of which some joints' rates are told and the angles of
+ * all: the others are at rest, so that a rod turns as fast as all joints before it together. Some
+ * bodies' speeds are told once more, which is nothing new, or in one of them is off. */
+static Verdict long_chain(Member *m)
+{
+    const int n = 20 + member_one_of(m, 60), wrong = member_one_of(m, 4) == 0 ? n - 1 : -1;
+    double angle = 0, turn = 0, speed[2] = {0}, rate[80], at[80][2];
+    Text text = {0};
+    Kit kit = kit_new();
+    bool agrees;
+
+    text_add(&text, "scene planar\n");
+    for (int i = 0; i < n; i++) {
+        const double by = member_between(m, -0.5, 0.5);
+
+        text_addf(&text, "body b%d mass=1 inertia=1\narm s%d b%d [-0.5, 0]\narm e%d b%d [0.5, 0]\n",
+                  i, i, i, i, i);
+        if (i == 0)
+            text_add(&text, "revolute h0 ground s0\n");
+        else
+            text_addf(&text, "revolute h%d e%d s%d\n", i, i - 1, i);
+        text_addf(&text, "init h%d = %.17g\n", i, by);
+        angle += by;
+        if (i == 0 || i == wrong || i + 1 == wrong || member_one_of(m, 3) == 0) {
+            const double told = member_between(m, -2, 2);
+
+            text_addf(&text, "init h%d' = %.17g\n", i, told);
+            turn += told;
+        }
+        rate[i] = turn;
+        for (int k = 0; k < 2; k++) {
+            const double way = k == 0 ? -sin(angle) : cos(angle);
+
+            at[i][k] = speed[k] + 0.5 * turn * way;
+            speed[k] += turn * way;
+        }
+        if (i == wrong || i + 1 == wrong || member_one_of(m, 10) == 0)
+            text_addf(&text, "init b%d.theta' = %.17g\n", i, turn + (i == wrong ? 0.1 : 0));
+    }
+    text_add(&text, "tree absolute\nassemble\n");
+    agrees = (kit_do(&kit, text.at) == CT_OK) == (wrong < 0);
+    for (int i = 0; i < n && agrees && wrong < 0; i++) {
+        char name[32];
+
+        (void)snprintf(name, sizeof name, "b%d.theta'", i);
+        agrees = keeps(m, name, fabs(kit_value(&kit, name) - rate[i]), 1e-9);
+        for (int k = 0; k < 2 && agrees; k++) {
+            (void)snprintf(name, sizeof name, "b%d.%c'", i, 'x' + k);
+            agrees = keeps(m, name, fabs(kit_value(&kit, name) - at[i][k]), 1e-8);
+        }
+    }
+    if (!agrees || m->told)
+        tell(m, "%s\n%s\n", text.at, kit.error.message);
+    text_free(&text);
+    kit_free(&kit);
+    return agrees ? AGREES : DISAGREES;
+}
+
 static const Family families[] = {
     {"four_bars_stand_where_they_are_guessed", 60, 0, 0, guessed_four_bar},
     {"starts_are_the_ones_described", 36, 0, 0, told_member},
     {"starts_told_in_part_are_the_same_in_all_trees", 20, 0.5, 0, part_member},
     {"joints_in_any_attitude_stand_as_told_in_absolute_coordinates", 6 * 25, 0, 0, counted_member},
+    {"speeds_of_long_chains_are_those_told", 12, 0, 0, long_chain},
     {"loops_that_close_with_an_axis_reversed_are_refused", 10, 0, 0, reversed_member},
 };
 

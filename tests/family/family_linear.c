@@ -2,18 +2,21 @@
  *
  * Matrices are made from eigenvalues that are small whole numbers, by whole numbers and powers of 2
  * alone, so that they are exact; chains of two neighbours each are counted through by Sturm's
- * sequence in numbers of more digits; circuits and chains of masses have closed forms. What is
+ * sequence in numbers of more digits; circuits and chains of masses have closed forms. Pairs of
+ * matrices L L^T and L D L^T of whole numbers have the eigenvalues D, to the last digit. What is
  * reported must lie within the error that is reported with it, one for one, a stable pole must not
  * be on the wrong side without a mark, and the errors must be of use. */
 #include "../unit/session_kit.h"
 #include "family.h"
 
+#include "algebra/modal.h"
 #include "algebra/spectrum.h"
+#include "base/text.h"
 #include "simulate/analyse/transfer.h"
 
 #include <math.h>
 
-enum { MOST = 12 };
+enum { MOST = 12, MOST_ROOTS = 128 };
 
 #define VAGUE 0.01 /* errors from here on, relative, are of little use */
 
@@ -68,12 +71,12 @@ static bool give(const Root *root, const Known *known, int n, int k, int *owner,
 
 static bool match(const Root *root, const Known *known, int n)
 {
-    int owner[64];
+    int owner[MOST_ROOTS];
 
     for (int i = 0; i < n; i++)
         owner[i] = -1;
     for (int k = 0; k < n; k++) {
-        bool tried[64] = {false};
+        bool tried[MOST_ROOTS] = {false};
 
         if (!give(root, known, n, k, owner, tried))
             return false;
@@ -477,7 +480,7 @@ static int read_modes(const char *csv, bool is_marked, Root *root, int most)
 static Verdict judge_model(Member *member, const char *script, const Known *known, int n)
 {
     Kit kit = kit_new();
-    Root root[64];
+    Root root[MOST_ROOTS];
     Verdict verdict = DISAGREES;
     bool is_marked;
     int count;
@@ -488,7 +491,7 @@ static Verdict judge_model(Member *member, const char *script, const Known *know
     } else {
         is_marked = kit.text != NULL && strchr(kit.text, '?') != NULL;
         (void)kit_do(&kit, "export csv modes\n");
-        count = kit.text != NULL ? read_modes(kit.text, is_marked, root, 64) : 0;
+        count = kit.text != NULL ? read_modes(kit.text, is_marked, root, MOST_ROOTS) : 0;
         tell(member, "%d modes of %d\n", count, n);
         if (count == n)
             verdict = judge(member, "modes", root, known, n);
@@ -608,6 +611,95 @@ static Verdict chains_of_masses(Member *member)
     return judge_model(member, script, known, 2 * n);
 }
 
+/* shafts in a row from the ground on, their angles against each other as coordinates, which makes M
+ * far worse than K: s^2 + d/k w^2 s + w^2 = 0, w = 2 sqrt(k/J) sin((2 j - 1) pi/(4 n + 2)) */
+static Verdict shafts_in_a_row(Member *member)
+{
+    Known known[MOST_ROOTS];
+    Text script = {0};
+    const bool is_absolute = whole(member, 0, 1) == 1;
+    const int n = whole(member, 1, is_absolute ? 20 : MOST_ROOTS / 2 - 2);
+    const double k = decades(member, 4), inertia = decades(member, 4);
+    const bool is_damped = whole(member, 0, 1) == 1;
+    /* the fastest one fades within a tenth of what would keep it from swinging, at most */
+    const double d =
+        is_damped ? k * 0.1 * sqrt(inertia / k) * test_uniform(&member->random, 0, 1) : 0;
+    Verdict verdict;
+
+    text_add(&script, "scene planar\n");
+    for (int i = 0; i < n; i++) {
+        text_addf(&script, "body b%d mass=1 inertia=%.17g\n", i, inertia);
+        if (i == 0)
+            text_add(&script, "revolute h0 ground b0\n");
+        else
+            text_addf(&script, "revolute h%d b%d b%d\n", i, i - 1, i);
+        text_addf(&script, "spring k%d h%d k=%.17g d=%.17g\n", i, i, k, d);
+    }
+    text_add(&script, is_absolute ? "tree absolute\n" : "tree joint\n");
+    for (int j = 0; j < n; j++) {
+        const double w = 2 * sqrt(k / inertia) * sin((2 * j + 1) * M_PI / (4 * n + 2));
+        const double real = -d / k * w * w / 2 + 0.0;
+
+        known[2 * j] = (Known){real, sqrt(w * w - real * real)};
+        known[2 * j + 1] = (Known){real, -known[2 * j].imaginary};
+    }
+    verdict = judge_model(member, script.at, known, 2 * n);
+    text_free(&script);
+    return verdict;
+}
+
+/* --- pairs of matrices --- */
+
+/* M = L L^T and K = L D L^T of whole numbers that doubles hold: eigenvalues D, of which some are
+ * alike or 0, coordinates in any units */
+static Verdict pairs_of_whole_numbers(Member *member)
+{
+    enum { PAIR = 24 };
+    const int n = whole(member, 1, PAIR), still = whole(member, 0, 3);
+    double l[PAIR * PAIR] = {0}, m[PAIR * PAIR], k[PAIR * PAIR], none[PAIR * PAIR] = {0};
+    double d[PAIR], unit[PAIR], mean[PAIR], error[PAIR], worst = 0;
+    int group[PAIR];
+    bool sound = true;
+    Modal *modal;
+
+    for (int i = 0; i < n; i++) {
+        /* where the first ones are 0 so are the last rows of K, whose L is 1 alone */
+        d[i] = i >= n - still ? 0 : whole(member, -4, 12);
+        unit[i] = power_of_2(member, 20);
+        l[i * n + i] = 1;
+        for (int j = 0; j < i; j++)
+            l[i * n + j] = whole(member, 0, 3) == 0 && i < n - still ? whole(member, -1, 1) : 0;
+    }
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            m[i * n + j] = k[i * n + j] = 0;
+            for (int p = 0; p < n; p++) {
+                m[i * n + j] += l[i * n + p] * l[j * n + p] * unit[i] * unit[j];
+                k[i * n + j] += l[i * n + p] * d[p] * l[j * n + p] * unit[i] * unit[j];
+            }
+        }
+    modal = modal_new((BoundedMatrix){m, none}, (BoundedMatrix){k, none}, NULL, n);
+    if (modal == NULL || !modal_groups(modal, group, mean, error))
+        sound = false;
+    /* as many within a group's disc as it has members */
+    for (int g = 0; g < n && sound; g++) {
+        int members = 0, within = 0;
+
+        for (int i = 0; i < n; i++) {
+            members += group[i] == group[g];
+            within += fabs(d[i] - mean[g]) <= error[g];
+        }
+        tell(member, "%d about %.17g, error %.3g: %d known\n", members, mean[g], error[g], within);
+        /* zeros that are certain stand apart from others that come near */
+        sound = fabs(mean[g]) <= error[g] ? within >= members : within == members;
+        worst = fmax(worst, error[g]);
+    }
+    modal_free(modal);
+    if (!sound)
+        return DISAGREES;
+    return worst > 1e-6 ? REFUSED : AGREES;
+}
+
 /* --- long chains that are known badly --- */
 
 /* Equal parts in a row, each entry off by as much as its error says at most: one matrix within the
@@ -652,6 +744,8 @@ int main(int argc, char **argv)
         {"ladders of any parts", 60, 0, 0, ladders_of_any_parts},
         {"stages behind each other", 60, 0, 0, stages_behind_each_other},
         {"chains of masses", 40, 0, 0, chains_of_masses},
+        {"shafts in a row", 12, 0, 0, shafts_in_a_row},
+        {"pairs of whole numbers", 300, 0.05, 0, pairs_of_whole_numbers},
         {"long chains known badly", 20, 0, 0, long_chains_known_badly},
     };
 

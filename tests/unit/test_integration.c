@@ -581,6 +581,18 @@ static void condensed_equations_have_the_solutions_of_all(void)
             EXPECT_NEAR(re, i + 1, 1e-9);
             EXPECT_NEAR(im, i + 1, 1e-9);
         }
+        /* the real one alone, for another s */
+        for (int i = 0; i < n; i++)
+            b[i] = i + 1;
+        EXPECT(condensed_factor_real(condensed, 2 * s));
+        condensed_solve(condensed, b);
+        for (int i = 0; i < n; i++) {
+            double real = 2 * s * b[i];
+
+            for (int j = 0; j < n; j++)
+                real -= jacobian[i * n + j] * b[j];
+            EXPECT_NEAR(real, i + 1, 1e-9);
+        }
         condensed_free(condensed);
     }
 }

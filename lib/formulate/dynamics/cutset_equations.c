@@ -27,8 +27,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Speeds of the largest mass matrix: it is dense, and some 100 bytes stand behind each entry. */
-enum { MOST_SPEEDS_RUN = 4000 };
+/* Speeds of the largest mass matrix that is written out: it is dense, and some 100 bytes stand
+ * behind each entry. Where it is made in numbers (composite_mass.h) what the constraints and
+ * coordinates make of each speed is the largest table, of a few numbers an entry. */
+enum { MOST_SPEEDS_WRITTEN = 4000, MOST_SPEEDS = 7000 };
 
 /* the row of a speed: its cutset projected on its motion */
 static Expr sums_project(const System *system, const Sums *sums, int speed)
@@ -594,12 +596,12 @@ done:
     return status;
 }
 
-static Status check_size(const System *system, Diag *diag)
+static Status check_size(const System *system, int most, Diag *diag)
 {
-    if (system->kinematics->u.count <= MOST_SPEEDS_RUN)
+    if (system->kinematics->u.count <= most)
         return OK;
     (void)diag_set(diag, E_MODEL, "the mechanism has %d speeds; %d are the most here",
-                   system->kinematics->u.count, MOST_SPEEDS_RUN);
+                   system->kinematics->u.count, most);
     diag_hint(diag,
               "a joint in place of a free body takes speeds away, and so does a planar scene");
     return E_MODEL;
@@ -610,7 +612,7 @@ Status dynamics_build(System *system, Diag *diag)
     int n = system->kinematics->u.count;
     Loads loads;
 
-    TRY(check_size(system, diag));
+    TRY(check_size(system, MOST_SPEEDS, diag));
     system->run.force = pool_alloc(system->pool, (size_t)n * sizeof(Expr));
     system->dynamics->pushes = pool_alloc(system->pool, (size_t)n * sizeof(Expr));
     if (n == 0)
@@ -618,8 +620,10 @@ Status dynamics_build(System *system, Diag *diag)
     for (int j = 0; j < n; j++)
         system->dynamics->pushes[j] = expr_int(system->arena, 0);
     speed_directions(system);
-    if (!composite_mass_build(system))
+    if (!composite_mass_build(system)) {
+        TRY(check_size(system, MOST_SPEEDS_WRITTEN, diag));
         TRY(mass_matrix(system));
+    }
     loads = loads_new(system);
     loads_add_inertia(system, &loads, system->kinematics->alpha0, system->kinematics->a0, NULL);
     TRY(efforts_add(system, &loads, TAKE_AT_REST, diag));

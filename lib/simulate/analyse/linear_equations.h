@@ -17,6 +17,9 @@ typedef struct Linear {
     double *a, *b, *c, *d;              /* row by row; what can't be told from 0 is 0 */
     double *a_error, *b_error, *c_error, *d_error; /* how far each entry may be off */
     double *motion;                                /* parts x states: how each moves with y */
+    /* the rows of speeds unsolved, M s'' = -[K C ..] y: freedoms square, freedoms x states. NULL
+     * where networks act on accelerations, or rates of coordinates aren't their speeds alone. */
+    double *mass, *mass_error, *force, *force_error;
     bool is_shifted; /* states are less what jumps with the inputs, as voltages of capacitors in a
                         circuit with a source do: b and d count from there */
     bool is_passing; /* mechanical coefficients change as it moves on: other coordinates have other

@@ -278,6 +278,126 @@ static void begin(const Work *w, const Linear *out, int c, Deviation *d)
     d->input = c >= out->states ? c - out->states : -1;
 }
 
+/* --- M s'' + K s + C s' = 0 --- */
+
+/* T, how all speeds move with independent ones, and what is left of the balances along it */
+typedef struct Balance {
+    LinearNumber *along;  /* T, nu x freedoms */
+    LinearNumber *moment; /* nu: room */
+} Balance;
+
+static LinearNumber mass_entry(const Work *w, int i, int j)
+{
+    return (LinearNumber){w->matrix[i * w->unknowns + j], w->matrix_error[i * w->unknowns + j]};
+}
+
+/* nothing but accelerations and multipliers in the balances */
+static bool is_mechanical(const Work *w)
+{
+    for (int i = 0; i < w->l->nu; i++)
+        for (int k = w->l->nu + w->used; k < w->unknowns; k++) {
+            const LinearNumber entry = mass_entry(w, i, k);
+
+            if (entry.value != 0 || entry.error != 0)
+                return false;
+        }
+    return true;
+}
+
+/* of what acts on all speeds: along the independent ones */
+static void put_along(const Work *w, const Balance *b, double sign, double *at, double *error,
+                      int stride)
+{
+    for (int i = 0; i < w->freedoms; i++) {
+        LinearNumber sum = none;
+
+        for (int j = 0; j < w->l->nu; j++)
+            add_product(&sum, b->along[j * w->freedoms + i], b->moment[j]);
+        at[(ptrdiff_t)i * stride] = sign * sum.value;
+        error[(ptrdiff_t)i * stride] = sum.error;
+    }
+}
+
+static void add_mass(const Work *w, const LinearNumber *acceleration, LinearNumber *moment)
+{
+    for (int i = 0; i < w->l->nu; i++)
+        for (int j = 0; j < w->l->nu; j++)
+            add_product(&moment[i], mass_entry(w, i, j), acceleration[j]);
+}
+
+/* T, and M of independent coordinates T^T M T */
+static void open_balance(const Work *w, Balance *b, Linear *out)
+{
+    const int nu = w->l->nu, f = w->freedoms;
+    LinearNumber *v = NEW_ARRAY(LinearNumber, nu), *still = NEW_ARRAY(LinearNumber, w->used);
+
+    b->along = NEW_ARRAY(LinearNumber, nu * f);
+    b->moment = NEW_ARRAY(LinearNumber, nu);
+    out->mass = NEW_ARRAY(double, f *f);
+    out->mass_error = NEW_ARRAY(double, f *f);
+    out->force = NEW_ARRAY(double, f * out->states);
+    out->force_error = NEW_ARRAY(double, f * out->states);
+    for (int k = 0; k < f; k++) {
+        memset(v, 0, (size_t)nu * sizeof *v);
+        v[partitioning_independent(w->partitioning)[k]] = one;
+        if (w->used > 0)
+            linear_complete(w, still, v);
+        for (int j = 0; j < nu; j++)
+            b->along[j * f + k] = v[j];
+    }
+    for (int k = 0; k < f; k++) {
+        for (int j = 0; j < nu; j++)
+            v[j] = b->along[j * f + k];
+        memset(b->moment, 0, (size_t)nu * sizeof *b->moment);
+        add_mass(w, v, b->moment);
+        put_along(w, b, 1, out->mass + k, out->mass_error + k, f);
+    }
+    MEM_FREE(v, still);
+}
+
+static void close_balance(const Balance *b)
+{
+    MEM_FREE(b->along, b->moment);
+}
+
+/* -T^T (what the balances miss + M u'), u' being what constraints ask of dependent ones alone */
+static void write_force(const Work *w, const Balance *b, const Deviation *d, int column,
+                        Linear *out)
+{
+    const int nu = w->l->nu;
+    LinearNumber *v = NEW_ARRAY(LinearNumber, nu);
+
+    for (int i = 0; i < nu; i++)
+        b->moment[i] = d->right[i];
+    if (w->used > 0) {
+        linear_complete(w, d->right + nu, v);
+        add_mass(w, v, b->moment);
+    }
+    put_along(w, b, -1, out->force + column, out->force_error + column, out->states);
+    mem_free(v);
+}
+
+static void forget_balance(Linear *out)
+{
+    MEM_FREE(out->mass, out->mass_error, out->force, out->force_error);
+    out->mass = out->mass_error = out->force = out->force_error = NULL;
+}
+
+/* s' are the speeds, and nothing else moves s */
+static bool speeds_are_rates(const Linear *out)
+{
+    for (int i = 0; i < out->freedoms; i++)
+        for (int k = 0; k < out->states; k++) {
+            const double speed = k == out->freedoms + i ? 1 : 0;
+
+            if (out->a[i * out->states + k] != speed || out->a_error[i * out->states + k] != 0)
+                return false;
+        }
+    return true;
+}
+
+/* --- all columns --- */
+
 static void write_deviation(const Work *w, const Deviation *d, int c, Linear *out)
 {
     const bool is_input = c >= out->states;
@@ -298,11 +418,15 @@ static void write_deviation(const Work *w, const Deviation *d, int c, Linear *ou
 static Status write_columns(const Work *w, Linear *out, Diag *diag)
 {
     const int columns = out->states + out->inputs;
+    const bool is_whole = is_mechanical(w);
+    Balance balance = {0};
     Deviation d[TANGENT_LANES];
     Status status = OK;
 
     for (int lane = 0; lane < TANGENT_LANES; lane++)
         deviation_open(w, &d[lane]);
+    if (is_whole)
+        open_balance(w, &balance, out);
     for (int first = 0; first < columns; first += TANGENT_LANES) {
         const int count = columns - first < TANGENT_LANES ? columns - first : TANGENT_LANES;
 
@@ -311,14 +435,20 @@ static Status write_columns(const Work *w, Linear *out, Diag *diag)
         for (int lane = 0; lane < count; lane++)
             begin(w, out, first + lane, &d[lane]);
         spread(w, d, count);
-        for (int lane = 0; lane < count; lane++)
+        for (int lane = 0; lane < count; lane++) {
             write_deviation(w, &d[lane], first + lane, out);
+            if (is_whole && first + lane < out->states)
+                write_force(w, &balance, &d[lane], first + lane, out);
+        }
     }
+    if (!speeds_are_rates(out))
+        forget_balance(out);
     for (int i = 0; i < out->inputs; i++)
         CHECK(take_rate(w, &d[0], i, out, diag));
 done:
     for (int lane = 0; lane < TANGENT_LANES; lane++)
         deviation_close(&d[lane]);
+    close_balance(&balance);
     return status;
 }
 
@@ -405,6 +535,7 @@ void linear_free(Linear *linear)
         return;
     MEM_FREE(linear->a, linear->b, linear->c, linear->d, linear->a_error, linear->b_error,
              linear->c_error, linear->d_error, linear->motion);
+    forget_balance(linear);
     free_names(linear->state_names, linear->states);
     free_names(linear->input_names, linear->inputs);
     free_names(linear->output_names, linear->outputs);

@@ -1,9 +1,12 @@
 /* modes.c: eigenvalues of a linear system, and which parts move
  *
- * What stands for itself and its conjugate is one mode. The eigenvector moves every coordinate,
- * dependent ones too. */
+ * Where M, K and C are known, in modal coordinates: what neither damps nor turns has the
+ * eigenvalues +-i sqrt of those of M^-1 K, anything else the eigenvalues of a matrix that nearly
+ * decouples. What stands for itself and its conjugate is one mode. The eigenvector moves every
+ * coordinate, dependent ones too. */
 #include "simulate/analyse/linearize.h"
 
+#include "algebra/modal.h"
 #include "algebra/spectrum.h"
 #include "base/memory.h"
 
@@ -77,10 +80,264 @@ static void sort(Modes *modes)
     }
 }
 
+/* --- in modal coordinates --- */
+
+/* columns first..first + count of M's unsolved rows, of the sign that their name has; new ones */
+static BoundedMatrix take_columns(const Linear *linear, int first, int count, double sign)
+{
+    const int f = linear->freedoms;
+    double *at = NEW_ARRAY(double, f *count), *error = NEW_ARRAY(double, f *count);
+
+    for (int i = 0; i < f; i++)
+        for (int k = 0; k < count; k++) {
+            at[i * count + k] = sign * linear->force[i * linear->states + first + k];
+            error[i * count + k] = linear->force_error[i * linear->states + first + k];
+        }
+    return (BoundedMatrix){at, error};
+}
+
+static void free_matrix(BoundedMatrix m)
+{
+    mem_free((void *)m.at);
+    mem_free((void *)m.error);
+}
+
+static Modal *modal_of(const Linear *linear, BoundedMatrix stiffness)
+{
+    const int f = linear->freedoms;
+    const BoundedMatrix damping = take_columns(linear, f, f, -1);
+    Modal *modal =
+        modal_new((BoundedMatrix){linear->mass, linear->mass_error}, stiffness, &damping, f);
+
+    free_matrix(damping);
+    return modal;
+}
+
+/* M s'' + K s = 0 with a symmetric K, as far as its entries tell */
+static bool is_conservative(const Linear *linear, BoundedMatrix stiffness)
+{
+    const int f = linear->freedoms;
+
+    if (linear->states != 2 * f)
+        return false;
+    for (int i = 0; i < f; i++)
+        for (int k = 0; k < f; k++) {
+            const int at = i * f + k, across = k * f + i;
+
+            if (linear->force[i * linear->states + f + k] != 0 ||
+                linear->force_error[i * linear->states + f + k] != 0 ||
+                !(fabs(stiffness.at[at] - stiffness.at[across]) <=
+                  stiffness.error[at] + stiffness.error[across]))
+                return false;
+        }
+    return true;
+}
+
+/* a root of s^2 = -square, where that is known to `error` and `count` others can't be told from it
+ */
+static Root root_of_square(double square, double error, int count)
+{
+    const double size = fabs(square);
+    Root root = {0};
+
+    if (size <= error) {
+        root.error = sqrt(size + error);
+        root.is_on_axis = root.error == 0;
+        return root;
+    }
+    if (square > 0)
+        root.imaginary = sqrt(square);
+    else
+        root.real = sqrt(-square);
+    /* sqrt(size) - sqrt(size - error), and its rounding */
+    root.error = error / (sqrt(size) + sqrt(size - error)) + 0x1p-52 * sqrt(size);
+    /* a single one is real, and so is its square: what is conjugate would be within its disc */
+    root.is_on_axis = square > 0 && count == 1;
+    return root;
+}
+
+/* both roots of each eigenvalue of M^-1 K; false where they aren't numbers */
+static bool push_conservative(const Linear *linear, const Modal *modal, Modes *modes)
+{
+    const int f = linear->freedoms;
+    int *group = NEW_ARRAY(int, f), *count = NEW_ARRAY(int, f);
+    double *mean = NEW_ARRAY(double, f), *error = NEW_ARRAY(double, f);
+    double complex *vector = mem_array((size_t)linear->states, sizeof *vector);
+    const bool sound = modal_groups(modal, group, mean, error);
+
+    for (int k = 0; k < f; k++)
+        count[group[k]]++;
+    for (int k = 0; k < f && sound; k++) {
+        Root root = root_of_square(mean[k], error[k], count[group[k]]);
+
+        /* what meets no stiffness moves alone as well */
+        for (int i = 0; i < f; i++)
+            vector[i] = modal->is_still[k] ? i == k : modal->vector[i * f + k];
+        fill_mode(linear, &root, vector, &modes->at[modes->count++]);
+        if (root.imaginary != 0)
+            continue;
+        root.real = -root.real + 0.0;
+        fill_mode(linear, &root, vector, &modes->at[modes->count++]);
+    }
+    MEM_FREE(group, count, mean, error, vector);
+    return sound;
+}
+
+/* a matrix of all states, and how far its entries may be off */
+typedef struct StateMatrix {
+    int n;
+    double *at, *error;
+} StateMatrix;
+
+static void put_block(const StateMatrix *m, int row, int column, int rows, int columns,
+                      const double *at, const double *error)
+{
+    for (int i = 0; i < rows; i++)
+        for (int k = 0; k < columns; k++) {
+            m->at[(row + i) * m->n + column + k] = at[i * columns + k];
+            m->error[(row + i) * m->n + column + k] = error[i * columns + k];
+        }
+}
+
+/* rows of A that networks have, `columns` of them from `first` on, times X; new ones */
+static BoundedMatrix network_columns(const Linear *linear, int first, int columns)
+{
+    const int rows = linear->states - 2 * linear->freedoms;
+    double *at = NEW_ARRAY(double, rows *columns), *error = NEW_ARRAY(double, rows *columns);
+
+    for (int i = 0; i < rows; i++)
+        for (int k = 0; k < columns; k++) {
+            const int place = (2 * linear->freedoms + i) * linear->states + first + k;
+
+            at[i * columns + k] = linear->a[place];
+            error[i * columns + k] = linear->a_error[place];
+        }
+    return (BoundedMatrix){at, error};
+}
+
+/* rows x f times X, put at its place */
+static void put_moved(const StateMatrix *m, const Modal *modal, BoundedMatrix b, int rows, int row,
+                      int column)
+{
+    double *at = NEW_ARRAY(double, rows * modal->n), *error = NEW_ARRAY(double, rows * modal->n);
+
+    modal_move(modal, b, rows, at, error);
+    put_block(m, row, column, rows, modal->n, at, error);
+    MEM_FREE(at, error);
+}
+
+/* A for s = X times modal coordinates */
+static StateMatrix modal_matrix(const Linear *linear, const Modal *modal)
+{
+    const int f = linear->freedoms, n = linear->states, nets = n - 2 * f;
+    const StateMatrix m = {n, NEW_ARRAY(double, n *n), NEW_ARRAY(double, n *n)};
+    const BoundedMatrix damping = take_columns(linear, f, f, 1);
+    const BoundedMatrix effort = take_columns(linear, 2 * f, nets, 1);
+    const int most = f > nets ? f : nets;
+    double *moved = NEW_ARRAY(double, f *f), *moved_error = NEW_ARRAY(double, f *f);
+    double *at = NEW_ARRAY(double, f *most), *error = NEW_ARRAY(double, f *most);
+
+    for (int i = 0; i < f; i++) {
+        m.at[i * n + f + i] = 1;
+        for (int k = 0; k < f; k++) {
+            m.at[(f + i) * n + k] = i == k ? -modal->square[i] : -modal->off[i * f + k];
+            m.error[(f + i) * n + k] = modal->error[i * f + k];
+        }
+    }
+    modal_move(modal, damping, f, moved, moved_error);
+    modal_transform(modal, (BoundedMatrix){moved, moved_error}, f, at, error);
+    put_block(&m, f, f, f, f, at, error);
+    modal_transform(modal, effort, nets, at, error);
+    put_block(&m, f, 2 * f, f, nets, at, error);
+    free_matrix(damping);
+    free_matrix(effort);
+    for (int part = 0; part < 2; part++) {
+        const BoundedMatrix b = network_columns(linear, part * f, f);
+
+        put_moved(&m, modal, b, nets, 2 * f, part * f);
+        free_matrix(b);
+    }
+    for (int i = 0; i < nets; i++)
+        for (int k = 0; k < nets; k++) {
+            m.at[(2 * f + i) * n + 2 * f + k] = linear->a[(2 * f + i) * n + 2 * f + k];
+            m.error[(2 * f + i) * n + 2 * f + k] = linear->a_error[(2 * f + i) * n + 2 * f + k];
+        }
+    MEM_FREE(moved, moved_error, at, error);
+    return m;
+}
+
+/* what coordinates and speeds are, of modal ones */
+static void leave_modal(const Modal *modal, double complex *vector)
+{
+    const int f = modal->n;
+    double complex *out = mem_array(2 * (size_t)f, sizeof *out);
+
+    for (int part = 0; part < 2; part++)
+        for (int i = 0; i < f; i++)
+            for (int k = 0; k < f; k++)
+                out[part * f + i] += modal->vector[i * f + k] * vector[part * f + k];
+    memcpy(vector, out, 2 * (size_t)f * sizeof *out);
+    mem_free(out);
+}
+
+/* roots of a matrix of all states, in modal coordinates or (NULL) in those of `linear`; false:
+ * there are none to be found */
+static bool push_spectrum(const Linear *linear, const Modal *modal, const double *a,
+                          const double *error, Modes *modes)
+{
+    Spectrum *spectrum = spectrum_new(a, error, linear->states);
+    double complex *vector = mem_array((size_t)linear->states, sizeof *vector);
+    const bool sound = spectrum != NULL;
+
+    for (int k = 0; k < linear->states && sound; k++) {
+        const Root *root = &spectrum_roots(spectrum)[k];
+
+        if (root->imaginary < 0)
+            continue;
+        spectrum_vector(spectrum, k, vector);
+        if (modal != NULL)
+            leave_modal(modal, vector);
+        fill_mode(linear, root, vector, &modes->at[modes->count++]);
+    }
+    spectrum_free(spectrum);
+    mem_free(vector);
+    return sound;
+}
+
+static bool push_modal(const Linear *linear, const Modal *modal, Modes *modes)
+{
+    const StateMatrix m = modal_matrix(linear, modal);
+    const bool sound = push_spectrum(linear, modal, m.at, m.error, modes);
+
+    MEM_FREE(m.at, m.error);
+    return sound;
+}
+
+/* --- modes --- */
+
+static bool push_all(const Linear *linear, Modes *modes)
+{
+    BoundedMatrix stiffness;
+    Modal *modal;
+    bool sound;
+
+    if (linear->mass == NULL || linear->freedoms == 0)
+        return push_spectrum(linear, NULL, linear->a, linear->a_error, modes);
+    stiffness = take_columns(linear, 0, linear->freedoms, -1);
+    modal = modal_of(linear, stiffness);
+    if (modal == NULL)
+        sound = push_spectrum(linear, NULL, linear->a, linear->a_error, modes);
+    else if (is_conservative(linear, stiffness))
+        sound = push_conservative(linear, modal, modes);
+    else
+        sound = push_modal(linear, modal, modes);
+    modal_free(modal);
+    free_matrix(stiffness);
+    return sound;
+}
+
 Status modes_find(const Linear *linear, Modes **out, Diag *diag)
 {
-    Spectrum *spectrum = spectrum_new(linear->a, linear->a_error, linear->states);
-    double complex *vector = mem_array((size_t)linear->states, sizeof *vector);
     Modes *modes = NEW(Modes);
     Status status = OK;
 
@@ -89,23 +346,13 @@ Status modes_find(const Linear *linear, Modes **out, Diag *diag)
     modes->part_names = NEW_ARRAY(char *, linear->parts);
     for (int p = 0; p < linear->parts; p++)
         modes->part_names[p] = mem_text(linear->part_names[p], strlen(linear->part_names[p]));
-    if (spectrum == NULL)
+    if (!push_all(linear, modes))
         CHECK(diag_set(diag, E_SOLVER, "the eigenvalues can't be found"));
-    for (int k = 0; k < linear->states; k++) {
-        const Root *root = &spectrum_roots(spectrum)[k];
-
-        if (root->imaginary < 0)
-            continue;
-        spectrum_vector(spectrum, k, vector);
-        fill_mode(linear, root, vector, &modes->at[modes->count++]);
-    }
     sort(modes);
     *out = modes;
     modes = NULL;
 done:
     modes_free(modes);
-    spectrum_free(spectrum);
-    mem_free(vector);
     return status;
 }
 

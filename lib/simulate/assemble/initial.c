@@ -284,12 +284,7 @@ static bool nearby(Assembly *a, LevelRows *level, uint64_t *seed, double *q, dou
 /* of the rows where the equations stand */
 static Status rank_here(const Assembly *a, double threshold, int *rank, int *order)
 {
-    double *phi_u = pattern_spread(a->eq->rows, a->eq->phi_u);
-    const Status status =
-        rank_rows(phi_u, a->l->m, a->l->nu, threshold, a->setting->watch, rank, order);
-
-    mem_free(phi_u);
-    return status;
+    return rank_columns(a->eq->rows, a->eq->phi_u, threshold, a->setting->watch, rank, order);
 }
 
 /* Independent rows, from the assembled position and two near it: a rank that falls at one place

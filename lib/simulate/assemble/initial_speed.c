@@ -10,6 +10,7 @@
  * the same for all of them, and it is the least |L^T u|. */
 #include "simulate/assemble/initial_place_impl.h"
 
+#include "algebra/kkt.h"
 #include "algebra/linear.h"
 #include "algebra/matrix3.h"
 #include "algebra/rank.h"
@@ -21,6 +22,11 @@
 #define GRID       0x1p-30 /* of rates, above the error of differences: 0 and 1 are exact */
 #define TOLERANCE  1e-11
 #define RANK_RATIO 1e-9
+
+enum {
+    MANY = 64,
+    SWEEPS = 3 /* rows, from which on sparse factors are tried first, and so often */
+};
 
 /* --- what is known --- */
 
@@ -134,21 +140,55 @@ static double column_rate(const Placing *p, const PlaceColumn *column, const Pos
     return turn[column->k] / (2 * STEP);
 }
 
-/* A: columns x nu, row by row; new */
-static double *find_rates(const Placing *p)
+/* terms of a matrix, of which several may share a place */
+typedef struct Terms {
+    LIST(int) row, column;
+    LIST(double) value;
+} Terms;
+
+static void push_term(Terms *terms, int row, int column, double value)
+{
+    LIST_PUSH(terms->row, row);
+    LIST_PUSH(terms->column, column);
+    LIST_PUSH(terms->value, value);
+}
+
+/* their sums, new, by places of *pattern, which is new too; the terms are used up */
+static double *sum_terms(Terms *terms, int rows, int columns, Pattern *pattern)
+{
+    const int count = terms->value.count;
+    int *place = NEW_ARRAY(int, count);
+    double *out;
+
+    *pattern = pattern_of(rows, columns, count, terms->row.at, terms->column.at, place);
+    out = NEW_ARRAY(double, pattern->count);
+    for (int k = 0; k < count; k++)
+        out[place[k]] += terms->value.at[k];
+    LIST_FREE(terms->row);
+    LIST_FREE(terms->column);
+    LIST_FREE(terms->value);
+    mem_free(place);
+    return out;
+}
+
+/* A: rows of rates, a column each of *pattern; new */
+static double *find_rates(const Placing *p, Pattern *pattern)
 {
     const int nu = p->a->eq->nu;
-    double *rates = NEW_ARRAY(double, (size_t)p->columns.count *(size_t)nu);
+    Terms terms = {0};
 
     for (int j = 0; j < nu; j++) {
         Pose *low = poses_beside(p, j, -STEP), *high = poses_beside(p, j, STEP);
 
-        for (int i = 0; i < p->columns.count; i++)
-            rates[(ptrdiff_t)i * nu + j] =
-                GRID * round(column_rate(p, &p->columns.at[i], low, high) / GRID);
+        for (int i = 0; i < p->columns.count; i++) {
+            const double rate = GRID * round(column_rate(p, &p->columns.at[i], low, high) / GRID);
+
+            if (rate != 0)
+                push_term(&terms, j, i, rate);
+        }
         MEM_FREE(low, high);
     }
-    return rates;
+    return sum_terms(&terms, nu, p->columns.count, pattern);
 }
 
 /* --- the least of them --- */
@@ -159,44 +199,49 @@ typedef struct Weighed { /* rows in w = L^T u */
     double *jacobian;     /* of the rows, which are linear; NULL: not asked for yet */
 } Weighed;
 
-/* sum += scale row^T row, its lower half */
-static void add_square(double *sum, int n, const double *row, double scale)
+/* += scale row^T row */
+static void add_square(Terms *sum, const Pattern *rows, const double *values, int row, double scale)
 {
-    for (int i = 0; i < n; i++)
-        for (int j = 0; j <= i && row[i] != 0; j++)
-            sum[i * n + j] += scale * row[i] * row[j];
+    for (int i = rows->start[row]; i < rows->start[row + 1]; i++)
+        for (int j = rows->start[row]; j < rows->start[row + 1]; j++)
+            push_term(sum, rows->row[i], rows->row[j], scale * values[i] * values[j]);
 }
 
-/* L; NULL: these speeds leave some motion without a rate, which trees don't */
-static double *weigh(const Assembly *a, const double *rates, int count)
+/* L L^T, new, by places of *square, which is new too */
+static double *weigh(const Assembly *a, const Pattern *rates, const double *values, Pattern *square)
 {
-    const int nu = a->eq->nu;
-    double *square = NEW_ARRAY(double, nu *nu);
-    double *phi_u = pattern_spread(a->eq->rows, a->eq->phi_u);
+    const Equations *eq = a->eq;
+    Terms sum = {0};
 
-    for (int i = 0; i < count; i++)
-        add_square(square, nu, rates + (ptrdiff_t)i * nu, 1);
-    for (int j = 0; j < nu; j++) {
+    for (int i = 0; i < rates->columns; i++)
+        add_square(&sum, rates, values, i, 1);
+    for (int j = 0; j < eq->nu; j++) {
         const Variable *speed = system_u(a->l->system, j);
 
         if (speed->is_shape)
-            square[j * nu + j] += 1 / (speed->unit * speed->unit);
+            push_term(&sum, j, j, 1 / (speed->unit * speed->unit));
     }
-    for (int i = 0; i < a->eq->m; i++) {
-        const double *row = phi_u + (ptrdiff_t)i * nu;
+    for (int i = 0; i < eq->m; i++) {
         double size = 0;
 
-        for (int j = 0; j < nu; j++)
-            size += row[j] * row[j];
+        for (int k = eq->rows->start[i]; k < eq->rows->start[i + 1]; k++)
+            size += eq->phi_u[k] * eq->phi_u[k];
         if (size > 0)
-            add_square(square, nu, row, 1 / size);
+            add_square(&sum, eq->rows, eq->phi_u, i, 1 / size);
     }
-    mem_free(phi_u);
-    if (!(cholesky_factor(square, nu) > 0)) {
-        mem_free(square);
-        square = NULL;
+    return sum_terms(&sum, eq->nu, eq->nu, square);
+}
+
+/* L; NULL: these speeds leave some motion without a rate, which trees don't */
+static double *factor_of(const Pattern *square, const double *weight)
+{
+    double *factor = pattern_spread(square, weight);
+
+    if (!(cholesky_factor(factor, square->rows) > 0)) {
+        mem_free(factor);
+        factor = NULL;
     }
-    return square;
+    return factor;
 }
 
 static void evaluate(void *context, const double *v, double *residual, double *jacobian)
@@ -249,6 +294,83 @@ done:
     return status;
 }
 
+/* rows of C, a column each of *pattern; new */
+static double *take_rows(const Rows *rows, const double *jacobian, Pattern *pattern)
+{
+    Terms terms = {0};
+
+    for (int i = 0; i < rows->rows; i++)
+        for (int j = 0; j < rows->columns; j++)
+            if (jacobian[(ptrdiff_t)i * rows->columns + j] != 0)
+                push_term(&terms, j, i, jacobian[(ptrdiff_t)i * rows->columns + j]);
+    return sum_terms(&terms, rows->columns, rows->rows, pattern);
+}
+
+/* no row is missed by more than a part of its size */
+static bool are_met(const Pattern *rows, const double *values, const double *residual)
+{
+    for (int i = 0; i < rows->columns; i++)
+        if (!(fabs(residual[i]) <= TOLERANCE * pattern_largest(rows, values, i)))
+            return false;
+    return true;
+}
+
+/* What solve() does where values that were given don't contradict each other, by sparse factors:
+ * [L L^T C^T; C 0] with rows that are independent. False, and speeds as they were, where it isn't
+ * so or these don't carry. */
+static Status solve_sparse(Assembly *a, const Pattern *square, const double *weight, bool *solved,
+                           Diag *diag)
+{
+    const int nu = a->eq->nu;
+    double *u = a->y + a->l->n, *before = NEW_ARRAY(double, nu), *du = NEW_ARRAY(double, nu);
+    double *jacobian = NULL, *residual = NULL, *values = NULL, *bottom = NULL, *lambda = NULL;
+    Pattern pattern = {0};
+    Problem p = {0};
+    Kkt *kkt = NULL;
+    Rows rows;
+    int *order = NULL, rank = 0;
+    bool sound;
+    Status status = OK;
+
+    *solved = false;
+    memcpy(before, u, (size_t)nu * sizeof *u);
+    CHECK(initial_open_problem(&p, a, LEVEL_VELOCITY, false, diag));
+    rows = initial_rows(&p);
+    residual = NEW_ARRAY(double, rows.rows);
+    if (rows.rows < MANY)
+        goto done;
+    jacobian = NEW_ARRAY(double, (size_t)rows.rows *(size_t)nu);
+    order = NEW_ARRAY(int, rows.rows);
+    bottom = NEW_ARRAY(double, rows.rows);
+    lambda = NEW_ARRAY(double, rows.rows);
+    rows.evaluate(rows.context, u, residual, jacobian);
+    values = take_rows(&rows, jacobian, &pattern);
+    mem_free(jacobian);
+    jacobian = NULL;
+    CHECK(rank_columns(&pattern, values, RANK_RATIO, a->setting->watch, &rank, order));
+    kkt = kkt_new(square, &pattern, order, rank);
+    kkt_set_watch(kkt, a->setting->watch);
+    sound = kkt_factor(kkt, weight, values, order) && !kkt_is_regularised(kkt);
+    for (int i = 0; i < SWEEPS && sound; i++) {
+        for (int k = 0; k < rank; k++)
+            bottom[k] = -residual[order[k]];
+        kkt_solve(kkt, NULL, bottom, du, lambda);
+        for (int j = 0; j < nu; j++)
+            u[j] += du[j];
+        rows.evaluate(rows.context, u, residual, NULL);
+    }
+    CHECK(poll(a->setting->watch));
+    *solved = sound && vector_is_finite(u, nu) && are_met(&pattern, values, residual);
+done:
+    if (!*solved)
+        memcpy(u, before, (size_t)nu * sizeof *u);
+    kkt_free(kkt);
+    initial_close_problem(&p);
+    pattern_free(&pattern);
+    MEM_FREE(before, du, jacobian, residual, values, bottom, lambda, order);
+    return status;
+}
+
 /* shapes that rest but for what iterations left */
 static void rest(Assembly *a)
 {
@@ -259,6 +381,32 @@ static void rest(Assembly *a)
             fabs(a->y[a->l->n + given->place]) < TOLERANCE)
             a->y[a->l->n + given->place] = 0;
     }
+}
+
+/* as told by `weight`: guesses first, where there are any, then what was given */
+static Status solve_all(Assembly *a, const Pattern *square, const double *weight, bool guesses,
+                        Diag *diag)
+{
+    double *factor = NULL;
+    bool solved = false;
+    Status status = OK;
+
+    if (!guesses)
+        CHECK(solve_sparse(a, square, weight, &solved, diag));
+    if (solved)
+        goto done;
+    factor = factor_of(square, weight);
+    if (factor == NULL)
+        goto done;
+    if (guesses)
+        CHECK(solve(a, factor, true, diag));
+    CHECK(solve(a, factor, false, diag));
+    solved = true;
+done:
+    if (status == OK && solved)
+        rest(a);
+    mem_free(factor);
+    return status;
 }
 
 /* --- whether it matters --- */
@@ -304,8 +452,8 @@ done:
 Status initial_speeds(Assembly *a, Diag *diag)
 {
     Placing p = {.a = a, .s = a->skeleton};
-    double *rates = NULL;
-    double *factor = NULL;
+    Pattern of_rates = {0}, square = {0};
+    double *rates = NULL, *weight = NULL;
     bool open = false;
     Status status = OK;
 
@@ -318,16 +466,13 @@ Status initial_speeds(Assembly *a, Diag *diag)
     CHECK(place_choose_trees(&p, diag));
     memset(p.known, 0, (size_t)(p.s->link_count * POSE_COORDS) * sizeof *p.known);
     place_columns(&p);
-    rates = find_rates(&p);
-    factor = weigh(a, rates, p.columns.count);
-    if (factor != NULL) {
-        if (any_guess(a, true))
-            CHECK(solve(a, factor, true, diag));
-        CHECK(solve(a, factor, false, diag));
-        rest(a);
-    }
+    rates = find_rates(&p, &of_rates);
+    weight = weigh(a, &of_rates, rates, &square);
+    CHECK(solve_all(a, &square, weight, any_guess(a, true), diag));
 done:
-    MEM_FREE(factor, rates);
+    pattern_free(&of_rates);
+    pattern_free(&square);
+    MEM_FREE(rates, weight);
     placing_free(&p);
     return status;
 }

@@ -95,28 +95,44 @@ void condensed_take(Condensed *c, const double *jacobian)
 
 /* --- factors --- */
 
-static void open_factors(Condensed *c)
+/* those of another size are gone */
+static void open_factors(Condensed *c, bool with_pair)
 {
-    if (c->factored == c->left)
-        return;
-    lu_free(c->real);
-    lu_free(c->pair);
-    c->real = lu_new(c->left);
-    c->pair = lu_new(2 * c->left);
-    c->factored = c->left;
+    if (c->factored != c->left) {
+        lu_free(c->real);
+        lu_free(c->pair);
+        c->real = lu_new(c->left);
+        c->pair = NULL;
+        c->factored = c->left;
+    }
+    if (with_pair && c->pair == NULL)
+        c->pair = lu_new(2 * c->left);
 }
 
-bool condensed_factor(Condensed *c, double s, double alpha, double beta)
+bool condensed_factor_real(Condensed *c, double s)
+{
+    const int n = c->left;
+    double *a;
+
+    c->s = s;
+    open_factors(c, false);
+    a = lu_matrix(c->real);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            a[i * n + j] =
+                (i == j) * s - row_of(c, c->told + i)[c->told + j] - c->through[i * n + j] / s;
+    return lu_factor(c->real);
+}
+
+static bool factor_pair(Condensed *c, double alpha, double beta)
 {
     const int n = c->left;
     const double complex over = 1 / (alpha - I * beta);
-    double *a, *b;
+    double *b;
 
-    c->s = s;
     c->alpha = alpha;
     c->beta = beta;
-    open_factors(c);
-    a = lu_matrix(c->real);
+    open_factors(c, true);
     b = lu_matrix(c->pair);
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
@@ -124,12 +140,16 @@ bool condensed_factor(Condensed *c, double s, double alpha, double beta)
             const double through = c->through[i * n + j];
             double *pair = b + (ptrdiff_t)i * 2 * n + j;
 
-            a[i * n + j] = (i == j) * s - entry - through / s;
             pair[0] = pair[2 * n * n + n] = (i == j) * alpha - entry - creal(over) * through;
             pair[n] = (i == j) * beta + cimag(over) * through;
             pair[2 * n * n] = -pair[n];
         }
-    return lu_factor(c->real) && lu_factor(c->pair);
+    return lu_factor(c->pair);
+}
+
+bool condensed_factor(Condensed *c, double s, double alpha, double beta)
+{
+    return condensed_factor_real(c, s) && factor_pair(c, alpha, beta);
 }
 
 /* --- solutions --- */

@@ -17,6 +17,7 @@ void condensed_free(Condensed *condensed); /* NULL is fine */
 void condensed_take(Condensed *condensed, const double *jacobian);
 /* Factor for a real s other than 0, and for alpha - i beta. False: singular. O(R^3) */
 bool condensed_factor(Condensed *condensed, double s, double alpha, double beta);
+bool condensed_factor_real(Condensed *condensed, double s); /* for the real one alone */
 /* b becomes the solution; of the complex system b + i other. */
 void condensed_solve(Condensed *condensed, double *b);
 void condensed_solve_pair(Condensed *condensed, double *b, double *other);

@@ -2,7 +2,6 @@
 #include "simulate/integrate/sundials.h"
 
 #include <cvode/cvode.h>
-#include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
@@ -30,23 +29,17 @@ static int rate(realtype t, N_Vector y, N_Vector out, void *data)
     return 0;
 }
 
+/* --- 1 - gamma J --- */
+
 /* J as the problem tells it; false: it doesn't */
 static bool by_problem(Sundials *c, double t, N_Vector y)
 {
     const OdeJacobian *offered = &c->base.ode->jacobian;
-    const int n = c->base.ode->n;
 
     if (offered->at == NULL)
         return false;
-    if (c->by_rows == NULL)
-        c->by_rows = stepper_numbers(&c->base, c->all * n);
     c->base.counts.evaluations++;
-    if (!offered->at(offered->context, t, N_VGetArrayPointer(y), c->by_rows))
-        return false;
-    for (int j = 0; j < n; j++)
-        for (int i = 0; i < c->all; i++)
-            SUNDenseMatrix_Column(c->jacobian, j)[i] = c->by_rows[i * n + j];
-    return true;
+    return offered->at(offered->context, t, N_VGetArrayPointer(y), c->jacobian);
 }
 
 /* CVODE's own differences move an unknown that is 0 by next to nothing where a first step is short,
@@ -54,9 +47,10 @@ static bool by_problem(Sundials *c, double t, N_Vector y)
 static int by_differences(Sundials *c, double t, N_Vector y, N_Vector rate_there, N_Vector point,
                           N_Vector column)
 {
+    const int n = c->base.ode->n;
+
     N_VScale(1, y, point);
-    for (int j = 0; j < c->base.ode->n; j++) { /* nothing follows from quadratures */
-        double *entries = SUNDenseMatrix_Column(c->jacobian, j);
+    for (int j = 0; j < n; j++) { /* nothing follows from quadratures */
         const double was = NV_Ith_S(point, j);
         double h;
 
@@ -66,29 +60,89 @@ static int by_differences(Sundials *c, double t, N_Vector y, N_Vector rate_there
             return 1;
         NV_Ith_S(point, j) = was;
         for (int i = 0; i < c->all; i++)
-            entries[i] = (NV_Ith_S(column, i) - NV_Ith_S(rate_there, i)) / h;
+            c->jacobian[i * n + j] = (NV_Ith_S(column, i) - NV_Ith_S(rate_there, i)) / h;
     }
     return 0;
 }
 
-/* matrix = 1 - gamma J. CVODE would keep the J of a try that failed for the shorter ones that
- * follow. One from a steep part that these don't reach, as a wall, makes Newton's corrections small
- * wherever they lead. */
+/* CVODE would keep the J of a try that failed for the shorter ones that follow. One from a steep
+ * part that these don't reach, as a wall, makes Newton's corrections small wherever they lead. */
 static int linear_system(realtype t, N_Vector y, N_Vector rate_there, SUNMatrix matrix,
                          booleantype may_keep, booleantype *is_new, realtype gamma, void *data,
                          N_Vector point, N_Vector column, N_Vector more)
 {
     Sundials *c = data;
 
-    (void)more;
+    (void)matrix, (void)more;
     *is_new = !may_keep || c->jacobian_at > t;
     if (*is_new) {
         c->jacobian_at = t;
         if (!by_problem(c, t, y) && by_differences(c, t, y, rate_there, point, column) != 0)
             return 1;
+        condensed_take(c->condensed, c->jacobian);
     }
-    return SUNMatCopy(c->jacobian, matrix) != 0 || SUNMatScaleAddI(-gamma, matrix) != 0 ? -1 : 0;
+    c->gamma = gamma;
+    return 0;
 }
+
+static SUNLinearSolver_Type type_of(SUNLinearSolver solver)
+{
+    (void)solver;
+    return SUNLINEARSOLVER_DIRECT;
+}
+
+static int factor(SUNLinearSolver solver, SUNMatrix matrix)
+{
+    const Sundials *c = solver->content;
+
+    (void)matrix;
+    return condensed_factor_real(c->condensed, 1 / c->gamma) ? 0 : SUNLS_LUFACT_FAIL;
+}
+
+/* (1 - gamma J) x = b by (1/gamma - J) x = b/gamma; quadratures follow from the others */
+static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector b, realtype finely)
+{
+    const Sundials *c = solver->content;
+    const int n = c->base.ode->n;
+    double *out = N_VGetArrayPointer(x);
+
+    (void)matrix, (void)finely;
+    N_VScale(1, b, x);
+    for (int i = 0; i < n; i++)
+        out[i] /= c->gamma;
+    condensed_solve(c->condensed, out);
+    for (int i = n; i < c->all; i++)
+        for (int j = 0; j < n; j++)
+            out[i] += c->gamma * c->jacobian[i * n + j] * out[j];
+    return SUNLS_SUCCESS;
+}
+
+static int free_solver(SUNLinearSolver solver)
+{
+    SUNLinSolFreeEmpty(solver); /* its content is the stepper */
+    return SUNLS_SUCCESS;
+}
+
+/* Newton's method with J as it has been taken apart; CVODE asks for a matrix, which nobody reads.
+ */
+static int set_linear(Sundials *c)
+{
+    int code;
+
+    c->jacobian = stepper_numbers(&c->base, c->all * c->base.ode->n);
+    c->condensed = condensed_new(c->base.ode->n);
+    c->matrix = MEM_GIVEN(SUNDenseMatrix(1, 1, c->context));
+    c->linear = MEM_GIVEN(SUNLinSolNewEmpty(c->context));
+    c->linear->content = c;
+    c->linear->ops->gettype = type_of;
+    c->linear->ops->setup = factor;
+    c->linear->ops->solve = solve;
+    c->linear->ops->free = free_solver;
+    code = CVodeSetLinearSolver(c->memory, c->linear, c->matrix);
+    return code == 0 ? CVodeSetLinSysFn(c->memory, linear_system) : code;
+}
+
+/* --- a stepper --- */
 
 static Stepper *create(const Method *method, const Ode *ode, const Control *control)
 {
@@ -98,6 +152,14 @@ static Stepper *create(const Method *method, const Ode *ode, const Control *cont
     /* kept and freed with the stepper: NOLINTNEXTLINE(clang-analyzer-osx.cocoa.RetainCount) */
     c->memory = MEM_GIVEN(CVodeCreate(method->is_stiff ? CV_BDF : CV_ADAMS, c->context));
     return &c->base;
+}
+
+static void destroy(Stepper *stepper)
+{
+    if (stepper == NULL)
+        return;
+    condensed_free(((Sundials *)stepper)->condensed);
+    sundials_destroy(stepper);
 }
 
 static Stepper *create_bdf(const Ode *ode, const Control *control)
@@ -143,13 +205,8 @@ static int first_start(Sundials *c, double t)
         code = CVodeSetMaxStep(c->memory, control_largest(&c->base.control));
     if (code != 0)
         return code;
-    if (c->base.method->is_stiff) {
-        c->matrix = MEM_GIVEN(SUNDenseMatrix(c->all, c->all, c->context));
-        c->jacobian = MEM_GIVEN(SUNMatClone(c->matrix));
-        c->linear = MEM_GIVEN(SUNLinSol_Dense(c->w, c->matrix, c->context));
-        code = CVodeSetLinearSolver(c->memory, c->linear, c->matrix);
-        return code == 0 ? CVodeSetLinSysFn(c->memory, linear_system) : code;
-    }
+    if (c->base.method->is_stiff)
+        return set_linear(c);
     c->nonlinear = MEM_GIVEN(SUNNonlinSol_FixedPoint(c->w, 0, c->context));
     return CVodeSetNonlinearSolver(c->memory, c->nonlinear);
 }
@@ -185,7 +242,7 @@ static Status step(Stepper *stepper, double end, Diag *diag)
     return sundials_arrive(c, reached, diag);
 }
 
-#define CVODE_METHOD SUNDIALS_METHOD, .destroy = sundials_destroy, .start = start, .step = step
+#define CVODE_METHOD SUNDIALS_METHOD, .destroy = destroy, .start = start, .step = step
 
 const Method method_bdf = {
     CVODE_METHOD,

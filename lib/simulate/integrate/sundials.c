@@ -16,8 +16,6 @@ static void give_back(void *object)
         SUNNonlinSolFree(s->nonlinear);
     if (s->matrix != NULL)
         SUNMatDestroy(s->matrix);
-    if (s->jacobian != NULL)
-        SUNMatDestroy(s->jacobian);
     N_VDestroy(s->w);
     N_VDestroy(s->out);
     N_VDestroy(s->rate);

@@ -6,6 +6,7 @@
 #define COTREE_SIMULATE_INTEGRATE_SUNDIALS_H
 
 #include "base/memory.h"
+#include "simulate/integrate/condensed.h"
 #include "simulate/integrate/ode.h"
 
 #include <nvector/nvector_serial.h>
@@ -39,15 +40,19 @@ typedef struct Sundials {
     SUNContext context;
     void *memory; /* the solver */
     N_Vector w, out;
-    N_Vector rate;              /* w', of implicit equations; else NULL */
-    SUNMatrix matrix, jacobian; /* jacobian: NULL where the solver keeps its own */
+    N_Vector rate; /* w', of implicit equations; else NULL */
+    SUNMatrix matrix;
     SUNLinearSolver linear;
     SUNNonlinearSolver nonlinear;
     Counts earlier;     /* of integrations before the last restart */
     bool is_new;        /* no step since then */
     double jacobian_at; /* s */
-    double *by_rows;    /* the Jacobian as the problem told it; NULL: it hasn't yet */
-    double power;       /* largest rate of a quadrature so far: what its errors count beside */
+    /* of explicit ones 1 - gamma J: J row by row, all x n, that of y first, and in parts; NULL:
+     * none yet */
+    double *jacobian;
+    Condensed *condensed;
+    double gamma;
+    double power; /* largest rate of a quadrature so far: what its errors count beside */
     char reason[200];
 } Sundials;
 
