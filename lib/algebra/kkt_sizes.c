@@ -1,0 +1,71 @@
+/* kkt_sizes.c: the largest so far, kept and brought back */
+#include "algebra/kkt_sizes.h"
+
+#include "algebra/linear.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+#define LEAST_REACH 1e-9 /* of the largest: what is less is rounding */
+
+KktSizes kkt_sizes_new(const Pattern *rows)
+{
+    return (KktSizes){.rows = rows,
+                      .reach = NEW_ARRAY(double, rows->rows),
+                      .square = NEW_ARRAY(double, rows->rows),
+                      .norm = NEW_ARRAY(double, rows->columns),
+                      .most = NEW_ARRAY(double, rows->columns),
+                      .kept = NEW_ARRAY(double, rows->rows + 2 * rows->columns)};
+}
+
+void kkt_sizes_free(KktSizes *sizes)
+{
+    MEM_FREE(sizes->reach, sizes->square, sizes->norm, sizes->most, sizes->kept);
+}
+
+void kkt_sizes_see(KktSizes *sizes, const double *phi_u, const int *rows, int m)
+{
+    const Pattern *g = sizes->rows;
+
+    for (int k = 0; k < m; k++)
+        for (int e = g->start[rows[k]]; e < g->start[rows[k] + 1]; e++) {
+            const double entry = fabs(phi_u[e]);
+
+            if (entry > sizes->reach[g->row[e]])
+                sizes->reach[g->row[e]] = entry;
+        }
+}
+
+void kkt_sizes_measure(KktSizes *sizes, const double *phi_u, const int *rows, int m)
+{
+    const Pattern *g = sizes->rows;
+    const double least = LEAST_REACH * vector_largest(sizes->reach, g->rows);
+
+    for (int i = 0; i < g->rows; i++) {
+        const double reach = sizes->reach[i] > least ? sizes->reach[i] : least;
+
+        sizes->square[i] = reach * reach;
+    }
+    for (int k = 0; k < m; k++) {
+        double norm = 0;
+
+        for (int e = g->start[rows[k]]; e < g->start[rows[k] + 1]; e++)
+            if (phi_u[e] != 0)
+                norm += phi_u[e] * phi_u[e] / sizes->square[g->row[e]];
+        if (norm > sizes->norm[rows[k]])
+            sizes->norm[rows[k]] = norm;
+    }
+}
+
+void kkt_sizes_keep(KktSizes *sizes, bool back)
+{
+    double *arrays[] = {sizes->reach, sizes->norm, sizes->most}, *kept = sizes->kept;
+
+    for (int i = 0; i < COUNT(arrays); i++) {
+        const int count = i == 0 ? sizes->rows->rows : sizes->rows->columns;
+
+        memcpy(back ? arrays[i] : kept, back ? kept : arrays[i], (size_t)count * sizeof(double));
+        kept += count;
+    }
+}
