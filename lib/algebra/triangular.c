@@ -216,6 +216,21 @@ int triangular_group_of(const Triangular *form, int k)
     return form->group_of[k];
 }
 
+/* of a group of one row, which most are */
+static double rest_of_row(const Triangular *form, int group, const double *values,
+                          const double *square, const double *norm)
+{
+    const int *entry = form->entry.at + form->entry_start.at[group];
+    const int *own = form->own.at + form->own_start.at[group];
+    const int columns = form->own_start.at[group + 1] - form->own_start.at[group];
+    double rest = 0;
+
+    for (int j = 0; j < columns; j++)
+        rest += values[entry[j]] * values[entry[j]] / square[own[j]];
+    rest /= norm[form->rows[form->member.at[form->start.at[group]]]];
+    return rest > 0 ? rest : 0;
+}
+
 double triangular_rest(const Triangular *form, int group, const double *values,
                        const double *square, const double *norm)
 {
@@ -225,6 +240,8 @@ double triangular_rest(const Triangular *form, int group, const double *values,
     const int *entry = form->entry.at + form->entry_start.at[group];
     double row[MOST_ROWS][MOST_OWN], size[MOST_ROWS], least = INFINITY;
 
+    if (rows == 1)
+        return rest_of_row(form, group, values, square, norm);
     for (int i = 0; i < rows; i++) {
         double rest = 0;
 
