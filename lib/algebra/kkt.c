@@ -39,7 +39,6 @@
 #define MOST_SWEEPS 30    /* and as long as each leaves less than */
 #define CONTRACTION 0.3   /* of the correction before: what is slower, epsilon is to hold back */
 #define ROUNDING    1e-15
-#define LEAST_NORM  1e-3 /* likewise */
 /* Pivots of G G^T over the norm of their row: less than DETERMINED, the row isn't left to its own
  * speeds; with a new order those are that have FIRMLY more. Both are beyond NEAR. */
 #define DETERMINED 1.5e-2
@@ -443,28 +442,6 @@ static void borrow_masses(const Kkt *kkt, double least, double *mass)
             mass[i] = fmax(mass[i], borrowed[i]);
 }
 
-/* Keeps the largest that each row in use has been, and tells what counts of a row at least. `size`
- * is a number a row. */
-static double keep_most(Kkt *kkt, const int *rows, const double *size)
-{
-    double largest = 0;
-
-    for (int k = 0; k < kkt->m; k++) {
-        double *most = &kkt->sizes.most[rows[k]];
-
-        if (size[k] > *most)
-            *most = size[k];
-        if (*most > largest)
-            largest = *most;
-    }
-    return LEAST_NORM * LEAST_NORM * largest;
-}
-
-static double reference_of(const Kkt *kkt, int row, double least)
-{
-    return kkt->sizes.most[row] > least ? kkt->sizes.most[row] : least;
-}
-
 /* Unknowns are scaled to unit mass, rows of G to unit mass-norm at its largest so far. */
 static void choose_scale(Kkt *kkt)
 {
@@ -483,9 +460,9 @@ static void choose_scale(Kkt *kkt)
 
         size[kkt->column[e]] += entry * entry / (mass > 0 ? mass : 1);
     }
-    least = keep_most(kkt, kkt->rows, size + kkt->nu);
+    least = kkt_sizes_keep_most(&kkt->sizes, kkt->rows, kkt->m, size + kkt->nu);
     for (int k = 0; k < kkt->m; k++)
-        size[kkt->nu + k] = reference_of(kkt, kkt->rows[k], least);
+        size[kkt->nu + k] = kkt_sizes_reference(&kkt->sizes, kkt->rows[k], least);
     for (int i = 0; i < kkt->size; i++)
         kkt->scale[kkt->place_of[i]] = size[i] > 0 ? 1 / sqrt(size[i]) : 1;
 }
@@ -543,9 +520,10 @@ static void measure_rows(Kkt *kkt)
         if (kkt->class[kkt->row[e]] == CLASS_BORDER)
             size[kkt->column[e]] += entries[kkt->place[e]] * entries[kkt->place[e]] /
                                     entries[kkt->place_of[kkt->row[e]]];
-    least = keep_most(kkt, kkt->rows, size + kkt->nu);
+    least = kkt_sizes_keep_most(&kkt->sizes, kkt->rows, kkt->m, size + kkt->nu);
     for (int k = 0; k < kkt->m; k++)
-        kkt->reference[kkt->place_of[kkt->nu + k]] = reference_of(kkt, kkt->rows[k], least);
+        kkt->reference[kkt->place_of[kkt->nu + k]] =
+            kkt_sizes_reference(&kkt->sizes, kkt->rows[k], least);
 }
 
 /* whether M has pivots of its own */
@@ -675,29 +653,31 @@ bool kkt_is_plain(const Kkt *kkt)
            kkt->angle > (kkt->is_told_by_groups ? OWN : SUSPECT);
 }
 
-/* whether the group of the k-th row is independent in its own columns, by sizes as last measured */
-static bool is_of_sound_group(const Kkt *kkt, int k, const double *phi_u)
+/* Whether the k-th row's group is independent in its own columns, by sizes as they were measured
+ * where the step began. */
+static bool is_of_sound_group(Kkt *kkt, int k, const double *phi_u, const int *rows)
 {
-    const int group = triangular_group_of(kkt->groups, k);
-
-    return rest_of_group(kkt, group, phi_u) > NEAR;
+    keep_rows(kkt, rows);
+    return kkt->groups != NULL && kkt->is_measured &&
+           rest_of_group(kkt, triangular_group_of(kkt->groups, k), phi_u) > NEAR;
 }
 
 bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const double *phi_u,
                   const int *rows)
 {
-    const double least = keep_most(kkt, rows, taken);
-    bool sound = true, in_groups;
+    double least;
 
-    keep_rows(kkt, rows);
-    in_groups = kkt->groups != NULL && kkt->is_measured;
-    for (int k = 0; k < kkt->m && sound; k++) {
-        const double reference = reference_of(kkt, rows[k], least);
+    if (kkt_sizes_are_sound(&kkt->sizes, pivot, taken, rows, kkt->m, SUSPECT))
+        return true;
+    least = kkt_sizes_keep_most(&kkt->sizes, rows, kkt->m, taken);
+    for (int k = 0; k < kkt->m; k++) {
+        const double reference = kkt_sizes_reference(&kkt->sizes, rows[k], least);
 
-        sound = pivot[k] > SUSPECT * reference ||
-                (in_groups && pivot[k] > OWN * reference && is_of_sound_group(kkt, k, phi_u));
+        if (!(pivot[k] > SUSPECT * reference) &&
+            !(pivot[k] > OWN * reference && is_of_sound_group(kkt, k, phi_u, rows)))
+            return false;
     }
-    return sound;
+    return true;
 }
 
 double kkt_blur(const Kkt *kkt)

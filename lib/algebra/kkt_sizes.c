@@ -8,6 +8,7 @@
 #include <string.h>
 
 #define LEAST_REACH 1e-9 /* of the largest: what is less is rounding */
+#define LEAST_NORM  1e-3 /* likewise */
 
 KktSizes kkt_sizes_new(const Pattern *rows)
 {
@@ -56,6 +57,39 @@ void kkt_sizes_measure(KktSizes *sizes, const double *phi_u, const int *rows, in
         if (norm > sizes->norm[rows[k]])
             sizes->norm[rows[k]] = norm;
     }
+}
+
+double kkt_sizes_keep_most(KktSizes *sizes, const int *rows, int m, const double *size)
+{
+    double largest = 0;
+
+    for (int k = 0; k < m; k++) {
+        double *most = &sizes->most[rows[k]];
+
+        if (size[k] > *most)
+            *most = size[k];
+        if (*most > largest)
+            largest = *most;
+    }
+    return LEAST_NORM * LEAST_NORM * largest;
+}
+
+bool kkt_sizes_are_sound(KktSizes *sizes, const double *pivot, const double *taken, const int *rows,
+                         int m, double part)
+{
+    double largest = 0, least = INFINITY;
+    bool sound = true;
+
+    for (int k = 0; k < m; k++) {
+        double most = sizes->most[rows[k]];
+
+        most = taken[k] > most ? taken[k] : most;
+        sizes->most[rows[k]] = most;
+        largest = most > largest ? most : largest;
+        least = most < least ? most : least;
+        sound = sound & (pivot[k] > part * most);
+    }
+    return sound && least > LEAST_NORM * LEAST_NORM * largest;
 }
 
 void kkt_sizes_keep(KktSizes *sizes, bool back)

@@ -25,6 +25,18 @@ void kkt_sizes_free(KktSizes *sizes);        /* what it holds */
 void kkt_sizes_see(KktSizes *sizes, const double *phi_u, const int *rows, int m);
 /* and norms of the rows, once they do. */
 void kkt_sizes_measure(KktSizes *sizes, const double *phi_u, const int *rows, int m);
+/* Keeps the largest p that each row in use has been, of size[], a number a row, and tells what
+ * counts of a row at least. */
+double kkt_sizes_keep_most(KktSizes *sizes, const int *rows, int m, const double *size);
+/* that or the least of p, for a row */
+static inline double kkt_sizes_reference(const KktSizes *sizes, int row, double least)
+{
+    return sizes->most[row] > least ? sizes->most[row] : least;
+}
+/* whether each of the pivots is more than this part of its row's p, the largest so far with
+ * `taken`, and no p is less than what counts at least */
+bool kkt_sizes_are_sound(KktSizes *sizes, const double *pivot, const double *taken, const int *rows,
+                         int m, double part);
 /* Keep them as they are now; or bring back what was kept. */
 void kkt_sizes_keep(KktSizes *sizes, bool back);
 

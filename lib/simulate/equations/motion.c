@@ -409,9 +409,9 @@ static void find_move(Motion *mo, bool by_masses)
  * what is left as a residual, a light crank at its dead centre would go far to spare a heavy rocker
  * some 1e-16 rad.
  *
- * Simplified Newton: one factorisation serves all sweeps. They go on to the limit of rounding: what
- * is left as a residual turns the motion off its branch at a singular position. At most a hundredth
- * of the run's tolerance may be left where they don't get there. */
+ * Simplified Newton: one factorisation serves all sweeps. They go on to the limit of rounding, near
+ * a singular position to the last bit: what is left as a residual turns the motion off its branch
+ * there. At most a hundredth of the run's tolerance may be left where they don't get there. */
 static bool project_position(Motion *mo, double t, double *y)
 {
     bool by_masses;
@@ -429,7 +429,8 @@ static bool project_position(Motion *mo, double t, double *y)
     if (!motion_is_prescribed(mo) && !by_masses &&
         !motion_factor_with(mo, mo->nearest_kkt, mo->unit))
         return false;
-    for (int sweep = 0; sweep < PROJECTION_SWEEPS && left > 1e-16 * size; sweep++) {
+    for (int sweep = 0; sweep < PROJECTION_SWEEPS && left > (by_masses ? 1e-15 : 1e-16) * size;
+         sweep++) {
         if (left <= 1e-13 * size && left > 0.5 * before)
             break; /* rounding */
         before = left;

@@ -19,7 +19,7 @@ struct Motion {
     MotionOptions options;
     int *rows, *wanted;
     int used;              /* constraint rows in use */
-    int factored;          /* matrices that the equations could have eliminated */
+    int factored, steps;   /* matrices that the equations could have eliminated, in these */
     double row_ratio;      /* their pivots when they were chosen; 0: not known yet */
     bool is_repartitioned; /* since the last renewal */
     bool is_implicit;      /* multipliers of the rows in use are unknowns of a method */
