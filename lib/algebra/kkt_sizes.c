@@ -2,6 +2,7 @@
 #include "algebra/kkt_sizes.h"
 
 #include "algebra/linear.h"
+#include "base/four.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -74,22 +75,58 @@ double kkt_sizes_keep_most(KktSizes *sizes, const int *rows, int m, const double
     return LEAST_NORM * LEAST_NORM * largest;
 }
 
+/* of `most`: the extremes, and whether all pivots so far are more than their part of it */
+typedef struct Soundness {
+    double largest, least;
+    bool holds;
+} Soundness;
+
+/* Four by Four: the first where that is so; no function, which would hand Fours on in memory */
+#define CHOOSE(is_first, first, second)                                                            \
+    ((Four)(((FourTruths)(first) & (is_first)) | ((FourTruths)(second) & ~(is_first))))
+
+/* The first of the rows that follow one another as they are stored, four at a time; how many. */
+AS_WIDE_AS_CAN_BE static int see_fours(double *most, const double *pivot, const double *taken,
+                                       const int *rows, int m, double part, Soundness *out)
+{
+    Four largest = {0}, least = {INFINITY, INFINITY, INFINITY, INFINITY};
+    FourTruths holds = {-1, -1, -1, -1};
+    int k = 0;
+
+    for (; k + 4 <= m && rows[k] == k && rows[k + 1] == k + 1 && rows[k + 2] == k + 2 &&
+           rows[k + 3] == k + 3;
+         k += 4) {
+        const Four now = *(const Four *)(taken + k), before = *(const Four *)(most + k);
+        const Four own = CHOOSE(now > before, now, before);
+
+        *(Four *)(most + k) = own;
+        largest = CHOOSE(own > largest, own, largest);
+        least = CHOOSE(own < least, own, least);
+        holds &= *(const Four *)(pivot + k) > part * own;
+    }
+    for (int i = 0; i < 4; i++) {
+        out->largest = fmax(out->largest, largest[i]);
+        out->least = fmin(out->least, least[i]);
+        out->holds = out->holds && holds[i];
+    }
+    return k;
+}
+
 bool kkt_sizes_are_sound(KktSizes *sizes, const double *pivot, const double *taken, const int *rows,
                          int m, double part)
 {
-    double largest = 0, least = INFINITY;
-    bool sound = true;
+    Soundness all = {.least = INFINITY, .holds = true};
 
-    for (int k = 0; k < m; k++) {
+    for (int k = see_fours(sizes->most, pivot, taken, rows, m, part, &all); k < m; k++) {
         double most = sizes->most[rows[k]];
 
         most = taken[k] > most ? taken[k] : most;
         sizes->most[rows[k]] = most;
-        largest = most > largest ? most : largest;
-        least = most < least ? most : least;
-        sound = sound & (pivot[k] > part * most);
+        all.largest = most > all.largest ? most : all.largest;
+        all.least = most < all.least ? most : all.least;
+        all.holds = all.holds && pivot[k] > part * most;
     }
-    return sound && least > LEAST_NORM * LEAST_NORM * largest;
+    return all.holds && all.least > LEAST_NORM * LEAST_NORM * all.largest;
 }
 
 void kkt_sizes_keep(KktSizes *sizes, bool back)

@@ -188,8 +188,9 @@ const int *motion_rows(const Motion *motion, int *count); /* in use; borrowed */
 bool motion_slip(Motion *motion, double t, const double *y, const double *signs, double *slip,
                  double *off);
 
-/* Back onto the constraints: to the nearest position in at most 8 sweeps, and to the velocity there
- * that differs by the least kinetic energy. */
+/* Back onto the constraints: to the nearest position in at most 8 sweeps, by masses where the
+ * equations have eliminated themselves, and to the velocity there that differs by the least kinetic
+ * energy. */
 bool motion_project(Motion *motion, double t, double *y);
 /* largest |Phi| and |Phi_u u - nu| over all rows */
 void motion_residuals(Motion *motion, double t, const double *y, double *position,
