@@ -131,6 +131,8 @@ static void expect_form(uint64_t *seed, const Rows *r, const Triangular *form)
         const int g = triangular_group_of(form, k);
 
         EXPECT(g >= 0 && g < triangular_groups(form));
+        if (g < 0 || g >= triangular_groups(form))
+            continue;
         own[g] = fmin(own[g], left_of(r, form, k, false, square, norm));
         full[g] = fmin(full[g], left_of(r, form, k, true, square, norm));
     }
