@@ -8,9 +8,11 @@
 #include "algebra/kkt.h"
 
 #include "algebra/kkt_border.h"
+#include "algebra/kkt_sizes.h"
 #include "algebra/ldl.h"
 #include "algebra/linear.h"
 #include "algebra/sparse.h"
+#include "algebra/triangular.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -37,12 +39,11 @@
 #define MOST_SWEEPS 30    /* and as long as each leaves less than */
 #define CONTRACTION 0.3   /* of the correction before: what is slower, epsilon is to hold back */
 #define ROUNDING    1e-15
-#define LEAST_REACH 1e-9 /* of the largest: what is less is rounding */
-#define LEAST_NORM  1e-3 /* likewise */
 /* Pivots of G G^T over the norm of their row: less than DETERMINED, the row isn't left to its own
  * speeds; with a new order those are that have FIRMLY more. Both are beyond NEAR. */
 #define DETERMINED 1.5e-2
 #define FIRMLY     4e-2
+#define OWN        1e-4 /* d / p that is enough for a row that is known to be independent */
 
 struct Kkt {
     const Pattern *mass, *constraints;
@@ -60,20 +61,20 @@ struct Kkt {
     LdlOrder *order;
     Ldl *factors, *geometry;
     const Watch *watch;
-    /* of all rows, so far: largest p; of columns the largest entry, and of all rows the largest
-     * norm with columns over that */
-    double *most, *reach, *row_reach;
-    double *kept;                      /* these three, see kkt_keep_sizes() */
+    KktSizes sizes;
+    bool is_measured;                  /* with these rows */
+    Triangular *groups;                /* of the rows in use; NULL: there are none, or a border */
     double *norm, *reference;          /* by place, of multipliers: those squared, and of `most` */
     double *right, *answer, *residual; /* by place */
     double *weight;                    /* by place: of squares of unknowns, to compare them */
     double angle;                      /* least d / p; of rows exchanged, least over largest */
     double pivot;                      /* of the last configuration: how independent its rows are */
     bool regularised;
-    Sparse *exchanging; /* rows exchanged; NULL: not needed yet */
-    bool is_exchanging; /* the last factors are those */
-    double *scale;      /* unknown = scale * its unknown */
-    double *values;     /* its entries, those across behind */
+    bool is_told_by_groups; /* that pivot */
+    Sparse *exchanging;     /* rows exchanged; NULL: not needed yet */
+    bool is_exchanging;     /* the last factors are those */
+    double *scale;          /* unknown = scale * its unknown */
+    double *values;         /* its entries, those across behind */
 };
 
 /* --- the order --- */
@@ -153,6 +154,10 @@ static void take_rows(Kkt *kkt, const int *rows)
     places = places_of(kkt);
     kkt->border = kkt_border(&places);
     open_order(kkt);
+    kkt->is_measured = false;
+    triangular_free(kkt->groups);
+    kkt->groups =
+        kkt->border == NO_BORDER && kkt->m > 0 ? triangular_new(g, kkt->rows, kkt->m) : NULL;
 }
 
 Kkt *kkt_new(const Pattern *mass, const Pattern *constraints, const int *rows, int m)
@@ -173,10 +178,7 @@ Kkt *kkt_new(const Pattern *mass, const Pattern *constraints, const int *rows, i
     kkt->place_of = NEW_ARRAY(int, size);
     kkt->class = NEW_ARRAY(int, size);
     kkt->late = NEW_ARRAY(bool, m);
-    kkt->most = NEW_ARRAY(double, constraints->columns);
-    kkt->reach = NEW_ARRAY(double, nu);
-    kkt->row_reach = NEW_ARRAY(double, constraints->columns);
-    kkt->kept = NEW_ARRAY(double, nu + 2 * constraints->columns);
+    kkt->sizes = kkt_sizes_new(constraints);
     kkt->norm = NEW_ARRAY(double, size);
     kkt->reference = NEW_ARRAY(double, size);
     kkt->right = NEW_ARRAY(double, size);
@@ -198,9 +200,11 @@ void kkt_free(Kkt *kkt)
     if (kkt == NULL)
         return;
     close_order(kkt);
+    triangular_free(kkt->groups);
+    kkt_sizes_free(&kkt->sizes);
     MEM_FREE(kkt->rows, kkt->from, kkt->row, kkt->column, kkt->place, kkt->place_of, kkt->class,
-             kkt->late, kkt->most, kkt->kept, kkt->reach, kkt->row_reach, kkt->norm, kkt->reference,
-             kkt->right, kkt->answer, kkt->residual, kkt->weight, kkt->scale, kkt);
+             kkt->late, kkt->norm, kkt->reference, kkt->right, kkt->answer, kkt->residual,
+             kkt->weight, kkt->scale, kkt);
 }
 
 static void keep_rows(Kkt *kkt, const int *rows)
@@ -221,42 +225,45 @@ static void put_entries(const Kkt *kkt, const double *mass, const double *phi_u)
 
 /* --- the geometry --- */
 
-/* Columns and rows are measured against the largest they have been: one that vanishes at a singular
- * position is to be seen vanishing. Lengths are told from angles by what a unit of the speed moves.
- */
-static void measure_columns(Kkt *kkt, const double *phi_u)
+static void measure(Kkt *kkt, const double *phi_u)
 {
-    const Pattern *g = kkt->constraints;
-
-    for (int k = 0; k < kkt->m; k++)
-        for (int e = g->start[kkt->rows[k]]; e < g->start[kkt->rows[k] + 1]; e++)
-            kkt->reach[g->row[e]] = fmax(kkt->reach[g->row[e]], fabs(phi_u[e]));
+    kkt_sizes_measure(&kkt->sizes, phi_u, kkt->rows, kkt->m);
+    kkt->is_measured = true;
 }
 
-/* factors of [R^2 G^T; G 0], and norms of its rows */
+/* factors of [R^2 G^T; G 0], and norms of its rows by place */
 static void factor_geometry(Kkt *kkt, const double *phi_u)
 {
-    const Pattern *g = kkt->constraints;
-    const double least = LEAST_REACH * vector_largest(kkt->reach, kkt->nu);
     double *entries = ldl_entries(kkt->geometry);
 
-    for (int i = 0; i < kkt->nu; i++) {
-        const double reach = fmax(kkt->reach[i], least);
-
-        entries[kkt->place_of[i]] = reach * reach;
-    }
+    for (int i = 0; i < kkt->nu; i++)
+        entries[kkt->place_of[i]] = kkt->sizes.square[i];
     for (int e = kkt->mass_entries; e < kkt->entries; e++)
         entries[kkt->place[e]] = phi_u[kkt->from[e]];
-    for (int k = 0; k < kkt->m; k++) {
-        double *reach = &kkt->row_reach[kkt->rows[k]], norm = 0;
-
-        for (int e = g->start[kkt->rows[k]]; e < g->start[kkt->rows[k] + 1]; e++)
-            if (phi_u[e] != 0)
-                norm += phi_u[e] * phi_u[e] / entries[kkt->place_of[g->row[e]]];
-        *reach = fmax(*reach, norm);
-        kkt->norm[kkt->place_of[kkt->nu + k]] = *reach;
-    }
+    for (int k = 0; k < kkt->m; k++)
+        kkt->norm[kkt->place_of[kkt->nu + k]] = kkt->sizes.norm[kkt->rows[k]];
     (void)ldl_factor(kkt->geometry, kkt->norm, NULL);
+}
+
+static double rest_of_group(const Kkt *kkt, int group, const double *phi_u)
+{
+    return triangular_rest(kkt->groups, group, phi_u, kkt->sizes.square, kkt->sizes.norm);
+}
+
+/* what is left of rows by the columns of their groups alone, 1 at most; 0: there are no groups */
+static double rest_of_groups(const Kkt *kkt, const double *phi_u)
+{
+    double least = 1;
+
+    if (kkt->groups == NULL)
+        return 0;
+    for (int i = 0; i < triangular_groups(kkt->groups); i++) {
+        const double rest = rest_of_group(kkt, i, phi_u);
+
+        if (!(rest >= least))
+            least = rest;
+    }
+    return least;
 }
 
 /* what is left of the k-th row in use when those before are taken out, 1 at most */
@@ -333,6 +340,7 @@ static double least_pivot(Kkt *kkt, const double *phi_u)
     double found = 1;
     int least = -1;
 
+    measure(kkt, phi_u);
     factor_geometry(kkt, phi_u);
     if (has_lost_rows(kkt))
         renew_order(kkt, phi_u);
@@ -347,34 +355,43 @@ static double least_pivot(Kkt *kkt, const double *phi_u)
     return kkt->border != NO_BORDER && least >= 0 ? as_last(kkt, least, found) : found;
 }
 
+/* Pivots of rows in groups are at least what is left of them by the groups' own columns, in the
+ * order from the last group to the first. */
+static double least_pivot_at_most(Kkt *kkt, const double *phi_u)
+{
+    double rest;
+
+    if (kkt->groups == NULL)
+        return least_pivot(kkt, phi_u);
+    measure(kkt, phi_u);
+    rest = rest_of_groups(kkt, phi_u);
+    kkt->is_told_by_groups = rest > NEAR;
+    return kkt->is_told_by_groups ? rest : least_pivot(kkt, phi_u);
+}
+
 double kkt_independence(Kkt *kkt, const double *phi_u, const int *rows)
 {
     keep_rows(kkt, rows);
-    measure_columns(kkt, phi_u);
+    kkt_sizes_see(&kkt->sizes, phi_u, kkt->rows, kkt->m);
     return sqrt(least_pivot(kkt, phi_u));
 }
 
-static void copy_sizes(const Kkt *kkt, bool back)
+double kkt_independence_of_groups(Kkt *kkt, const double *phi_u, const int *rows)
 {
-    const int columns = kkt->constraints->columns;
-    double *sizes[] = {kkt->reach, kkt->most, kkt->row_reach}, *kept = kkt->kept;
-
-    for (int i = 0; i < 3; i++) {
-        const int count = i == 0 ? kkt->nu : columns;
-
-        memcpy(back ? sizes[i] : kept, back ? kept : sizes[i], (size_t)count * sizeof(double));
-        kept += count;
-    }
+    keep_rows(kkt, rows);
+    kkt_sizes_see(&kkt->sizes, phi_u, kkt->rows, kkt->m);
+    measure(kkt, phi_u);
+    return sqrt(rest_of_groups(kkt, phi_u));
 }
 
 void kkt_keep_sizes(Kkt *kkt)
 {
-    copy_sizes(kkt, false);
+    kkt_sizes_keep(&kkt->sizes, false);
 }
 
 void kkt_return_sizes(Kkt *kkt)
 {
-    copy_sizes(kkt, true);
+    kkt_sizes_keep(&kkt->sizes, true);
 }
 
 /* --- rows exchanged --- */
@@ -425,28 +442,6 @@ static void borrow_masses(const Kkt *kkt, double least, double *mass)
             mass[i] = fmax(mass[i], borrowed[i]);
 }
 
-/* Keeps the largest that each row in use has been, and tells what counts of a row at least. `size`
- * is a number a row. */
-static double keep_most(Kkt *kkt, const int *rows, const double *size)
-{
-    double largest = 0;
-
-    for (int k = 0; k < kkt->m; k++) {
-        double *most = &kkt->most[rows[k]];
-
-        if (size[k] > *most)
-            *most = size[k];
-        if (*most > largest)
-            largest = *most;
-    }
-    return LEAST_NORM * LEAST_NORM * largest;
-}
-
-static double reference_of(const Kkt *kkt, int row, double least)
-{
-    return kkt->most[row] > least ? kkt->most[row] : least;
-}
-
 /* Unknowns are scaled to unit mass, rows of G to unit mass-norm at its largest so far. */
 static void choose_scale(Kkt *kkt)
 {
@@ -465,9 +460,9 @@ static void choose_scale(Kkt *kkt)
 
         size[kkt->column[e]] += entry * entry / (mass > 0 ? mass : 1);
     }
-    least = keep_most(kkt, kkt->rows, size + kkt->nu);
+    least = kkt_sizes_keep_most(&kkt->sizes, kkt->rows, kkt->m, size + kkt->nu);
     for (int k = 0; k < kkt->m; k++)
-        size[kkt->nu + k] = reference_of(kkt, kkt->rows[k], least);
+        size[kkt->nu + k] = kkt_sizes_reference(&kkt->sizes, kkt->rows[k], least);
     for (int i = 0; i < kkt->size; i++)
         kkt->scale[kkt->place_of[i]] = size[i] > 0 ? 1 / sqrt(size[i]) : 1;
 }
@@ -525,9 +520,10 @@ static void measure_rows(Kkt *kkt)
         if (kkt->class[kkt->row[e]] == CLASS_BORDER)
             size[kkt->column[e]] += entries[kkt->place[e]] * entries[kkt->place[e]] /
                                     entries[kkt->place_of[kkt->row[e]]];
-    least = keep_most(kkt, kkt->rows, size + kkt->nu);
+    least = kkt_sizes_keep_most(&kkt->sizes, kkt->rows, kkt->m, size + kkt->nu);
     for (int k = 0; k < kkt->m; k++)
-        kkt->reference[kkt->place_of[kkt->nu + k]] = reference_of(kkt, kkt->rows[k], least);
+        kkt->reference[kkt->place_of[kkt->nu + k]] =
+            kkt_sizes_reference(&kkt->sizes, kkt->rows[k], least);
 }
 
 /* whether M has pivots of its own */
@@ -599,7 +595,7 @@ static bool factor_massless(Kkt *kkt, const double *phi_u)
         kkt->pivot = 1;
         if (kkt->m == 0 || (sound && kkt->angle > SPLIT))
             return sound;
-        kkt->pivot = least_pivot(kkt, phi_u);
+        kkt->pivot = least_pivot_at_most(kkt, phi_u);
     }
     kkt->regularised = !(kkt->pivot > SINGULAR);
     return kkt->regularised ? factor_exchanging(kkt) : sound;
@@ -619,13 +615,14 @@ static bool factor(Kkt *kkt, const double *mass, const double *phi_u)
     if (!ldl_factor(kkt->factors, NULL, kkt->watch))
         return false;
     regular = mass_is_regular(kkt);
+    kkt->is_told_by_groups = false;
     kkt->angle = 0;
     if (regular) {
         measure_rows(kkt);
         kkt->angle = least_angle(kkt);
     }
     if (kkt->border == NO_BORDER)
-        kkt->pivot = kkt->m == 0 || kkt->angle > SUSPECT ? 1 : least_pivot(kkt, phi_u);
+        kkt->pivot = kkt->m == 0 || kkt->angle > SUSPECT ? 1 : least_pivot_at_most(kkt, phi_u);
     kkt->regularised = !(kkt->pivot > SINGULAR);
     if (kkt->regularised && regular && !factor_held(kkt))
         return false;
@@ -636,7 +633,7 @@ static bool factor(Kkt *kkt, const double *mass, const double *phi_u)
 bool kkt_factor(Kkt *kkt, const double *mass, const double *phi_u, const int *rows)
 {
     keep_rows(kkt, rows);
-    measure_columns(kkt, phi_u);
+    kkt_sizes_see(&kkt->sizes, phi_u, kkt->rows, kkt->m);
     return kkt->is_factored = factor(kkt, mass, phi_u);
 }
 
@@ -652,17 +649,35 @@ double kkt_products(const Kkt *kkt)
 
 bool kkt_is_plain(const Kkt *kkt)
 {
-    return kkt->m > 0 && !kkt->is_exchanging && kkt->angle > SUSPECT;
+    return kkt->m > 0 && !kkt->is_exchanging &&
+           kkt->angle > (kkt->is_told_by_groups ? OWN : SUSPECT);
 }
 
-bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const int *rows)
+/* Whether the k-th row's group is independent in its own columns, by sizes as they were measured
+ * where the step began. */
+static bool is_of_sound_group(Kkt *kkt, int k, const double *phi_u, const int *rows)
 {
-    const double least = keep_most(kkt, rows, taken);
-    bool sound = true;
+    keep_rows(kkt, rows);
+    return kkt->groups != NULL && kkt->is_measured &&
+           rest_of_group(kkt, triangular_group_of(kkt->groups, k), phi_u) > NEAR;
+}
 
-    for (int k = 0; k < kkt->m; k++)
-        sound = sound && pivot[k] > SUSPECT * reference_of(kkt, rows[k], least);
-    return sound;
+bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const double *phi_u,
+                  const int *rows)
+{
+    double least;
+
+    if (kkt_sizes_are_sound(&kkt->sizes, pivot, taken, rows, kkt->m, SUSPECT))
+        return true;
+    least = kkt_sizes_keep_most(&kkt->sizes, rows, kkt->m, taken);
+    for (int k = 0; k < kkt->m; k++) {
+        const double reference = kkt_sizes_reference(&kkt->sizes, rows[k], least);
+
+        if (!(pivot[k] > SUSPECT * reference) &&
+            !(pivot[k] > OWN * reference && is_of_sound_group(kkt, k, phi_u, rows)))
+            return false;
+    }
+    return true;
 }
 
 double kkt_blur(const Kkt *kkt)

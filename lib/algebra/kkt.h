@@ -44,6 +44,9 @@ double kkt_blur(const Kkt *kkt);
 /* How independent the rows are, without M: the root of the least of those pivots, 1 at most. It
  * falls to 0 as the distance to a singular configuration does. */
 double kkt_independence(Kkt *kkt, const double *phi_u, const int *rows);
+/* The same by the rows of each group of a block triangular form alone (triangular.h), which is less
+ * work: the rows are independent as long as it isn't small. 0: they have no such form. */
+double kkt_independence_of_groups(Kkt *kkt, const double *phi_u, const int *rows);
 /* What is next to nothing is told by how large it has been. Sizes as they are now are kept, and
  * come back where a step that was tried and given up has seen what the motion never does. */
 void kkt_keep_sizes(Kkt *kkt);
@@ -51,8 +54,11 @@ void kkt_return_sizes(Kkt *kkt);
 /* of the last kkt_factor(): whether it needs neither epsilon, refinement nor rows exchanged */
 bool kkt_is_plain(const Kkt *kkt);
 /* Whether a factorisation that somebody else has made, speeds before multipliers, is as plain: by
- * pivots d of these rows, signs reversed, and p. What they show of sizes counts from now on. */
-bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const int *rows);
+ * pivots d of these rows, signs reversed, and p. Less of d will do for a row that its group tells
+ * to be independent, by G here and sizes as they were measured last. What pivots show of sizes
+ * counts from now on. */
+bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const double *phi_u,
+                  const int *rows);
 /* M du + G^T lambda = top, G du = bottom. `top` may be NULL for 0; du may be `top`. */
 void kkt_solve(Kkt *kkt, const double *top, const double *bottom, double *du, double *lambda);
 

@@ -18,6 +18,8 @@ libcore_la_SOURCES += \
   lib/algebra/kkt.h \
   lib/algebra/kkt_border.c \
   lib/algebra/kkt_border.h \
+  lib/algebra/kkt_sizes.c \
+  lib/algebra/kkt_sizes.h \
   lib/algebra/ldl.c \
   lib/algebra/ldl.h \
   lib/algebra/levenberg_marquardt.c \
@@ -51,4 +53,6 @@ libcore_la_SOURCES += \
   lib/algebra/spectrum.h \
   lib/algebra/square.c \
   lib/algebra/square.h \
+  lib/algebra/triangular.c \
+  lib/algebra/triangular.h \
   lib/algebra/wide.h

@@ -3,7 +3,10 @@
 #ifndef COTREE_BASE_FOUR_H
 #define COTREE_BASE_FOUR_H
 
+#include <stdint.h>
+
 typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
+typedef int64_t FourTruths __attribute__((vector_size(32), aligned(8))); /* -1: so; 0: not so */
 
 /* before a function that computes with them */
 #if defined __x86_64__ && defined __GLIBC__ && !defined __clang__

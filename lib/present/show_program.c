@@ -2,6 +2,8 @@
 #include "present/show.h"
 #include "simulate/equations/numbers.h"
 
+#include <math.h>
+
 /* operations of a run's programs, as they are reached */
 typedef struct Work {
     int hoisted;                    /* of parameters alone */
@@ -99,7 +101,7 @@ static Status eliminate(const View *view, const Equations *eq, Diag *diag)
     rows = NEW_ARRAY(int, eq->m);
     for (int k = 0; k < eq->m; k++)
         rows[k] = k;
-    status = eq->eliminate(eq->context, rows, eq->m, diag);
+    status = eq->eliminate(eq->context, rows, eq->m, INFINITY, diag);
     mem_free(rows);
     return status;
 }
@@ -113,9 +115,9 @@ static void add_eliminated(const View *view, Text *out, const Equations *eq)
     text_add(&line, "factoring the matrix of accelerations and ");
     layout_count(&line, eq->m, "multiplier", "multipliers");
     text_addf(&line,
-              ", which these operations eliminate from the %dth time on, wherever no singular "
-              "position is near",
-              MOTION_FACTORS_FIRST);
+              ", which these operations eliminate in a run that needs it more than %d times, "
+              "wherever no singular position is near",
+              MOTION_FACTORS_PAID);
     add_line(view, out, "skipped  ", &line);
 }
 

@@ -1,8 +1,10 @@
 # unit tests of lib/simulate
 UNIT_TESTS += test_simulate_linear test_integration test_simulate_run test_simulate_cases \
-  test_result test_kkt_border
+  test_result test_kkt_border test_triangular
 test_kkt_border_SOURCES = tests/unit/test_kkt_border.c tests/unit/test.h
 test_kkt_border_LDADD = $(unit_ldadd)
+test_triangular_SOURCES = tests/unit/test_triangular.c tests/unit/test.h
+test_triangular_LDADD = $(unit_ldadd)
 test_simulate_linear_SOURCES = tests/unit/test_simulate_linear.c tests/unit/test.h
 test_simulate_linear_LDADD = $(unit_ldadd)
 test_integration_SOURCES = tests/unit/test_integration.c tests/unit/simulate_problems.h \

@@ -15,10 +15,12 @@
 #include "formulate/solved/price.h"
 #include "formulate/system/system_impl.h"
 
+#include <math.h>
+
 enum {
     MOST_PAIRS = 20000,      /* of speeds with an entry of M */
     MOST_PRODUCTS = 60000,   /* of elimination, */
-    MOST_OPERATIONS = 100000 /* and of all that is told: more leaves the processor's caches */
+    MOST_OPERATIONS = 250000 /* and of all that is told: 150000 take half the time of factors */
 };
 
 typedef struct Term {
@@ -235,13 +237,13 @@ static Constrained *arrays_new(int nu, int m)
 {
     Constrained *out = NEW(Constrained);
 
-    out->count = 3 * (nu + m);
-    out->acceleration = NEW_ARRAY(Expr, out->count);
-    out->multiplier = out->acceleration + nu;
-    out->excess = out->multiplier + m;
-    out->pivot = out->excess + nu;
-    out->taken = out->pivot + m;
-    out->step = out->taken + m;
+    out->places = constrained_places(nu, m);
+    out->acceleration = NEW_ARRAY(Expr, out->places.count);
+    out->multiplier = out->acceleration + out->places.multiplier;
+    out->excess = out->acceleration + out->places.excess;
+    out->pivot = out->acceleration + out->places.pivot;
+    out->taken = out->acceleration + out->places.taken;
+    out->step = out->acceleration + out->places.step;
     return out;
 }
 
@@ -263,7 +265,7 @@ static Constrained *solve(Elimination *e, const Expr *force, const Expr *gamma)
         substitute_back(e);
         tell(e, &e->entries, out);
         if (arena_status(e->arena) == OK &&
-            price_of(out->acceleration, out->count) <= MOST_OPERATIONS)
+            price_of(out->acceleration, out->places.count) <= MOST_OPERATIONS)
             return out;
     }
     constrained_free(out);
@@ -271,7 +273,7 @@ static Constrained *solve(Elimination *e, const Expr *force, const Expr *gamma)
 }
 
 Constrained *constrained_new(System *system, const int *rows, int row_count, const Expr *force,
-                             const Expr *gamma)
+                             const Expr *gamma, double most)
 {
     const int nu = system_nu(system);
     Elimination e = {.system = system,
@@ -287,9 +289,11 @@ Constrained *constrained_new(System *system, const int *rows, int row_count, con
     e.row = NEW_ARRAY(Row, e.size);
     if (list_mass(&e)) {
         list_constraints(&e);
-        if (find_order(&e) <= MOST_PRODUCTS)
+        if ((double)find_order(&e) <= fmin(MOST_PRODUCTS, most))
             out = solve(&e, force, gamma);
     }
+    if (out == NULL)
+        arena_reset(e.arena); /* what was too large, or stopped, is given up: others go on */
     for (int i = 0; i < e.size; i++)
         LIST_FREE(e.row[i].beyond);
     LIST_FREE(e.entries);

@@ -5,6 +5,25 @@
 
 #include "formulate/system/system.h"
 
+/* Where the arrays of Constrained begin in one: accelerations, then multipliers, and so on as they
+ * stand there; what is from `step` on reads the symbols of multipliers, what is before doesn't. */
+typedef struct ConstrainedPlaces {
+    int multiplier, excess, pivot, taken, step;
+    int count; /* all of them */
+} ConstrainedPlaces;
+
+static inline ConstrainedPlaces constrained_places(int nu, int rows)
+{
+    ConstrainedPlaces p = {.multiplier = nu};
+
+    p.excess = p.multiplier + rows;
+    p.pivot = p.excess + nu;
+    p.taken = p.pivot + rows;
+    p.step = p.taken + rows;
+    p.count = p.step + nu;
+    return p;
+}
+
 /* Arrays in one, which the first begins. */
 typedef struct Constrained {
     Expr *acceleration; /* nu: u' */
@@ -13,13 +32,15 @@ typedef struct Constrained {
     /* rows: pivot d of a multiplier, its sign reversed, and p, of which that is the rest */
     Expr *pivot, *taken;
     Expr *step; /* nu: du of M du + G^T mu = 0, G du = s, where s_k is the multiplier's symbol */
-    int count;  /* all of them */
+    ConstrainedPlaces places;
 } Constrained;
 
 /* With these F, and gamma of all m rows. New; constrained_free(). NULL: some M has no pivot, rows
- * are dependent whatever the numbers, or it is more than a straight line is worth. */
+ * are dependent whatever the numbers, elimination takes more than `most` products (INFINITY: as
+ * many as it likes), or it is more than a straight line is worth; the arena is as sound as before.
+ */
 Constrained *constrained_new(System *view, const int *rows, int row_count, const Expr *force,
-                             const Expr *gamma);
+                             const Expr *gamma, double most);
 void constrained_free(Constrained *constrained); /* NULL is fine */
 
 #endif

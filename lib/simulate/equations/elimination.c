@@ -49,7 +49,7 @@ Status elimination_choose(const Layout *l, Told *by, Expr **out, Diag *diag)
     return OK;
 }
 
-Constrained *elimination_of_rows(const Layout *l, const int *rows, int row_count)
+Constrained *elimination_of_rows(const Layout *l, const int *rows, int row_count, double most)
 {
     const Reading *r = system_run(l->system);
     Expr *force = NEW_ARRAY(Expr, l->nu + l->m), *gamma = force + l->nu;
@@ -59,9 +59,9 @@ Constrained *elimination_of_rows(const Layout *l, const int *rows, int row_count
         force[j] = layout_on_surfaces(l, r->force[j]);
     for (int k = 0; k < l->m; k++)
         gamma[k] = layout_on_surfaces(l, r->gamma[k]);
-    out = constrained_new(l->system, rows, row_count, force, gamma);
+    out = constrained_new(l->system, rows, row_count, force, gamma, most);
     mem_free(force);
-    if (out != NULL && !is_known_early(out->acceleration, (int)(out->step - out->acceleration))) {
+    if (out != NULL && !is_known_early(out->acceleration, out->places.step)) {
         constrained_free(out);
         out = NULL;
     }

@@ -12,7 +12,7 @@
 MUST_USE Status elimination_choose(const Layout *layout, Told *by, Expr **out, Diag *diag);
 
 /* Where these constraint rows hold the speeds: new, constrained_free(). NULL: it is left to
- * numbers. */
-Constrained *elimination_of_rows(const Layout *layout, const int *rows, int row_count);
+ * numbers, as where it takes more than `most` products. */
+Constrained *elimination_of_rows(const Layout *layout, const int *rows, int row_count, double most);
 
 #endif

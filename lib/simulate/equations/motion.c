@@ -108,7 +108,8 @@ Motion *motion_new(const Equations *eq, const MotionOptions *options)
     mo->lambda_all = NEW_ARRAY(double, eq->m);
     mo->row_size = NEW_ARRAY(double, eq->m);
     mo->counts.singular_time = NAN;
-    mo->began = mo->began_before = NAN;
+    mo->began = NAN;
+    mo->by_groups = mo->by_all = (Trend){.at = NAN, .before_at = NAN};
     if (mo->used > 0)
         open_projection(mo);
     if (eq->slide_count > 0)
@@ -209,6 +210,25 @@ void motion_switches(Motion *mo, double t, const double *y, double *out)
     eq->switches(eq->context, t, y, y + eq->n, y + eq->n + eq->nu, out);
 }
 
+/* where another step begins than the last one */
+static void close_trend(Trend *trend)
+{
+    trend->before = trend->now;
+    trend->before_at = trend->at;
+    trend->at = NAN;
+}
+
+/* The least that it comes to up to h behind t, as it went on from the step before; where that was
+ * not asked for, by the part that is left by another measure (NAN: not known). */
+static double follow_trend(Trend *trend, double t, double h, double now, double part)
+{
+    trend->now = now;
+    trend->at = t;
+    if (trend->before_at < t)
+        return fmin(now, now + h * (now - trend->before) / (t - trend->before_at));
+    return part < 1 ? part * now : now;
+}
+
 /* Off the manifold the constraints contradict each other a little, and near a singular position the
  * accelerations that obey them grow without bound: there they are those of the nearest state on it.
  * These are two fields that agree on the manifold alone; a step that took some stages from one and
@@ -217,21 +237,23 @@ void motion_switches(Motion *mo, double t, const double *y, double *out)
 static void begin(void *context, double t, const double *y, double h)
 {
     Motion *mo = context;
-    double ahead;
+    double by_groups;
 
     if (t != mo->began) {
-        mo->independence_before = mo->independence;
-        mo->began_before = mo->began;
+        close_trend(&mo->by_groups);
+        close_trend(&mo->by_all);
         kkt_keep_sizes(mo->kkt);
     } else {
         kkt_return_sizes(mo->kkt);
     }
-    motion_at_position(mo, motion_clock(mo, t), y);
-    mo->independence = ahead = kkt_independence(mo->kkt, mo->eq->phi_u, mo->rows);
     mo->began = t;
-    if (mo->began_before < t)
-        ahead += h * (mo->independence - mo->independence_before) / (t - mo->began_before);
-    mo->is_projecting = fmin(mo->independence, ahead) < NEAR;
+    motion_at_position(mo, motion_clock(mo, t), y);
+    by_groups = follow_trend(&mo->by_groups, t, h,
+                             kkt_independence_of_groups(mo->kkt, mo->eq->phi_u, mo->rows), NAN);
+    mo->is_projecting =
+        by_groups < NEAR &&
+        follow_trend(&mo->by_all, t, h, kkt_independence(mo->kkt, mo->eq->phi_u, mo->rows),
+                     by_groups / mo->by_groups.now) < NEAR;
 }
 
 static bool solve_on_manifold(Motion *mo, double t, const double *y)
@@ -361,14 +383,38 @@ static void take_prescribed(Motion *mo)
         pattern_add(mo->eq->rows, mo->eq->phi_u, mo->rows[k], mo->bottom[k], mo->du);
 }
 
-/* The nearest position by how errors are measured, not by masses: where rounding is what is left as
- * a residual, a light crank at its dead centre would go far to spare a heavy rocker some 1e-16 rad.
+/* Whether a position is brought back by what the equations have eliminated themselves: to the
+ * nearest by masses. Far from singular positions that is as good: what a row asks for moves no
+ * speed by more than 1/SUSPECT (kkt.c) of what it would where the row is at its largest. The stages
+ * of a step that is projected all take one metric. */
+static bool moves_by_masses(Motion *mo)
+{
+    return !mo->is_projecting && motion_is_eliminated(mo);
+}
+
+/* Phi_u du = -Phi. */
+static void find_move(Motion *mo, bool by_masses)
+{
+    for (int k = 0; k < mo->used; k++)
+        mo->bottom[k] = -mo->eq->phi[mo->rows[k]];
+    if (motion_is_prescribed(mo))
+        take_prescribed(mo);
+    else if (by_masses)
+        mo->eq->eliminated->step(mo->eq->context, mo->bottom, mo->du);
+    else
+        kkt_solve(mo->nearest_kkt, NULL, mo->bottom, mo->du, mo->lambda);
+}
+
+/* Near a singular position the nearest by how errors are measured, not by masses: where rounding is
+ * what is left as a residual, a light crank at its dead centre would go far to spare a heavy rocker
+ * some 1e-16 rad.
  *
- * Simplified Newton: one factorisation serves all sweeps. They go on to the limit of rounding: what
- * is left as a residual turns the motion off its branch at a singular position. At most a hundredth
- * of the run's tolerance may be left where they don't get there. */
+ * Simplified Newton: one factorisation serves all sweeps. They go on to the limit of rounding, near
+ * a singular position to the last bit: what is left as a residual turns the motion off its branch
+ * there. At most a hundredth of the run's tolerance may be left where they don't get there. */
 static bool project_position(Motion *mo, double t, double *y)
 {
+    bool by_masses;
     double size = fmax(1, vector_largest(y, mo->eq->n));
     double enough = fmax(1e-13 * size, fmin(1e-2 * mo->options.tolerance, 1e-9));
     double left, before = INFINITY;
@@ -379,20 +425,18 @@ static bool project_position(Motion *mo, double t, double *y)
     left = distance(mo);
     if (left <= 1e-16 * size)
         return true;
-    if (!motion_is_prescribed(mo) && !motion_factor_with(mo, mo->nearest_kkt, mo->unit))
+    by_masses = !motion_is_prescribed(mo) && moves_by_masses(mo);
+    if (!motion_is_prescribed(mo) && !by_masses &&
+        !motion_factor_with(mo, mo->nearest_kkt, mo->unit))
         return false;
-    for (int sweep = 0; sweep < PROJECTION_SWEEPS && left > 1e-16 * size; sweep++) {
+    for (int sweep = 0; sweep < PROJECTION_SWEEPS && left > (by_masses ? 1e-15 : 1e-16) * size;
+         sweep++) {
         if (left <= 1e-13 * size && left > 0.5 * before)
             break; /* rounding */
         before = left;
-        for (int k = 0; k < mo->used; k++)
-            mo->bottom[k] = -mo->eq->phi[mo->rows[k]];
-        if (motion_is_prescribed(mo))
-            take_prescribed(mo);
-        else
-            kkt_solve(mo->nearest_kkt, NULL, mo->bottom, mo->du, mo->lambda);
+        find_move(mo, by_masses);
         move(mo, mo->du, y);
-        motion_at_position(mo, t, y); /* the factors stay those of the first sweep */
+        motion_at_position(mo, t, y); /* factors of a matrix stay those of the first sweep */
         left = distance(mo);
         if (!isfinite(left))
             break;

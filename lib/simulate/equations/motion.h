@@ -86,9 +86,10 @@ typedef struct Equations {
      * nothing but rounding of it. NULL: by M */
     bool (*without_mass)(void *context, double *acceleration);
     const Eliminated *eliminated; /* likewise where there are; NULL: by M and Phi_u, */
-    /* until this has written it out, unless it is more than a program is worth. Where it has,
-     * nothing is up to date. NULL: it isn't worth it, or there is nothing to eliminate. */
-    Status (*eliminate)(void *context, const int *rows, int row_count, Diag *diag);
+    /* until this has written it out, unless it takes more than `most` products, or more than a
+     * program is worth. Where it has, nothing is up to date. Fails when it is stopped alone. NULL:
+     * it isn't worth it, or there is nothing to eliminate. */
+    Status (*eliminate)(void *context, const int *rows, int row_count, double most, Diag *diag);
     /* Where each speed has a row of its own, so that Phi_u is a permutation but for signs: u', and
      * the multipliers of all rows; NULL: not so */
     void (*prescribed)(void *context, double *acceleration, double *multiplier);
@@ -187,8 +188,9 @@ const int *motion_rows(const Motion *motion, int *count); /* in use; borrowed */
 bool motion_slip(Motion *motion, double t, const double *y, const double *signs, double *slip,
                  double *off);
 
-/* Back onto the constraints: to the nearest position in at most 8 sweeps, and to the velocity there
- * that differs by the least kinetic energy. */
+/* Back onto the constraints: to the nearest position in at most 8 sweeps, by masses where the
+ * equations have eliminated themselves, and to the velocity there that differs by the least kinetic
+ * energy. */
 bool motion_project(Motion *motion, double t, double *y);
 /* largest |Phi| and |Phi_u u - nu| over all rows */
 void motion_residuals(Motion *motion, double t, const double *y, double *position,
@@ -217,11 +219,12 @@ typedef struct Renewed {
 void motion_partition(Motion *motion, double t, const double *y);
 /* At y, just projected: choose anew what has worn out. */
 Renewed motion_renew(Motion *motion, double t, const double *y);
-/* Between steps: let the equations eliminate u' and multipliers themselves, once a run has factored
- * so many matrices for them: about what writing the elimination out and compiling it costs, at any
- * size. Fails as that does. */
-enum { MOTION_FACTORS_FIRST = 500 };
-MUST_USE Status motion_hasten(Motion *motion, Diag *diag);
+/* Behind each step: let the equations eliminate u' and multipliers themselves, once a run has
+ * factored MOTION_FACTORS_PAID matrices for them, or has factored MOTION_FACTORS_SEEN and by these
+ * will need so many more in `steps_ahead` (0: not known). That is about what writing the
+ * elimination out and compiling it costs, at any size. Fails as that does. */
+enum { MOTION_FACTORS_SEEN = 100, MOTION_FACTORS_PAID = 500 };
+MUST_USE Status motion_hasten(Motion *motion, double steps_ahead, Diag *diag);
 
 typedef struct MotionCounts {
     int64_t factorisations;

@@ -8,20 +8,25 @@
 #include "simulate/equations/partitioning.h"
 #include "simulate/equations/signs.h"
 
+/* How independent the rows in use are, by one measure, where a step began, and where the one before
+ * it did; times NAN: it was not asked for. */
+typedef struct Trend {
+    double now, at, before, before_at;
+} Trend;
+
 struct Motion {
     const Equations *eq;
     MotionOptions options;
     int *rows, *wanted;
     int used;              /* constraint rows in use */
-    int factored;          /* matrices that the equations could have eliminated */
+    int factored, steps;   /* matrices that the equations could have eliminated, in these */
     double row_ratio;      /* their pivots when they were chosen; 0: not known yet */
     bool is_repartitioned; /* since the last renewal */
     bool is_implicit;      /* multipliers of the rows in use are unknowns of a method */
     double blur;           /* largest since it was asked for */
-    /* A step's rates are those of the nearest state on the manifold. Independence of the rows in
-     * use where the step began, and where the one before it did; times NAN: there was none. */
-    bool is_projecting;
-    double independence, began, independence_before, began_before;
+    bool is_projecting;    /* a step's rates are those of the nearest state on the manifold */
+    double began;          /* where a step did last */
+    Trend by_groups, by_all;
     Ode ode;
     double low, high; /* time window of evaluations */
     Kkt *kkt;

@@ -11,8 +11,9 @@
 #include <string.h>
 
 #define ROWS_WORN                                                                                  \
-    0.5           /* of the pivot ratio when they were chosen: it falls to 0 within a few steps */
-#define POOR 1e-2 /* pivot ratio of rows that others may better */
+    0.5             /* of the pivot ratio when they were chosen: it falls to 0 within a few steps */
+#define DEARER 4    /* what a product of factors takes, over one of a straight line */
+#define POOR   1e-2 /* pivot ratio of rows that others may better */
 
 bool motion_choose_independent(Motion *mo)
 {
@@ -123,14 +124,24 @@ Renewed motion_renew(Motion *mo, double t, const double *y)
     return renewed;
 }
 
-Status motion_hasten(Motion *mo, Diag *diag)
+/* The first steps may be small ones: what they foresee counts when there have been some. */
+static bool elimination_pays(const Motion *mo, double steps_ahead)
+{
+    const double ahead = steps_ahead * mo->factored / mo->steps;
+
+    return mo->factored >= MOTION_FACTORS_PAID ||
+           (mo->factored >= MOTION_FACTORS_SEEN && ahead >= MOTION_FACTORS_PAID);
+}
+
+Status motion_hasten(Motion *mo, double steps_ahead, Diag *diag)
 {
     const Equations *eq = mo->eq;
 
-    if (eq->eliminate == NULL || mo->partitioning != NULL || mo->factored < MOTION_FACTORS_FIRST)
+    mo->steps++;
+    if (eq->eliminate == NULL || mo->partitioning != NULL || !elimination_pays(mo, steps_ahead))
         return OK;
-    mo->factored = 0;
+    mo->factored = mo->steps = 0;
     mo->is_evaluated = mo->is_factored = mo->is_alone = false;
     mem_keep(mo); /* as it is now: where the call fails, so does what was evaluated behind it */
-    return eq->eliminate(eq->context, mo->rows, mo->used, diag);
+    return eq->eliminate(eq->context, mo->rows, mo->used, DEARER * kkt_products(mo->kkt), diag);
 }

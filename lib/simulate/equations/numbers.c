@@ -1,6 +1,8 @@
 /* numbers.c: the recursive form, compiled in stages */
 #include "simulate/equations/numbers_impl.h"
 
+#include "base/four.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -40,12 +42,20 @@ static bool articulate(void *context, double *acceleration)
     return nb->is_articulated;
 }
 
-static bool has_pivots(const double *excess, int count)
+AS_WIDE_AS_CAN_BE static bool has_pivots(const double *excess, int count)
 {
-    for (int j = 0; j < count; j++)
-        if (!(excess[j] > 0 && excess[j] < MOST_EXCESS))
-            return false;
-    return true;
+    FourTruths all = {-1, -1, -1, -1};
+    bool has = true;
+    int j = 0;
+
+    for (; j + 4 <= count; j += 4) {
+        const Four four = *(const Four *)(excess + j);
+
+        all &= (four > 0) & (four < MOST_EXCESS);
+    }
+    for (; j < count; j++)
+        has = has && excess[j] > 0 && excess[j] < MOST_EXCESS;
+    return has && all[0] && all[1] && all[2] && all[3];
 }
 
 /* what the program has eliminated itself */
@@ -104,7 +114,7 @@ static bool constrained_has_pivots(void *context)
 {
     const Numbers *nb = context;
 
-    return has_pivots(nb->eliminated.multiplier + nb->eliminated.row_count, nb->layout->nu);
+    return has_pivots(nb->told_excess, nb->layout->nu);
 }
 
 static void constrained_step(void *context, const double *bottom, double *du)
@@ -396,17 +406,18 @@ done:
     return status;
 }
 
-/* as constrained.h has its arrays */
 static void place_eliminated(Numbers *nb)
 {
-    const int nu = nb->layout->nu, m = nb->eliminated.row_count;
+    const ConstrainedPlaces p = constrained_places(nb->layout->nu, nb->eliminated.row_count);
+    const double *at = nb->told_accelerations;
     Eliminated *own = &nb->eliminated;
 
-    own->acceleration = nb->told_accelerations;
-    own->multiplier = own->acceleration + nu;
-    own->pivot = own->multiplier + m + nu;
-    own->taken = own->pivot + m;
-    nb->told_step = own->taken + m;
+    own->acceleration = at;
+    own->multiplier = at + p.multiplier;
+    own->pivot = at + p.pivot;
+    own->taken = at + p.taken;
+    nb->told_excess = at + p.excess;
+    nb->told_step = at + p.step;
     own->has_pivots = constrained_has_pivots;
     own->step = constrained_step;
     nb->eq.eliminated = own;
@@ -525,7 +536,8 @@ static Status compile_constrained(Numbers *nb, const Constrained *solved, const 
     nb->eq.eliminated = NULL;
     status = nb->massing == NULL ? compile_mass(nb, nb->parameters, diag) : OK;
     if (status == OK)
-        status = compile_equations(nb, nb->parameters, solved->acceleration, solved->count, diag);
+        status =
+            compile_equations(nb, nb->parameters, solved->acceleration, solved->places.count, diag);
     if (status == OK)
         probe_free(before);
     else
@@ -539,22 +551,26 @@ static bool is_of_rows(const Eliminated *own, const int *rows, int row_count)
            memcmp(own->rows, rows, (size_t)row_count * sizeof(int)) == 0;
 }
 
-static Status eliminate(void *context, const int *rows, int row_count, Diag *diag)
+static Status eliminate(void *context, const int *rows, int row_count, double most, Diag *diag)
 {
     Numbers *nb = context;
     Constrained *solved;
     bool before;
+    Diag why = {0};
     Status status = OK;
 
     if (nb->eq.eliminated != NULL && is_of_rows(nb->eq.eliminated, rows, row_count))
         return OK;
     mem_keep(nb);
     before = mem_scratch(true);
-    solved = elimination_of_rows(nb->layout, rows, row_count);
+    solved = elimination_of_rows(nb->layout, rows, row_count, most);
     if (solved != NULL)
-        status = compile_constrained(nb, solved, rows, row_count, diag);
-    else
+        status = compile_constrained(nb, solved, rows, row_count, &why);
+    if (solved == NULL || status != OK)
         nb->eq.eliminate = NULL;
+    if (status == E_STOPPED && diag != NULL)
+        *diag = why;
+    status = status == E_STOPPED ? E_STOPPED : OK; /* factors serve as they did */
     constrained_free(solved);
     (void)mem_scratch(before);
     return status;

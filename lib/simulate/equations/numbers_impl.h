@@ -27,7 +27,7 @@ struct Numbers {
     bool is_mass_constant, is_mass_kept; /* with the parameters of now: of bodies without joints */
     const double *told_accelerations;    /* of the main program, and what tells their rounding */
     Eliminated eliminated;               /* of constrained speeds, */
-    const double *told_step;
+    const double *told_excess, *told_step;
     int *told_rows; /* for these rows */
     Probe *slip;    /* of surfaces that are slid along: h', or what of it they reach, and h */
     Guard *guards;  /* of the conditions, */

@@ -151,6 +151,8 @@ static bool make(RateJacobian *j)
         find_matrix(j);
         open_room(j);
     }
+    if (!sound)
+        arena_reset(system_arena(j->l->system)); /* what was too large is given up: others go on */
     mem_free(moves);
     LIST_FREE(roots);
     (void)mem_scratch(before);

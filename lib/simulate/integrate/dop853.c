@@ -81,13 +81,22 @@ AS_WIDE_AS_CAN_BE static const double *weigh(const Dop853 *d, const Terms *terms
     return sums;
 }
 
+/* out = old + h sum */
+AS_WIDE_AS_CAN_BE static void move(const double *old, double h, const double *sum, int count,
+                                   double *out)
+{
+    int i = 0;
+
+    for (; i + 4 <= count; i += 4)
+        *(Four *)(out + i) = *(const Four *)(old + i) + h * *(const Four *)(sum + i);
+    for (; i < count; i++)
+        out[i] = old[i] + h * sum[i];
+}
+
 /* k[stage] from the stages before it; false where f is undefined */
 static bool take_stage(Dop853 *d, int stage, double h, double *point)
 {
-    const double *sum = weigh(d, &stages[stage], d->sums[0]);
-
-    for (int i = 0; i < d->all; i++)
-        point[i] = d->old[i] + h * sum[i];
+    move(d->old, h, weigh(d, &stages[stage], d->sums[0]), d->all, point);
     return stepper_rate(&d->base, d->base.before + nodes[stage] * h, point, d->k[stage]);
 }
 

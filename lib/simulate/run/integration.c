@@ -25,6 +25,12 @@ static Status hand_over(Integration *m, const Method *method, RemarkKind why, Di
     return OK;
 }
 
+/* steps up to the end of the run, if they were all as the next one; 0: not known */
+static double steps_ahead(const Integration *m)
+{
+    return m->stepper->next > 0 ? (m->plan->to - m->stepper->t) / m->stepper->next : 0;
+}
+
 /* The accelerations stay the same, so that a stepper needn't know, except where multipliers of rows
  * are among its unknowns. */
 static Status renew(Integration *m, Diag *diag)
@@ -34,7 +40,7 @@ static Status renew(Integration *m, Diag *diag)
 
     if (renewed.independent)
         remarks_add(&m->out->remarks, (Remark){.kind = REMARK_INDEPENDENT_ANEW, .t = s->t});
-    TRY(motion_hasten(m->segment.motion, diag));
+    TRY(motion_hasten(m->segment.motion, steps_ahead(m), diag));
     if (!renewed.rows || !s->method->solves_dae)
         return OK;
     memcpy(m->y, s->y, (size_t)m->length * sizeof(double));

@@ -1,0 +1,142 @@
+/* kkt_sizes.c: the largest so far, kept and brought back */
+#include "algebra/kkt_sizes.h"
+
+#include "algebra/linear.h"
+#include "base/four.h"
+#include "base/memory.h"
+
+#include <math.h>
+#include <string.h>
+
+#define LEAST_REACH 1e-9 /* of the largest: what is less is rounding */
+#define LEAST_NORM  1e-3 /* likewise */
+
+KktSizes kkt_sizes_new(const Pattern *rows)
+{
+    return (KktSizes){.rows = rows,
+                      .reach = NEW_ARRAY(double, rows->rows),
+                      .square = NEW_ARRAY(double, rows->rows),
+                      .norm = NEW_ARRAY(double, rows->columns),
+                      .most = NEW_ARRAY(double, rows->columns),
+                      .kept = NEW_ARRAY(double, rows->rows + 2 * rows->columns)};
+}
+
+void kkt_sizes_free(KktSizes *sizes)
+{
+    MEM_FREE(sizes->reach, sizes->square, sizes->norm, sizes->most, sizes->kept);
+}
+
+void kkt_sizes_see(KktSizes *sizes, const double *phi_u, const int *rows, int m)
+{
+    const Pattern *g = sizes->rows;
+
+    for (int k = 0; k < m; k++)
+        for (int e = g->start[rows[k]]; e < g->start[rows[k] + 1]; e++) {
+            const double entry = fabs(phi_u[e]);
+
+            if (entry > sizes->reach[g->row[e]])
+                sizes->reach[g->row[e]] = entry;
+        }
+}
+
+void kkt_sizes_measure(KktSizes *sizes, const double *phi_u, const int *rows, int m)
+{
+    const Pattern *g = sizes->rows;
+    const double least = LEAST_REACH * vector_largest(sizes->reach, g->rows);
+
+    for (int i = 0; i < g->rows; i++) {
+        const double reach = sizes->reach[i] > least ? sizes->reach[i] : least;
+
+        sizes->square[i] = reach * reach;
+    }
+    for (int k = 0; k < m; k++) {
+        double norm = 0;
+
+        for (int e = g->start[rows[k]]; e < g->start[rows[k] + 1]; e++)
+            if (phi_u[e] != 0)
+                norm += phi_u[e] * phi_u[e] / sizes->square[g->row[e]];
+        if (norm > sizes->norm[rows[k]])
+            sizes->norm[rows[k]] = norm;
+    }
+}
+
+double kkt_sizes_keep_most(KktSizes *sizes, const int *rows, int m, const double *size)
+{
+    double largest = 0;
+
+    for (int k = 0; k < m; k++) {
+        double *most = &sizes->most[rows[k]];
+
+        if (size[k] > *most)
+            *most = size[k];
+        if (*most > largest)
+            largest = *most;
+    }
+    return LEAST_NORM * LEAST_NORM * largest;
+}
+
+/* of `most`: the extremes, and whether all pivots so far are more than their part of it */
+typedef struct Soundness {
+    double largest, least;
+    bool holds;
+} Soundness;
+
+/* Four by Four: the first where that is so; no function, which would hand Fours on in memory */
+#define CHOOSE(is_first, first, second)                                                            \
+    ((Four)(((FourTruths)(first) & (is_first)) | ((FourTruths)(second) & ~(is_first))))
+
+/* The first of the rows that follow one another as they are stored, four at a time; how many. */
+AS_WIDE_AS_CAN_BE static int see_fours(double *most, const double *pivot, const double *taken,
+                                       const int *rows, int m, double part, Soundness *out)
+{
+    Four largest = {0}, least = {INFINITY, INFINITY, INFINITY, INFINITY};
+    FourTruths holds = {-1, -1, -1, -1};
+    int k = 0;
+
+    for (; k + 4 <= m && rows[k] == k && rows[k + 1] == k + 1 && rows[k + 2] == k + 2 &&
+           rows[k + 3] == k + 3;
+         k += 4) {
+        const Four now = *(const Four *)(taken + k), before = *(const Four *)(most + k);
+        const Four own = CHOOSE(now > before, now, before);
+
+        *(Four *)(most + k) = own;
+        largest = CHOOSE(own > largest, own, largest);
+        least = CHOOSE(own < least, own, least);
+        holds &= *(const Four *)(pivot + k) > part * own;
+    }
+    for (int i = 0; i < 4; i++) {
+        out->largest = fmax(out->largest, largest[i]);
+        out->least = fmin(out->least, least[i]);
+        out->holds = out->holds && holds[i];
+    }
+    return k;
+}
+
+bool kkt_sizes_are_sound(KktSizes *sizes, const double *pivot, const double *taken, const int *rows,
+                         int m, double part)
+{
+    Soundness all = {.least = INFINITY, .holds = true};
+
+    for (int k = see_fours(sizes->most, pivot, taken, rows, m, part, &all); k < m; k++) {
+        double most = sizes->most[rows[k]];
+
+        most = taken[k] > most ? taken[k] : most;
+        sizes->most[rows[k]] = most;
+        all.largest = most > all.largest ? most : all.largest;
+        all.least = most < all.least ? most : all.least;
+        all.holds = all.holds && pivot[k] > part * most;
+    }
+    return all.holds && all.least > LEAST_NORM * LEAST_NORM * all.largest;
+}
+
+void kkt_sizes_keep(KktSizes *sizes, bool back)
+{
+    double *arrays[] = {sizes->reach, sizes->norm, sizes->most}, *kept = sizes->kept;
+
+    for (int i = 0; i < COUNT(arrays); i++) {
+        const int count = i == 0 ? sizes->rows->rows : sizes->rows->columns;
+
+        memcpy(back ? arrays[i] : kept, back ? kept : arrays[i], (size_t)count * sizeof(double));
+        kept += count;
+    }
+}

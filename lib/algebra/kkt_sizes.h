@@ -1,0 +1,43 @@
+/* kkt_sizes.h: how large columns and rows of G have been
+ *
+ * They are measured against the largest they have been: one that vanishes at a singular position is
+ * to be seen vanishing. Lengths are told from angles by what a unit of the speed moves. */
+#ifndef COTREE_ALGEBRA_KKT_SIZES_H
+#define COTREE_ALGEBRA_KKT_SIZES_H
+
+#include "algebra/pattern.h"
+
+#include <stdbool.h>
+
+/* Of all rows, those that aren't in use too. */
+typedef struct KktSizes {
+    const Pattern *rows; /* where entries of G stand, a column each row; borrowed */
+    double *reach;       /* of speeds: the largest entry so far */
+    double *square;      /* that, or what counts at least, squared: R^2; 0: not measured yet */
+    double *norm;        /* of rows: the largest norm squared so far, columns over R */
+    double *most;        /* of rows: the largest p so far (kkt.c) */
+    double *kept;
+} KktSizes;
+
+KktSizes kkt_sizes_new(const Pattern *rows); /* all 0; kkt_sizes_free() */
+void kkt_sizes_free(KktSizes *sizes);        /* what it holds */
+/* Entries of these m rows count from now on; */
+void kkt_sizes_see(KktSizes *sizes, const double *phi_u, const int *rows, int m);
+/* and norms of the rows, once they do. */
+void kkt_sizes_measure(KktSizes *sizes, const double *phi_u, const int *rows, int m);
+/* Keeps the largest p that each row in use has been, of size[], a number a row, and tells what
+ * counts of a row at least. */
+double kkt_sizes_keep_most(KktSizes *sizes, const int *rows, int m, const double *size);
+/* that or the least of p, for a row */
+static inline double kkt_sizes_reference(const KktSizes *sizes, int row, double least)
+{
+    return sizes->most[row] > least ? sizes->most[row] : least;
+}
+/* whether each of the pivots is more than this part of its row's p, the largest so far with
+ * `taken`, and no p is less than what counts at least */
+bool kkt_sizes_are_sound(KktSizes *sizes, const double *pivot, const double *taken, const int *rows,
+                         int m, double part);
+/* Keep them as they are now; or bring back what was kept. */
+void kkt_sizes_keep(KktSizes *sizes, bool back);
+
+#endif
