@@ -470,7 +470,8 @@ static void least_change(Fmu *fmu, int level, const int *target, const double *l
         a[(unknowns + held + k) * w + n] = lack[k];
 }
 
-/* Give targets of a level their values: states as they are, then whatever else has to change. */
+/* Give targets of a level their values: states as they are, then whatever else has to change.
+ * Speeds change together, by the least in the mass metric: as a blow along the targets does. */
 static FmuStatus put_level(Fmu *fmu, int level, const int *chosen, const double *values)
 {
     FmuNumbers *now = &fmu->now;
@@ -482,7 +483,7 @@ static FmuStatus put_level(Fmu *fmu, int level, const int *chosen, const double 
     for (k = 0; k < FMU_TARGETS; k++)
         if (chosen[k] && fmu_level[k] == level) {
             target[count++] = k;
-            if (fmu_place[k] >= 0)
+            if (fmu_place[k] >= 0 && level != FMU_SPEED)
                 now->y[fmu_place[k]] = values[k];
         }
     for (sweep = 0; count > 0 && sweep < (level == FMU_COORDINATE ? 20 : 2); sweep++) {
