@@ -720,13 +720,15 @@ static FmuStatus take_samples(Fmu *fmu, int *moved)
     FmuStatus status;
     int i, due[FMU_SAMPLES + 1] = {0}, any = 0;
 
-    if (FMU_SAMPLES == 0 || now->sampled >= now->t)
+    if (FMU_SAMPLES == 0)
         return FMU_OK;
     model_periods(now->p, now->t, now->y, now->s, periods);
     for (i = 0; i < FMU_SAMPLES; i++) {
-        const double count = now->t / periods[i];
+        const double count = now->t / periods[i], near = SAME * periods[i];
 
-        any |= due[i] = fabs(count - floor(count + 0.5)) <= SAME;
+        /* an event just before an instant is at that instant */
+        due[i] = fabs(count - floor(count + 0.5)) <= SAME && !(now->sampled >= now->t - 2 * near);
+        any |= due[i];
     }
     if (!any)
         return FMU_OK;

@@ -409,6 +409,72 @@ static Verdict blows(Member *m)
     return verdict;
 }
 
+/* --- sampling instants --- */
+
+/* something that jumps, bends or is asked for at t, which is a sampling instant, or nearly */
+static void write_corner(Member *m, Script *script, int number, double t, double period)
+{
+    static const char *const laws[] = {
+        "vsource X%d x%d 0 step(t - %.17g)\nresistor Y%d x%d 0 1",
+        "vsource X%d x%d 0 pwl(t, 0, 0, %.17g, 1, 100, 0)\nresistor Y%d x%d 0 1",
+        "vsource X%d x%d 0 abs(t - %.17g)\nresistor Y%d x%d 0 1"};
+
+    switch (member_one_of(m, 3)) {
+    case 0:
+        write_line(script, "event e%d when=t > %.17g do=mark", number, t);
+        break;
+    case 1:
+        write_line(
+            script,
+            "vsource X%d x%d 0 pulse(t, 0, 1, %.17g, 0, 0, %.17g, 100)\nresistor Y%d x%d 0 1",
+            number, number, t, 3 * period, number, number);
+        break;
+    default:
+        write_line(script, laws[member_one_of(m, 3)], number, number, t, number, number);
+        break;
+    }
+}
+
+/* An integral of 1 that is sampled grows by the period at each instant, whatever else happens
+ * there, and in a run of two parts. */
+static Verdict instants(Member *m)
+{
+    const double period =
+        member_one_of(m, 2) ? 0.01 * (1 + member_one_of(m, 9)) : member_decades(m, 1e-3, 10);
+    const double k = member_decades(m, 0.1, 10);
+    const int count = 20, part = 1 + member_one_of(m, count - 2), corners = member_one_of(m, 5);
+    Script *script = calloc(1, sizeof *script);
+    Kit kit = kit_new();
+    Verdict verdict = AGREES;
+    double last;
+
+    write_line(script, "integrator c o 0 of=1 k=%.17g period=%.17g\nresistor R o 0 1", k, period);
+    write_line(script, "vsource V a 0 sin(t)\nresistor RC a b 1\ncapacitor C b 0 %.17g", period);
+    for (int i = 0; i < corners; i++)
+        write_corner(m, script, i, (1 + member_one_of(m, count - 1)) * period, period);
+    write_line(script, "simulate %.17g every=%.17g method=%s", part * period,
+               period / (2 + 2 * member_one_of(m, 2)), methods[member_one_of(m, 6)]);
+    write_line(script, "resume %.17g", (count - part) * period);
+    tell(m, "%s", script->text);
+    if (kit_do(&kit, script->text) != CT_OK) {
+        tell(m, "%s\n", kit.error.message);
+        verdict = DISAGREES;
+    }
+    for (int n = 0; n < count && verdict == AGREES; n++) {
+        char look[64];
+        double now;
+
+        (void)snprintf(look, sizeof look, "c.v at %.17g", (n + 0.5) * period);
+        now = kit_value(&kit, look);
+        if (n > 0 && !keeps(m, look, fabs(now - last - k * period), 1e-9 * k * period * count))
+            verdict = DISAGREES;
+        last = now;
+    }
+    kit_free(&kit);
+    free(script);
+    return verdict;
+}
+
 /* --- two conditions in one step --- */
 
 /* A mark near the top of a swing, where a step that is taken again to end there may come out much
@@ -502,6 +568,7 @@ int main(int argc, char **argv)
         {"coils that switches put in series share their flux", 40, 0, 0, fluxes},
         {"events that change a law keep charge and flux", 40, 0, 0, laws},
         {"new speeds are those of a blow along them, in any tree", 60, 0, 0, blows},
+        {"what is sampled is so once an instant", 60, 0, 0, instants},
         {"conditions that are met in one step don't hide each other", 60, 0, 0, neighbours},
         {"a source that would give an impulse is named", 40, 0, 0, sources},
     };
