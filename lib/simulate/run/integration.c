@@ -176,7 +176,7 @@ static Status take_samples(Integration *m, double t, Diag *diag)
     bool due;
 
     m->stepper->t = fmax(m->stepper->t, t);
-    TRY(integration_add_rows(m, diag));
+    TRY(integration_add_rows_before(m, diag));
     return samples_take(m->segment.samples, t, m->stepper->y, &due, diag);
 }
 
