@@ -228,6 +228,7 @@ typedef enum RelationKind {
     RELATION_PORT,       /* of a part with two edges: v = value or i = inverse, over the v and i of
                             the other edge; each edge gives one of them, as the tree asks */
     RELATION_FREE,       /* value = 0, which gives neither: a nullor's output */
+    RELATION_IMPLICIT,   /* value = 0, over its own v and i: a resistance that may be 0 */
     RELATION_IDEAL       /* closed v = on i + least, open i = v/off: see Ideal */
 } RelationKind;
 

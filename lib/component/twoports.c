@@ -206,7 +206,7 @@ static void potentiometer_relation(const Instance *instance, Arena *arena, int w
     if (expr_is_number(at))
         *out = (Relation){.kind = RELATION_RESISTIVE, .value = R, .rest = expr_int(arena, 0)};
     else
-        *out = (Relation){.kind = RELATION_FREE,
+        *out = (Relation){.kind = RELATION_IMPLICIT,
                           .value =
                               expr_sub(arena, motion->across, expr_mul(arena, R, motion->through))};
 }

@@ -470,7 +470,8 @@ static void least_change(Fmu *fmu, int level, const int *target, const double *l
         a[(unknowns + held + k) * w + n] = lack[k];
 }
 
-/* Give targets of a level their values: states as they are, then whatever else has to change. */
+/* Give targets of a level their values: states as they are, then whatever else has to change.
+ * Speeds change together, by the least in the mass metric: as a blow along the targets does. */
 static FmuStatus put_level(Fmu *fmu, int level, const int *chosen, const double *values)
 {
     FmuNumbers *now = &fmu->now;
@@ -482,7 +483,7 @@ static FmuStatus put_level(Fmu *fmu, int level, const int *chosen, const double 
     for (k = 0; k < FMU_TARGETS; k++)
         if (chosen[k] && fmu_level[k] == level) {
             target[count++] = k;
-            if (fmu_place[k] >= 0)
+            if (fmu_place[k] >= 0 && level != FMU_SPEED)
                 now->y[fmu_place[k]] = values[k];
         }
     for (sweep = 0; count > 0 && sweep < (level == FMU_COORDINATE ? 20 : 2); sweep++) {
@@ -719,13 +720,15 @@ static FmuStatus take_samples(Fmu *fmu, int *moved)
     FmuStatus status;
     int i, due[FMU_SAMPLES + 1] = {0}, any = 0;
 
-    if (FMU_SAMPLES == 0 || now->sampled >= now->t)
+    if (FMU_SAMPLES == 0)
         return FMU_OK;
     model_periods(now->p, now->t, now->y, now->s, periods);
     for (i = 0; i < FMU_SAMPLES; i++) {
-        const double count = now->t / periods[i];
+        const double count = now->t / periods[i], near = SAME * periods[i];
 
-        any |= due[i] = fabs(count - floor(count + 0.5)) <= SAME;
+        /* an event just before an instant is at that instant */
+        due[i] = fabs(count - floor(count + 0.5)) <= SAME && !(now->sampled >= now->t - 2 * near);
+        any |= due[i];
     }
     if (!any)
         return FMU_OK;

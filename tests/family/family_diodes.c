@@ -423,15 +423,20 @@ static Verdict coils_behind_diodes(Member *m)
 
 /* As part of a run of many thousand periods, with few rows: no step is cut by them, and steps that
  * are short against the run get far enough all the same. */
+static void make_long_coil(Network *net, uint64_t *random)
+{
+    make_coil(net, random);
+    net->method = "auto";
+    net->tolerance = test_decades(random, 1e-8, 1e-5);
+    net->end *= 10;
+    net->longer = 1000;
+}
+
 static Verdict coils_in_long_runs(Member *m)
 {
     Network net;
 
-    make_coil(&net, &m->random);
-    net.method = "auto";
-    net.tolerance = test_decades(&m->random, 1e-8, 1e-5);
-    net.end *= 10;
-    net.longer = 1000;
+    make_long_coil(&net, &m->random);
     return run_network(m, &net);
 }
 
@@ -449,15 +454,19 @@ static void make_exponential(Network *net, uint64_t *random)
 
 /* Members that went wrong once, by seed and number: ideal diodes side by side that share a current,
  * a switch that was crossed although next to nothing moves, exponential diodes whose currents
- * have no value far within a step, a margin that ends too slowly to be seen from near, and a coil's
- * current that went on backwards through its diode. */
+ * have no value far within a step, a margin that ends too slowly to be seen from near, a coil's
+ * current that went on backwards through its diode, and exponential diodes whose search began at
+ * what a trial step far off had left, or went on where rounding of states left nothing to find, and
+ * a diode that began to conduct again and again as steps grew. */
 static Verdict networks_that_failed(Member *m)
 {
     static const struct {
         uint64_t seed, number;
         void (*make)(Network *net, uint64_t *random);
-    } failed[] = {{991, 14, make_ideal},    {5, 5, make_ideal},  {6, 33, make_ideal},
-                  {7, 0, make_exponential}, {32, 7, make_ideal}, {33, 9, make_coil}};
+    } failed[] = {{991, 14, make_ideal},     {5, 5, make_ideal},         {6, 33, make_ideal},
+                  {7, 0, make_exponential},  {32, 7, make_ideal},        {33, 9, make_coil},
+                  {34, 2, make_exponential}, {34, 41, make_exponential}, {35, 29, make_exponential},
+                  {1, 2, make_long_coil}};
     const size_t which = (size_t)m->number % (sizeof failed / sizeof failed[0]);
     Network net;
 
@@ -614,7 +623,7 @@ int main(int argc, char **argv)
         {"networks of exponential diodes follow them", 4, 0, 0, networks_of_exponential_diodes},
         {"coils behind exponential diodes follow them", 30, 0.5, 0, coils_behind_diodes},
         {"coils in long runs follow them", 6, 0.1, 0, coils_in_long_runs},
-        {"networks that failed once follow them", 6, 0, 0, networks_that_failed},
+        {"networks that failed once follow them", 10, 0, 0, networks_that_failed},
         {"rectifiers follow their closed form", 40, 0, 0, rectifiers},
         {"multipliers end where no diode conducts", 3, 0, 0, multipliers},
     };

@@ -4,8 +4,8 @@
  * Capacitors with bleeders hang on one rail, and ideal switches in chains and stars join them for a
  * while: within a group the voltage is one, decays by its sums of C and of 1/R, and begins where
  * the charges of its members add up. Coils in a row with their resistances are the dual, parted by
- * switches to ground. Events change s in L(s) and C(s), by which current and voltage are divided.
- */
+ * switches to ground. Events change s in L(s) and C(s), by which current and voltage are divided,
+ * and speeds, as a blow does that acts along nothing else. */
 #include "../unit/session_kit.h"
 #include "family.h"
 #include "script.h"
@@ -290,6 +290,194 @@ static Verdict laws(Member *m)
     return verdict;
 }
 
+/* --- new speeds --- */
+
+/* A slide, an arm on it, an arm on that: s, and the angles a and b between them. */
+typedef struct Cart {
+    double mass[3], inertia[3]; /* of the cart, of the arms */
+    double length[2], centre;   /* to the second joint; to the second arm's centre of mass */
+    double at[3], rate[3];
+} Cart;
+
+/* one body's place moves by `along` for each of the speeds, and turns by `turn` */
+static void add_body(double M[3][3], double mass, double inertia, double along[2][3],
+                     const double turn[3])
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            M[i][j] += mass * (along[0][i] * along[0][j] + along[1][i] * along[1][j]) +
+                       inertia * turn[i] * turn[j];
+}
+
+static void cart_mass(const Cart *c, double M[3][3])
+{
+    const double one = c->at[1], two = c->at[1] + c->at[2];
+    const double turns[2][3] = {{0, 1, 0}, {0, 1, 1}};
+    double first[2][3] = {{1, -c->length[0] * sin(one), 0}, {0, c->length[0] * cos(one), 0}};
+    double second[2][3];
+
+    memset(M, 0, 9 * sizeof(double));
+    M[0][0] = c->mass[0];
+    add_body(M, c->mass[1], c->inertia[1], first, turns[0]);
+    second[0][0] = 1;
+    second[1][0] = 0;
+    second[0][2] = -c->centre * sin(two);
+    second[1][2] = c->centre * cos(two);
+    second[0][1] = -c->length[1] * sin(one) + second[0][2];
+    second[1][1] = c->length[1] * cos(one) + second[1][2];
+    add_body(M, c->mass[2], c->inertia[2], second, turns[1]);
+}
+
+/* The blow acts along what is set, and none is along the others: (M du)_k = 0 there, by Gauss's
+ * method. */
+static void strike(const Cart *c, const bool *set, const double *to, double *rate)
+{
+    double M[3][3], a[3][4];
+
+    cart_mass(c, M);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 4; j++)
+            a[i][j] = set[i] ? (j == 3 ? to[i] - c->rate[i] : i == j) : j < 3 ? M[i][j] : 0;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 3; i++) {
+            const double f = i == k ? 0 : a[i][k] / a[k][k];
+
+            for (int j = k; j < 4; j++)
+                a[i][j] -= f * a[k][j];
+        }
+    for (int i = 0; i < 3; i++)
+        rate[i] = c->rate[i] + a[i][3] / a[i][i];
+}
+
+static void write_cart(Script *script, const Cart *c)
+{
+    write_line(script, "scene planar\nbody b0 mass=%.17g inertia=1\nprismatic s ground b0 axis=x",
+               c->mass[0]);
+    write_line(script, "body b1 mass=%.17g inertia=%.17g\narm p1 b1 [%.17g, 0]\nrevolute a b0 p1",
+               c->mass[1], c->inertia[1], -c->length[0]);
+    write_line(script, "arm e1 b1 [%.17g, 0]\nbody b2 mass=%.17g inertia=%.17g",
+               c->length[1] - c->length[0], c->mass[2], c->inertia[2]);
+    write_line(script, "arm p2 b2 [%.17g, 0]\nrevolute b e1 p2", -c->centre);
+    for (int i = 0; i < 3; i++)
+        write_line(script, "init %c = %.17g, %c' = %.17g", "sab"[i], c -> at[i], "sab"[i],
+                   c -> rate[i]);
+}
+
+static Verdict blows(Member *m)
+{
+    static const char *const trees[] = {"tree joint", "tree absolute", "form embedded"};
+    Script *script = calloc(1, sizeof *script);
+    Kit kit = kit_new();
+    Verdict verdict = AGREES;
+    Cart c;
+    bool set[3];
+    double to[3], rate[3];
+
+    for (int i = 0; i < 3; i++) {
+        c.mass[i] = member_decades(m, 0.1, 10);
+        c.inertia[i] = member_decades(m, 0.01, 1);
+        c.at[i] = member_between(m, -3, 3);
+        c.rate[i] = member_between(m, -2, 2);
+        to[i] = member_between(m, -2, 2);
+        set[i] = member_one_of(m, 2) == 0;
+    }
+    set[member_one_of(m, 3)] = true;
+    c.length[0] = member_between(m, 0.1, 0.5);
+    c.length[1] = member_between(m, 0.5, 1);
+    c.centre = member_between(m, 0.1, 0.5);
+    write_cart(script, &c);
+    write_line(script, "%s", trees[member_one_of(m, 3)]);
+    write_piece(script, "event blow when=t > 1e-9");
+    for (int i = 0; i < 3; i++)
+        if (set[i])
+            write_piece(script, " %c'=%.17g", "sab"[i], to[i]);
+    write_line(script, "\nsimulate 2e-9");
+    tell(m, "%s", script->text);
+    strike(&c, set, to, rate);
+    if (kit_do(&kit, script->text) != CT_OK) {
+        tell(m, "%s\n", kit.error.message);
+        verdict = DISAGREES;
+    }
+    for (int i = 0; i < 3 && verdict == AGREES; i++) {
+        const char name[] = {"sab"[i], '\'', '\0'};
+
+        if (!keeps(m, name, fabs(kit_value(&kit, name) - rate[i]), 1e-5 * (1 + fabs(rate[i]))))
+            verdict = DISAGREES;
+    }
+    kit_free(&kit);
+    free(script);
+    return verdict;
+}
+
+/* --- sampling instants --- */
+
+/* something that jumps, bends or is asked for at t, which is a sampling instant, or nearly */
+static void write_corner(Member *m, Script *script, int number, double t, double period)
+{
+    static const char *const laws[] = {
+        "vsource X%d x%d 0 step(t - %.17g)\nresistor Y%d x%d 0 1",
+        "vsource X%d x%d 0 pwl(t, 0, 0, %.17g, 1, 100, 0)\nresistor Y%d x%d 0 1",
+        "vsource X%d x%d 0 abs(t - %.17g)\nresistor Y%d x%d 0 1"};
+
+    switch (member_one_of(m, 3)) {
+    case 0:
+        write_line(script, "event e%d when=t > %.17g do=mark", number, t);
+        break;
+    case 1:
+        write_line(
+            script,
+            "vsource X%d x%d 0 pulse(t, 0, 1, %.17g, 0, 0, %.17g, 100)\nresistor Y%d x%d 0 1",
+            number, number, t, 3 * period, number, number);
+        break;
+    default:
+        write_line(script, laws[member_one_of(m, 3)], number, number, t, number, number);
+        break;
+    }
+}
+
+/* An integral of 1 that is sampled grows by the period at each instant, whatever else happens
+ * there, and in a run of two parts. A row at an instant is from before. */
+static Verdict instants(Member *m)
+{
+    const double period =
+        member_one_of(m, 2) ? 0.01 * (1 + member_one_of(m, 9)) : member_decades(m, 1e-3, 10);
+    const double k = member_decades(m, 0.1, 10);
+    const int count = 20, part = 1 + member_one_of(m, count - 2), corners = member_one_of(m, 5);
+    Script *script = calloc(1, sizeof *script);
+    Kit kit = kit_new();
+    Verdict verdict = AGREES;
+    double last = 0;
+
+    write_line(script, "integrator c o 0 of=1 k=%.17g period=%.17g\nresistor R o 0 1", k, period);
+    write_line(script, "vsource V a 0 sin(t)\nresistor RC a b 1\ncapacitor C b 0 %.17g", period);
+    for (int i = 0; i < corners; i++)
+        write_corner(m, script, i, (1 + member_one_of(m, count - 1)) * period, period);
+    write_line(script, "simulate %.17g every=%.17g method=%s", part * period,
+               period / (2 + 2 * member_one_of(m, 2)), methods[member_one_of(m, 6)]);
+    write_line(script, "resume %.17g", (count - part) * period);
+    tell(m, "%s", script->text);
+    if (kit_do(&kit, script->text) != CT_OK) {
+        tell(m, "%s\n", kit.error.message);
+        verdict = DISAGREES;
+    }
+    for (int n = 0; n < count && verdict == AGREES; n++) {
+        char look[64];
+        double now;
+
+        (void)snprintf(look, sizeof look, "c.v at %.17g", n * period);
+        if (n > 0 && !keeps(m, look, fabs(kit_value(&kit, look) - last), 1e-9 * k * period * count))
+            verdict = DISAGREES;
+        (void)snprintf(look, sizeof look, "c.v at %.17g", (n + 0.5) * period);
+        now = kit_value(&kit, look);
+        if (n > 0 && !keeps(m, look, fabs(now - last - k * period), 1e-9 * k * period * count))
+            verdict = DISAGREES;
+        last = now;
+    }
+    kit_free(&kit);
+    free(script);
+    return verdict;
+}
+
 /* --- two conditions in one step --- */
 
 /* A mark near the top of a swing, where a step that is taken again to end there may come out much
@@ -382,6 +570,8 @@ int main(int argc, char **argv)
         {"capacitors that switches join share their charge", 40, 0, 0, charges},
         {"coils that switches put in series share their flux", 40, 0, 0, fluxes},
         {"events that change a law keep charge and flux", 40, 0, 0, laws},
+        {"new speeds are those of a blow along them, in any tree", 60, 0, 0, blows},
+        {"what is sampled is so once an instant", 60, 0, 0, instants},
         {"conditions that are met in one step don't hide each other", 60, 0, 0, neighbours},
         {"a source that would give an impulse is named", 40, 0, 0, sources},
     };

@@ -265,6 +265,18 @@ static void potentiometer_divides_under_load(void)
     }
 }
 
+/* The track is a resistance wherever the wiper stands: the capacitor across it is a state. */
+static void capacitor_empties_over_a_moving_wiper(void)
+{
+    const char *model = "scene planar\nbody b mass=1 inertia=0.1\nrevolute h ground b\n"
+                        "capacitor C a 0 0.1\npotentiometer P a w 0 R=16 at=0.5 + 0.4*sin(h)\n"
+                        "resistor R a 0 5*(1 + h - t)\ninit h = 0, h' = 1, C.v = 3\n" RUN_FOR(1);
+    const double v = 3 * exp(-21 / (0.1 * 16 * 5));
+
+    expect_value(model, "C.v", v, 1e-7);
+    expect_value(model, "w.v", v * (0.5 - 0.4 * sin(1)), 1e-7);
+}
+
 /* --- diode and switch --- */
 
 /* E = v + R Is (exp(v/Vt) - 1), by bisection */
@@ -430,6 +442,7 @@ int main(void)
     RUN(transformer_feeds_a_capacitor_from_an_ideal_source);
     RUN(gyrator_turns_a_capacitor_into_an_inductor);
     RUN(potentiometer_divides_under_load);
+    RUN(capacitor_empties_over_a_moving_wiper);
     RUN(exponential_diode_meets_its_load_line);
     RUN(diode_of_straight_lines_follows_them);
     RUN(diode_opens_where_its_current_ends);

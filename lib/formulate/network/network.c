@@ -197,6 +197,7 @@ static Status by_relation(System *system, Branchlike *branch, bool *given, Expr 
                                      out, diag);
         break;
     case RELATION_FREE:
+    case RELATION_IMPLICIT:
     case RELATION_IDEAL:
         break;
     }

@@ -132,6 +132,7 @@ static Status relation_row(System *system, Unknown *y, Diag *diag)
         TRY(port_row(system, branch, y, diag));
         break;
     case RELATION_FREE:
+    case RELATION_IMPLICIT:
     case RELATION_IDEAL:
         y->left = value;
         y->right = expr_int(arena, 0);

@@ -49,6 +49,7 @@ static void tell_law(const System *system, const Branchlike *branch, bool across
         step->right = branch->branch ? relation->value : relation->inverse;
         break;
     case RELATION_FREE:
+    case RELATION_IMPLICIT:
         step->left = relation->value;
         step->right = expr_int(arena, 0);
         break;

@@ -24,6 +24,7 @@ static int normal_order(const System *system, const Branchlike *branch)
     case RELATION_PORT:
         return 25;
     case RELATION_RESISTIVE:
+    case RELATION_IMPLICIT:
         return 30;
     case RELATION_CONDUCTIVE: /* what diodes isolate is joined before */
         return 35;

@@ -460,7 +460,6 @@ static bool solve_speeds(Reinit *reinit)
     double *matrix = NEW_ARRAY(double, room * eq->nu);
     double *missing = NEW_ARRAY(double, room);
     int *rows = NEW_ARRAY(int, room);
-    bool *held = NEW_ARRAY(bool, eq->nu);
     int count = reinit->plan.row_count;
     int all = eq->m;
     bool sound = true;
@@ -468,7 +467,6 @@ static bool solve_speeds(Reinit *reinit)
     Pattern all_rows;
     Kkt *kkt;
 
-    put_direct(reinit, LEVEL_VELOCITY, held);
     velocity = rows_here(reinit, LEVEL_VELOCITY, true);
     eq->position(eq->context, reinit->t, reinit->y);
     /* those of the start may be dependent here, where others are not */
@@ -492,7 +490,7 @@ static bool solve_speeds(Reinit *reinit)
     sound = sound && is_met(reinit, missing, all);
     kkt_free(kkt);
     pattern_free(&all_rows);
-    MEM_FREE(matrix, missing, rows, held);
+    MEM_FREE(matrix, missing, rows);
     return sound;
 }
 

@@ -57,6 +57,9 @@ typedef struct Equations {
     void (*velocity)(void *context, const double *u, const double *x);
     /* then network and network_residual at w = [x'; z]; NULL: the network is linear, A w = r */
     void (*network_at)(void *context, const double *w);
+    /* how far each of network_residual may be off by what was rounded in the last network_at(),
+     * nx+nz; INFINITY or NAN: no bound. NULL: nobody tells */
+    void (*network_rounding)(void *context, double *out);
     /* u' and the multipliers of all m rows, for a network that reads them; NULL: it doesn't */
     void (*network_reads)(void *context, const double *acceleration, const double *multipliers);
     /* then what it solves for is known, [x'; z], */

@@ -13,6 +13,8 @@
 #define KEPT       4 /* solutions with the same factors: a step's end is looked at from all sides */
 #define ITERATIONS 100
 #define ENOUGH     1e-9 /* of a step; what is left then is its square */
+#define LEAST_SIZE 1e-3 /* of an unknown, */
+#define FAR_OFF    1e3  /* times as large on the way: not what it is */
 #define ROUNDING   1e-7 /* a step that no longer shrinks below this is rounding */
 #define PATIENCE   4    /* steps before rounding is thought of */
 #define MOVES      3    /* that tell how far it reaches, */
@@ -155,9 +157,28 @@ static bool is_small(const NetSolve *s, const double *step, double share)
     return true;
 }
 
+/* What an unknown counts by is the largest that it was on the way. Where that was a way from far
+ * off, as from a trial step's state, which nothing bounds, all is small beside it: it counts no
+ * more. Whether there is such an unknown. */
+static bool measure_anew(NetSolve *s)
+{
+    bool changed = false;
+
+    for (int i = 0; i < s->n; i++) {
+        const double size = fmax(fabs(s->w[i]), LEAST_SIZE);
+
+        if (s->size[i] > FAR_OFF * size) {
+            s->size[i] = size;
+            changed = true;
+        }
+    }
+    return changed;
+}
+
 /* Every equation is met as far as numbers can tell: a move of w by its last digits changes it as
- * much. So ends the search for what hardly anything determines, as the potential of what diodes
- * isolate. */
+ * much, or what was rounded on the way, of states and sources, leaves as much. So ends the search
+ * for what hardly anything determines, as the potential of what diodes isolate, or what large
+ * currents that cancel leave for a small capacitor. */
 static bool is_met(NetSolve *s)
 {
     const Equations *eq = s->eq;
@@ -167,6 +188,8 @@ static bool is_met(NetSolve *s)
     eq->network_at(eq->context, s->w);
     memcpy(s->next, eq->network_residual, (size_t)s->n * sizeof(double));
     memset(s->noise, 0, (size_t)s->n * sizeof(double));
+    if (eq->network_rounding != NULL)
+        eq->network_rounding(eq->context, s->noise);
     for (int turn = 0; turn < MOVES; turn++) {
         for (int i = 0; i < s->n; i++)
             s->trial[i] = s->w[i] * (1 + DIGITS * DBL_EPSILON * random_unit(&seed));
@@ -175,7 +198,7 @@ static bool is_met(NetSolve *s)
             s->noise[i] = fmax(s->noise[i], fabs(eq->network_residual[i] - s->next[i]));
     }
     for (int i = 0; i < s->n; i++)
-        met = met && fabs(s->next[i]) <= s->noise[i];
+        met = met && isfinite(s->noise[i]) && fabs(s->next[i]) <= s->noise[i];
     eq->network_at(eq->context, s->w);
     return met;
 }
@@ -296,7 +319,7 @@ static bool solve_newton(NetSolve *s, Way way)
     double before = INFINITY;
 
     for (int i = 0; i < s->n; i++)
-        s->size[i] = fmax(fabs(s->w[i]), 1e-3);
+        s->size[i] = fmax(fabs(s->w[i]), LEAST_SIZE);
     for (int k = 0; k < ITERATIONS; k++) {
         eq->network_at(eq->context, s->w);
         if (!sparse_factor(s->matrix, eq->network) || !correction(s, s->step))
@@ -308,7 +331,9 @@ static bool solve_newton(NetSolve *s, Way way)
         if (is_small(s, s->step, ENOUGH)) {
             for (int i = 0; i < s->n; i++)
                 s->w[i] -= s->step[i];
-            return true;
+            if (!measure_anew(s))
+                return true;
+            continue;
         }
         if (k >= PATIENCE && norm(s, s->step) > before / 2 && is_met(s))
             return true;
@@ -353,7 +378,7 @@ static bool solve_rising(NetSolve *s)
 
     memset(s->w, 0, (size_t)s->n * sizeof(double));
     for (int i = 0; i < s->n; i++)
-        s->size[i] = 1e-3;
+        s->size[i] = LEAST_SIZE;
     s->eq->network_at(s->eq->context, s->w);
     memcpy(origin, s->eq->network_residual, (size_t)s->n * sizeof(double));
     while (!arrived && factor > LEAST_FACTOR) {

@@ -184,6 +184,18 @@ static void network_at(void *context, const double *w)
     nb->is_network_new = false;
 }
 
+static void network_rounding(void *context, double *out)
+{
+    Numbers *nb = context;
+    const int first = (int)(nb->eq.network_residual - workspace_roots(nb->network->workspace));
+    const int count = nb->layout->nx + nb->layout->nz;
+    double *errors = NEW_ARRAY(double, first + count);
+
+    probe_errors(nb->network, &(RowValues){0}, errors);
+    memcpy(out, errors + first, (size_t)count * sizeof(double));
+    mem_free(errors);
+}
+
 static void network_reads(void *context, const double *acceleration, const double *multipliers)
 {
     Numbers *nb = context;
@@ -320,6 +332,7 @@ static Status compile_network(Numbers *nb, Parameters *parameters, Diag *diag)
     nb->eq.network = workspace_roots(nb->network->workspace) + network;
     nb->eq.network_residual = workspace_roots(nb->network->workspace) + residual;
     nb->eq.network_at = network_at;
+    nb->eq.network_rounding = network_rounding;
 done:
     LIST_FREE(roots);
     return status;

@@ -175,11 +175,14 @@ done:
     return status;
 }
 
-/* held states at a sampling instant, where the stepper stands */
+/* Held states at a sampling instant, where the stepper stands: once, whatever else jumps there. A
+ * row at that instant is from before. */
 static Status take_samples(Integration *m, double t, Diag *diag)
 {
     bool due;
 
+    m->stepper->t = fmax(m->stepper->t, t);
+    TRY(integration_add_rows_before(m, diag));
     return samples_take(m->segment.samples, t, m->stepper->y, &due, diag);
 }
 
@@ -201,7 +204,8 @@ static Status all_intervals(Integration *m, Diag *diag)
         if (!last && !m->is_over) {
             m->low = fmax(m->low, m->jumps.at[i].behind);
             TRY(integration_meet_time(m, m->jumps.at[i], diag));
-            TRY(take_samples(m, m->jumps.at[i].before, diag));
+            if (m->jumps.at[i].samples)
+                TRY(take_samples(m, m->jumps.at[i].before, diag));
         }
     }
     return OK;

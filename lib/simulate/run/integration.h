@@ -61,6 +61,7 @@ typedef Status (*Choose)(void *context, double t, double low, double high, const
 /* s: between two numbers one behind another (or around one on which a condition is 0) */
 typedef struct Jump {
     double before, behind;
+    bool samples; /* a sampling instant, the same on either side */
 } Jump;
 typedef LIST(Jump) Jumps;
 

@@ -67,6 +67,8 @@ bool integration_add_row(Integration *m, double t);
 bool integration_has_row(const Integration *m, double t);
 /* rows of the output grid up to the stepper's time */
 MUST_USE Status integration_add_rows(Integration *m, Diag *diag);
+/* and those that rounding alone puts behind it, before something jumps there */
+MUST_USE Status integration_add_rows_before(Integration *m, Diag *diag);
 /* End the last step at t, inside it, as its interpolant has it there: with the rows before, and to
  * be started anew. */
 MUST_USE Status integration_cut(Integration *m, double t, Diag *diag);

@@ -43,7 +43,7 @@ static Jump narrow(Integration *m, int i, int sign, double low, double high)
         else
             high = middle;
     }
-    jump = (Jump){low, high};
+    jump = (Jump){.before = low, .behind = high};
     /* a comparison may hold or fail on the zero itself: step over it */
     if (time_condition(m, i, high) == 0 && time_condition(m, i, nextafter(high, INFINITY)) != 0)
         jump.behind = nextafter(high, INFINITY);
@@ -117,7 +117,7 @@ static Status find_jumps_of(Integration *m, int i, Diag *diag)
 
         sign = sign_of(time_condition(m, i, behind));
         if (sign != 0)
-            LIST_PUSH(m->jumps, ((Jump){from, behind}));
+            LIST_PUSH(m->jumps, ((Jump){.before = from, .behind = behind}));
     }
     for (int k = 1; k <= samples; k++) {
         double t = k == samples ? to : from + (to - from) * k / samples;
@@ -154,7 +154,7 @@ Status integration_find_jumps(Integration *m, Diag *diag)
     if (known != NULL)
         return OK;
     while (t < m->plan->to) {
-        LIST_PUSH(m->jumps, ((Jump){t, t}));
+        LIST_PUSH(m->jumps, ((Jump){t, t, .samples = true}));
         t = samples_next(m->segment.samples, t);
     }
     for (int i = 0; i < count; i++)

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#define SAME_ROW 1e-12 /* of the time between two rows: rounding alone tells instants apart */
+
 /* --- rows --- */
 
 bool integration_add_row(Integration *m, double t)
@@ -26,7 +28,7 @@ bool integration_has_row(const Integration *m, double t)
 {
     const Grid *grid = m->grid;
 
-    return grid->count > 0 && t - grid->times[grid->count - 1] <= 1e-12 * m->plan->every;
+    return grid->count > 0 && t - grid->times[grid->count - 1] <= SAME_ROW * m->plan->every;
 }
 
 static Status add_rows_to(Integration *m, double end, Diag *diag)
@@ -53,6 +55,11 @@ static Status add_rows_to(Integration *m, double end, Diag *diag)
 Status integration_add_rows(Integration *m, Diag *diag)
 {
     return add_rows_to(m, m->stepper->t, diag);
+}
+
+Status integration_add_rows_before(Integration *m, Diag *diag)
+{
+    return add_rows_to(m, m->stepper->t + SAME_ROW * m->plan->every, diag);
 }
 
 Status integration_cut(Integration *m, double t, Diag *diag)

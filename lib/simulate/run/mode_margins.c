@@ -1,4 +1,4 @@
-/* mode_margins.c: whether ideal switches may be on their sides at an instant
+/* mode_margins.c: whether ideal switches may be in their mode at an instant
  *
  * An instant is located only so well, and where sides go over a margin may still be below 0 by
  * that: it rises before anything has moved. One that takes states beyond their tolerance to rise is

@@ -1,4 +1,4 @@
-/* mode_margins.h: whether ideal switches may be on their sides at an instant */
+/* mode_margins.h: whether ideal switches may be in their mode at an instant */
 #ifndef COTREE_SIMULATE_RUN_MODE_MARGINS_H
 #define COTREE_SIMULATE_RUN_MODE_MARGINS_H
 

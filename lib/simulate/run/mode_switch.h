@@ -5,16 +5,16 @@
 #include "simulate/run/active_run.h"
 
 /* The phase that a run starts in, and `begin`, from the start of its result, which is of the whole.
- * Fails where the ideal switches have no sides at the start, and where the network has no solution.
+ * Fails where the ideal switches have no mode at the start, and where the network has no solution.
  */
 MUST_USE Status mode_switch_begin(ActiveRun *run, const Setting *setting, Diag *diag);
 
-/* The phase of these sides, one an ideal switch; made where it is met first. */
+/* The phase of this mode, a side an ideal switch; made where it is met first. */
 MUST_USE Status mode_switch_phase(ActiveRun *run, const Setting *setting, const bool *closed,
                                   Phase **out, Diag *diag);
 
-/* The phase of a system, with its switches on these sides (NULL: it is in no mode), that stays on
- * sides of surfaces. */
+/* The phase of a system in this mode of its switches (NULL: in none), that stays on sides of
+ * surfaces. */
 MUST_USE Status mode_switch_phase_on(ActiveRun *run, const Setting *setting, System *system,
                                      const bool *closed, const OnSurface *on, int count,
                                      Phase **out, Diag *diag);

@@ -43,6 +43,7 @@ typedef struct Pulse {
     double from, first; /* it began here, with a step no longer than this, s; */
     double until;       /* it lasts to here, */
     double bound;       /* and steps are bounded so, s */
+    double level;       /* of an element: its threshold then */
 } Pulse;
 
 struct Onset {
@@ -342,8 +343,10 @@ static Pulse element_pulse(Onset *o, int k, double end, double steps)
 {
     OnsetSearch rise = {o, size_beyond, 0, k, size_at(o, k) + RISE, 1, INTERVALS};
     OnsetSearch fall = {o, size_beyond, 0, k, o->threshold[k] - NEAR, -1, INTERVALS};
+    Pulse pulse = pulse_of(&rise, &fall, o->t, end, steps);
 
-    return pulse_of(&rise, &fall, o->t, end, steps);
+    pulse.level = o->threshold[k];
+    return pulse;
 }
 
 /* a source that has just begun to act */
@@ -387,7 +390,11 @@ static void follow_pulses(Onset *o, double end, double steps)
         else if (pulse->is_on && o->t >= pulse->until)
             prolong(pulse, o->t, steps);
         else if (!pulse->is_on && o->is_first) /* where it begins nothing rises */
-            *pulse = (Pulse){.is_on = true, .from = NAN, .until = INFINITY, .bound = INFINITY};
+            *pulse = (Pulse){.is_on = true,
+                             .from = NAN,
+                             .until = INFINITY,
+                             .bound = INFINITY,
+                             .level = o->threshold[k]};
         else if (!pulse->is_on)
             *pulse = element_pulse(o, k, end, steps);
     }
@@ -438,6 +445,17 @@ static double growth_bound(Onset *o)
     return bound;
 }
 
+/* Steps that get shorter raise an element's threshold: it does less in each. That alone doesn't end
+ * what it does, or it would begin anew, with the short steps of a beginning, when they get longer.
+ */
+static bool conducts(const Onset *o, int k)
+{
+    const Pulse *pulse = &o->element_pulses[k];
+    const double level = pulse->is_on ? fmin(pulse->level, o->threshold[k]) : o->threshold[k];
+
+    return size_at(o, k) >= level - NEAR;
+}
+
 /* Where the next element begins to conduct, at most `end`; *bound of the steps until then. */
 static double next_conduction(Onset *o, Stepper *stepper, double end, double *bound)
 {
@@ -448,7 +466,7 @@ static double next_conduction(Onset *o, Stepper *stepper, double end, double *bo
         !steep_arguments(o->steep, o->t, stepper->y, o->at.a) || !find_effects(o, stepper))
         return end;
     for (int k = 0; k < o->elements; k++) {
-        o->conducts[k] = size_at(o, k) >= o->threshold[k] - NEAR;
+        o->conducts[k] = conducts(o, k);
         o->leaks[k] = o->conducts[k] && (o->is_first || o->element_pulses[k].is_on)
                           ? (double)NAN
                           : elementary_exp(fmin(o->threshold[k], MOST_SIZE)) / LEAK;
