@@ -655,13 +655,16 @@ bool kkt_is_plain(const Kkt *kkt)
     return kkt->m > 0 && !kkt->is_exchanging && kkt->angle > SUSPECT;
 }
 
-bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const int *rows)
+bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const int *rows,
+                  const double *left, int left_count)
 {
     const double least = keep_most(kkt, rows, taken);
     bool sound = true;
 
     for (int k = 0; k < kkt->m; k++)
         sound = sound && pivot[k] > SUSPECT * reference_of(kkt, rows[k], least);
+    for (int i = 0; i < left_count; i++)
+        sound = sound && left[i] > SUSPECT;
     return sound;
 }
 

@@ -51,8 +51,10 @@ void kkt_return_sizes(Kkt *kkt);
 /* of the last kkt_factor(): whether it needs neither epsilon, refinement nor rows exchanged */
 bool kkt_is_plain(const Kkt *kkt);
 /* Whether a factorisation that somebody else has made, speeds before multipliers, is as plain: by
- * pivots d of these rows, signs reversed, and p. What they show of sizes counts from now on. */
-bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const int *rows);
+ * pivots d of these rows, signs reversed, and p; and of speeds behind them by what is left of their
+ * pivots, 1 at most. What they show of sizes counts from now on. */
+bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const int *rows,
+                  const double *left, int left_count);
 /* M du + G^T lambda = top, G du = bottom. `top` may be NULL for 0; du may be `top`. */
 void kkt_solve(Kkt *kkt, const double *top, const double *bottom, double *du, double *lambda);
 

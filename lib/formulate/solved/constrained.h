@@ -12,6 +12,8 @@ typedef struct Constrained {
     Expr *excess;       /* nu: of pivots of M (accelerations.h) */
     /* rows: pivot d of a multiplier, its sign reversed, and p, of which that is the rest */
     Expr *pivot, *taken;
+    Expr *left; /* of speeds that wait for the rows: what is left of their pivots */
+    int left_count;
     Expr *step; /* nu: du of M du + G^T mu = 0, G du = s, where s_k is the multiplier's symbol */
     int count;  /* all of them */
 } Constrained;

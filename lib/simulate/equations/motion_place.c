@@ -92,7 +92,8 @@ bool motion_is_eliminated(Motion *mo)
         return false;
     if (!mo->is_alone) {
         mo->is_alone =
-            own->has_pivots(eq->context) && kkt_is_sound(mo->kkt, own->pivot, own->taken, mo->rows);
+            own->has_pivots(eq->context) &&
+            kkt_is_sound(mo->kkt, own->pivot, own->taken, mo->rows, own->left, own->left_count);
         mo->counts.factorisations += mo->is_alone;
     }
     return mo->is_alone;

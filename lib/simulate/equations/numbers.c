@@ -406,7 +406,8 @@ static void place_eliminated(Numbers *nb)
     own->multiplier = own->acceleration + nu;
     own->pivot = own->multiplier + m + nu;
     own->taken = own->pivot + m;
-    nb->told_step = own->taken + m;
+    own->left = own->taken + m;
+    nb->told_step = own->left + own->left_count;
     own->has_pivots = constrained_has_pivots;
     own->step = constrained_step;
     nb->eq.eliminated = own;
@@ -521,7 +522,8 @@ static Status compile_constrained(Numbers *nb, const Constrained *solved, const 
     nb->told_rows = NEW_ARRAY(int, row_count);
     memcpy(nb->told_rows, rows, (size_t)row_count * sizeof(int));
     nb->told_by = TOLD_CONSTRAINED;
-    nb->eliminated = (Eliminated){.rows = nb->told_rows, .row_count = row_count};
+    nb->eliminated = (Eliminated){
+        .rows = nb->told_rows, .row_count = row_count, .left_count = solved->left_count};
     nb->eq.eliminated = NULL;
     status = nb->massing == NULL ? compile_mass(nb, nb->parameters, diag) : OK;
     if (status == OK)
