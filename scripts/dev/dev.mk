@@ -26,8 +26,10 @@ threads/Makefile:
 	@mkdir -p threads
 	@cd threads && $(abs_srcdir)/configure -q --enable-werror CFLAGS='-O1 -g -fsanitize=thread' LDFLAGS='-fsanitize=thread'
 
+sharing_tests = test_threads test_evaluator family_legs
 check-threads: threads/Makefile
-	@$(MAKE) -s -C threads run-session check-TESTS TESTS="test_threads family_legs test_functions"
+	@$(MAKE) -s -C threads $(sharing_tests)
+	@for test in $(sharing_tests); do TSAN_OPTIONS=halt_on_error=1 threads/$$test || exit 1; done
 
 # tables, lists and chunks of memory that begin with one element; and each call tried with
 # allocations that fail (lib/base/faults.c). Units and sessions are what calls the library in all its
