@@ -663,10 +663,13 @@ static bool is_of_sound_group(Kkt *kkt, int k, const double *phi_u, const int *r
 }
 
 bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const double *phi_u,
-                  const int *rows)
+                  const int *rows, const double *left, int left_count)
 {
     double least;
 
+    for (int i = 0; i < left_count; i++)
+        if (!(left[i] > SUSPECT))
+            return false;
     if (kkt_sizes_are_sound(&kkt->sizes, pivot, taken, rows, kkt->m, SUSPECT))
         return true;
     least = kkt_sizes_keep_most(&kkt->sizes, rows, kkt->m, taken);

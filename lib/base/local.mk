@@ -5,5 +5,6 @@ libcore_la_SOURCES += \
 	lib/base/memory.c lib/base/memory.h lib/base/memory_impl.h \
 	lib/base/names.c lib/base/names.h lib/base/random.h \
 	lib/base/text.c lib/base/text.h \
+	lib/base/threads.c lib/base/threads.h \
 	lib/base/transaction.c lib/base/transaction.h \
 	lib/base/watch.h

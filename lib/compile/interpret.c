@@ -85,11 +85,11 @@ static void run_one(const OpcodeRun *run, const uint32_t *operand, double *slots
     }
 }
 
-void program_interpret(const Program *program, Stage from, Stage to, double *slots)
+static void interpret(const Program *program, int first, int end, double *slots)
 {
     const uint32_t *tape = program->tape.at;
 
-    for (int r = program->first_run[from]; r < program->first_run[to + 1]; r++) {
+    for (int r = first; r < end; r++) {
         const OpcodeRun *run = &program->runs.at[r];
 
         if (run->code == CODE_CALL + OP_TABLE)
@@ -97,6 +97,17 @@ void program_interpret(const Program *program, Stage from, Stage to, double *slo
         else
             run_one(run, tape + run->operands, slots);
     }
+}
+
+void program_interpret(const Program *program, Stage from, Stage to, double *slots)
+{
+    interpret(program, program->first_run[from], program->first_run[to + 1], slots);
+}
+
+void program_interpret_section(const Program *program, int section, double *slots)
+{
+    interpret(program, program->sections.at[section].first_run, section_end(program, section),
+              slots);
 }
 
 void program_hand_over(const Program *program, Stage from, Stage to, const double *slots,

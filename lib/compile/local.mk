@@ -11,7 +11,7 @@ libcore_la_SOURCES += \
 	lib/compile/program.c lib/compile/program.h \
 	lib/compile/program_impl.h \
 	lib/compile/residual.c lib/compile/residual.h \
-	lib/compile/schedule.c \
+	lib/compile/apart.c lib/compile/schedule.c \
 	lib/compile/stage.c \
 	lib/compile/tangents.c lib/compile/tangents.h \
 	lib/compile/workspace.c \

@@ -10,11 +10,12 @@
 
 enum { ALIGNED = 64 /* bytes: what the processor moves between memories */ };
 
-typedef void StageFunction(double *slots, double *frame);
+typedef void SectionFunction(double *slots, double *frame);
 
 struct Native {
     CodeMemory *memory;
-    StageFunction *stages[STAGE_COUNT]; /* NULL: nothing to do */
+    SectionFunction **sections; /* NULL: nothing to do */
+    const int *first_section;   /* of each stage; the program's */
     int width;
     size_t frame; /* bytes */
 };
@@ -52,20 +53,23 @@ Native *native_new(const Program *program, const NativeTarget *target)
     StageSteps steps = {0};
     StepMaker *maker = step_maker_new(program, target);
     Native *native = NEW(Native);
-    int begin[STAGE_COUNT];
+    const int sections = program->sections.count;
+    int *begin = NEW_ARRAY(int, sections);
     uint32_t frame = 0;
 
-    for (int stage = 0; stage < STAGE_COUNT; stage++) {
-        begin[stage] = -1;
-        if (target->joined && stage != NATIVE_JOINED)
+    native->sections = mem_array((size_t)sections, sizeof(SectionFunction *));
+    native->first_section = program->first_section;
+    for (int s = 0; s < sections; s++) {
+        begin[s] = -1;
+        if (target->joined && s != NATIVE_JOINED)
             continue;
-        step_maker_stage(maker, (Stage)stage, &steps);
+        step_maker_section(maker, s, &steps);
         if (steps.steps.count > 0) {
             uint32_t own;
 
-            begin[stage] = code.bytes.count;
+            begin[s] = code.bytes.count;
             own = native_emit(&code, target, program, &steps,
-                              step_maker_first_slot(maker, (Stage)stage));
+                              (uint32_t)program->sections.at[s].first_slot);
             frame = own > frame ? own : frame;
         }
     }
@@ -73,17 +77,18 @@ Native *native_new(const Program *program, const NativeTarget *target)
     native->frame = (size_t)home_operand(target->width, FRAME | frame).offset;
     if (code.bytes.count > 0)
         native->memory = code_memory_new(code.bytes.at, (size_t)code.bytes.count);
-    for (int stage = 0; stage < STAGE_COUNT && native->memory != NULL; stage++)
-        if (begin[stage] >= 0) {
+    for (int s = 0; s < sections && native->memory != NULL; s++)
+        if (begin[s] >= 0) {
             const unsigned char *at = code_memory_at(native->memory);
-            const void *function = at + begin[stage];
+            const void *function = at + begin[s];
 
-            memcpy(&native->stages[stage], &function, sizeof function);
+            memcpy(&native->sections[s], &function, sizeof function);
         }
     if (code.bytes.count > 0 && native->memory == NULL) {
-        mem_free(native);
+        MEM_FREE(native->sections, native);
         native = NULL;
     }
+    mem_free(begin);
     LIST_FREE(code.bytes);
     stage_steps_free(&steps);
     step_maker_free(maker);
@@ -95,7 +100,7 @@ void native_free(Native *native)
     if (native == NULL)
         return;
     code_memory_free(native->memory);
-    mem_free(native);
+    MEM_FREE(native->sections, native);
 }
 
 static double *aligned(void *memory)
@@ -131,9 +136,14 @@ void native_frame_free(NativeFrame *frame)
 
 void native_run(const Native *native, Stage from, Stage to, double *slots, NativeFrame *frame)
 {
-    for (int stage = (int)from; stage <= (int)to; stage++)
-        if (native->stages[stage] != NULL)
-            native->stages[stage](slots, aligned(frame));
+    for (int s = native->first_section[from]; s < native->first_section[to + 1]; s++)
+        native_run_section(native, s, slots, frame);
+}
+
+void native_run_section(const Native *native, int section, double *slots, NativeFrame *frame)
+{
+    if (native->sections[section] != NULL)
+        native->sections[section](slots, aligned(frame));
 }
 
 #else
@@ -175,6 +185,11 @@ void native_frame_free(NativeFrame *frame)
 void native_run(const Native *native, Stage from, Stage to, double *slots, NativeFrame *frame)
 {
     (void)native, (void)from, (void)to, (void)slots, (void)frame;
+}
+
+void native_run_section(const Native *native, int section, double *slots, NativeFrame *frame)
+{
+    (void)native, (void)section, (void)slots, (void)frame;
 }
 
 #endif

@@ -1,8 +1,8 @@
 /* native.h: a program as instructions of the processor that runs
  *
- * One function a stage, over the slots of a workspace and a frame of its own. What a stage leaves
- * for later ones stands in the slots in which the interpreter has it, so either may go on where the
- * other has been. A Native is const once made. */
+ * One function a stage, or a section of one, over the slots of a workspace and a frame of its own.
+ * What a stage leaves for later ones stands in the slots in which the interpreter has it, so either
+ * may go on where the other has been. A Native is const once made. */
 #ifndef COTREE_COMPILE_NATIVE_H
 #define COTREE_COMPILE_NATIVE_H
 
@@ -38,5 +38,7 @@ void native_frame_free(NativeFrame *frame);
 /* Stages from..to, both included; all that are joined, or none of them. Slots, then roots, each of
  * `width` numbers. */
 void native_run(const Native *native, Stage from, Stage to, double *slots, NativeFrame *frame);
+/* one section (program_impl.h); those that run at the same time have a frame each */
+void native_run_section(const Native *native, int section, double *slots, NativeFrame *frame);
 
 #endif

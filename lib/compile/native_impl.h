@@ -64,13 +64,12 @@ typedef struct StageSteps {
 typedef struct StepMaker StepMaker;
 StepMaker *step_maker_new(const Program *program, const NativeTarget *target);
 void step_maker_free(StepMaker *maker);
-/* the steps of a stage, of the first of those that are joined, in `out`, which is emptied first */
-void step_maker_stage(StepMaker *maker, Stage stage, StageSteps *out);
+/* the steps of a section, of the first of those that are joined, in `out`, which is emptied first
+ */
+void step_maker_section(StepMaker *maker, int section, StageSteps *out);
 void stage_steps_free(StageSteps *steps);
-/* what stood in a slot before a stage began */
-uint32_t step_maker_first_slot(const StepMaker *maker, Stage stage);
 
-/* Append the function of a stage; the frame's places that it needs. */
+/* Append the function of a section; the frame's places that it needs. */
 uint32_t native_emit(X86Code *code, const NativeTarget *target, const Program *program,
                      const StageSteps *steps, uint32_t first_slot);
 

@@ -1,4 +1,4 @@
-/* native_steps.c: the instructions of a stage in the order of native code
+/* native_steps.c: the instructions of a section in the order of native code
  *
  * Functions lose all registers, so they are gathered: those that need no other function come first,
  * with what they need, then those that need these. The rest follows as it was derived. */
@@ -16,12 +16,11 @@ struct StepMaker {
     uint32_t slots;
     uint8_t *code;    /* of the instruction that makes a slot */
     int *operands;    /* where they begin in the tape; NOT_MADE: an input or a constant */
-    bool *is_late;    /* a later stage needs the slot */
+    bool *is_late;    /* another function needs the slot */
     int *root, *next; /* a root that is a slot, and the next one that is the same; -1: none */
-    int *level;       /* of functions below it in its stage */
+    int *level;       /* of functions below it in its section */
     bool *is_done;
-    uint32_t first_slot[STAGE_COUNT + 1];
-    LIST(uint32_t) functions; /* of a stage: slots, a SINCOS once */
+    LIST(uint32_t) functions; /* of a section: slots, a SINCOS once */
     LIST(uint32_t) stack;
     StageSteps *out;
 };
@@ -57,30 +56,39 @@ static const uint32_t *operands_of(const StepMaker *m, uint32_t slot)
     return m->program->tape.at + m->operands[slot];
 }
 
-/* the stages that are one function with this one */
-static Stage begin_of(const StepMaker *m, Stage stage)
+/* The sections that are one function with this one: stages have but one each where they are joined.
+ */
+static int begin_of(const StepMaker *m, int section)
 {
-    return m->joined && stage >= NATIVE_JOINED && stage <= NATIVE_JOINED_END ? NATIVE_JOINED
-                                                                             : stage;
+    return m->joined && section >= NATIVE_JOINED && section <= NATIVE_JOINED_END ? NATIVE_JOINED
+                                                                                 : section;
 }
 
-static Stage end_of(const StepMaker *m, Stage stage)
+static int end_of(const StepMaker *m, int section)
 {
-    return begin_of(m, stage) == NATIVE_JOINED && m->joined ? NATIVE_JOINED_END : stage;
+    return m->joined && begin_of(m, section) == NATIVE_JOINED ? NATIVE_JOINED_END : section;
 }
 
-static uint32_t slots_end(const StepMaker *m, Stage stage)
+static uint32_t first_slot(const StepMaker *m, int section)
 {
-    return m->first_slot[end_of(m, stage) + 1];
+    return section < m->program->sections.count
+               ? (uint32_t)m->program->sections.at[section].first_slot
+               : m->slots;
 }
 
-static bool is_of_stage(const StepMaker *m, uint32_t slot, Stage stage)
+static uint32_t slots_end(const StepMaker *m, int section)
 {
-    return slot >= m->first_slot[stage] && slot < slots_end(m, stage);
+    return first_slot(m, end_of(m, section) + 1);
 }
 
-static void note_run(StepMaker *m, const OpcodeRun *run, Stage stage)
+static bool is_of_section(const StepMaker *m, uint32_t slot, int section)
 {
+    return slot >= first_slot(m, section) && slot < slots_end(m, section);
+}
+
+static void note_run(StepMaker *m, const OpcodeRun *run, int section)
+{
+    const uint32_t first = first_slot(m, begin_of(m, section));
     const int operands = code_operands(run->code), results = run->code == CODE_SINCOS ? 2 : 1;
 
     for (int i = 0; i < run->count * results; i++) {
@@ -92,7 +100,7 @@ static void note_run(StepMaker *m, const OpcodeRun *run, Stage stage)
         for (int k = 0; k < operands; k++) {
             const uint32_t operand = operands_of(m, slot)[k];
 
-            if (operand < m->first_slot[begin_of(m, stage)])
+            if (operand < first)
                 m->is_late[operand] = true;
             else if (m->level[operand] > level)
                 level = m->level[operand];
@@ -124,15 +132,9 @@ StepMaker *step_maker_new(const Program *program, const NativeTarget *target)
         m->next[i] = m->root[program->roots[i].slot];
         m->root[program->roots[i].slot] = i;
     }
-    m->first_slot[0] = (uint32_t)(program->input_count + program->constants.count);
-    for (int stage = 0; stage < STAGE_COUNT; stage++) {
-        for (int r = program->first_run[stage]; r < program->first_run[stage + 1]; r++)
-            note_run(m, &program->runs.at[r], (Stage)stage);
-        m->first_slot[stage + 1] =
-            program->first_run[stage + 1] < program->runs.count
-                ? (uint32_t)program->runs.at[program->first_run[stage + 1]].result
-                : m->slots;
-    }
+    for (int s = 0; s < program->sections.count; s++)
+        for (int r = program->sections.at[s].first_run; r < section_end(program, s); r++)
+            note_run(m, &program->runs.at[r], s);
     return m;
 }
 
@@ -142,11 +144,6 @@ void step_maker_free(StepMaker *m)
     LIST_FREE(m->functions);
     LIST_FREE(m->stack);
     mem_free(m);
-}
-
-uint32_t step_maker_first_slot(const StepMaker *m, Stage stage)
-{
-    return m->first_slot[stage];
 }
 
 void stage_steps_free(StageSteps *steps)
@@ -274,8 +271,8 @@ static void add_instruction(StepMaker *m, uint32_t slot)
     add_handover(m, slot);
 }
 
-/* a slot of the stage, with what it needs; functions are there */
-static void add_with_operands(StepMaker *m, uint32_t slot, Stage stage)
+/* a slot of the section, with what it needs; functions are there */
+static void add_with_operands(StepMaker *m, uint32_t slot, int section)
 {
     LIST_PUSH(m->stack, slot);
     while (m->stack.count > 0) {
@@ -283,14 +280,14 @@ static void add_with_operands(StepMaker *m, uint32_t slot, Stage stage)
         const int before = m->stack.count;
 
         transaction_worked(VALUE_WORK);
-        if (m->is_done[top] || !is_of_stage(m, top, stage)) {
+        if (m->is_done[top] || !is_of_section(m, top, section)) {
             m->stack.count--;
             continue;
         }
         for (int k = code_operands(m->code[top]) - 1; k >= 0; k--) {
             const uint32_t operand = operands_of(m, top)[k];
 
-            if (is_of_stage(m, operand, stage) && !m->is_done[operand])
+            if (is_of_section(m, operand, section) && !m->is_done[operand])
                 LIST_PUSH(m->stack, operand);
         }
         if (m->stack.count > before)
@@ -323,10 +320,10 @@ static int compare(const void *a, const void *b)
 }
 
 /* arguments of one operand each that are slots of before, one behind the other */
-static bool stand_together(const StepMaker *m, const Calleds *calls, int operands, Stage stage)
+static bool stand_together(const StepMaker *m, const Calleds *calls, int operands, int section)
 {
     for (int i = 0; i < calls->count; i++)
-        if (operands != 1 || calls->at[i].argument >= m->first_slot[stage] ||
+        if (operands != 1 || calls->at[i].argument >= first_slot(m, section) ||
             calls->at[i].argument != calls->at[0].argument + (uint32_t)i)
             return false;
     return true;
@@ -337,7 +334,7 @@ static void add_result(StepMaker *m, uint32_t slot)
     LIST_PUSH(m->out->results, slot);
 }
 
-static void add_call(StepMaker *m, Opcode code, Calleds *calls, Stage stage)
+static void add_call(StepMaker *m, Opcode code, Calleds *calls, int section)
 {
     StageSteps *out = m->out;
     const int operands = code == CODE_SINCOS ? 1 : code_operands(code);
@@ -345,7 +342,7 @@ static void add_call(StepMaker *m, Opcode code, Calleds *calls, Stage stage)
 
     if (operands == 1)
         qsort(calls->at, (size_t)calls->count, sizeof *calls->at, compare);
-    if (stand_together(m, calls, operands, stage)) {
+    if (stand_together(m, calls, operands, section)) {
         call.arguments = calls->at[0].argument;
     } else {
         call.arguments = FRAME | out->frame;
@@ -374,7 +371,7 @@ static void add_call(StepMaker *m, Opcode code, Calleds *calls, Stage stage)
 }
 
 /* the functions of a level of a kind */
-static void add_kind(StepMaker *m, Stage stage, int level, Opcode kind)
+static void add_kind(StepMaker *m, int section, int level, Opcode kind)
 {
     Calleds calls = {0};
 
@@ -385,21 +382,21 @@ static void add_kind(StepMaker *m, Stage stage, int level, Opcode kind)
         if (m->level[slot] != level || called(own) != kind)
             continue;
         for (int k = 0; k < code_operands(own); k++)
-            add_with_operands(m, operands_of(m, slot)[k], stage);
+            add_with_operands(m, operands_of(m, slot)[k], section);
         LIST_PUSH(calls, (Called){operands_of(m, slot)[0], slot});
     }
     if (calls.count > 0)
-        add_call(m, kind, &calls, stage);
+        add_call(m, kind, &calls, section);
     LIST_FREE(calls);
 }
 
-static void add_functions(StepMaker *m, Stage stage)
+static void add_functions(StepMaker *m, int section)
 {
     bool is_there[CODES] = {false};
     int levels = 0;
 
     m->functions.count = 0;
-    for (uint32_t slot = m->first_slot[stage]; slot < slots_end(m, stage); slot++) {
+    for (uint32_t slot = first_slot(m, section); slot < slots_end(m, section); slot++) {
         const Opcode code = (Opcode)m->code[slot];
 
         if (!is_call(code))
@@ -413,10 +410,20 @@ static void add_functions(StepMaker *m, Stage stage)
     for (int level = 1; level <= levels; level++)
         for (int kind = 0; kind < CODES; kind++)
             if (is_there[kind])
-                add_kind(m, stage, level, (Opcode)kind);
+                add_kind(m, section, level, (Opcode)kind);
 }
 
-void step_maker_stage(StepMaker *m, Stage stage, StageSteps *out)
+/* roots of a stage are handed over with its first section, where nobody makes them */
+static int first_root(const StepMaker *m, int section)
+{
+    Stage stage = 0;
+
+    while (stage < STAGE_COUNT && m->program->first_section[stage] < section)
+        stage++;
+    return m->program->first_root[stage];
+}
+
+void step_maker_section(StepMaker *m, int section, StageSteps *out)
 {
     const Program *program = m->program;
 
@@ -424,11 +431,11 @@ void step_maker_stage(StepMaker *m, Stage stage, StageSteps *out)
     out->steps.count = out->calls.count = out->results.count = 0;
     out->value_count = m->slots + FIXED_COUNT;
     out->frame = 0;
-    add_functions(m, stage);
+    add_functions(m, section);
     for (int i = 0; i < program->derived.count; i++)
-        if (is_of_stage(m, program->derived.at[i], stage))
-            add_with_operands(m, program->derived.at[i], stage);
-    for (int i = program->first_root[stage]; i < program->first_root[end_of(m, stage) + 1]; i++) {
+        if (is_of_section(m, program->derived.at[i], section))
+            add_with_operands(m, program->derived.at[i], section);
+    for (int i = first_root(m, section); i < first_root(m, end_of(m, section) + 1); i++) {
         const Handover *root = &program->roots[i];
 
         if (m->operands[root->slot] == NOT_MADE)

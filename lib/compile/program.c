@@ -10,6 +10,12 @@
 Status program_new(const Expr *roots, int root_count, const Expr *inputs, int input_count,
                    Program **out, Diag *diag)
 {
+    return program_new_in_blocks(roots, root_count, inputs, input_count, NULL, out, diag);
+}
+
+Status program_new_in_blocks(const Expr *roots, int root_count, const Expr *inputs, int input_count,
+                             const ProgramBlocks *blocks, Program **out, Diag *diag)
+{
     Program *program = NULL;
     Lowered lowered;
 
@@ -27,7 +33,7 @@ Status program_new(const Expr *roots, int root_count, const Expr *inputs, int in
     }
     for (int i = 0; i < lowered.tables.count; i++)
         LIST_PUSH(program->tables, curve_copy(lowered.tables.at[i]));
-    program_schedule(program, &lowered);
+    program_schedule(program, &lowered, blocks);
     lowered_free(&lowered);
     *out = program;
     return OK;
@@ -44,6 +50,7 @@ void program_free(Program *program)
     LIST_FREE(program->tables);
     mem_free(program->roots);
     LIST_FREE(program->runs);
+    LIST_FREE(program->sections);
     LIST_FREE(program->tape);
     LIST_FREE(program->derived);
     pool_free(program->texts);
@@ -67,6 +74,24 @@ int program_operations(const Program *program, Stage stage)
     for (int r = program->first_run[stage]; r < program->first_run[stage + 1]; r++)
         operations += program->runs.at[r].count;
     return operations;
+}
+
+int program_parts(const Program *program, int *operations)
+{
+    int parts = 1;
+
+    *operations = 0;
+    for (int s = 0; s < program->sections.count; s += program->sections.at[s].together) {
+        const int together = program->sections.at[s].together;
+        const int first = program->sections.at[s].first_run;
+
+        if (together == 1)
+            continue;
+        parts = together > parts ? together : parts;
+        for (int r = first; r < section_end(program, s + together - 1); r++)
+            *operations += program->runs.at[r].count;
+    }
+    return parts;
 }
 
 Stage program_last_stage(const Program *program)

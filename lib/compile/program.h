@@ -12,6 +12,7 @@
 #define COTREE_COMPILE_PROGRAM_H
 
 #include "base/code_memory.h"
+#include "base/threads.h"
 #include "expr/expr.h"
 
 typedef enum Stage {
@@ -40,6 +41,19 @@ typedef struct Workspace Workspace;
  * recursion. */
 MUST_USE Status program_new(const Expr *roots, int root_count, const Expr *inputs, int input_count,
                             Program **out, Diag *diag);
+/* Which inputs belong together, as those of an instance: operations of one block wait for no other
+ * block's. In stages where that pays, those of several blocks stand apart, in at most `parts`, that
+ * may run at the same time; each number is computed as it would be otherwise, to the last bit. */
+typedef struct ProgramBlocks {
+    const int *block; /* of each input, from 1; 0: of none. Borrowed during the call */
+    int parts;        /* 1 or less: nothing stands apart */
+} ProgramBlocks;
+MUST_USE Status program_new_in_blocks(const Expr *roots, int root_count, const Expr *inputs,
+                                      int input_count, const ProgramBlocks *blocks, Program **out,
+                                      Diag *diag);
+/* Operations of some stages that may run at the same time, in so many parts at most; 1: none may.
+ */
+int program_parts(const Program *program, int *operations);
 void program_free(Program *program); /* NULL is fine */
 
 int program_input_count(const Program *program);
@@ -59,6 +73,8 @@ void workspace_free(Workspace *workspace); /* NULL is fine */
 /* Before the first run. Code is made when it has paid: after some hundred evaluations, more of a
  * short program. */
 void workspace_choose(Workspace *workspace, Evaluator evaluator);
+/* who computes what may run at the same time, borrowed; NULL: the caller alone */
+void workspace_share(Workspace *workspace, Threads *threads);
 /* The numbers of the inputs, in the order given to program_new(): write here. */
 double *workspace_inputs(Workspace *workspace);
 /* Compute stages from..to, both included. No failure; NaN travels. */

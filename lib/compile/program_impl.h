@@ -23,6 +23,14 @@ typedef struct OpcodeRun {
     int result;   /* slot of the first */
 } OpcodeRun;
 
+/* What stands one behind the other in a stage: `together` of them, this one first, may run at the
+ * same time. */
+typedef struct Section {
+    int first_run;
+    int first_slot;
+    int together;
+} Section;
+
 typedef struct Handover {
     int root;
     int slot;
@@ -36,21 +44,53 @@ struct Program {
     LIST(double) constants;
     LIST(Curve *) tables;
     LIST(OpcodeRun) runs;
+    LIST(Section) sections; /* one a stage, where none stand apart */
     LIST(uint32_t) tape;
     LIST(uint32_t) derived;         /* slots of results in the order of the expressions */
     Handover *roots;                /* by stage */
     int first_run[STAGE_COUNT + 1]; /* of each stage */
+    int first_section[STAGE_COUNT + 1];
     int first_root[STAGE_COUNT + 1];
     int work[STAGE_COUNT + 1]; /* instructions of the stages before */
     Pool *texts;
 };
 
 /* Fill everything but names and counts of inputs and roots. Changes `lowered`. */
-void program_schedule(Program *program, Lowered *lowered);
+void program_schedule(Program *program, Lowered *lowered, const ProgramBlocks *blocks);
+
+/* the value whose instruction computes this one */
+static inline uint32_t maker_of(const LoweredValue *values, uint32_t value)
+{
+    return values[value].code == CODE_COSINE ? values[value].args[0] : value;
+}
+static inline bool is_instruction(const LoweredValue *value)
+{
+    return value->code < CODES;
+}
+/* the run behind a section's last */
+static inline int section_end(const Program *program, int section)
+{
+    return section + 1 < program->sections.count ? program->sections.at[section + 1].first_run
+                                                 : program->runs.count;
+}
+
+/* --- apart.c --- */
+
+/* How the values of a stage stand apart: first `first` alone, then parts, and so on. */
+enum { PHASES = 5 };
+typedef struct Apart {
+    int parts;
+    uint8_t *phase, *part; /* of each value; phases 1 and 3 are in parts */
+    bool is_split[STAGE_COUNT];
+} Apart;
+/* Find it, from values that are fused already; free with apart_free(). */
+Apart apart_find(const Lowered *lowered, const ProgramBlocks *blocks);
+void apart_free(Apart *apart);
 
 /* --- interpret.c --- */
 
 void program_interpret(const Program *program, Stage from, Stage to, double *slots);
+void program_interpret_section(const Program *program, int section, double *slots);
 void program_hand_over(const Program *program, Stage from, Stage to, const double *slots,
                        double *roots);
 

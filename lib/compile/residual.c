@@ -9,7 +9,7 @@
 struct Residual {
     int uses;  /* by those who asked for it, and the arena */
     Expr *key; /* the order's roots, unknowns and inputs; NULL: it isn't kept */
-    int input_count;
+    int input_count, parts;
     Program *program;
     int row_count, unknown_count;
     int first_slope;
@@ -134,7 +134,7 @@ static uint64_t hash_order(const ResidualOrder *order, uint32_t *newest)
 {
     uint64_t h = mix((uint64_t)order->row_count, order->roots, order->root_count, newest);
 
-    h = mix(h, order->unknowns, order->unknown_count, newest);
+    h = mix(h, order->unknowns, order->unknown_count, newest) + (uint64_t)order->blocks.parts;
     return mix(h, order->inputs, order->input_count, newest);
 }
 
@@ -151,7 +151,7 @@ static bool is_of(const void *object, const void *asked)
 
     return r->row_count == order->row_count && r->first_slope == order->root_count &&
            r->unknown_count == order->unknown_count && r->input_count == order->input_count &&
-           same_part(r->key, order->roots, order->root_count) &&
+           r->parts == order->blocks.parts && same_part(r->key, order->roots, order->root_count) &&
            same_part(unknowns, order->unknowns, order->unknown_count) &&
            same_part(inputs, order->inputs, order->input_count);
 }
@@ -202,17 +202,29 @@ static bool is_plain(const ResidualOrder *order)
 
 /* --- making --- */
 
+/* of the inputs of its program; new */
+static int *blocks_of(const ResidualOrder *order, int count)
+{
+    int *blocks = NEW_ARRAY(int, count);
+
+    for (int i = 0; order->blocks.parts > 1 && i < order->input_count; i++)
+        blocks[i] = order->blocks.block[i];
+    return blocks;
+}
+
 static Status make(const ResidualOrder *order, Residual **out, Diag *diag)
 {
     Residual *r = NEW(Residual);
     Roots roots = {0};
     Expr *inputs = NULL;
+    int *blocks = NULL;
     Status status = OK;
 
     r->uses = 1;
     r->row_count = order->row_count;
     r->unknown_count = order->unknown_count;
     r->input_count = order->input_count;
+    r->parts = order->blocks.parts;
     r->first_slope = order->root_count;
     for (int i = 0; i < order->root_count; i++)
         LIST_PUSH(roots, order->roots[i]);
@@ -220,13 +232,15 @@ static Status make(const ResidualOrder *order, Residual **out, Diag *diag)
     for (int i = 0; i < roots.count && order->put != NULL; i++)
         roots.at[i] = order->put(order->context, roots.at[i]);
     inputs = list_inputs(order, r, &roots);
-    CHECK(program_new(roots.at, roots.count, inputs, order->input_count + r->parameter_count,
-                      &r->program, diag));
+    blocks = blocks_of(order, order->input_count + r->parameter_count);
+    CHECK(program_new_in_blocks(roots.at, roots.count, inputs,
+                                order->input_count + r->parameter_count,
+                                &(ProgramBlocks){blocks, order->blocks.parts}, &r->program, diag));
     *out = r;
     r = NULL;
 done:
     LIST_FREE(roots);
-    mem_free(inputs);
+    MEM_FREE(inputs, blocks);
     residual_free(r);
     return status;
 }

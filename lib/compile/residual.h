@@ -27,6 +27,7 @@ typedef struct ResidualOrder {
     int unknown_count;
     const Expr *inputs; /* symbols that will be given numbers, but for parameters */
     int input_count;
+    ProgramBlocks blocks;                     /* of these inputs; a parameter is of none */
     Expr (*put)(const void *context, Expr e); /* what is compiled for a root or slope; NULL: it */
     const void *context;
     const Watch *watch; /* may be NULL */

@@ -3,9 +3,11 @@
  * A product that only one sum of its stage needs is fused with it, two roundings as
  * before. Then, stage by stage, list scheduling: of the operations whose operands are
  * there, those of the most frequent opcode make the next run, and what becomes ready
- * on the way joins it. O(values * opcodes) at worst, O(values) where runs are long. */
+ * on the way joins it. Where blocks stand apart (apart.c) so does each section of a stage. O(values
+ * * opcodes) at worst, O(values) where runs are long. */
 #include "compile/program_impl.h"
 
+#include <assert.h>
 #include <string.h>
 
 enum { NOBODY = UINT32_MAX };
@@ -30,18 +32,9 @@ typedef struct Plan {
     Opcode codes[CODES]; /* those there are, rising */
     int code_count;
     int work[STAGE_COUNT]; /* instructions that aren't on the tape yet */
+    Apart apart;
+    int phase, part; /* of the section that is being put on the tape */
 } Plan;
-
-static bool is_instruction(const LoweredValue *value)
-{
-    return value->code < CODES;
-}
-
-/* the value whose instruction computes this one */
-static uint32_t maker_of(const LoweredValue *values, uint32_t value)
-{
-    return values[value].code == CODE_COSINE ? values[value].args[0] : value;
-}
 
 /* --- fusing --- */
 
@@ -148,6 +141,12 @@ static void measure(Plan *plan)
     LIST_ROOM(plan->program->derived, instructions);
 }
 
+static bool is_of_section(const Plan *plan, uint32_t value)
+{
+    return !plan->apart.is_split[plan->values[value].stage] ||
+           (plan->apart.phase[value] == plan->phase && plan->apart.part[value] == plan->part);
+}
+
 static void enqueue(Plan *plan, uint32_t value)
 {
     Queue *queue = &plan->queues[plan->values[value].code];
@@ -188,7 +187,7 @@ static void emit(Plan *plan, uint32_t value)
     plan->slot[value] = (uint32_t)program->slot_count;
     program->slot_count += v->code == CODE_SINCOS ? 2 : 1;
     for (uint32_t i = plan->first_user[value]; i < plan->first_user[value + 1]; i++) {
-        if (--plan->pending[plan->users[i]] == 0)
+        if (--plan->pending[plan->users[i]] == 0 && is_of_section(plan, plan->users[i]))
             enqueue(plan, plan->users[i]);
     }
 }
@@ -203,20 +202,42 @@ static void emit_run(Plan *plan, Opcode code)
     LIST_PUSH(program->runs, run);
 }
 
-static void emit_stage(Plan *plan, Stage stage)
+/* What has begun before its section is there to be taken up when that begins. */
+static void emit_section(Plan *plan, Stage stage, int together)
 {
+    Program *program = plan->program;
+
+    LIST_PUSH(program->sections, (Section){.first_run = program->runs.count,
+                                           .first_slot = program->slot_count,
+                                           .together = together});
     for (uint32_t v = 0; v < plan->count && plan->work[stage] > 0; v++) {
         if (is_instruction(&plan->values[v]) && plan->values[v].stage == stage &&
-            plan->pending[v] == 0)
+            plan->pending[v] == 0 && is_of_section(plan, v))
             enqueue(plan, v);
     }
-    while (plan->work[stage] > 0) {
+    for (;;) {
         Opcode best = plan->codes[0];
 
         for (int i = 1; i < plan->code_count; i++)
             if (plan->queues[plan->codes[i]].count > plan->queues[best].count)
                 best = plan->codes[i];
+        if (plan->code_count == 0 || plan->queues[best].count == 0)
+            break;
         emit_run(plan, best);
+    }
+}
+
+static void emit_stage(Plan *plan, Stage stage)
+{
+    if (!plan->apart.is_split[stage]) {
+        emit_section(plan, stage, 1);
+        return;
+    }
+    for (plan->phase = 0; plan->phase < PHASES; plan->phase++) {
+        const int parts = plan->phase % 2 == 1 ? plan->apart.parts : 1;
+
+        for (plan->part = 0; plan->part < parts; plan->part++)
+            emit_section(plan, stage, parts - plan->part);
     }
 }
 
@@ -270,7 +291,7 @@ static void place_roots(Plan *plan, const Lowered *lowered)
     }
 }
 
-void program_schedule(Program *program, Lowered *lowered)
+void program_schedule(Program *program, Lowered *lowered, const ProgramBlocks *blocks)
 {
     Plan plan = {
         .program = program,
@@ -279,6 +300,7 @@ void program_schedule(Program *program, Lowered *lowered)
     };
 
     fuse(lowered);
+    plan.apart = apart_find(lowered, blocks);
     plan.slot = NEW_ARRAY(uint32_t, plan.count);
     plan.pending = NEW_ARRAY(uint32_t, plan.count);
     plan.first_user = NEW_ARRAY(uint32_t, (size_t)plan.count + 1);
@@ -289,13 +311,17 @@ void program_schedule(Program *program, Lowered *lowered)
 
     for (int stage = 0; stage < STAGE_COUNT; stage++) {
         program->first_run[stage] = program->runs.count;
+        program->first_section[stage] = program->sections.count;
         emit_stage(&plan, (Stage)stage);
+        assert(plan.work[stage] == 0);
     }
     program->first_run[STAGE_COUNT] = program->runs.count;
+    program->first_section[STAGE_COUNT] = program->sections.count;
     for (uint32_t v = 0; v < plan.count; v++)
         if (is_instruction(&plan.values[v]))
             LIST_PUSH(program->derived, plan.slot[v]);
     place_roots(&plan, lowered);
 
     MEM_FREE(plan.slot, plan.pending, plan.users, plan.first_user, plan.next);
+    apart_free(&plan.apart);
 }

@@ -13,15 +13,17 @@ enum { MAKING = 100, MEMORY = 40000, CALLING = 10 };
 #endif
 
 typedef struct NativePart {
-    long interpreted; /* instructions, until they have paid for native code; -1: they have */
-    Native *native;   /* NULL: not yet, or there is none */
-    NativeFrame *frame;
+    long interpreted;     /* instructions, until they have paid for native code; -1: they have */
+    Native *native;       /* NULL: not yet, or there is none */
+    NativeFrame **frames; /* one for each section that may run at the same time */
 } NativePart;
 
 struct Workspace {
     const Program *program;
     double *slots; /* then roots */
     Evaluator evaluator;
+    Threads *threads;
+    int parts; /* sections that may run at the same time, at most */
     NativePart single, joined;
 };
 
@@ -29,19 +31,23 @@ Workspace *workspace_new(const Program *program)
 {
     const bool was_scratch = mem_scratch(true); /* numbers that each evaluation finds anew */
     Workspace *workspace = NEW(Workspace);
+    int operations;
 
     workspace->program = program;
     workspace->slots = NEW_ARRAY(double, program->slot_count + program->root_count);
     workspace->evaluator = EVALUATOR_INTERPRETER;
+    workspace->parts = program_parts(program, &operations);
     for (int i = 0; i < program->constants.count; i++)
         workspace->slots[program->input_count + i] = program->constants.at[i];
     (void)mem_scratch(was_scratch);
     return workspace;
 }
 
-static void free_part(NativePart *part)
+static void free_part(NativePart *part, int frames)
 {
-    native_frame_free(part->frame);
+    for (int i = 0; part->frames != NULL && i < frames; i++)
+        native_frame_free(part->frames[i]);
+    mem_free(part->frames);
     native_free(part->native);
 }
 
@@ -49,14 +55,19 @@ void workspace_free(Workspace *workspace)
 {
     if (workspace == NULL)
         return;
-    free_part(&workspace->single);
-    free_part(&workspace->joined);
+    free_part(&workspace->single, workspace->parts);
+    free_part(&workspace->joined, workspace->parts);
     MEM_FREE(workspace->slots, workspace);
 }
 
 void workspace_choose(Workspace *workspace, Evaluator evaluator)
 {
     workspace->evaluator = evaluator;
+}
+
+void workspace_share(Workspace *workspace, Threads *threads)
+{
+    workspace->threads = threads;
 }
 
 double *workspace_inputs(Workspace *workspace)
@@ -77,13 +88,48 @@ static void make_native(Workspace *workspace, NativePart *part)
 
     if (!native_target(1, workspace->evaluator == EVALUATOR_NATIVE, &target))
         return;
-    target.joined = part == &workspace->joined;
+    target.joined = part == &workspace->joined && workspace->parts == 1;
     mem_keep(workspace);
     was_scratch = mem_scratch(true);
     part->native = native_new(workspace->program, &target);
-    if (part->native != NULL)
-        part->frame = native_frame_new(part->native);
+    if (part->native != NULL) {
+        part->frames = mem_array((size_t)workspace->parts, sizeof *part->frames);
+        for (int i = 0; i < workspace->parts; i++)
+            part->frames[i] = native_frame_new(part->native);
+    }
     (void)mem_scratch(was_scratch);
+}
+
+/* sections that run at the same time, from `first` on */
+typedef struct Together {
+    const Workspace *workspace;
+    const NativePart *part;
+    int first;
+} Together;
+
+static void run_section(void *context, int which)
+{
+    const Together *t = context;
+    const NativePart *part = t->part;
+
+    if (part->native != NULL)
+        native_run_section(part->native, t->first + which, t->workspace->slots,
+                           part->frames[which]);
+    else
+        program_interpret_section(t->workspace->program, t->first + which, t->workspace->slots);
+}
+
+static void run_apart(const Workspace *workspace, const NativePart *part, Stage from, Stage to)
+{
+    const Program *program = workspace->program;
+    Together now = {.workspace = workspace, .part = part, .first = program->first_section[from]};
+
+    while (now.first < program->first_section[to + 1]) {
+        const int together = program->sections.at[now.first].together;
+
+        threads_do(workspace->threads, together, run_section, &now);
+        now.first += together;
+    }
 }
 
 static void run(Workspace *workspace, NativePart *part, Stage from, Stage to)
@@ -91,11 +137,14 @@ static void run(Workspace *workspace, NativePart *part, Stage from, Stage to)
     const Program *program = workspace->program;
     double *slots = workspace->slots;
 
-    if (part->native != NULL) {
-        native_run(part->native, from, to, slots, part->frame);
+    if (workspace->parts > 1)
+        run_apart(workspace, part, from, to);
+    else if (part->native != NULL)
+        native_run(part->native, from, to, slots, part->frames[0]);
+    else
+        program_interpret(program, from, to, slots);
+    if (part->native != NULL)
         return;
-    }
-    program_interpret(program, from, to, slots);
     program_hand_over(program, from, to, slots, slots + program->slot_count);
     if (workspace->evaluator == EVALUATOR_INTERPRETER || part->interpreted < 0)
         return;

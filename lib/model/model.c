@@ -600,6 +600,11 @@ int model_setting_value(const Model *model, ModelSetting setting)
     return model->state->settings.at[setting];
 }
 
+void model_setting_text(const Model *model, ModelSetting setting, Text *out)
+{
+    setting_text(model->state, setting, out);
+}
+
 static Scope ask(const Model *model)
 {
     return (Scope){.state = model->state, .kind = SCOPE_ASK, .entries = &model->entries};

@@ -155,15 +155,18 @@ typedef struct DataFile {
 MUST_USE Status data_open(const DataFinder *finder, const char *name, Place place, DataFile *out,
                           Diag *diag);
 void data_close(DataFile *file);
-/* settings that the model keeps, and the words of each: its name, its values, NULL; NULL: no more
- */
+/* Settings that the model keeps, and the words of each: its name, its values, NULL; NULL: no more.
+ * Of one of whole numbers they are but some. */
 typedef enum ModelSetting {
-#define SETTING(id, ...) SETTING_##id,
+#define SETTING(id, ...)        SETTING_##id,
+#define NUMBER_SETTING(id, ...) SETTING_##id,
 #include "model/model_settings.def"
     MODEL_SETTINGS
 } ModelSetting;
 const char *const *model_setting(int i);
-int model_setting_value(const Model *model, ModelSetting setting); /* which of the values, from 0 */
+/* which of the values, from 0; of whole numbers how much more than 1 */
+int model_setting_value(const Model *model, ModelSetting setting);
+void model_setting_text(const Model *model, ModelSetting setting, Text *out); /* append it */
 Form model_form(const Model *model, const char *const **independent,
                 int *count); /* names of coordinates; count 0: chosen by pivoting */
 

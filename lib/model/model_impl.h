@@ -493,6 +493,9 @@ MUST_USE Status parameter_check_alike(const Scope *scope, const char *name, Meas
 /* set leg1.L1 = 0.5 */
 MUST_USE Status set_inside_parameter(State *state, const Pair *pair, Outcome *outcome, Diag *diag);
 
+/* of one of model_settings.def, as it is set (model_scene.c) */
+void setting_text(const State *state, ModelSetting setting, Text *out);
+
 /* --- one function a verb --- */
 
 Apply apply_parameter, apply_law, apply_component;

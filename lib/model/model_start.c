@@ -261,9 +261,11 @@ void starts_save(const State *state, Text *text)
         text_add(text, state->independent.count > 0 ? "]\n" : "\n");
     }
     for (int i = 0; i < MODEL_SETTINGS; i++)
-        if (state->settings.at[i] != 0)
-            text_addf(text, "set %s %s\n", model_setting(i)[0],
-                      model_setting(i)[1 + state->settings.at[i]]);
+        if (state->settings.at[i] != 0) {
+            text_addf(text, "set %s ", model_setting(i)[0]);
+            setting_text(state, (ModelSetting)i, text);
+            text_char(text, '\n');
+        }
     if (gives_starts(state, "init"))
         text_add(text, "init none\n");
     if (gives_starts(state, "guess"))

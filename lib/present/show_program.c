@@ -151,6 +151,34 @@ static void add_skipped(const View *view, Text *out, const Equations *eq, const 
     add_line(view, out, "skipped  ", &line);
 }
 
+/* blocks on several threads, where that is set */
+static void add_apart(const View *view, Text *out, const Numbers *numbers)
+{
+    const int threads = 1 + model_setting_value(view->model, SETTING_JOBS);
+    int most = 1, all = 0;
+    Text line = {0};
+
+    for (int part = 0; part < NUMBERS_PARTS; part++) {
+        const Program *p = numbers_program(numbers, (NumbersPart)part);
+        int own = 0;
+        const int parts = p != NULL ? program_parts(p, &own) : 1;
+
+        most = parts > most ? parts : most;
+        all += own;
+    }
+    if (threads == 1)
+        return;
+    if (most > 1) {
+        layout_count(&line, all, "operation", "operations");
+        text_addf(&line, " of instances, in %d parts at the same time, on %d threads at most", most,
+                  threads);
+    } else {
+        text_addf(&line, "nothing: no instances have so many operations that %d threads would pay",
+                  threads);
+    }
+    add_line(view, out, "apart    ", &line);
+}
+
 static void print_programs(const Numbers *numbers, Text *out)
 {
     static const char *const names[NUMBERS_PARTS] = {"equations", "network", "conditions",
@@ -169,7 +197,8 @@ static void print_programs(const Numbers *numbers, Text *out)
 
 Status show_program(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
-    Parameters parameters = {0}; /* whatever their values are */
+    Threads *threads = threads_new();
+    Parameters parameters = {.threads = threads}; /* whatever their values are */
     Layout *layout = layout_new(view->system);
     Numbers *numbers = NULL;
     const Equations *eq;
@@ -177,6 +206,7 @@ Status show_program(const View *view, const Selection *selection, Text *out, Dia
     Work work;
 
     (void)selection;
+    threads_set(threads, 1 + model_setting_value(view->model, SETTING_JOBS));
     CHECK(numbers_new(layout, &parameters, &numbers, diag));
     eq = numbers_equations(numbers);
     CHECK(eliminate(view, eq, diag));
@@ -186,9 +216,11 @@ Status show_program(const View *view, const Selection *selection, Text *out, Dia
     print_programs(numbers, out);
     add_kept(view, out, eq, &work);
     add_skipped(view, out, eq, &work);
+    add_apart(view, out, numbers);
 done:
     numbers_free(numbers);
     layout_free(layout);
     parameters_free(&parameters);
+    threads_free(threads);
     return status;
 }

@@ -85,7 +85,9 @@ Status show_settings(const View *view, const Selection *selection, Text *out, Di
     text_free(&text);
     for (ModelSetting i = 0; i < MODEL_SETTINGS; i++) {
         table_cell(&table, model_setting((int)i)[0]);
-        table_cell(&table, model_setting((int)i)[1 + model_setting_value(view->model, i)]);
+        model_setting_text(view->model, i, &text);
+        table_cell(&table, text.at);
+        text_free(&text);
     }
     table_print(out, &table, 0);
     table_free(&table);

@@ -30,6 +30,7 @@ static ct_session *session_new(const ct_hooks *hooks)
 
     dense_quiet();
     session->model = model_new();
+    session->threads = threads_new();
     session->start_is_later = true;
     session->changed = true;
     ct_session_hooks(session, hooks);
@@ -97,6 +98,7 @@ void ct_session_free(ct_session *session)
     tree_costs_free(&session->costs);
     text_free(&session->remarks);
     model_free(session->model);
+    threads_free(session->threads);
     mem_free(session);
 }
 

@@ -58,6 +58,7 @@ struct ct_session {
     uint64_t covered;       /* revision whose virtual branches lose no freedom, and 1 */
     uint64_t freed;         /* revision whose freedoms are known, and 1 */
     int freedoms;
+    Threads *threads; /* that runs and what asks of them compute with, as many as are set */
     TreeCosts costs;
     int cost_now; /* of the trees chosen last, a place in `costs` */
     Text remarks; /* of the last call; at NULL: none */

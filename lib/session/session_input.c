@@ -108,6 +108,7 @@ void run_input_make(ct_session *session, const System *system, RunInput *input)
     const Model *model = session->model;
     const int count = model_start_count(model);
 
+    threads_set(session->threads, 1 + model_setting_value(model, SETTING_JOBS));
     input->parameters = parameters_now(model, system);
     input->start.at = mem_array((size_t)count, sizeof *input->start.at);
     for (int i = 0; i < count; i++) {
@@ -133,6 +134,7 @@ void run_input_make(ct_session *session, const System *system, RunInput *input)
         .warm = session->warm.result != NULL ? session->warm.reader : session->rest.reader,
         .from = resting_start(session),
         .evaluator = (Evaluator)model_setting_value(model, SETTING_EVALUATOR),
+        .threads = session->threads,
         .watch = &session->watch};
     input->setting.form =
         model_form(model, &input->setting.independent, &input->setting.independent_count);

@@ -21,6 +21,16 @@ san/Makefile:
 	@mkdir -p san
 	@cd san && $(abs_srcdir)/configure -q --enable-sanitizers --enable-werror CFLAGS='-O1 -g'
 
+# what uses several threads, where the thread sanitizer watches who touches what
+threads/Makefile:
+	@mkdir -p threads
+	@cd threads && $(abs_srcdir)/configure -q --enable-werror CFLAGS='-O1 -g -fsanitize=thread' LDFLAGS='-fsanitize=thread'
+
+sharing_tests = test_threads test_evaluator family_legs
+check-threads: threads/Makefile
+	@$(MAKE) -s -C threads $(sharing_tests)
+	@for test in $(sharing_tests); do TSAN_OPTIONS=halt_on_error=1 threads/$$test || exit 1; done
+
 # tables, lists and chunks of memory that begin with one element; and each call tried with
 # allocations that fail (lib/base/faults.c). Units and sessions are what calls the library in all its
 # ways; manuals and long cases call it in the same ones. The small build counts the lines that they
@@ -153,6 +163,6 @@ mostlyclean-local:
 	rm -f $(BENCHES) $(FUZZERS) bench.out check.log
 
 distclean-local:
-	rm -rf san small faults coverage bench.work precision scaling
+	rm -rf san threads small faults coverage bench.work precision scaling
 
-.PHONY: check-total check-hacking check-san check-small check-faults lint format bench benches bench-precision bench-scaling bench-estimates bench-peers bench-races bench-latency bench-record precision-record scaling-record fuzz stress check-coverage
+.PHONY: check-total check-hacking check-san check-threads check-small check-faults lint format bench benches bench-precision bench-scaling bench-estimates bench-peers bench-races bench-latency bench-record precision-record scaling-record fuzz stress check-coverage

@@ -1,11 +1,13 @@
 /* bench_subsystems.c: a planar robot of 30 legs, and a platform on 30 spatial ones, each leg an
  * instance of one definition, against the same parts written out: forming the equations in
  * milliseconds, both in turn, alone and with the programs that a run steps with, and after one leg
- * was changed, removed and added again */
+ * was changed, removed and added again; and runs of them, on two threads in parts of the time on one
+ */
 #include "formulate/system/system.h"
 #include "model/model.h"
 #include "simulate/equations/numbers.h"
 
+#include "../unit/session_kit.h"
 #include "base/text.h"
 #include "bench.h"
 #include "bench_model.h"
@@ -211,9 +213,43 @@ static void bench_robot(bool planar)
     mem_free(texts[1]);
 }
 
+/* s that a run takes in a session, at least; the session has run it before */
+static double run_once(Kit *kit, int threads)
+{
+    char set[40];
+    double least;
+
+    (void)snprintf(set, sizeof set, "set jobs %d\n", threads);
+    if (kit_do(kit, set) != CT_OK)
+        printf("# %s\n", kit->error.message);
+    BENCH_LEAST(1, least,
+                if (kit_do(kit, "simulate 2 every=0.1\n") != CT_OK)
+                    printf("# %s\n", kit->error.message));
+    return least;
+}
+
+/* by turns, so that what else the machine does disturbs both */
+static void bench_run(bool planar)
+{
+    char *text = robot_text(planar, false);
+    Kit kit = kit_new();
+    double least[2] = {1e300, 1e300};
+
+    if (kit_do(&kit, text) != CT_OK)
+        printf("# %s\n", kit.error.message);
+    for (int i = 0; i < 2 * TRIES; i++)
+        least[i % 2] = fmin(least[i % 2], run_once(&kit, 1 + i % 2));
+    line(planar, "run", 1e3 * least[0], "ms");
+    line(planar, "two_threads", least[1] / least[0], "of one");
+    kit_free(&kit);
+    mem_free(text);
+}
+
 int main(void)
 {
     bench_robot(true);
     bench_robot(false);
+    bench_run(true);
+    bench_run(false);
     return 0;
 }

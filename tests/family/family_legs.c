@@ -1,5 +1,6 @@
 /* family_legs.c: planar robots of many legs, whose elimination goes leg by leg, against absolute
- * coordinates, where each pin has rows of its own
+ * coordinates, where each pin has rows of its own; and these and bodies with many spatial arms on
+ * one thread against the same on several, digit by digit
  *
  * Links are drawn so that legs reach their pins bent at random; a platform that moves soon
  * stretches some of them. */
@@ -135,12 +136,124 @@ static Verdict efforts_are_those_in_absolute_coordinates(Member *member)
                          (int)(sizeof asked / sizeof asked[0]), 100, 1e-8);
 }
 
+/* --- on several threads --- */
+
+/* a free body with arms of two links each, chains with motors in their joints */
+static void write_arms(Member *member, Script *s, int arms)
+{
+    write_line(s, "gravity [0, 0, -9.81]");
+    write_line(s, "body m mass=8 inertia=[1, 2, 3]");
+    write_line(s, "subsystem limb frames=[A]");
+    write_line(s, "k = 5; M2 = 1");
+    write_line(
+        s, "body l1 mass=2 inertia=[0.04, 0.05, 0.06]; body l2 mass=M2 inertia=[0.1, 0.2, 0.2]");
+    write_line(s, "arm a1 l1 [-0.3, 0, 0.1]; arm k1 l1 [0.3, 0.1, 0]; arm k2 l2 [-0.2, 0, 0]");
+    write_line(s, "universal th A a1 axes=[y, z]; spherical el k1 k2");
+    write_line(s, "spring sp th.a1 k=k rest=0.2");
+    write_line(s, "end");
+    for (int i = 0; i < arms; i++) {
+        const double turn = 2 * acos(-1) * i / arms;
+
+        write_line(s, "arm p%d m [%.17g, %.17g, %.17g]", i, cos(turn), sin(turn),
+                   member_between(member, -0.2, 0.2));
+        write_line(s, "use limb arm%d A=p%d k=%.17g M2=%.17g", i, i, member_between(member, 1, 9),
+                   member_decades(member, 0.3, 3));
+        write_line(s, "init arm%d.th.a1 = %.17g, arm%d.th.a2' = %.17g", i,
+                   member_between(member, -0.5, 0.5), i, member_between(member, -2, 2));
+    }
+}
+
+/* numbers of all rows, as they are written; "" where a line fails */
+static char *rows_on(Kit *kit, int threads, const char *model, const char *line)
+{
+    char set[40];
+    char *out;
+
+    (void)snprintf(set, sizeof set, "set jobs %d\n", threads);
+    if (kit_do(kit, set) != CT_OK || kit_do(kit, model) != CT_OK || kit_do(kit, line) != CT_OK ||
+        kit_do(kit, "export csv\n") != CT_OK || kit->text == NULL)
+        return NULL;
+    out = kit->text;
+    kit->text = NULL;
+    return out;
+}
+
+/* the same text of numbers, and of what a program of such a model is said to be */
+static Verdict on_any_threads(Member *member, const char *model, const char *line)
+{
+    static const int threads[] = {2, 3, 8};
+    Kit one = kit_new();
+    char *wanted = rows_on(&one, 1, model, line);
+    bool same = true, shares = false;
+
+    for (int i = 0; i < 3 && same; i++) {
+        Kit kit = kit_new();
+        char *rows = rows_on(&kit, threads[i], model, line);
+
+        same = wanted != NULL ? rows != NULL && strcmp(rows, wanted) == 0
+                              : rows == NULL && strcmp(kit.error.message, one.error.message) == 0;
+        shares = shares || (kit_do(&kit, "show program") == CT_OK && kit.text != NULL &&
+                            strstr(kit.text, " parts at the same time") != NULL);
+        if (!same || member->told)
+            tell(member, "set jobs %d\n%s%s%s\n%s\n", threads[i], model, line, one.error.message,
+                 kit.error.message);
+        ct_free(rows);
+        kit_free(&kit);
+    }
+    if (!shares)
+        tell(member, "no threads are made use of\n");
+    ct_free(wanted);
+    kit_free(&one);
+    return !same || !shares ? DISAGREES : wanted != NULL ? AGREES : REFUSED;
+}
+
+static Verdict threads_leave_every_digit_as_it_is(Member *member)
+{
+    static const char *const lines[] = {
+        "simulate 0.4 every=0.02\n", "simulate 0.1 every=0.05 method=radau\n",
+        "simulate 0.2 every=0.1 check=on\n", "simulate 0.1 every=0.05 method=rk4 step=1e-3\n"};
+    static Script script;
+    const char *line = lines[member_one_of(member, 4)];
+
+    script.length = 0;
+    if (member_one_of(member, 4) == 0)
+        write_line(&script, "set evaluator native");
+    if (member_one_of(member, 2) == 0) {
+        write_arms(member, &script, 16 + member_one_of(member, 10));
+        return on_any_threads(member, script.text, line);
+    }
+    {
+        const int legs = 22 + member_one_of(member, 9);
+
+        write_robot(member, &script, legs);
+        write_tree(&script, legs);
+    }
+    return on_any_threads(member, script.text, line);
+}
+
+static Verdict threads_leave_efforts_as_they_are(Member *member)
+{
+    static const char *const along[] = {"x", "y", "theta"};
+    static Script script;
+    const int legs = 24 + member_one_of(member, 7);
+
+    script.length = 0;
+    write_robot(member, &script, legs);
+    for (int k = 0; k < 3; k++)
+        write_line(&script, "driver D%d m.%s = %.17g*sin(%.17g*t) by=leg%d.th1", k, along[k],
+                   member_between(member, 0.01, 0.04), member_between(member, 1, 4), k);
+    write_tree(&script, legs);
+    return on_any_threads(member, script.text, "inverse 0.2 every=0.01\n");
+}
+
 int main(int argc, char **argv)
 {
     static const Family families[] = {
         {"they_move_as_in_absolute_coordinates", 6, 0.2, 0, they_move_as_in_absolute_coordinates},
         {"efforts_are_those_in_absolute_coordinates", 8, 0.2, 0,
          efforts_are_those_in_absolute_coordinates},
+        {"threads_leave_every_digit_as_it_is", 6, 0.5, 0, threads_leave_every_digit_as_it_is},
+        {"threads_leave_efforts_as_they_are", 2, 0.5, 0, threads_leave_efforts_as_they_are},
     };
 
     return family_main(families, (int)(sizeof families / sizeof families[0]), argc, argv);

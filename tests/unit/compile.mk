@@ -5,3 +5,6 @@ test_program_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_residual
 test_residual_SOURCES = tests/unit/test_residual.c tests/unit/test.h
 test_residual_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_threads
+test_threads_SOURCES = tests/unit/test_threads.c tests/unit/test.h
+test_threads_LDADD = $(unit_ldadd)

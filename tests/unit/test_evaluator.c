@@ -2,6 +2,7 @@
 #include "session_kit.h"
 
 #include "base/memory.h"
+#include "base/text.h"
 
 #include <math.h>
 #ifdef __linux__
@@ -80,6 +81,79 @@ static void the_setting_is_shown_saved_and_taken_back(void)
     kit_free(&kit);
 }
 
+/* --- threads --- */
+
+/* a free body with arms enough that threads pay; new */
+static char *armed(void)
+{
+    Text text = {0};
+
+    text_add(&text, "gravity [0, 0, -9.81]\nbody m mass=8 inertia=[1, 2, 3]\n"
+                    "subsystem limb frames=[A]\nbody l mass=2 inertia=[0.04, 0.05, 0.06]\n"
+                    "body k mass=1 inertia=[0.1, 0.2, 0.2]\narm a l [-0.3, 0, 0.1]\n"
+                    "arm b l [0.3, 0.1, 0]\narm c k [-0.2, 0, 0]\n"
+                    "universal th A a axes=[y, z]\nspherical el b c\nend\n");
+    for (int i = 0; i < 24; i++)
+        text_addf(&text, "arm p%d m [%d, 1, 0]\nuse limb limb%d A=p%d\ninit limb%d.th.a1' = 1\n", i,
+                  i, i, i, i);
+    return text_done(&text);
+}
+
+static bool stops_later(void *context)
+{
+    int *left = context;
+
+    return (*left)-- <= 0;
+}
+
+static void a_run_of_several_threads_can_be_stopped(void)
+{
+    int left = 60;
+    const ct_hooks hooks = {.context = &left, .stop = stops_later, .columns = 80};
+    Kit kit = kit_new();
+    char *model = armed();
+    double end;
+
+    EXPECT_DONE(&kit, "set jobs 4");
+    EXPECT_DONE(&kit, model);
+    EXPECT_DONE(&kit, "simulate 0.2");
+    end = kit_value(&kit, "m.x");
+    ct_session_hooks(kit.session, &hooks);
+    EXPECT(kit_do(&kit, "simulate 1e5 every=1") == CT_STOPPED);
+    ct_session_hooks(kit.session, NULL);
+    EXPECT_DONE(&kit, "simulate 0.2");
+    EXPECT(kit_value(&kit, "m.x") == end);
+    EXPECT_DONE(&kit, "set jobs 1");
+    EXPECT_DONE(&kit, "simulate 0.2");
+    EXPECT(kit_value(&kit, "m.x") == end);
+    mem_free(model);
+    kit_free(&kit);
+}
+
+static void wrong_numbers_of_threads_are_refused(void)
+{
+    static const char *const wrong[] = {
+        "set jobs 0",   "set jobs=0",  "set jobs 1.5", "set jobs many",
+        "set jobs 1e9", "set jobs 65", "set jobs 2 m", "set jobs",
+        "set jobs 2 3", "set jobs=-1", "set jobs='2'", "set jobs=2, evaluator=native"};
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "set jobs 3");
+    for (int i = 0; i < COUNT(wrong); i++)
+        EXPECT(kit_do(&kit, wrong[i]) == CT_FAILED);
+    EXPECT_FAILS(&kit, "set jobs 0", "jobs is a whole number from 1 to 64");
+    EXPECT(strstr(kit.error.hint, "set jobs 2") != NULL);
+    EXPECT_DONE(&kit, "show settings");
+    EXPECT(strstr(kit_text(&kit), "jobs       3") != NULL);
+    EXPECT_DONE(&kit, "set jobs=64");
+    EXPECT_DONE(&kit, "undo");
+    EXPECT_DONE(&kit, "show settings");
+    EXPECT(strstr(kit_text(&kit), "jobs       3") != NULL);
+    kit_free(&kit);
+}
+
+/* --- memory --- */
+
 /* whether any memory of this process can be written and run at once; where that isn't told: no */
 static bool some_memory_is_both(void)
 {
@@ -131,6 +205,8 @@ int main(void)
     RUN(strict_runs_have_the_interpreters_digits);
     RUN(native_runs_agree_to_rounding);
     RUN(the_setting_is_shown_saved_and_taken_back);
+    RUN(a_run_of_several_threads_can_be_stopped);
+    RUN(wrong_numbers_of_threads_are_refused);
     RUN(no_memory_is_written_and_run);
     RUN(a_refusal_leaves_the_interpreter);
     return test_end();

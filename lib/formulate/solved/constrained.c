@@ -1,12 +1,15 @@
 /* constrained.c: L D L^T of [M G^T; G 0] in symbols, speeds before multipliers
  *
  * That order needs no exchange of rows: all pivots of M are positive, those that follow negative,
- * as long as the rows are independent. In either class the order is one that fills in little, found
- * from the pattern (algebra/ldl.h), and what it costs is counted before anything is written. A
- * multiplier's pivot d is what earlier multipliers leave of p, its entry of G M^-1 G^T: d / p tells
- * how far a singular configuration is (algebra/kkt.h). */
+ * as long as the rows are independent. Speeds of many rows, as a platform's, wait until the rows
+ * are eliminated where that is cheaper and other speeds determine all of these
+ * (algebra/kkt_border.h): then each leg is eliminated for itself. In each class the order is one
+ * that fills in little, found from the pattern (algebra/ldl.h), and what it costs is counted before
+ * anything is written. A multiplier's pivot d is what earlier multipliers leave of p, its entry of
+ * G M^-1 G^T: d / p tells how far a singular configuration is (algebra/kkt.h). */
 #include "formulate/solved/constrained.h"
 
+#include "algebra/kkt_border.h"
 #include "algebra/ldl.h"
 #include "algebra/pattern.h"
 #include "base/memory.h"
@@ -31,6 +34,7 @@ typedef struct Term {
 typedef struct Row { /* of an unknown, as they are eliminated */
     LIST(Term) beyond;
     Expr own, inverse;
+    Expr stiff;        /* of a speed that waits: its entry of M, and what rows before it add */
     Expr right, asked; /* right sides: F and gamma, s; then what they are solved by */
 } Row;
 
@@ -40,7 +44,9 @@ typedef struct Elimination {
     int nu, m, size;
     const int *rows; /* constraint rows in use */
     MassEntries entries;
-    int *place_of; /* of an unknown, speeds before multipliers */
+    int *class;    /* of an unknown (KktClass) */
+    int *place_of; /* of it, by classes */
+    int owns;      /* speeds that don't wait */
     Row *row;      /* by place */
 } Elimination;
 
@@ -104,18 +110,32 @@ static void place_entries(Elimination *e)
     }
 }
 
+/* Which speeds wait for the rows: none where that leaves a row that others don't determine. */
+static void find_classes(Elimination *e, const KktPlaces *places)
+{
+    bool *late = NEW_ARRAY(bool, e->m);
+    bool waits = true;
+
+    kkt_classes(places, kkt_border(places), late, e->class);
+    for (int k = 0; k < e->m; k++)
+        waits = waits && e->class[e->nu + k] == CLASS_EARLY;
+    if (!waits)
+        kkt_classes(places, NO_BORDER, late, e->class);
+    for (int i = 0; i < e->nu; i++)
+        e->owns += e->class[i] == CLASS_OWN;
+    mem_free(late);
+}
+
 /* products that elimination takes in the order that is found */
 static int64_t find_order(Elimination *e)
 {
     const int count = e->entries.count;
-    int *class = NEW_ARRAY(int, e->size), *row = NEW_ARRAY(int, 3 * count);
-    int *column = row + count, *place = column + count, kept;
+    int *row = NEW_ARRAY(int, 3 * count), *column = row + count, *place = column + count;
+    KktPlaces places = {.nu = e->nu, .m = e->m};
     Pattern once;
     LdlOrder *order;
     int64_t products;
 
-    for (int k = 0; k < e->m; k++)
-        class[e->nu + k] = 1;
     for (int i = 0; i < count; i++) {
         const Entry *entry = &e->entries.at[i];
 
@@ -123,12 +143,16 @@ static int64_t find_order(Elimination *e)
         column[i] = entry->row < entry->column ? entry->column : entry->row;
     }
     once = pattern_of(e->size, e->size, count, row, column, place);
-    kept = once.count;
-    order = ldl_order_new(e->size, class, kept, once.row, once.column, place, e->place_of);
+    places.entries = once.count;
+    places.mass_entries = once.start[e->nu];
+    places.row = once.row;
+    places.column = once.column;
+    find_classes(e, &places);
+    order = ldl_order_new(e->size, e->class, once.count, once.row, once.column, place, e->place_of);
     products = ldl_order_products(order);
     ldl_order_free(order);
     pattern_free(&once);
-    MEM_FREE(class, row);
+    mem_free(row);
     return products;
 }
 
@@ -169,21 +193,67 @@ static bool eliminate_row(Elimination *e, int k)
     return true;
 }
 
-/* what masses, eliminated before, leave of the rows */
-static void tell_taken(Elimination *e, const Constrained *out)
+/* the entry of M of a speed */
+static Expr own_mass(const Elimination *e, const MassEntries *entries, int speed)
 {
+    Expr sum = expr_int(e->arena, 0);
+
+    for (int i = 0; i < entries->count; i++)
+        if (entries->at[i].row == speed && entries->at[i].column == speed)
+            sum = expr_add(e->arena, sum, entries->at[i].value);
+    return expr_hold(e->arena, sum);
+}
+
+/* What masses, eliminated before, leave of the rows; what those that wait would add is told by
+ * their own. */
+static bool tell_taken(Elimination *e, const Constrained *out)
+{
+    Expr *mass = NEW_ARRAY(Expr, e->nu);
+    bool has_mass = true;
+
+    for (int j = 0; j < e->nu; j++)
+        if (e->class[j] == CLASS_BORDER) {
+            Row *row = &e->row[e->place_of[j]];
+
+            mass[j] = own_mass(e, &e->entries, j);
+            has_mass = has_mass && !expr_is_zero(mass[j]);
+            row->stiff = expr_sub(e->arena, mass[j], row->own);
+        }
     for (int k = 0; k < e->m; k++) {
         const Row *row = &e->row[e->place_of[e->nu + k]];
 
-        out->taken[k] = expr_hold(e->arena, expr_neg(e->arena, row->own));
+        out->taken[k] = expr_neg(e->arena, row->own);
     }
+    for (int i = 0; i < e->entries.count && has_mass; i++) {
+        const Entry *entry = &e->entries.at[i];
+        const int k = entry->column - e->nu;
+
+        if (k < 0 || e->class[entry->row] != CLASS_BORDER)
+            continue;
+        out->taken[k] = expr_add(
+            e->arena, out->taken[k],
+            expr_div(e->arena, expr_mul(e->arena, entry->value, entry->value), mass[entry->row]));
+    }
+    for (int k = 0; k < e->m; k++)
+        out->taken[k] = expr_hold(e->arena, out->taken[k]);
+    mem_free(mass);
+    return has_mass;
+}
+
+/* after the rows have been eliminated */
+static void tell_stiff(Elimination *e)
+{
+    for (int i = e->owns + e->m; i < e->size; i++)
+        e->row[i].stiff = expr_hold(e->arena, expr_add(e->arena, e->row[i].stiff, e->row[i].own));
 }
 
 static bool eliminate(Elimination *e, const Constrained *out)
 {
     for (int i = 0; i < e->size; i++) {
-        if (i == e->nu)
-            tell_taken(e, out);
+        if (i == e->owns && !tell_taken(e, out))
+            return false;
+        if (i == e->owns + e->m)
+            tell_stiff(e);
         if (!eliminate_row(e, i) || arena_status(e->arena) != OK)
             return false;
     }
@@ -231,18 +301,25 @@ static void tell(const Elimination *e, const MassEntries *entries, const Constra
         out->multiplier[k] = row->right;
         out->pivot[k] = expr_hold(e->arena, expr_neg(e->arena, row->own));
     }
+    for (int i = 0; i < out->left_count; i++) {
+        const Row *row = &e->row[e->owns + e->m + i];
+
+        out->left[i] = expr_div(e->arena, row->own, row->stiff);
+    }
 }
 
-static Constrained *arrays_new(int nu, int m)
+static Constrained *arrays_new(int nu, int m, int waiting)
 {
     Constrained *out = NEW(Constrained);
 
-    out->places = constrained_places(nu, m);
+    out->places = constrained_places(nu, m, waiting);
     out->acceleration = NEW_ARRAY(Expr, out->places.count);
     out->multiplier = out->acceleration + out->places.multiplier;
     out->excess = out->acceleration + out->places.excess;
     out->pivot = out->acceleration + out->places.pivot;
     out->taken = out->acceleration + out->places.taken;
+    out->left = out->acceleration + out->places.left;
+    out->left_count = waiting;
     out->step = out->acceleration + out->places.step;
     return out;
 }
@@ -250,7 +327,7 @@ static Constrained *arrays_new(int nu, int m)
 /* NULL: it can't be, or isn't worth it */
 static Constrained *solve(Elimination *e, const Expr *force, const Expr *gamma)
 {
-    Constrained *out = arrays_new(e->nu, e->m);
+    Constrained *out = arrays_new(e->nu, e->m, e->nu - e->owns);
 
     place_entries(e);
     for (int j = 0; j < e->nu; j++)
@@ -285,6 +362,7 @@ Constrained *constrained_new(System *system, const int *rows, int row_count, con
     Constrained *out = NULL;
 
     system_touch(system);
+    e.class = NEW_ARRAY(int, e.size);
     e.place_of = NEW_ARRAY(int, e.size);
     e.row = NEW_ARRAY(Row, e.size);
     if (list_mass(&e)) {
@@ -297,7 +375,7 @@ Constrained *constrained_new(System *system, const int *rows, int row_count, con
     for (int i = 0; i < e.size; i++)
         LIST_FREE(e.row[i].beyond);
     LIST_FREE(e.entries);
-    MEM_FREE(e.place_of, e.row);
+    MEM_FREE(e.class, e.place_of, e.row);
     return out;
 }
 

@@ -8,18 +8,19 @@
 /* Where the arrays of Constrained begin in one: accelerations, then multipliers, and so on as they
  * stand there; what is from `step` on reads the symbols of multipliers, what is before doesn't. */
 typedef struct ConstrainedPlaces {
-    int multiplier, excess, pivot, taken, step;
+    int multiplier, excess, pivot, taken, left, step;
     int count; /* all of them */
 } ConstrainedPlaces;
 
-static inline ConstrainedPlaces constrained_places(int nu, int rows)
+static inline ConstrainedPlaces constrained_places(int nu, int rows, int waiting)
 {
     ConstrainedPlaces p = {.multiplier = nu};
 
     p.excess = p.multiplier + rows;
     p.pivot = p.excess + nu;
     p.taken = p.pivot + rows;
-    p.step = p.taken + rows;
+    p.left = p.taken + rows;
+    p.step = p.left + waiting;
     p.count = p.step + nu;
     return p;
 }
@@ -31,6 +32,8 @@ typedef struct Constrained {
     Expr *excess;       /* nu: of pivots of M (accelerations.h) */
     /* rows: pivot d of a multiplier, its sign reversed, and p, of which that is the rest */
     Expr *pivot, *taken;
+    Expr *left; /* of speeds that wait for the rows: what is left of their pivots */
+    int left_count;
     Expr *step; /* nu: du of M du + G^T mu = 0, G du = s, where s_k is the multiplier's symbol */
     ConstrainedPlaces places;
 } Constrained;

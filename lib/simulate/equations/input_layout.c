@@ -83,6 +83,27 @@ void layout_take_sides(Layout *l, const bool *closed)
     l->sides += changed;
 }
 
+/* the outermost instance that a name begins with, from 1; 0: none */
+static int block_of(const System *system, const char *name)
+{
+    const Instanced *one;
+
+    for (int i = 0; (one = system_instanced(system, i)) != NULL; i++) {
+        const size_t length = strlen(one->name);
+
+        if (one->outer < 0 && strncmp(name, one->name, length) == 0 && name[length] == '.')
+            return i + 1;
+    }
+    return 0;
+}
+
+static void find_blocks(Layout *l)
+{
+    l->block = NEW_ARRAY(int, l->count);
+    for (int i = 0; i < l->count; i++)
+        l->block[i] = block_of(l->system, expr_name(l->symbols[i]));
+}
+
 Layout *layout_new(System *system)
 {
     return layout_new_on(system, NULL, 0);
@@ -144,6 +165,7 @@ Layout *layout_new_on(System *system, const OnSurface *on, int count)
     l->jerk = l->count;
     for (int i = 0; i < l->nu; i++)
         (void)append(l, &room, jerk_symbol(system, i));
+    find_blocks(l);
     return l;
 }
 
@@ -168,7 +190,8 @@ void layout_free(Layout *layout)
 {
     if (layout == NULL)
         return;
-    MEM_FREE(layout->symbols, layout->side, layout->closed, layout->surfaces, layout);
+    MEM_FREE(layout->symbols, layout->block, layout->side, layout->closed, layout->surfaces,
+             layout);
 }
 
 bool layout_follows_time(const Layout *l, const Expr *roots, int count)

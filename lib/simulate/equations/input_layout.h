@@ -20,6 +20,7 @@ typedef struct Layout {
         jerk; /* first */
     int count;
     Expr *symbols; /* count */
+    int *block;    /* of each: the outermost instance that it is of, from 1; 0: it is of none */
     Surface *surfaces;
     int surface_count; /* those that it slides along come first: `slides` of them */
 } Layout;

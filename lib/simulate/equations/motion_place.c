@@ -91,8 +91,9 @@ bool motion_is_eliminated(Motion *mo)
         memcmp(own->rows, mo->rows, (size_t)mo->used * sizeof(int)) != 0)
         return false;
     if (!mo->is_alone) {
-        mo->is_alone = own->has_pivots(eq->context) &&
-                       kkt_is_sound(mo->kkt, own->pivot, own->taken, eq->phi_u, mo->rows);
+        mo->is_alone =
+            own->has_pivots(eq->context) && kkt_is_sound(mo->kkt, own->pivot, own->taken, eq->phi_u,
+                                                         mo->rows, own->left, own->left_count);
         mo->counts.factorisations += mo->is_alone;
     }
     return mo->is_alone;

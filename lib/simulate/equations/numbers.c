@@ -421,15 +421,17 @@ done:
 
 static void place_eliminated(Numbers *nb)
 {
-    const ConstrainedPlaces p = constrained_places(nb->layout->nu, nb->eliminated.row_count);
-    const double *at = nb->told_accelerations;
     Eliminated *own = &nb->eliminated;
+    const ConstrainedPlaces p =
+        constrained_places(nb->layout->nu, own->row_count, own->left_count);
+    const double *at = nb->told_accelerations;
 
     own->acceleration = at;
     own->multiplier = at + p.multiplier;
     own->pivot = at + p.pivot;
     own->taken = at + p.taken;
     nb->told_excess = at + p.excess;
+    own->left = at + p.left;
     nb->told_step = at + p.step;
     own->has_pivots = constrained_has_pivots;
     own->step = constrained_step;
@@ -545,7 +547,8 @@ static Status compile_constrained(Numbers *nb, const Constrained *solved, const 
     nb->told_rows = NEW_ARRAY(int, row_count);
     memcpy(nb->told_rows, rows, (size_t)row_count * sizeof(int));
     nb->told_by = TOLD_CONSTRAINED;
-    nb->eliminated = (Eliminated){.rows = nb->told_rows, .row_count = row_count};
+    nb->eliminated = (Eliminated){
+        .rows = nb->told_rows, .row_count = row_count, .left_count = solved->left_count};
     nb->eq.eliminated = NULL;
     status = nb->massing == NULL ? compile_mass(nb, nb->parameters, diag) : OK;
     if (status == OK)

@@ -42,7 +42,8 @@ struct Numbers {
 MUST_USE static inline Status numbers_compile(const Layout *layout, Parameters *parameters,
                                               const Roots *roots, Probe **out, Diag *diag)
 {
-    const ProbeOrder order = {.roots = roots->at, .root_count = roots->count, .is_put = true};
+    const ProbeOrder order = {
+        .roots = roots->at, .root_count = roots->count, .is_apart = true, .is_put = true};
 
     return probe_make(layout, parameters, &order, out, diag);
 }

@@ -10,6 +10,7 @@ typedef struct Parameters {
     ParameterValue value;
     void *context;
     Evaluator evaluator; /* of whatever is made with them */
+    Threads *threads;    /* that compute it; borrowed. NULL: the caller's alone */
     int count, room;
     Expr *symbols;
     double *values;

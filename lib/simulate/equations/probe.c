@@ -33,17 +33,20 @@ static void put_parameters(Probe *probe, Parameters *parameters)
 Status probe_make(const Layout *layout, Parameters *parameters, const ProbeOrder *order,
                   Probe **out, Diag *diag)
 {
-    const ResidualOrder rows = {.arena = system_arena(layout->system),
-                                .roots = order->roots,
-                                .root_count = order->root_count,
-                                .row_count = order->row_count,
-                                .unknowns = order->unknowns,
-                                .unknown_count = order->unknown_count,
-                                .inputs = layout->symbols,
-                                .input_count = layout->count,
-                                .put = order->is_put ? NULL : put_on_surfaces,
-                                .context = layout,
-                                .watch = order->watch};
+    const ResidualOrder rows = {
+        .arena = system_arena(layout->system),
+        .roots = order->roots,
+        .root_count = order->root_count,
+        .row_count = order->row_count,
+        .unknowns = order->unknowns,
+        .unknown_count = order->unknown_count,
+        .inputs = layout->symbols,
+        .input_count = layout->count,
+        .blocks = {.block = layout->block,
+                   .parts = order->is_apart ? threads_count(parameters->threads) : 1},
+        .put = order->is_put ? NULL : put_on_surfaces,
+        .context = layout,
+        .watch = order->watch};
     Probe *probe = NEW(Probe);
     Status status = OK;
 
@@ -51,6 +54,7 @@ Status probe_make(const Layout *layout, Parameters *parameters, const ProbeOrder
     CHECK(residual_new(&rows, &probe->residual, diag));
     probe->workspace = workspace_new(residual_program(probe->residual));
     workspace_choose(probe->workspace, parameters->evaluator);
+    workspace_share(probe->workspace, parameters->threads);
     probe->inputs = workspace_inputs(probe->workspace);
     put_parameters(probe, parameters);
     *out = probe;

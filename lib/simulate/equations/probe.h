@@ -49,6 +49,7 @@ typedef struct ProbeOrder {
     int root_count, row_count;
     const Expr *unknowns; /* by these symbols */
     int unknown_count;
+    bool is_apart;      /* blocks are computed at the same time, by the parameters' threads */
     bool is_put;        /* the roots are on their surfaces already, or shall stay as they are */
     const Watch *watch; /* may be NULL */
 } ProbeOrder;

@@ -50,6 +50,7 @@ typedef struct Setting {
     SceneSource scene; /* of the system: its ideal switches make others from it */
     Form form;
     Evaluator evaluator;
+    Threads *threads; /* borrowed as long as what is made with it; NULL: the caller's */
     const char *const *independent; /* names; borrowed during the call */
     int independent_count;
     const Event *const *events; /* borrowed during the call; what a result needs it copies */

@@ -31,8 +31,10 @@ ActiveRun *active_run_new(RunKind kind, System *system, const Setting *setting)
     r->result->report.singular_time = NAN;
     r->phases = NEW(Phases);
     r->phases->system = system;
-    r->phases->parameters = (Parameters){
-        .value = setting->parameter, .context = setting->context, .evaluator = setting->evaluator};
+    r->phases->parameters = (Parameters){.value = setting->parameter,
+                                         .context = setting->context,
+                                         .evaluator = setting->evaluator,
+                                         .threads = setting->threads};
     return r;
 }
 
@@ -113,8 +115,10 @@ static void keep_parameters(const ActiveRun *r)
     const Parameters *known = &r->phases->parameters;
     Parameters *kept = &r->result->parameters;
 
-    *kept = (Parameters){
-        .value = known->value, .context = known->context, .evaluator = known->evaluator};
+    *kept = (Parameters){.value = known->value,
+                         .context = known->context,
+                         .evaluator = known->evaluator,
+                         .threads = known->threads};
     for (int i = 0; i < known->count; i++)
         parameters_set(kept, known->symbols[i], known->values[i]);
 }

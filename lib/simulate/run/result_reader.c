@@ -57,8 +57,10 @@ Status result_reader_new(const Result *result, ResultReader **out, Diag *diag)
 
     phases->system = result->system;
     phases->tolerance = result->tolerance;
-    phases->parameters = (Parameters){
-        .value = known->value, .context = known->context, .evaluator = known->evaluator};
+    phases->parameters = (Parameters){.value = known->value,
+                                      .context = known->context,
+                                      .evaluator = known->evaluator,
+                                      .threads = known->threads};
     for (int i = 0; i < known->count; i++)
         parameters_set(&phases->parameters, known->symbols[i], known->values[i]);
     for (int i = 0; i < result->phases.count; i++)
