@@ -112,11 +112,11 @@ static void few_rows_tell_what_many_do(void)
 
             EXPECT_DONE(&few, cases[i].model);
             EXPECT_DONE(&many, cases[i].model);
-            (void)snprintf(line, sizeof line, "simulate %g every=%g method=%s rtol=1e-9\n", cases[i].duration,
-                           cases[i].duration / 3.3, methods[k]);
+            (void)snprintf(line, sizeof line, "simulate %g every=%g method=%s rtol=1e-9\n",
+                           cases[i].duration, cases[i].duration / 3.3, methods[k]);
             EXPECT_DONE(&few, line);
-            (void)snprintf(line, sizeof line, "simulate %g every=%g method=%s rtol=1e-9\n", cases[i].duration,
-                           cases[i].duration / 100, methods[k]);
+            (void)snprintf(line, sizeof line, "simulate %g every=%g method=%s rtol=1e-9\n",
+                           cases[i].duration, cases[i].duration / 100, methods[k]);
             EXPECT_DONE(&many, line);
             for (int p = 1; p < 100; p += 7) {
                 (void)snprintf(line, sizeof line, "%s at %.17g", cases[i].variable,
