@@ -123,7 +123,8 @@ static double largest_row(const double complex *a, int n)
 
         for (int j = 0; j < n; j++)
             sum += cabs(a[i * n + j]);
-        largest = sum <= largest ? largest : sum; /* a NaN stays */
+        if (!(sum <= largest) && !isnan(largest))
+            largest = sum; /* a NaN stays */
     }
     return largest;
 }
@@ -202,7 +203,8 @@ static bool turn_left(const Enclosure *e)
             sum += e->turn_right[i * n + k];
             column[k] = fmax(column[k], e->turn_right[i * n + k]);
         }
-        widest = sum <= widest ? widest : sum; /* a NaN stays */
+        if (!(sum <= widest) && !isnan(widest))
+            widest = sum; /* a NaN stays */
     }
     for (int i = 0; i < n && widest < 0.1; i++)
         for (int k = 0; k < n; k++)

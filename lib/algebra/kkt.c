@@ -653,18 +653,18 @@ bool kkt_is_plain(const Kkt *kkt)
            kkt->angle > (kkt->is_told_by_groups ? OWN : SUSPECT);
 }
 
-/* Whether the k-th row's group is independent in its own columns, by sizes as they were measured
- * where the step began. */
-static bool is_of_sound_group(Kkt *kkt, int k, const double *phi_u, const int *rows)
+/* Whether all groups are independent in columns of their own, by sizes as they were measured where
+ * the step began. One that isn't may show at a row of another. */
+static bool are_groups_sound(Kkt *kkt, const double *phi_u, const int *rows)
 {
     keep_rows(kkt, rows);
-    return kkt->groups != NULL && kkt->is_measured &&
-           rest_of_group(kkt, triangular_group_of(kkt->groups, k), phi_u) > NEAR;
+    return kkt->is_measured && rest_of_groups(kkt, phi_u) > NEAR;
 }
 
 bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const double *phi_u,
                   const int *rows, const double *left, int left_count)
 {
+    bool is_asked = false;
     double least;
 
     for (int i = 0; i < left_count; i++)
@@ -676,9 +676,11 @@ bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const doub
     for (int k = 0; k < kkt->m; k++) {
         const double reference = kkt_sizes_reference(&kkt->sizes, rows[k], least);
 
-        if (!(pivot[k] > SUSPECT * reference) &&
-            !(pivot[k] > OWN * reference && is_of_sound_group(kkt, k, phi_u, rows)))
+        if (pivot[k] > SUSPECT * reference)
+            continue;
+        if (!(pivot[k] > OWN * reference) || !(is_asked || are_groups_sound(kkt, phi_u, rows)))
             return false;
+        is_asked = true;
     }
     return true;
 }

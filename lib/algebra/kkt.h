@@ -55,8 +55,8 @@ void kkt_return_sizes(Kkt *kkt);
 bool kkt_is_plain(const Kkt *kkt);
 /* Whether a factorisation that somebody else has made, speeds before multipliers, is as plain: by
  * pivots d of these rows, signs reversed, and p; and of speeds behind them by what is left of their
- * pivots, 1 at most. Less of d will do for a row that its group tells to be independent, by G here
- * and sizes as they were measured last. What pivots show of sizes counts from now on. */
+ * pivots, 1 at most. Less of d will do where groups tell all rows to be independent, by G here and
+ * sizes as they were measured last. What pivots show of sizes counts from now on. */
 bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const double *phi_u,
                   const int *rows, const double *left, int left_count);
 /* M du + G^T lambda = top, G du = bottom. `top` may be NULL for 0; du may be `top`. */

@@ -1,4 +1,4 @@
-/* threads.c: work in pieces, on as many threads as are given
+/* threads.c: pieces are taken by counting down
  *
  * `left` counts pieces that nobody has taken yet: who takes one off it owns that piece, and what
  * the work is stays as it is until that piece is done. `undone` counts those that aren't. Between

@@ -50,7 +50,7 @@ bool native_target(int width, bool fused, NativeTarget *out)
 Native *native_new(const Program *program, const NativeTarget *target)
 {
     X86Code code = {.isa = target->isa, .width = target->width};
-    StageSteps steps = {0};
+    SectionSteps steps = {0};
     StepMaker *maker = step_maker_new(program, target);
     Native *native = NEW(Native);
     const int sections = program->sections.count;
@@ -90,7 +90,7 @@ Native *native_new(const Program *program, const NativeTarget *target)
     }
     mem_free(begin);
     LIST_FREE(code.bytes);
-    stage_steps_free(&steps);
+    section_steps_free(&steps);
     step_maker_free(maker);
     return native;
 }

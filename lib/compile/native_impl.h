@@ -53,25 +53,25 @@ typedef struct StepCall {
     int first_result;        /* in `results` of the steps; SINCOS has two each */
 } StepCall;
 
-typedef struct StageSteps {
+typedef struct SectionSteps {
     LIST(Step) steps;
     LIST(StepCall) calls;
     LIST(uint32_t) results; /* values, NO_HOME where nobody needs one */
     uint32_t value_count;   /* slots, fixed ones, what is new here */
     uint32_t frame;         /* places taken by calls */
-} StageSteps;
+} SectionSteps;
 
 typedef struct StepMaker StepMaker;
 StepMaker *step_maker_new(const Program *program, const NativeTarget *target);
 void step_maker_free(StepMaker *maker);
 /* the steps of a section, of the first of those that are joined, in `out`, which is emptied first
  */
-void step_maker_section(StepMaker *maker, int section, StageSteps *out);
-void stage_steps_free(StageSteps *steps);
+void step_maker_section(StepMaker *maker, int section, SectionSteps *out);
+void section_steps_free(SectionSteps *steps);
 
 /* Append the function of a section; the frame's places that it needs. */
 uint32_t native_emit(X86Code *code, const NativeTarget *target, const Program *program,
-                     const StageSteps *steps, uint32_t first_slot);
+                     const SectionSteps *steps, uint32_t first_slot);
 
 /* where a place is, in bytes behind the slots or the frame */
 X86Operand home_operand(int width, Home place);

@@ -20,7 +20,7 @@ enum {
 
 typedef struct Registers {
     X86Code *code;
-    const StageSteps *steps;
+    const SectionSteps *steps;
     int count, width;
     bool has_three; /* operands: the result need not stand where the first did */
     int32_t now;
@@ -483,7 +483,7 @@ static void forget(Registers *r, const Step *step)
 }
 
 uint32_t native_emit(X86Code *code, const NativeTarget *target, const Program *program,
-                     const StageSteps *steps, uint32_t first_slot)
+                     const SectionSteps *steps, uint32_t first_slot)
 {
     const uint32_t slots = (uint32_t)program->slot_count;
     Registers r = {.code = code,

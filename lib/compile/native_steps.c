@@ -22,7 +22,7 @@ struct StepMaker {
     bool *is_done;
     LIST(uint32_t) functions; /* of a section: slots, a SINCOS once */
     LIST(uint32_t) stack;
-    StageSteps *out;
+    SectionSteps *out;
 };
 
 static bool is_call(Opcode code)
@@ -146,7 +146,7 @@ void step_maker_free(StepMaker *m)
     mem_free(m);
 }
 
-void stage_steps_free(StageSteps *steps)
+void section_steps_free(SectionSteps *steps)
 {
     LIST_FREE(steps->steps);
     LIST_FREE(steps->calls);
@@ -336,7 +336,7 @@ static void add_result(StepMaker *m, uint32_t slot)
 
 static void add_call(StepMaker *m, Opcode code, Calleds *calls, int section)
 {
-    StageSteps *out = m->out;
+    SectionSteps *out = m->out;
     const int operands = code == CODE_SINCOS ? 1 : code_operands(code);
     StepCall call = {.code = code, .count = calls->count, .first_result = out->results.count};
 
@@ -423,7 +423,7 @@ static int first_root(const StepMaker *m, int section)
     return m->program->first_root[stage];
 }
 
-void step_maker_section(StepMaker *m, int section, StageSteps *out)
+void step_maker_section(StepMaker *m, int section, SectionSteps *out)
 {
     const Program *program = m->program;
 

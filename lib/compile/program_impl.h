@@ -76,7 +76,8 @@ static inline int section_end(const Program *program, int section)
 
 /* --- apart.c --- */
 
-/* How the values of a stage stand apart: first `first` alone, then parts, and so on. */
+/* How the values of a stage stand apart: first what is of no block, alone, then parts, then what
+ * joins them, alone, and so on (apart.c). */
 enum { PHASES = 5 };
 typedef struct Apart {
     int parts;

@@ -363,6 +363,8 @@ static Status apply_setting(State *state, int setting, const Statement *statemen
                                : find_word(settings[setting].words + 1,
                                            given != NULL ? syntax_name(given) : NULL);
 
+    if (value < 0 && statement->pairs.count > 1)
+        return diag_at(diag, E_SYNTAX, statement->pairs.at[1].name_place, "one setting at a time");
     if (value < 0)
         return refuse_setting(setting,
                               given != NULL  ? given->place

@@ -1,4 +1,5 @@
 /* test_triangular.c: groups of rows in their own columns, held against rows in full */
+#include "algebra/kkt.h"
 #include "algebra/triangular.h"
 
 #include "test.h"
@@ -188,6 +189,34 @@ static void loops_have_it_as_long_as_speeds_are_left(void)
     EXPECT(none > 0 && found > 0);
 }
 
+/* G = [[e, 1], [0, 1]], M = 1: its rows come together as e falls. A group is that of one row, and
+ * the one that isn't independent comes first, with all of its pivot; what is missing shows at the
+ * other. */
+static void elimination_is_sound_by_all_groups_or_not(void)
+{
+    static const int speed[] = {0, 1, 1}, row[] = {0, 0, 1}, order[] = {0, 1};
+    int place[3], mass_place[2];
+    Pattern rows = pattern_of(2, 2, 3, speed, row, place);
+    Pattern mass = pattern_of(2, 2, 2, order, order, mass_place);
+    Kkt *kkt = kkt_new(&mass, &rows, order, 2);
+    const double masses[] = {1, 1};
+
+    for (double e = 1; e > 1e-3; e /= 1.1) {
+        const double phi_u[] = {e, 1, 1}, p = 1 + e * e;
+        const double pivot[] = {p, 1 - 1 / p}, taken[] = {p, 1};
+
+        EXPECT(kkt_factor(kkt, masses, phi_u, order));
+        EXPECT(kkt_independence(kkt, phi_u, order) > 0);
+        if (kkt_is_sound(kkt, pivot, taken, phi_u, order, NULL, 0))
+            EXPECT(kkt_independence(kkt, phi_u, order) > 0.1);
+        if (e > 0.3)
+            EXPECT(kkt_is_sound(kkt, pivot, taken, phi_u, order, NULL, 0));
+    }
+    kkt_free(kkt);
+    pattern_free(&rows);
+    pattern_free(&mass);
+}
+
 /* two rows that are the same leave nothing; what is no number counts as nothing */
 static void dependent_rows_leave_nothing(void)
 {
@@ -214,6 +243,7 @@ int main(void)
 {
     RUN(rows_of_a_tree_have_the_form);
     RUN(loops_have_it_as_long_as_speeds_are_left);
+    RUN(elimination_is_sound_by_all_groups_or_not);
     RUN(dependent_rows_leave_nothing);
     return test_end();
 }

@@ -384,9 +384,8 @@ static void take_prescribed(Motion *mo)
 }
 
 /* Whether a position is brought back by what the equations have eliminated themselves: to the
- * nearest by masses. Far from singular positions that is as good: what a row asks for moves no
- * speed by more than 1/SUSPECT (kkt.c) of what it would where the row is at its largest. The stages
- * of a step that is projected all take one metric. */
+ * nearest by masses. Where elimination is sound no singular position is near (kkt_is_sound()), and
+ * far from these that is as good. The stages of a step that is projected all take one metric. */
 static bool moves_by_masses(Motion *mo)
 {
     return !mo->is_projecting && motion_is_eliminated(mo);

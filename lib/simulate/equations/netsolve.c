@@ -190,6 +190,9 @@ static bool is_met(NetSolve *s)
     memset(s->noise, 0, (size_t)s->n * sizeof(double));
     if (eq->network_rounding != NULL)
         eq->network_rounding(eq->context, s->noise);
+    for (int i = 0; i < s->n; i++)
+        if (!isfinite(s->noise[i]))
+            s->noise[i] = 0; /* there is no bound: moves tell */
     for (int turn = 0; turn < MOVES; turn++) {
         for (int i = 0; i < s->n; i++)
             s->trial[i] = s->w[i] * (1 + DIGITS * DBL_EPSILON * random_unit(&seed));
@@ -338,8 +341,10 @@ static bool solve_newton(NetSolve *s, Way way)
         if (k >= PATIENCE && norm(s, s->step) > before / 2 && is_met(s))
             return true;
         before = norm(s, s->step);
-        if (!take_step(s, way, k))
+        if (!take_step(s, way, k)) {
+            (void)measure_anew(s);
             return is_small(s, s->step, ROUNDING) || is_met(s);
+        }
     }
     return false;
 }

@@ -422,8 +422,7 @@ done:
 static void place_eliminated(Numbers *nb)
 {
     Eliminated *own = &nb->eliminated;
-    const ConstrainedPlaces p =
-        constrained_places(nb->layout->nu, own->row_count, own->left_count);
+    const ConstrainedPlaces p = constrained_places(nb->layout->nu, own->row_count, own->left_count);
     const double *at = nb->told_accelerations;
 
     own->acceleration = at;

@@ -141,7 +141,8 @@ static bool make(RateJacobian *j)
     const bool before = mem_scratch(true); /* numbers that each call finds anew */
     Roots roots = {0};
     ColumnMove *moves = NULL;
-    bool sound = push_rows(j, &roots) == OK &&
+    Arena *arena = system_arena(j->l->system);
+    bool sound = push_rows(j, &roots) == OK && arena_status(arena) == OK &&
                  probe_new(j->l, j->parameters, roots.at, roots.count, &j->probe, NULL) == OK;
 
     if (sound) {
@@ -152,7 +153,7 @@ static bool make(RateJacobian *j)
         open_room(j);
     }
     if (!sound)
-        arena_reset(system_arena(j->l->system)); /* what was too large is given up: others go on */
+        arena_reset(arena); /* what was too large is given up: others go on */
     mem_free(moves);
     LIST_FREE(roots);
     (void)mem_scratch(before);

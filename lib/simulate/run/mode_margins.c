@@ -1,8 +1,8 @@
 /* mode_margins.c: whether ideal switches may be in their mode at an instant
  *
- * An instant is located only so well, and where sides go over a margin may still be below 0 by
- * that: it rises before anything has moved. One that takes states beyond their tolerance to rise is
- * that of a wrong side: a diode that is closed too early carries a current backwards, which charges
+ * An instant is located only so well, and where a mode goes over into another a margin may still be
+ * below 0 by that: it rises before anything has moved. One that takes states beyond their tolerance
+ * to rise is that of a wrong mode: a diode that is closed too early carries a current backwards, which charges
  * what it has no business to. */
 #include "simulate/run/mode_margins.h"
 
