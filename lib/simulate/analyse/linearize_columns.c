@@ -534,8 +534,8 @@ void linear_free(Linear *linear)
     if (linear == NULL)
         return;
     MEM_FREE(linear->a, linear->b, linear->c, linear->d, linear->a_error, linear->b_error,
-             linear->c_error, linear->d_error, linear->motion);
-    forget_balance(linear);
+             linear->c_error, linear->d_error, linear->motion, linear->mass, linear->mass_error,
+             linear->force, linear->force_error);
     free_names(linear->state_names, linear->states);
     free_names(linear->input_names, linear->inputs);
     free_names(linear->output_names, linear->outputs);
