@@ -1,7 +1,8 @@
 /* bench_subsystems.c: a planar robot of 30 legs, and a platform on 30 spatial ones, each leg an
  * instance of one definition, against the same parts written out: forming the equations in
  * milliseconds, both in turn, alone and with the programs that a run steps with, and after one leg
- * was changed, removed and added again; and runs of them, on two threads in parts of the time on one
+ * was changed, removed and added again; and runs of them, on two threads in parts of the time on
+ * one
  */
 #include "formulate/system/system.h"
 #include "model/model.h"

@@ -2,8 +2,8 @@
  *
  * An instant is located only so well, and where a mode goes over into another a margin may still be
  * below 0 by that: it rises before anything has moved. One that takes states beyond their tolerance
- * to rise is that of a wrong mode: a diode that is closed too early carries a current backwards, which charges
- * what it has no business to. */
+ * to rise is that of a wrong mode: a diode that is closed too early carries a current backwards,
+ * which charges what it has no business to. */
 #include "simulate/run/mode_margins.h"
 
 #include "algebra/linear.h"
