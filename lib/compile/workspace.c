@@ -2,6 +2,11 @@
 #include "compile/native.h"
 #include "compile/program_impl.h"
 
+#include "base/clock.h"
+
+#include <math.h>
+#include <string.h>
+
 /* Native code is made as soon as what was interpreted took about as long as making it does: so it
  * costs twice the better of both at most, however long a run is. In instructions interpreted
  * (make bench: program.eval_*, make_native_*): one takes MAKING to make, memory for code as much
@@ -11,6 +16,20 @@ enum { MAKING = 0, MEMORY = 1, CALLING = 1 };
 #else
 enum { MAKING = 100, MEMORY = 40000, CALLING = 10 };
 #endif
+
+/* Several threads are made use of where they are faster, by the clock, since numbers that go from
+ * one processor to another may take longer than computing them: as often as TRIES tells by turns
+ * with and without, and then what was faster, until that has been so for PATIENCE runs. */
+enum { TRIES = 16, PATIENCE = 10000 };
+#define FASTER 0.95
+
+/* of the stages from one to another */
+typedef struct Trial {
+    int runs;
+    double alone, together; /* s: of the tries, but for the longest of each */
+    double longest[2];
+    bool by_threads;
+} Trial;
 
 typedef struct NativePart {
     long interpreted;     /* instructions, until they have paid for native code; -1: they have */
@@ -25,6 +44,7 @@ struct Workspace {
     Threads *threads;
     int parts; /* sections that may run at the same time, at most */
     NativePart single, joined;
+    Trial trials[STAGE_COUNT][STAGE_COUNT]; /* where there are several parts */
 };
 
 Workspace *workspace_new(const Program *program)
@@ -92,6 +112,7 @@ static void make_native(Workspace *workspace, NativePart *part)
     mem_keep(workspace);
     was_scratch = mem_scratch(true);
     part->native = native_new(workspace->program, &target);
+    memset(workspace->trials, 0, sizeof workspace->trials);
     if (part->native != NULL) {
         part->frames = mem_array((size_t)workspace->parts, sizeof *part->frames);
         for (int i = 0; i < workspace->parts; i++)
@@ -119,7 +140,9 @@ static void run_section(void *context, int which)
         program_interpret_section(t->workspace->program, t->first + which, t->workspace->slots);
 }
 
-static void run_apart(const Workspace *workspace, const NativePart *part, Stage from, Stage to)
+/* on one thread: NULL */
+static void run_sections(const Workspace *workspace, const NativePart *part, Threads *threads,
+                         Stage from, Stage to)
 {
     const Program *program = workspace->program;
     Together now = {.workspace = workspace, .part = part, .first = program->first_section[from]};
@@ -127,9 +150,34 @@ static void run_apart(const Workspace *workspace, const NativePart *part, Stage 
     while (now.first < program->first_section[to + 1]) {
         const int together = program->sections.at[now.first].together;
 
-        threads_do(workspace->threads, together, run_section, &now);
+        threads_do(threads, together, run_section, &now);
         now.first += together;
     }
+}
+
+static void take_time(Trial *trial, bool by_threads, double took)
+{
+    double *sum = by_threads ? &trial->together : &trial->alone;
+    double *longest = &trial->longest[by_threads];
+
+    *sum += fmin(took, *longest);
+    *longest = fmax(took, *longest);
+    if (trial->runs == TRIES)
+        trial->by_threads = trial->together < FASTER * trial->alone;
+}
+
+static void run_apart(Workspace *workspace, const NativePart *part, Stage from, Stage to)
+{
+    Trial *trial = &workspace->trials[from][to];
+    const bool by_threads = trial->runs < TRIES ? trial->runs % 2 == 1 : trial->by_threads;
+    const double began = trial->runs < TRIES ? clock_now() : 0;
+
+    run_sections(workspace, part, by_threads ? workspace->threads : NULL, from, to);
+    trial->runs++;
+    if (trial->runs <= TRIES)
+        take_time(trial, by_threads, clock_now() - began);
+    else if (trial->runs > PATIENCE)
+        *trial = (Trial){0};
 }
 
 static void run(Workspace *workspace, NativePart *part, Stage from, Stage to)
