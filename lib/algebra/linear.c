@@ -1,9 +1,9 @@
 /* linear.c: LU with partial pivoting, and Cholesky factors, in place */
 #include "algebra/linear.h"
 
-#include "base/four.h"
 #include "base/memory.h"
 
+#include <gsl/gsl_cblas.h>
 #include <math.h>
 #include <string.h>
 
@@ -212,25 +212,9 @@ void matrix_times(const double *matrix, int rows, int columns, const double *v, 
     }
 }
 
-AS_WIDE_AS_CAN_BE void matrices_times(const double *restrict a, const double *restrict b, int n,
-                                      double *restrict out)
+void matrices_times(const double *a, const double *b, int n, double *out)
 {
-    memset(out, 0, (size_t)n * (size_t)n * sizeof(double));
-    for (int i = 0; i < n; i++) {
-        double *row = out + (ptrdiff_t)i * n;
-
-        for (int k = 0; k < n; k++) {
-            const double f = a[i * n + k], *from = b + (ptrdiff_t)k * n;
-            int j = 0;
-
-            if (f == 0)
-                continue;
-            for (; j + 4 <= n; j += 4)
-                *(Four *)(row + j) += f * *(const Four *)(from + j);
-            for (; j < n; j++)
-                row[j] += f * from[j];
-        }
-    }
+    cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, n, n, n, 1, a, n, b, n, 0, out, n);
 }
 
 void matrix_gram(const double *matrix, int rows, int columns, double *out)
