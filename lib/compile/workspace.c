@@ -44,7 +44,7 @@ struct Workspace {
     Threads *threads;
     int parts; /* sections that may run at the same time, at most */
     NativePart single, joined;
-    Trial trials[STAGE_COUNT][STAGE_COUNT]; /* where there are several parts */
+    Trial (*trials)[STAGE_COUNT]; /* of stages from and to; NULL: there is one part */
 };
 
 Workspace *workspace_new(const Program *program)
@@ -57,6 +57,8 @@ Workspace *workspace_new(const Program *program)
     workspace->slots = NEW_ARRAY(double, program->slot_count + program->root_count);
     workspace->evaluator = EVALUATOR_INTERPRETER;
     workspace->parts = program_parts(program, &operations);
+    if (workspace->parts > 1)
+        workspace->trials = mem_array(STAGE_COUNT, sizeof *workspace->trials);
     for (int i = 0; i < program->constants.count; i++)
         workspace->slots[program->input_count + i] = program->constants.at[i];
     (void)mem_scratch(was_scratch);
@@ -77,7 +79,7 @@ void workspace_free(Workspace *workspace)
         return;
     free_part(&workspace->single, workspace->parts);
     free_part(&workspace->joined, workspace->parts);
-    MEM_FREE(workspace->slots, workspace);
+    MEM_FREE(workspace->trials, workspace->slots, workspace);
 }
 
 void workspace_choose(Workspace *workspace, Evaluator evaluator)
@@ -112,7 +114,8 @@ static void make_native(Workspace *workspace, NativePart *part)
     mem_keep(workspace);
     was_scratch = mem_scratch(true);
     part->native = native_new(workspace->program, &target);
-    memset(workspace->trials, 0, sizeof workspace->trials);
+    if (workspace->trials != NULL)
+        memset(workspace->trials, 0, STAGE_COUNT * sizeof *workspace->trials);
     if (part->native != NULL) {
         part->frames = mem_array((size_t)workspace->parts, sizeof *part->frames);
         for (int i = 0; i < workspace->parts; i++)
