@@ -82,18 +82,34 @@ static void sort(Modes *modes)
 
 /* --- in modal coordinates --- */
 
-/* columns first..first + count of M's unsolved rows, of the sign that their name has; new ones */
+/* a block of a matrix whose rows are `stride` apart, times `sign`; new */
+static BoundedMatrix take_block(const double *at, const double *error, int stride, int rows,
+                                int columns, double sign)
+{
+    double *out = NEW_ARRAY(double, rows *columns), *out_error = NEW_ARRAY(double, rows *columns);
+
+    for (int i = 0; i < rows; i++)
+        for (int k = 0; k < columns; k++) {
+            out[i * columns + k] = sign * at[i * stride + k];
+            out_error[i * columns + k] = error[i * stride + k];
+        }
+    return (BoundedMatrix){out, out_error};
+}
+
+/* columns of M's unsolved rows, of the sign that their name has */
 static BoundedMatrix take_columns(const Linear *linear, int first, int count, double sign)
 {
-    const int f = linear->freedoms;
-    double *at = NEW_ARRAY(double, f *count), *error = NEW_ARRAY(double, f *count);
+    return take_block(linear->force + first, linear->force_error + first, linear->states,
+                      linear->freedoms, count, sign);
+}
 
-    for (int i = 0; i < f; i++)
-        for (int k = 0; k < count; k++) {
-            at[i * count + k] = sign * linear->force[i * linear->states + first + k];
-            error[i * count + k] = linear->force_error[i * linear->states + first + k];
-        }
-    return (BoundedMatrix){at, error};
+/* columns of A's rows that networks have */
+static BoundedMatrix network_columns(const Linear *linear, int first, int count)
+{
+    const int above = 2 * linear->freedoms, at = above * linear->states + first;
+
+    return take_block(linear->a + at, linear->a_error + at, linear->states, linear->states - above,
+                      count, 1);
 }
 
 static void free_matrix(BoundedMatrix m)
@@ -199,22 +215,6 @@ static void put_block(const StateMatrix *m, int row, int column, int rows, int c
         }
 }
 
-/* rows of A that networks have, `columns` of them from `first` on, times X; new ones */
-static BoundedMatrix network_columns(const Linear *linear, int first, int columns)
-{
-    const int rows = linear->states - 2 * linear->freedoms;
-    double *at = NEW_ARRAY(double, rows *columns), *error = NEW_ARRAY(double, rows *columns);
-
-    for (int i = 0; i < rows; i++)
-        for (int k = 0; k < columns; k++) {
-            const int place = (2 * linear->freedoms + i) * linear->states + first + k;
-
-            at[i * columns + k] = linear->a[place];
-            error[i * columns + k] = linear->a_error[place];
-        }
-    return (BoundedMatrix){at, error};
-}
-
 /* rows x f times X, put at its place */
 static void put_moved(const StateMatrix *m, const Modal *modal, BoundedMatrix b, int rows, int row,
                       int column)
@@ -233,6 +233,7 @@ static StateMatrix modal_matrix(const Linear *linear, const Modal *modal)
     const StateMatrix m = {n, NEW_ARRAY(double, n *n), NEW_ARRAY(double, n *n)};
     const BoundedMatrix damping = take_columns(linear, f, f, 1);
     const BoundedMatrix effort = take_columns(linear, 2 * f, nets, 1);
+    const BoundedMatrix own = network_columns(linear, 2 * f, nets);
     const int most = f > nets ? f : nets;
     double *moved = NEW_ARRAY(double, f *f), *moved_error = NEW_ARRAY(double, f *f);
     double *at = NEW_ARRAY(double, f *most), *error = NEW_ARRAY(double, f *most);
@@ -257,11 +258,8 @@ static StateMatrix modal_matrix(const Linear *linear, const Modal *modal)
         put_moved(&m, modal, b, nets, 2 * f, part * f);
         free_matrix(b);
     }
-    for (int i = 0; i < nets; i++)
-        for (int k = 0; k < nets; k++) {
-            m.at[(2 * f + i) * n + 2 * f + k] = linear->a[(2 * f + i) * n + 2 * f + k];
-            m.error[(2 * f + i) * n + 2 * f + k] = linear->a_error[(2 * f + i) * n + 2 * f + k];
-        }
+    put_block(&m, 2 * f, 2 * f, nets, nets, own.at, own.error);
+    free_matrix(own);
     MEM_FREE(moved, moved_error, at, error);
     return m;
 }
