@@ -2,6 +2,7 @@
 #include "simulate/equations/input_layout.h"
 
 #include "base/memory.h"
+#include "base/names.h"
 
 #include <string.h>
 
@@ -83,27 +84,6 @@ void layout_take_sides(Layout *l, const bool *closed)
     l->sides += changed;
 }
 
-/* the outermost instance that a name begins with, from 1; 0: none */
-static int block_of(const System *system, const char *name)
-{
-    const Instanced *one;
-
-    for (int i = 0; (one = system_instanced(system, i)) != NULL; i++) {
-        const size_t length = strlen(one->name);
-
-        if (one->outer < 0 && strncmp(name, one->name, length) == 0 && name[length] == '.')
-            return i + 1;
-    }
-    return 0;
-}
-
-static void find_blocks(Layout *l)
-{
-    l->block = NEW_ARRAY(int, l->count);
-    for (int i = 0; i < l->count; i++)
-        l->block[i] = block_of(l->system, expr_name(l->symbols[i]));
-}
-
 Layout *layout_new(System *system)
 {
     return layout_new_on(system, NULL, 0);
@@ -165,7 +145,6 @@ Layout *layout_new_on(System *system, const OnSurface *on, int count)
     l->jerk = l->count;
     for (int i = 0; i < l->nu; i++)
         (void)append(l, &room, jerk_symbol(system, i));
-    find_blocks(l);
     return l;
 }
 
@@ -176,6 +155,24 @@ Expr *layout_network(const Layout *l)
     memcpy(out, l->symbols + l->x, (size_t)l->nx * sizeof(Expr));
     memcpy(out + l->nx, l->symbols + l->rates, (size_t)(l->nx + l->nz) * sizeof(Expr));
     return out;
+}
+
+int *layout_blocks(const Layout *l)
+{
+    Names *names = names_borrowing();
+    int *blocks = NEW_ARRAY(int, l->count);
+    const Instanced *one;
+
+    for (int i = 0; (one = system_instanced(l->system, i)) != NULL; i++)
+        if (one->outer < 0)
+            (void)names_add(names, one->name);
+    for (int i = 0; i < l->count; i++) {
+        const char *name = expr_name(l->symbols[i]), *dot = strchr(name, '.');
+
+        blocks[i] = dot != NULL ? names_find_part(names, name, (size_t)(dot - name)) + 1 : 0;
+    }
+    names_free(names);
+    return blocks;
 }
 
 int layout_side_of(const Layout *layout, Expr symbol)
@@ -190,8 +187,7 @@ void layout_free(Layout *layout)
 {
     if (layout == NULL)
         return;
-    MEM_FREE(layout->symbols, layout->block, layout->side, layout->closed, layout->surfaces,
-             layout);
+    MEM_FREE(layout->symbols, layout->side, layout->closed, layout->surfaces, layout);
 }
 
 bool layout_follows_time(const Layout *l, const Expr *roots, int count)

@@ -20,7 +20,6 @@ typedef struct Layout {
         jerk; /* first */
     int count;
     Expr *symbols; /* count */
-    int *block;    /* of each: the outermost instance that it is of, from 1; 0: it is of none */
     Surface *surfaces;
     int surface_count; /* those that it slides along come first: `slides` of them */
 } Layout;
@@ -41,6 +40,8 @@ Layout *layout_new_on(System *system, const OnSurface *on, int count);
 Expr *layout_network(const Layout *layout);
 /* e on the sides of the layout's surfaces */
 Expr layout_on_surfaces(const Layout *layout, Expr e);
+/* of each symbol the outermost instance that it is of, from 1; 0: it is of none; new */
+int *layout_blocks(const Layout *layout);
 /* A symbol that is a side of a switch in this layout: its number; -1: it is none */
 int layout_side_of(const Layout *layout, Expr symbol);
 void layout_free(Layout *layout);

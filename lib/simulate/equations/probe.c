@@ -33,20 +33,20 @@ static void put_parameters(Probe *probe, Parameters *parameters)
 Status probe_make(const Layout *layout, Parameters *parameters, const ProbeOrder *order,
                   Probe **out, Diag *diag)
 {
-    const ResidualOrder rows = {
-        .arena = system_arena(layout->system),
-        .roots = order->roots,
-        .root_count = order->root_count,
-        .row_count = order->row_count,
-        .unknowns = order->unknowns,
-        .unknown_count = order->unknown_count,
-        .inputs = layout->symbols,
-        .input_count = layout->count,
-        .blocks = {.block = layout->block,
-                   .parts = order->is_apart ? threads_count(parameters->threads) : 1},
-        .put = order->is_put ? NULL : put_on_surfaces,
-        .context = layout,
-        .watch = order->watch};
+    const int parts = order->is_apart ? threads_count(parameters->threads) : 1;
+    int *blocks = parts > 1 ? layout_blocks(layout) : NULL;
+    const ResidualOrder rows = {.arena = system_arena(layout->system),
+                                .roots = order->roots,
+                                .root_count = order->root_count,
+                                .row_count = order->row_count,
+                                .unknowns = order->unknowns,
+                                .unknown_count = order->unknown_count,
+                                .inputs = layout->symbols,
+                                .input_count = layout->count,
+                                .blocks = {blocks, parts},
+                                .put = order->is_put ? NULL : put_on_surfaces,
+                                .context = layout,
+                                .watch = order->watch};
     Probe *probe = NEW(Probe);
     Status status = OK;
 
@@ -60,6 +60,7 @@ Status probe_make(const Layout *layout, Parameters *parameters, const ProbeOrder
     *out = probe;
     probe = NULL;
 done:
+    mem_free(blocks);
     probe_free(probe);
     return status;
 }
