@@ -84,6 +84,18 @@ double parameters_evaluate(Parameters *p, Expr e)
     return expr_evaluate(e, parameters_value_in, p);
 }
 
+Parameters parameters_like(const Parameters *others)
+{
+    Parameters p = {.value = others->value,
+                    .context = others->context,
+                    .evaluator = others->evaluator,
+                    .threads = others->threads};
+
+    for (int i = 0; i < others->count; i++)
+        parameters_set(&p, others->symbols[i], others->values[i]);
+    return p;
+}
+
 void parameters_free(Parameters *p)
 {
     MEM_FREE(p->symbols, p->values, p->places);

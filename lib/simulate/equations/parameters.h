@@ -18,6 +18,8 @@ typedef struct Parameters {
     int numbers;
 } Parameters;
 
+/* with the values that are kept of others, and what they are asked of */
+Parameters parameters_like(const Parameters *others);
 double parameters_value(Parameters *parameters, Expr symbol); /* kept, else asked and kept */
 /* whether one is kept, and which */
 bool parameters_kept(const Parameters *parameters, Expr symbol, double *out);

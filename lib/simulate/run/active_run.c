@@ -110,19 +110,6 @@ static void keep_phases(const ActiveRun *r)
     }
 }
 
-static void keep_parameters(const ActiveRun *r)
-{
-    const Parameters *known = &r->phases->parameters;
-    Parameters *kept = &r->result->parameters;
-
-    *kept = (Parameters){.value = known->value,
-                         .context = known->context,
-                         .evaluator = known->evaluator,
-                         .threads = known->threads};
-    for (int i = 0; i < known->count; i++)
-        parameters_set(kept, known->symbols[i], known->values[i]);
-}
-
 static void keep_events(const ActiveRun *r)
 {
     Result *result = r->result;
@@ -148,7 +135,7 @@ void active_run_finish(ActiveRun *r, const Setting *setting, Result **out, Resul
     result->pool = pool_new(POOL);
     keep_manner(r, setting);
     keep_phases(r);
-    keep_parameters(r);
+    r->result->parameters = parameters_like(&r->phases->parameters);
     keep_events(r);
     result->first = r->phase->number;
     result->freedoms = r->phase->layout->nu - result->start.row_count;

@@ -52,17 +52,11 @@ static Status add_phase(Phases *phases, const PhaseKey *key, const Manner *manne
 Status result_reader_new(const Result *result, ResultReader **out, Diag *diag)
 {
     Phases *phases = NEW(Phases);
-    const Parameters *known = &result->parameters;
     Status status = OK;
 
     phases->system = result->system;
     phases->tolerance = result->tolerance;
-    phases->parameters = (Parameters){.value = known->value,
-                                      .context = known->context,
-                                      .evaluator = known->evaluator,
-                                      .threads = known->threads};
-    for (int i = 0; i < known->count; i++)
-        parameters_set(&phases->parameters, known->symbols[i], known->values[i]);
+    phases->parameters = parameters_like(&result->parameters);
     for (int i = 0; i < result->phases.count; i++)
         CHECK(add_phase(phases, &result->phases.at[i], &result->manner, diag));
     if (result->phases.at[0].is_open && result->start.network != NULL)
