@@ -4,10 +4,10 @@
  * Both up to the programs that a run steps with. */
 #include "formulate/system/system.h"
 #include "model/model.h"
-#include "simulate/equations/numbers.h"
 
 #include "../random.h"
 #include "bench.h"
+#include "bench_compile.h"
 #include "bench_model.h"
 
 #include <math.h>
@@ -54,11 +54,6 @@ static char *chain_text(bool planar, const char *tree, bool loop)
     return text_done(&text);
 }
 
-static double parameter(void *context, Expr symbol)
-{
-    return model_number(context, symbol);
-}
-
 /* Those of the model as it is, from those before an edit (or NULL): as a session does it. */
 static Status renew(const Model *model, System **system, Diag *diag)
 {
@@ -82,23 +77,13 @@ done:
 static double form(const Model *model, System **system)
 {
     const double began = clock_now();
-    Layout *layout = NULL;
-    Parameters parameters = {.value = parameter, .context = (void *)model};
-    Numbers *numbers = NULL;
     Diag diag = {0};
-    double took;
-    Status status = renew(model, system, &diag);
+    const Status status = renew(model, system, &diag);
+    const double took = clock_now() - began;
 
-    if (status == OK) {
-        layout = layout_new(*system);
-        status = numbers_new(layout, &parameters, &numbers, &diag);
-    }
-    took = clock_now() - began;
-    if (status != OK)
-        printf("# %s\n", diag.message);
-    numbers_free(numbers);
-    parameters_free(&parameters);
-    layout_free(layout);
+    if (status == OK)
+        return took + bench_compile(model, *system);
+    printf("# %s\n", diag.message);
     return took;
 }
 

@@ -6,11 +6,11 @@
  */
 #include "formulate/system/system.h"
 #include "model/model.h"
-#include "simulate/equations/numbers.h"
 
 #include "../unit/session_kit.h"
 #include "base/text.h"
 #include "bench.h"
+#include "bench_compile.h"
 #include "bench_model.h"
 
 #include <math.h>
@@ -117,30 +117,6 @@ static double form(Model *model, System **before)
     return took;
 }
 
-static double parameter(void *context, Expr symbol)
-{
-    return model_number(context, symbol);
-}
-
-/* the programs that a run steps with: seconds */
-static double compile(const Model *model, System *system)
-{
-    const double began = clock_now();
-    Layout *layout = layout_new(system);
-    Parameters parameters = {.value = parameter, .context = (void *)model};
-    Numbers *numbers = NULL;
-    Diag diag = {0};
-    const Status status = numbers_new(layout, &parameters, &numbers, &diag);
-    const double took = clock_now() - began;
-
-    if (status != OK)
-        printf("# %s\n", diag.message);
-    numbers_free(numbers);
-    parameters_free(&parameters);
-    layout_free(layout);
-    return took;
-}
-
 static void line(bool planar, const char *what, double value, const char *unit)
 {
     Text name = {0};
@@ -191,7 +167,7 @@ static void time_once(const char *text, Times *least)
         return;
     formed = form(model, &system);
     least->formed = fmin(least->formed, formed);
-    least->compiled = fmin(least->compiled, formed + compile(model, system));
+    least->compiled = fmin(least->compiled, formed + bench_compile(model, system));
     system_free(system);
     model_free(model);
 }

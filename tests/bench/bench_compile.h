@@ -1,0 +1,35 @@
+/* bench_compile.h: the programs that a run steps with, for benchmarks */
+#ifndef COTREE_TESTS_BENCH_COMPILE_H
+#define COTREE_TESTS_BENCH_COMPILE_H
+
+#include "base/clock.h"
+#include "model/model.h"
+#include "simulate/equations/numbers.h"
+
+#include <stdio.h>
+
+static double bench_parameter(void *model, Expr symbol)
+{
+    return model_number(model, symbol);
+}
+
+/* seconds until they are made, of equations that are there; a line about it where it fails */
+static double bench_compile(const Model *model, System *system)
+{
+    const double began = clock_now();
+    Layout *layout = layout_new(system);
+    Parameters parameters = {.value = bench_parameter, .context = (void *)model};
+    Numbers *numbers = NULL;
+    Diag diag = {0};
+    const Status status = numbers_new(layout, &parameters, &numbers, &diag);
+    const double took = clock_now() - began;
+
+    if (status != OK)
+        printf("# %s\n", diag.message);
+    numbers_free(numbers);
+    parameters_free(&parameters);
+    layout_free(layout);
+    return took;
+}
+
+#endif
