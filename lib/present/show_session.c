@@ -135,8 +135,19 @@ static bool tells_energy(const RunReport *report)
            !isnan(report->energy_drift);
 }
 
+/* of check=on, where that was asked for; else empty */
+static void write_error(Text *out, const RunReport *report)
+{
+    if (!isnan(report->global_error))
+        text_addf(out, "%.2g", report->global_error);
+    else if (report->is_unresolved)
+        text_add(out, "not resolved");
+}
+
 static void add_quality(Table *table, const RunReport *report)
 {
+    Text error = {0};
+
     table_cell(table, "position residual");
     table_cellf(table, "%.2g", report->position_residual);
     table_cell(table, "velocity residual");
@@ -145,13 +156,12 @@ static void add_quality(Table *table, const RunReport *report)
         table_cell(table, "energy drift");
         table_cellf(table, "%.2g J of %.3g J", report->energy_drift, report->energy_scale);
     }
-    if (!isnan(report->global_error)) {
+    write_error(&error, report);
+    if (error.length > 0) {
         table_cell(table, "global error");
-        table_cellf(table, "%.2g", report->global_error);
-    } else if (report->is_unresolved) {
-        table_cell(table, "global error");
-        table_cell(table, "not resolved");
+        table_cell(table, error.at);
     }
+    text_free(&error);
 }
 
 /* what the user asked of steps */
@@ -216,6 +226,7 @@ void report_line(Text *out, const Result *result, const char *name)
     const RunReport *report = result_report(result);
     const double *times = result_times(result);
     const int rows = result_rows(result);
+    Text error = {0};
 
     text_addf(out, "%s: ", name);
     if (rows > 1)
@@ -228,6 +239,10 @@ void report_line(Text *out, const Result *result, const char *name)
     if (tells_energy(report))
         text_addf(out, "; energy drift %.2g J of %.3g J", report->energy_drift,
                   report->energy_scale);
+    write_error(&error, report);
+    if (error.length > 0)
+        text_addf(out, "; global error %s", error.at);
+    text_free(&error);
     text_char(out, '\n');
 }
 

@@ -143,3 +143,8 @@ family_jacobians_SOURCES = tests/family/family_jacobians.c tests/family/family.h
 	tests/family/jacobians.c tests/family/jacobians.h \
 	tests/unit/simulate_script.h tests/unit/form.h tests/unit/test.h tests/random.h
 family_jacobians_LDADD = $(unit_ldadd)
+
+FAMILIES += family_estimates
+family_estimates_SOURCES = tests/family/family_estimates.c tests/family/family.h \
+	tests/family/script.h tests/random.h tests/unit/session_kit.h tests/unit/test.h
+family_estimates_LDADD = libcotree.la $(unit_ldadd)

@@ -148,13 +148,18 @@ static void write_steps(const Remark *r, Text *out)
                   "there at any tolerance; check=on measures what",
                   r->t);
         break;
-    case REMARK_UNRESOLVED_STEP:
-        text_add(out, "not resolved: a run in half the step ends elsewhere; take a smaller step, "
-                      "or a shorter run");
+    case REMARK_FAR_OFF:
+        text_addf(out, "finer runs end elsewhere, %.2g from this one at most; take a smaller %s",
+                  r->size, r->what);
         break;
     case REMARK_UNRESOLVED:
-        text_add(out, "not resolved: a run at a tenth of the tolerance ends elsewhere; take a "
-                      "smaller rtol, or a shorter run");
+        if (r->more != NULL)
+            text_addf(out, "not resolved: a finer run fails: %s", r->more);
+        else
+            text_addf(out,
+                      "not resolved: finer runs end elsewhere, each of them; take a smaller "
+                      "%s, or a shorter run",
+                      r->what);
         break;
     default:
         break;

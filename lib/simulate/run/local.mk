@@ -12,6 +12,10 @@ libcore_la_SOURCES += \
   lib/simulate/run/events.h \
   lib/simulate/run/events_impl.h \
   lib/simulate/run/events_record.c \
+  lib/simulate/run/forward.c \
+  lib/simulate/run/forward.h \
+  lib/simulate/run/global_error.c \
+  lib/simulate/run/global_error.h \
   lib/simulate/run/grid.c \
   lib/simulate/run/grid.h \
   lib/simulate/run/inverse.c \

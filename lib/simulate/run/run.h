@@ -7,6 +7,8 @@
 
 #include "simulate/run/result_reader.h"
 
+#define RUN_LEAST_RTOL 1e-13 /* between what rounding leaves and what numbers can't hold */
+
 typedef struct RunOptions {
     double duration;    /* s */
     double every;       /* output step, s; 0: duration / 500 */
@@ -15,7 +17,7 @@ typedef struct RunOptions {
     double step;        /* fixed or largest step, s; 0: free */
     double most;        /* largest step, s, of all methods; 0: free */
     const char *method; /* a row of methods.def; NULL: auto */
-    bool check;         /* run again at a tenth of the tolerance and report the global error */
+    bool check;         /* run again, finer, and report the global error (global_error.h) */
     bool realtime;      /* forward: wait for the clock behind each step, which are fixed */
 } RunOptions;
 

@@ -6,26 +6,19 @@
 #include "simulate/equations/causes.h"
 #include "simulate/run/begin.h"
 #include "simulate/run/charge_sharing.h"
-#include "simulate/run/ends.h"
+#include "simulate/run/forward.h"
+#include "simulate/run/global_error.h"
 #include "simulate/run/inverse.h"
-#include "simulate/run/mode_switch.h"
 #include "simulate/run/pace.h"
-#include "simulate/run/sliding.h"
 
 #include <math.h>
 #include <string.h>
 
-#define LEAST_RTOL  1e-13
-#define MOST_ROWS   20000000
-#define MOST_VALUES 2e8 /* in all rows: 1.6 GB */
-#define POINTS      4   /* between rows of a driven run, where events are looked for */
-#define TURNED      2.0 /* rad: what an angle that counts turns may go at once in a driven run, */
-#define MISSED      0.5 /* and how far off its prediction */
-#define UNRESOLVED  0.3 /* difference of two runs, rad or m, that makes them different motions */
-/* what a difference of two runs, at a tolerance and a tenth of it, is taken times, since it may be
- * less than the error: of methods that take single steps, and of those with a history */
-#define ONE_STEP     2.0
-#define MULTISTEP    6.0
+#define MOST_ROWS    20000000
+#define MOST_VALUES  2e8 /* in all rows: 1.6 GB */
+#define POINTS       4   /* between rows of a driven run, where events are looked for */
+#define TURNED       2.0 /* rad: what an angle that counts turns may go at once in a driven run, */
+#define MISSED       0.5 /* and how far off its prediction */
 #define AUTO         "auto"
 #define DEFAULT_RTOL 1e-8
 
@@ -80,15 +73,15 @@ Status run_method_find(const char *name, const char **out, Diag *diag)
 /* between what rounding leaves and what says nothing of what is computed */
 static Status check_rtol(double rtol, Diag *diag)
 {
-    if (rtol >= LEAST_RTOL && rtol < 1)
+    if (rtol >= RUN_LEAST_RTOL && rtol < 1)
         return OK;
-    if (rtol < LEAST_RTOL)
+    if (rtol < RUN_LEAST_RTOL)
         (void)diag_set(diag, E_VALUE, "rtol=%g is finer than numbers are", rtol);
     else
         (void)diag_set(diag, E_VALUE, "rtol=%g lets a step be as wrong as what it tells is large",
                        rtol);
-    diag_hint(diag, rtol < LEAST_RTOL ? "1e-12 is about the finest that makes sense"
-                                      : "1e-3 is about the coarsest that makes sense");
+    diag_hint(diag, rtol < RUN_LEAST_RTOL ? "1e-12 is about the finest that makes sense"
+                                          : "1e-3 is about the coarsest that makes sense");
     diag_about(diag, "rtol");
     return E_VALUE;
 }
@@ -145,80 +138,6 @@ static Status method_in_time(const RunOptions *options, const Method **method, D
     diag_about(diag, "method");
     text_free(&names);
     return E_VALUE;
-}
-
-static IntegrationPlan plan_of(const ActiveRun *r, const Setting *setting,
-                               const RunOptions *options, const Method *method, Events *events)
-{
-    return (IntegrationPlan){.segment = phases_segment(r->phase, events),
-                             .method = method,
-                             .control = {.rtol = options->rtol,
-                                         .atol = options->atol,
-                                         .step = options->step,
-                                         .most = options->most},
-                             .every = options->every,
-                             .watch = setting->watch};
-}
-
-/* what a host is told at the rows of a phase */
-static Status probe_seen(ActiveRun *r, Phase *phase, const Host *host, Diag *diag)
-{
-    if (phase->like->seen != NULL)
-        return OK;
-    return phases_probe(r->phases, phase, host->items, host->item_count, &phase->like->seen, diag);
-}
-
-static bool show_row(void *context, int phase_number, double t, const double *y)
-{
-    const ModeSwitching *s = context;
-    Phase *phase = s->run->phases->at[phase_number];
-    const Host *host = s->setting->host;
-    double *values = NEW_ARRAY(double, host->item_count);
-    Diag ignored = {0};
-    bool stop;
-
-    for (int i = 0; i < host->item_count; i++)
-        values[i] = NAN;
-    if (host->item_count > 0 && probe_seen(s->run, phase, host, &ignored) == OK)
-        phase_probe_at(phase, phase->like->seen, t, y, NULL, host->item_count, values);
-    stop = host->row(host->context, t, values);
-    mem_free(values);
-    return stop;
-}
-
-/* the ChooseMethod of a plan */
-static Status choose_method(void *context, const Segment *segment, double t, const double *y,
-                            const Method **method, Diag *diag)
-{
-    const ModeSwitching *s = context;
-
-    return phase_choose_method(s->run->phases->at[segment->phase], t, y, &s->control, method, diag);
-}
-
-/* From `begin` to the end of the plan. Where ideal switches change the equations, `corners` gets
- * rows between them. */
-static Status integrate_phases(ActiveRun *r, const Setting *setting, const IntegrationPlan *plan,
-                               Grid *grid, Grid *corners, IntegrationReport *out, Diag *diag)
-{
-    ModeSwitching switching = {
-        .run = r, .setting = setting, .control = plan->control, .stuck = NAN};
-    IntegrationPlan through = *plan;
-    Status status;
-
-    switching.control.span = plan->to - plan->from;
-    through.first = choose_method;
-    through.choose = slide_choose;
-    through.tell = slide_tell;
-    through.explain = ends_explain;
-    through.context = &switching;
-    through.corners = corners;
-    if (r->mode_search != NULL) {
-        through.mode_switch = mode_switch;
-        through.in_time = numbers_equations(phases_whole(r->phases)->numbers);
-    }
-    status = integrate(&through, r->begin, grid, out, diag);
-    mode_switching_free(&switching);
-    return status;
 }
 
 static MotionCounts counts_of(const ActiveRun *r)
@@ -281,80 +200,6 @@ static void remark_integration(ActiveRun *r, const IntegrationReport *integratio
     remark_singular(r);
 }
 
-/* The largest difference of (q, u, x) at times that both grids have; events lie at times of their
- * own, and one that a switch falls on may be of either phase. */
-static double largest_difference(const ActiveRun *r, int first, const Grid *b)
-{
-    const Grid *a = &r->result->grid;
-    double largest = 0;
-
-    for (int i = first, j = 0; i < a->count && j < b->count;) {
-        double behind = a->times[i] - b->times[j];
-        int length = behind == 0 && a->phase[i] == b->phase[j]
-                         ? layout_references(r->phases->at[a->phase[i]]->layout)
-                         : 0;
-
-        for (int k = 0; k < length; k++)
-            largest = fmax(largest, fabs(grid_row(a, i)[k] - grid_row(b, j)[k]));
-        i += behind <= 0;
-        j += behind >= 0;
-    }
-    return largest;
-}
-
-/* what a difference tells of the error, for methods that the two runs came to */
-static void report_difference(ActiveRun *r, double largest, const Method *a, const Method *b)
-{
-    r->result->report.is_unresolved = !(largest <= UNRESOLVED);
-    if (r->result->report.is_unresolved)
-        remarks_add(&r->result->remarks, (Remark){.kind = b->has_fixed_step ? REMARK_UNRESOLVED_STEP
-                                                                            : REMARK_UNRESOLVED});
-    else
-        r->result->report.global_error =
-            largest * (a->has_history || b->has_history ? MULTISTEP : ONE_STEP);
-}
-
-/* a second run at a tenth of the tolerance, or in half the fixed step; `used` is the method that
- * the first came to, `events` are its events as they were at its start */
-static Status estimate_error(ActiveRun *r, const Setting *setting, const RunOptions *options,
-                             const Method *method, const Method *used, Events *events, int first,
-                             double to, Diag *diag)
-{
-    RunOptions finer = *options;
-    IntegrationPlan plan;
-    IntegrationReport integration_report;
-    Grid grid = {0};
-    Status status;
-
-    finer.rtol = fmax(LEAST_RTOL, options->rtol / 10);
-    finer.atol = options->atol / 10;
-    if (method != NULL && method->has_fixed_step)
-        finer.step = (options->step > 0 ? options->step : options->every) / 2;
-    plan = plan_of(r, setting, &finer, method, events);
-    plan.from = r->result->grid.times[first];
-    plan.to = to;
-    status = integrate_phases(r, setting, &plan, &grid, NULL, &integration_report, diag);
-    if (status == OK)
-        report_difference(r, largest_difference(r, first, &grid), used, integration_report.method);
-    remarks_free(&integration_report.remarks);
-    LIST_FREE(integration_report.jumps);
-    grid_free(&grid);
-    return status;
-}
-
-/* the events of another run from here, as they are now */
-static Status copy_events(ActiveRun *r, const Setting *setting, Events **out, Diag *diag)
-{
-    LIST(EventRecord) records = {0};
-    Status status;
-
-    for (int i = 0; i < events_count(r->events); i++)
-        LIST_PUSH(records, events_record(r->events, i));
-    status = active_run_events(r, r->phase, records.at, records.count, setting, out, diag);
-    LIST_FREE(records);
-    return status;
-}
-
 /* Integrate a run whose start is set; what it found is kept also when that ends early. */
 static Status go(ActiveRun *r, const Setting *setting, const RunOptions *given, double from,
                  bool skip_first, Diag *diag)
@@ -363,7 +208,7 @@ static Status go(ActiveRun *r, const Setting *setting, const RunOptions *given, 
     RunOptions options;
     IntegrationPlan plan;
     IntegrationReport report_of = {.method = method_for((MethodNeed){0})};
-    Events *again = NULL; /* for a second run */
+    ErrorEvents again = {0};
     Pace pace = {0};
     int first = skip_first ? r->result->grid.count - 1 : 0;
     Status status = OK;
@@ -376,23 +221,23 @@ static Status go(ActiveRun *r, const Setting *setting, const RunOptions *given, 
     CHECK(active_run_prepare(r, diag));
     CHECK(samples_check(r->phase->samples, options.duration, diag));
     phases_tolerance(r->phases, options.atol);
-    plan = plan_of(r, setting, &options, method, r->events);
+    plan = forward_plan(r, setting, &options, method, r->events);
     plan.asks = given->rtol > 0 || given->atol > 0;
     plan.from = from;
     plan.to = from + options.duration;
     plan.skip_first = skip_first;
     if (setting->host != NULL && setting->host->row != NULL) {
-        CHECK(probe_seen(r, r->phase, setting->host, diag));
-        plan.see = show_row;
+        CHECK(forward_probe_seen(r, r->phase, setting->host, diag));
+        plan.see = forward_show_row;
     }
     if (options.check)
-        CHECK(copy_events(r, setting, &again, diag));
+        CHECK(global_error_events(r, setting, &again, diag));
     if (options.realtime) {
         pace = pace_begin(options.step > 0 ? options.step : options.every, from);
         plan.pace = &pace;
     }
-    status = integrate_phases(r, setting, &plan, &r->result->grid, &r->result->corners, &report_of,
-                              diag);
+    status = forward_integrate(r, setting, &plan, &r->result->grid, &r->result->corners, &report_of,
+                               diag);
     if (report_of.events != r->events)
         events_hand_over(r->events, report_of.events);
     if (status == E_SOLVER)
@@ -405,13 +250,12 @@ static Status go(ActiveRun *r, const Setting *setting, const RunOptions *given, 
     fill_report(r, &report_of, &options, status == E_STOPPED, began);
     r->result->report.pace = pace;
     if (status == OK && options.check)
-        status = estimate_error(r, setting, &options, method, report_of.method, again, first,
-                                plan.to, diag);
+        status = global_error_estimate(r, setting, &options, method, &again, first, diag);
     if (active_run_balance(r, NULL) != OK)
         r->result->report.energy_drift = NAN;
     r->result->report.wall = clock_now() - began;
 done:
-    events_free(again);
+    global_error_events_free(&again);
     return status;
 }
 

@@ -1,0 +1,184 @@
+/* global_error.c: how far off a run is at its end, by finer runs */
+#include "simulate/run/global_error.h"
+
+#include "base/memory.h"
+#include "simulate/run/forward.h"
+
+#include <math.h>
+
+#define FAR   0.3  /* rad or m: a distance that makes two runs different motions */
+#define SURE  4.0  /* a distance is told where its far end is that much more certain */
+#define NEAR  30.0 /* tolerances of a finer run: its own error may be as large */
+#define FINER 100  /* that part of the tolerance has the run that tells how far off another is */
+/* what the distance to it is taken times, by methods that take single steps and those with a
+ * history */
+#define ONE_STEP  2.0
+#define MULTISTEP 6.0
+
+/* --- events --- */
+
+static Status copy_events(ActiveRun *r, const Setting *setting, Events **out, Diag *diag)
+{
+    LIST(EventRecord) records = {0};
+    Status status;
+
+    for (int i = 0; i < events_count(r->events); i++)
+        LIST_PUSH(records, events_record(r->events, i));
+    status = active_run_events(r, r->phase, records.at, records.count, setting, out, diag);
+    LIST_FREE(records);
+    return status;
+}
+
+Status global_error_events(ActiveRun *r, const Setting *setting, ErrorEvents *out, Diag *diag)
+{
+    Status status = OK;
+
+    for (int i = 0; i < COUNT(out->at) && status == OK; i++)
+        status = copy_events(r, setting, &out->at[i], diag);
+    return status;
+}
+
+void global_error_events_free(ErrorEvents *events)
+{
+    for (int i = 0; i < COUNT(events->at); i++)
+        events_free(events->at[i]);
+}
+
+/* --- runs beside it --- */
+
+/* The largest difference of (q, u, x) at times that both grids have, of the one from row `first`
+ * on; events lie at times of their own, and one that a switch falls on may be of either phase. */
+static double largest_difference(const ActiveRun *r, const Grid *a, int first, const Grid *b)
+{
+    double largest = 0;
+
+    for (int i = first, j = 0; i < a->count && j < b->count;) {
+        double behind = a->times[i] - b->times[j];
+        int length = behind == 0 && a->phase[i] == b->phase[j]
+                         ? layout_references(r->phases->at[a->phase[i]]->layout)
+                         : 0;
+
+        for (int k = 0; k < length; k++)
+            largest = fmax(largest, fabs(grid_row(a, i)[k] - grid_row(b, j)[k]));
+        i += behind <= 0;
+        j += behind >= 0;
+    }
+    return largest;
+}
+
+/* a run that is nearer to the motion than the one in question */
+typedef struct FinerRun {
+    Grid grid;
+    const Method *method; /* that it came to */
+} FinerRun;
+
+/* Options of the first finer run or of the second, which is finer than that, and their method: half
+ * the fixed step, else a part of the tolerance. What else may have bounded the steps is halved with
+ * it, or the finer run might take the same ones. Errors of methods with a history hardly fall with
+ * the tolerance, so one of single steps stands in for them. `steps` are those of the run, 0 where
+ * that is so. Whether there are such options. */
+static bool finer_options(const RunOptions *options, int64_t steps, int which,
+                          const Method **method, RunOptions *out)
+{
+    const double part = pow(FINER, which), half = pow(2, which);
+
+    *out = *options;
+    if (*method != NULL && (*method)->has_fixed_step) {
+        out->step = (options->step > 0 ? options->step : options->every) / half;
+        return true;
+    }
+    if (*method != NULL && (*method)->has_history)
+        *method = NULL;
+    else if (steps > 0 && !(options->most > 0 && options->most < options->duration / (double)steps))
+        out->most = options->duration / (double)steps / half;
+    out->rtol = fmax(RUN_LEAST_RTOL, options->rtol / part);
+    out->atol = options->atol / part;
+    return which == 1 || options->rtol >= RUN_LEAST_RTOL * part;
+}
+
+/* `events` are as they were at its start; the caller frees the grid, also when it fails */
+static Status run_finer(ActiveRun *r, const Setting *setting, const RunOptions *options,
+                        const Method *method, Events *events, double from, FinerRun *out,
+                        Diag *diag)
+{
+    IntegrationPlan plan = forward_plan(r, setting, options, method, events);
+    IntegrationReport told = {.method = method_for((MethodNeed){0})};
+    Status status;
+
+    plan.from = from;
+    plan.to = from + options->duration;
+    status = forward_integrate(r, setting, &plan, &out->grid, NULL, &told, diag);
+    out->method = told.method;
+    remarks_free(&told.remarks);
+    LIST_FREE(told.jumps);
+    return status;
+}
+
+/* the largest number that two runs are compared in */
+static double largest_number(const ActiveRun *r, const Grid *grid)
+{
+    double largest = 0;
+
+    for (int i = 0; i < grid->count; i++)
+        for (int k = 0; k < layout_references(r->phases->at[grid->phase[i]]->layout); k++)
+            largest = fmax(largest, fabs(grid_row(grid, i)[k]));
+    return largest;
+}
+
+/* Whether a run so far from a finer one may be nearer to the motion than that one is, or neither is
+ * on it. */
+static bool is_doubtful(const ActiveRun *r, double off, const RunOptions *finer, const Grid *fine)
+{
+    return !(off <= FAR) || off < NEAR * (finer->atol + finer->rtol * largest_number(r, fine));
+}
+
+static void tell(ActiveRun *r, double off, bool is_told, const FinerRun *by, const char *why)
+{
+    const bool is_fixed = by->method->has_fixed_step;
+
+    r->result->report.is_unresolved = !is_told;
+    if (is_told)
+        r->result->report.global_error = off * (by->method->has_history ? MULTISTEP : ONE_STEP);
+    if (!(off <= FAR))
+        remarks_add(&r->result->remarks,
+                    (Remark){.kind = is_told ? REMARK_FAR_OFF : REMARK_UNRESOLVED,
+                             .what = is_fixed ? "step" : "rtol",
+                             .more = why,
+                             .size = off});
+}
+
+Status global_error_estimate(ActiveRun *r, const Setting *setting, const RunOptions *options,
+                             const Method *method, ErrorEvents *events, int first, Diag *diag)
+{
+    const Grid *rows = &r->result->grid;
+    const int64_t steps = method != NULL && method->has_history ? 0 : r->result->report.steps;
+    const double from = rows->times[first];
+    FinerRun fine = {0}, finest = {0};
+    RunOptions finer;
+    double off = INFINITY;
+    bool is_told = false;
+    Diag why = {0};
+    Status status;
+
+    (void)finer_options(options, steps, 1, &method, &finer);
+    status = run_finer(r, setting, &finer, method, events->at[0], from, &fine, &why);
+    if (status == OK) {
+        off = largest_difference(r, rows, first, &fine.grid);
+        is_told = off <= FAR;
+    }
+    if (status == OK && is_doubtful(r, off, &finer, &fine.grid) &&
+        finer_options(options, steps, 2, &method, &finer)) {
+        status = run_finer(r, setting, &finer, method, events->at[1], from, &finest, &why);
+        if (status == OK) {
+            is_told = is_told || SURE * largest_difference(r, &fine.grid, 0, &finest.grid) <= off;
+            off = largest_difference(r, rows, first, &finest.grid);
+        }
+    }
+    if (status == OK || status == E_SOLVER)
+        tell(r, off, is_told, &fine, status == OK ? NULL : why.message);
+    else if (diag != NULL)
+        *diag = why;
+    grid_free(&fine.grid);
+    grid_free(&finest.grid);
+    return status == E_SOLVER ? OK : status;
+}
