@@ -6,10 +6,11 @@
 
 #include <math.h>
 
-#define FAR   0.3  /* rad or m: a distance that makes two runs different motions */
-#define SURE  4.0  /* a distance is told where its far end is that much more certain */
-#define NEAR  30.0 /* tolerances of a finer run: its own error may be as large */
-#define FINER 100  /* that part of the tolerance has the run that tells how far off another is */
+#define FAR      0.3  /* rad or m: a distance that makes two runs different motions */
+#define SURE     4.0  /* a distance is told where its far end is that much more certain */
+#define NEAR     30.0 /* tolerances of a finer run: its own error may be as large */
+#define COARSEST 1e-8 /* the tolerance that fixed steps are held against a part of */
+#define FINER    100  /* that part of the tolerance has the run that tells how far off another is */
 /* what the distance to it is taken times, by methods that take single steps and those with a
  * history */
 #define ONE_STEP  2.0
@@ -72,27 +73,26 @@ typedef struct FinerRun {
     const Method *method; /* that it came to */
 } FinerRun;
 
-/* Options of the first finer run or of the second, which is finer than that, and their method: half
- * the fixed step, else a part of the tolerance. What else may have bounded the steps is halved with
- * it, or the finer run might take the same ones. Errors of methods with a history hardly fall with
- * the tolerance, so one of single steps stands in for them. `steps` are those of the run, 0 where
- * that is so. Whether there are such options. */
-static bool finer_options(const RunOptions *options, int64_t steps, int which,
-                          const Method **method, RunOptions *out)
+/* Whether the errors of a method fall with the tolerance as they should: where steps are fixed they
+ * don't, and where it has a history they hardly do. */
+static bool answers_to_tolerance(const Method *method)
 {
-    const double part = pow(FINER, which), half = pow(2, which);
+    return method == NULL || (!method->has_history && !method->has_fixed_step);
+}
+
+/* Options of the first finer run, of the second, finer than that, and so on: a part of the
+ * tolerance. What else may have bounded the `steps` of a run by the same method (0: it is by
+ * another) is halved with it, or the finer one might take the same steps. Whether there are such
+ * options. */
+static bool finer_options(const RunOptions *options, int64_t steps, int which, RunOptions *out)
+{
+    const double part = pow(FINER, which), mean = options->duration / (double)steps;
 
     *out = *options;
-    if (*method != NULL && (*method)->has_fixed_step) {
-        out->step = (options->step > 0 ? options->step : options->every) / half;
-        return true;
-    }
-    if (*method != NULL && (*method)->has_history)
-        *method = NULL;
-    else if (steps > 0 && !(options->most > 0 && options->most < options->duration / (double)steps))
-        out->most = options->duration / (double)steps / half;
     out->rtol = fmax(RUN_LEAST_RTOL, options->rtol / part);
     out->atol = options->atol / part;
+    if (steps > 0 && !(options->most > 0 && options->most < mean))
+        out->most = mean / pow(2, which);
     return which == 1 || options->rtol >= RUN_LEAST_RTOL * part;
 }
 
@@ -125,17 +125,16 @@ static double largest_number(const ActiveRun *r, const Grid *grid)
     return largest;
 }
 
-/* Whether a run so far from a finer one may be nearer to the motion than that one is, or neither is
- * on it. */
-static bool is_doubtful(const ActiveRun *r, double off, const RunOptions *finer, const Grid *fine)
+/* Whether a run so far from a finer one may be nearer to the motion than that one is. */
+static bool may_be_nearer(const ActiveRun *r, double off, const RunOptions *finer, const Grid *fine)
 {
-    return !(off <= FAR) || off < NEAR * (finer->atol + finer->rtol * largest_number(r, fine));
+    return off < NEAR * (finer->atol + finer->rtol * largest_number(r, fine));
 }
 
-static void tell(ActiveRun *r, double off, bool is_told, const FinerRun *by, const char *why)
+/* `by` is the finer run, `why` what one failed by (NULL: none did) */
+static void tell(ActiveRun *r, double off, bool is_told, bool is_fixed, const FinerRun *by,
+                 const char *why)
 {
-    const bool is_fixed = by->method->has_fixed_step;
-
     r->result->report.is_unresolved = !is_told;
     if (is_told)
         r->result->report.global_error = off * (by->method->has_history ? MULTISTEP : ONE_STEP);
@@ -151,34 +150,39 @@ Status global_error_estimate(ActiveRun *r, const Setting *setting, const RunOpti
                              const Method *method, ErrorEvents *events, int first, Diag *diag)
 {
     const Grid *rows = &r->result->grid;
-    const int64_t steps = method != NULL && method->has_history ? 0 : r->result->report.steps;
-    const double from = rows->times[first];
-    FinerRun fine = {0}, finest = {0};
-    RunOptions finer;
+    const bool is_fixed = method != NULL && method->has_fixed_step;
+    const Method *finer_method = answers_to_tolerance(method) ? method : NULL;
+    const int64_t steps = finer_method == method ? r->result->report.steps : 0;
+    RunOptions coarse = *options, finer;
+    FinerRun runs[COUNT(events->at)] = {0};
     double off = INFINITY;
-    bool is_told = false;
+    bool is_told = false, is_doubtful = true;
     Diag why = {0};
-    Status status;
+    Status status = OK;
 
-    (void)finer_options(options, steps, 1, &method, &finer);
-    status = run_finer(r, setting, &finer, method, events->at[0], from, &fine, &why);
-    if (status == OK) {
-        off = largest_difference(r, rows, first, &fine.grid);
-        is_told = off <= FAR;
+    if (is_fixed) { /* these mean nothing to it */
+        coarse.rtol = fmin(coarse.rtol, COARSEST);
+        coarse.atol = fmin(coarse.atol, COARSEST);
+        coarse.step = 0;
     }
-    if (status == OK && is_doubtful(r, off, &finer, &fine.grid) &&
-        finer_options(options, steps, 2, &method, &finer)) {
-        status = run_finer(r, setting, &finer, method, events->at[1], from, &finest, &why);
-        if (status == OK) {
-            is_told = is_told || SURE * largest_difference(r, &fine.grid, 0, &finest.grid) <= off;
-            off = largest_difference(r, rows, first, &finest.grid);
-        }
+    for (int i = 0; i < COUNT(runs) && is_doubtful; i++) {
+        if (!finer_options(&coarse, steps, i + 1, &finer))
+            break;
+        status = run_finer(r, setting, &finer, finer_method, events->at[i], rows->times[first],
+                           &runs[i], &why);
+        if (status != OK)
+            break;
+        off = largest_difference(r, rows, first, &runs[i].grid);
+        is_told =
+            off <= FAR ||
+            (i > 0 && SURE * largest_difference(r, &runs[i - 1].grid, 0, &runs[i].grid) <= off);
+        is_doubtful = !is_told || may_be_nearer(r, off, &finer, &runs[i].grid);
     }
     if (status == OK || status == E_SOLVER)
-        tell(r, off, is_told, &fine, status == OK ? NULL : why.message);
+        tell(r, off, is_told, is_fixed, &runs[0], status == OK ? NULL : why.message);
     else if (diag != NULL)
         *diag = why;
-    grid_free(&fine.grid);
-    grid_free(&finest.grid);
+    for (int i = 0; i < COUNT(runs); i++)
+        grid_free(&runs[i].grid);
     return status == E_SOLVER ? OK : status;
 }

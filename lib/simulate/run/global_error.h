@@ -1,10 +1,10 @@
 /* global_error.h: how far off a run is, by runs that are finer
  *
  * A second run at a hundredth of the tolerance is taken for the motion: the difference is the error
- * of the first. It takes the same method, or one of single steps in the place of one with a
- * history; methods of fixed steps are held against half the step. Where the two are far apart the
- * finer one may be as wrong: then a third run, finer again, tells whether it is.
- */
+ * of the first. It takes the same method, or the default one in the place of one with a history or
+ * of fixed steps. Where the two are far apart the finer one may be as wrong, and where they are
+ * nearer than its own error it may be worse: then a third run, and at most a fourth, are finer
+ * again. */
 #ifndef COTREE_SIMULATE_RUN_GLOBAL_ERROR_H
 #define COTREE_SIMULATE_RUN_GLOBAL_ERROR_H
 
@@ -13,7 +13,7 @@
 
 /* the events of the finer runs, as they are where the run begins; {0} is none */
 typedef struct ErrorEvents {
-    Events *at[2];
+    Events *at[3];
 } ErrorEvents;
 
 MUST_USE Status global_error_events(ActiveRun *run, const Setting *setting, ErrorEvents *out,
@@ -22,7 +22,7 @@ void global_error_events_free(ErrorEvents *events);
 
 /* Put into the report of a run, which has come to its end, how far off its rows from `first` on are
  * (largest over coordinates, speeds and states, in m, rad, A ... alike), or that it isn't resolved.
- * method: the one that was asked for, NULL: none. Fails where it is stopped. One or two more runs'
+ * method: the one that was asked for, NULL: none. Fails where it is stopped. Up to three runs'
  * time. */
 MUST_USE Status global_error_estimate(ActiveRun *run, const Setting *setting,
                                       const RunOptions *options, const Method *method,
