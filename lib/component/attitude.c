@@ -93,5 +93,6 @@ Status attitude_check(const Instance *instance, Arena *arena, bool planar, Diag 
     status = diag_set(diag, E_VALUE, "%s turns about z alone: a plane has no sequence of turns",
                       instance->name);
     diag_hint(diag, "leave out euler=; it is for spatial scenes");
+    diag_about(diag, "euler");
     return status;
 }

@@ -56,10 +56,13 @@ static CoordinateRow shape_coordinate(const Instance *instance, bool planar, int
 
 /* --- what no beam has --- */
 
-static Status refuse(const Instance *instance, Diag *diag, const char *what, const char *hint)
+/* `key`: whose value it is about */
+static Status refuse(const Instance *instance, const char *key, Diag *diag, const char *what,
+                     const char *hint)
 {
     (void)diag_set(diag, E_VALUE, "%s: %s", instance->name, what);
     diag_hint(diag, "%s", hint);
+    diag_about(diag, "%s", key);
     return E_VALUE;
 }
 
@@ -69,7 +72,7 @@ static Status check_modes(const Instance *instance, bool planar, Diag *diag)
     const int wanted = planar ? 2 : SHAPE_FAMILIES;
 
     if (modes->count != wanted)
-        return refuse(instance, diag,
+        return refuse(instance, "modes", diag,
                       planar ? "modes= has two entries in a planar scene"
                              : "modes= has four entries",
                       planar ? "modes=[axial, y], such as modes=[0, 3]"
@@ -79,14 +82,15 @@ static Status check_modes(const Instance *instance, bool planar, Diag *diag)
         const double value = expr_is_number(entry) ? expr_value(entry) : -1;
 
         if (!(value >= 0 && value <= MOST_SHAPES && value == floor(value)))
-            return refuse(instance, diag, "numbers of shapes are whole, from 0 to 16",
+            return refuse(instance, "modes", diag, "numbers of shapes are whole, from 0 to 16",
                           "modes=[1, 3] takes one axial shape and three of bending");
     }
     if (shape_count(instance, planar) != instance->coord_count - instance->pose_count)
-        return refuse(instance, diag, "numbers of shapes decide which coordinates there are",
+        return refuse(instance, "modes", diag,
+                      "numbers of shapes decide which coordinates there are",
                       "write them as numbers, such as modes=[1, 3], without parameters");
     if (shape_count(instance, planar) == 0)
-        return refuse(instance, diag, "a beam without any shape is rigid",
+        return refuse(instance, "modes", diag, "a beam without any shape is rigid",
                       "give modes= at least one shape, or make it a body");
     return OK;
 }
@@ -111,12 +115,14 @@ static Status check_sign(const Instance *instance, const char *key, const Powers
         (void)diag_set(diag, E_VALUE, "%s of %s is negative%s: %g", key, instance->name,
                        p->count > 1 ? " somewhere along it" : "", expr_value(value));
         diag_hint(diag, is_mass ? "it has to be positive" : "it is zero or positive");
+        diag_about(diag, "%s", key);
         return E_VALUE;
     }
     if (has_some || !is_mass)
         return OK;
     (void)diag_set(diag, E_VALUE, "%s of %s is zero", key, instance->name);
     diag_hint(diag, "it has to be positive");
+    diag_about(diag, "%s", key);
     return E_VALUE;
 }
 
@@ -136,6 +142,7 @@ static Status check_along(const Instance *instance, Arena *arena, Diag *diag)
                           "x is the place along the beam: sums of its powers up to x^%d can "
                           "stand here; beams of other kinds are pieces welded together",
                           MOST_POWERS - 1);
+                diag_about(diag, "%s", params[i].name);
                 return E_VALUE;
             }
             if (params[i].kind != PARAM_LAWS)
@@ -158,7 +165,7 @@ static Status check_stiffness(const Instance *instance, bool planar, Diag *diag)
     beam_modes(instance, planar, modes);
     for (int f = 0; f < SHAPE_FAMILIES; f++) {
         if (modes[f] > 0 && !instance_value(instance, needs[f].key)->given)
-            return refuse(instance, diag, needs[f].of,
+            return refuse(instance, "modes", diag, needs[f].of,
                           "give the stiffness, or take these shapes out of modes=");
     }
     return OK;
@@ -171,13 +178,13 @@ static Status check_rotary(const Instance *instance, bool planar, Diag *diag)
 
     beam_modes(instance, planar, modes);
     if (rotary->count != 0 && rotary->count != (planar ? 1 : 3))
-        return refuse(instance, diag,
+        return refuse(instance, "inertia_per_length", diag,
                       planar ? "inertia_per_length= is one number in a planar scene"
                              : "inertia_per_length= has three entries",
                       planar ? "write inertia_per_length=J, about z"
                              : "inertia_per_length=[Jx, Jy, Jz]");
     if (modes[SHAPE_PHI] > 0 && (rotary->count == 0 || expr_is_zero(rotary->at[0])))
-        return refuse(instance, diag, "shapes of torsion have no inertia",
+        return refuse(instance, "inertia_per_length", diag, "shapes of torsion have no inertia",
                       "give inertia_per_length=[Jx, Jy, Jz], Jx above zero");
     return OK;
 }
@@ -187,11 +194,11 @@ static Status check_damping(const Instance *instance, Diag *diag)
     const Value *damping = instance_value(instance, "damping");
 
     if (damping->count != 0 && damping->count != 2)
-        return refuse(instance, diag, "damping= has two entries",
+        return refuse(instance, "damping", diag, "damping= has two entries",
                       "damping=[alpha, beta], of the mass and of the stiffness");
     for (int k = 0; k < damping->count; k++)
         if (expr_is_number(damping->at[k]) && expr_value(damping->at[k]) < 0)
-            return refuse(instance, diag, "damping= is negative",
+            return refuse(instance, "damping", diag, "damping= is negative",
                           "its entries are zero or positive");
     return OK;
 }

@@ -77,6 +77,7 @@ static Status refuse_inertia(const Instance *instance, bool planar, Diag *diag)
             status = diag_set(diag, E_VALUE, "a moment of inertia of %s is negative: %g about %s",
                               instance->name, a[i], axes[planar ? 2 : i]);
             diag_hint(diag, "it is zero or positive");
+            diag_about(diag, "inertia");
             return status;
         }
     if (planar || is_positive(a, rounding))
@@ -86,6 +87,7 @@ static Status refuse_inertia(const Instance *instance, bool planar, Diag *diag)
                       instance->name);
     diag_hint(diag, "the entries of the tensor are Ixx, Iyy, Izz, Ixy, Ixz, Iyz, the last three "
                     "with the sign of -sum m*x*y; each is at most sqrt(Ixx*Iyy) in size");
+    diag_about(diag, "inertia");
     return status;
 }
 
@@ -98,6 +100,7 @@ static Status body_check(const Instance *instance, Arena *arena, bool planar, Di
         (void)diag_set(diag, E_VALUE, "the mass of %s is negative: %g", instance->name,
                        expr_value(mass));
         diag_hint(diag, "it is zero or positive");
+        diag_about(diag, "mass");
         return E_VALUE;
     }
     return refuse_inertia(instance, planar, diag);

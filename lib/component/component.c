@@ -160,6 +160,7 @@ static Status check_number(const Instance *instance, const char *param, bool zer
         (void)diag_set(diag, E_VALUE, "%s of %s is negative: %g", param, instance->name,
                        expr_value(value));
     diag_hint(diag, zero ? "it is zero or positive" : "it has to be positive");
+    diag_about(diag, "%s", param);
     return E_VALUE;
 }
 

@@ -68,12 +68,14 @@ Status block_check(const Instance *instance, Diag *diag)
     if (limits->given && limits->count != 2) {
         (void)diag_set(diag, E_VALUE, "limits of %s are two numbers", instance->name);
         diag_hint(diag, "the least and the largest output: limits=[-10, 10]");
+        diag_about(diag, "limits");
         return E_VALUE;
     }
     if (limits->given && expr_is_number(limits->at[0]) && expr_is_number(limits->at[1]) &&
         expr_value(limits->at[0]) >= expr_value(limits->at[1])) {
         (void)diag_set(diag, E_VALUE, "limits of %s leave nothing between them", instance->name);
         diag_hint(diag, "the least output comes first: limits=[-10, 10]");
+        diag_about(diag, "limits");
         return E_VALUE;
     }
     if (block_is_sampled(instance))

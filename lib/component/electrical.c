@@ -54,6 +54,7 @@ static Status resistor_check(const Instance *instance, Arena *arena, bool planar
         return OK;
     (void)diag_set(diag, E_VALUE, "R of %s is zero", instance->name);
     diag_hint(diag, "a wire is a vsource of 0 V, or one terminal in two places");
+    diag_about(diag, "R");
     return E_VALUE;
 }
 
@@ -191,6 +192,7 @@ static Status coupling_check(const Instance *instance, Arena *arena, bool planar
         return OK;
     (void)diag_set(diag, E_VALUE, "k of %s is not between -1 and 1", instance->name);
     diag_hint(diag, "perfect coupling, without leakage, is a transformer with an inductor across");
+    diag_about(diag, "k");
     return E_VALUE;
 }
 

@@ -143,6 +143,7 @@ static Status spring_check(const Instance *instance, Arena *arena, bool planar, 
     status = diag_set(diag, E_VALUE, "%s= is for a spring %s", wrong,
                       on_joint ? "between two frames" : "on a joint");
     diag_hint(diag, "where it is relaxed is said with %s= here", on_joint ? "rest" : "length");
+    diag_about(diag, "%s", wrong);
     return status;
 }
 
@@ -216,6 +217,7 @@ static Status actuator_check(const Instance *instance, Arena *arena, bool planar
                           : instance->joint < 0 ? "the line between two frames"
                                                 : "a length");
         diag_hint(diag, "use %s=", right);
+        diag_about(diag, "%s", wrong);
         return status;
     }
     status = diag_set(diag, E_VALUE, "%s needs %s=", instance->name, right);

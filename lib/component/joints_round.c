@@ -44,6 +44,7 @@ static Status cross_check(const Instance *instance, Arena *arena, bool planar, D
     status = diag_set(diag, E_VALUE, "the axes of %s stand at %.6g deg to each other, not 90",
                       instance->name, angle * 180.0 / M_PI);
     diag_hint(diag, "a cross has square arms; two revolutes and a body turn about any axes");
+    diag_about(diag, "axes");
     return status;
 }
 

@@ -388,12 +388,14 @@ static Status transfer_check(const Instance *instance, Arena *arena, bool planar
         (void)diag_set(diag, E_VALUE, "the first coefficient of den= of %s is zero",
                        instance->name);
         diag_hint(diag, "the highest power comes first: [1, 2, 5] is s^2 + 2*s + 5");
+        diag_about(diag, "den");
         return E_VALUE;
     }
     if (num->count > den->count) {
         (void)diag_set(diag, E_VALUE,
                        "%s is improper: num= has more coefficients than den=", instance->name);
         diag_hint(diag, "it would differentiate its input; add a fast pole to the denominator");
+        diag_about(diag, "num");
         return E_VALUE;
     }
     return block_check(instance, diag);

@@ -113,6 +113,7 @@ static Status gear_check(const Instance *instance, Arena *arena, bool planar, Di
         return OK;
     status = diag_set(diag, E_VALUE, "the ratio of %s is zero", instance->name);
     diag_hint(diag, "a negative one turns the second shaft the other way");
+    diag_about(diag, "ratio");
     return status;
 }
 

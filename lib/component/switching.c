@@ -112,16 +112,19 @@ static Status diode_check(const Instance *instance, Arena *arena, bool planar, D
             (void)diag_set(diag, E_VALUE, "%s has Is= and %s=: it is exponential or it switches",
                            instance->name, lines[i]);
             diag_hint(diag, "a series resistance is a resistor of its own");
+            diag_about(diag, "%s", lines[i]);
             return E_VALUE;
         }
     if (given(instance, "n") && !given(instance, "Is")) {
         (void)diag_set(diag, E_VALUE, "n= of %s needs Is=", instance->name);
         diag_hint(diag, "as in Is=1e-14 n=1");
+        diag_about(diag, "n");
         return E_VALUE;
     }
     if (given(instance, "Roff") && !given(instance, "Ron")) {
         (void)diag_set(diag, E_VALUE, "Roff= of %s needs Ron=", instance->name);
         diag_hint(diag, "without both it is ideal");
+        diag_about(diag, "Roff");
         return E_VALUE;
     }
     for (int i = 0; i < instance->row->param_count && status == OK; i++)

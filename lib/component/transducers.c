@@ -122,8 +122,10 @@ static Status motor_check(const Instance *instance, Arena *arena, bool planar, D
     }
     for (int i = 0; i < COUNT(positive); i++)
         CHECK(check_not_negative(instance, positive[i], diag));
-    if (expr_is_zero(instance_scalar(instance, "ratio")))
+    if (expr_is_zero(instance_scalar(instance, "ratio"))) {
         status = diag_set(diag, E_VALUE, "the gear ratio of %s is zero", instance->name);
+        diag_about(diag, "ratio");
+    }
 done:
     return status;
 }
@@ -173,6 +175,7 @@ static Status check_law(const Instance *instance, const char *param, Diag *diag)
         status = diag_set(diag, E_VALUE, "%s of %s can't depend on %s", param, instance->name,
                           expr_name(symbols[i]));
         diag_hint(diag, "it is a law of %s, the coordinate that it acts on", instance->coordinate);
+        diag_about(diag, "%s", param);
     }
     mem_free(symbols);
     return status;

@@ -112,6 +112,7 @@ static Status transformer_check(const Instance *instance, Arena *arena, bool pla
         return OK;
     (void)diag_set(diag, E_VALUE, "n of %s is zero", instance->name);
     diag_hint(diag, "it is the voltage of the first side for 1 V at the second");
+    diag_about(diag, "n");
     return E_VALUE;
 }
 
@@ -163,6 +164,7 @@ static Status gyrator_check(const Instance *instance, Arena *arena, bool planar,
         return OK;
     (void)diag_set(diag, E_VALUE, "r of %s is zero", instance->name);
     diag_hint(diag, "it is the voltage of one side for 1 A in the other");
+    diag_about(diag, "r");
     return E_VALUE;
 }
 
@@ -221,6 +223,7 @@ static Status potentiometer_check(const Instance *instance, Arena *arena, bool p
     if (expr_is_number(at) && (expr_value(at) < 0.0 || expr_value(at) > 1.0)) {
         status = diag_set(diag, E_VALUE, "the wiper of %s is off its track", instance->name);
         diag_hint(diag, "at= is 0 at one end and 1 at the other");
+        diag_about(diag, "at");
         return status;
     }
     return check_positive(instance, "R", diag);

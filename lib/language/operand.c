@@ -83,8 +83,12 @@ Status parse_terminal(Parser *parser, Syntax **out)
     const Token *token = parser_token(parser);
     const Token *behind = parser_peek(parser, 1);
 
-    if (!parser_sees_terminal(parser))
-        return parser_expected(parser, "a place (a name or 0)");
+    if (!parser_sees_terminal(parser)) {
+        (void)parser_expected(parser, "a place (a name or 0)");
+        if (token->kind == TOKEN_NUMBER)
+            diag_hint(parser->diag, "names begin with a letter: n%s", token->text);
+        return E_SYNTAX;
+    }
     if (behind->kind == TOKEN_PRIMES || (token_is(behind, "(") && behind->touches)) {
         (void)diag_at(parser->diag, E_SYNTAX, behind->place,
                       "unexpected '%s' behind the place '%s'", behind->text, token->text);

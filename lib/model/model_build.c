@@ -124,6 +124,7 @@ static Status read_values(PartDraft *draft)
         CHECK(give(draft, 0, statement->pairs.at[0].value, statement->pairs.at[0].name_place));
         first = 1;
     }
+    draft->first_value = draft->at;
     CHECK(read_positional(draft));
     for (int i = first; i < statement->pairs.count; i++)
         CHECK(read_key(draft, &statement->pairs.at[i]));
@@ -248,6 +249,26 @@ static Place direction_place(const PartDraft *draft)
 
         if (index >= 0 && draft->part->row->params[index].kind == PARAM_AXIS)
             return statement->pairs.at[i].value->place;
+    }
+    return statement->place;
+}
+
+/* where the statement gives that value; the whole statement where it doesn't */
+static Place value_place(const PartDraft *draft, const char *key)
+{
+    const Statement *statement = draft->statement;
+    const Component *row = draft->part->row;
+    int operand = draft->first_value;
+
+    for (int i = 0; i < statement->pairs.count; i++)
+        if (strcmp(statement->pairs.at[i].name, key) == 0)
+            return statement->pairs.at[i].value->place;
+    for (int i = 0; i < row->param_count && operand < statement->operands.count; i++) {
+        if ((row->params[i].use & POSITIONAL) == 0)
+            continue;
+        if (strcmp(row->params[i].name, key) == 0)
+            return statement->operands.at[operand].place;
+        operand++;
     }
     return statement->place;
 }
@@ -425,7 +446,10 @@ Status apply_component(State **state, const Statement *statement, Outcome *outco
     if (draft.coordinate_names != NULL)
         CHECK(rename_coordinates(&draft));
     CHECK(part_check_plane(*state, draft.part, direction_place(&draft), diag));
-    CHECK(part_check(draft.state, draft.part, &outcome->remarks, diag));
+    status = part_check(draft.state, draft.part, &outcome->remarks, diag);
+    if (status != OK && diag != NULL && diag->place.line == 0)
+        diag->place = value_place(&draft, diag->about);
+    CHECK(status);
 
     text = statement_full_text(statement);
     part_draft_commit(&draft, text);

@@ -78,6 +78,8 @@ static Status check_station(State *state, const Instance *arm, const Value *at, 
             diag_hint(diag, "at= goes from 0, the root, to the length");
         }
     }
+    if (status != OK)
+        diag_about(diag, "at");
     return status;
 }
 

@@ -198,6 +198,14 @@ Status parameter_check_alike(const Scope *scope, const char *name, Measure measu
     return E_UNIT;
 }
 
+void parameter_measure_like(State *state, const char *name, Measure measure)
+{
+    Definition *d = definition_find(state, name, DEFINES_PARAMETER);
+
+    if (measure.kind == MEASURE_KNOWN && d->measure.kind != MEASURE_KNOWN)
+        d->measure = measure;
+}
+
 Status apply_parameter(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
 {
     State *s = *state;

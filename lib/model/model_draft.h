@@ -10,6 +10,7 @@ typedef struct PartDraft {
     Instance *part; /* in the state's pool */
     Scope scope;
     int at;                 /* next operand */
+    int first_value;        /* operand with which values begin */
     const char **terminals; /* names, where the part has scalar edges; else NULL */
     const Syntax *coordinate_names;
     Diag *diag;

@@ -158,7 +158,8 @@ typedef struct State {
     NameList independent;
     LIST(Use) uses;
     LIST(InsideChoice) inside_choices;
-    int inside; /* the use whose statements are being applied; -1 */
+    int inside;   /* the use whose statements are being applied; -1 */
+    bool is_open; /* what comes may attach inside instances: a fork that is looked into */
     Tree *trees[TREE_KINDS];
     bool has_trees;
     LIST(Change) changes;
@@ -490,6 +491,8 @@ MUST_USE Status statement_rename(State *state, int use, const Statement *stateme
 /* Refuse another value of a parameter that has another dimension. */
 MUST_USE Status parameter_check_alike(const Scope *scope, const char *name, Measure measure,
                                       const Syntax *value, Diag *diag);
+/* A plain number that took the place of a quantity is in the SI unit of that. */
+void parameter_measure_like(State *state, const char *name, Measure measure);
 /* set leg1.L1 = 0.5 */
 MUST_USE Status set_inside_parameter(State *state, const Pair *pair, Outcome *outcome, Diag *diag);
 

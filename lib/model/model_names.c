@@ -179,6 +179,26 @@ static Status part_alone(const State *state, const Instance *part, Place place, 
     return E_NAME;
 }
 
+/* what is said of a member that can't be asked for, as a key or a function of a place may not */
+static void hint_member(const State *state, const Instance *part, const char *member,
+                        const Suggest *suggest, const Text *list, Diag *diag)
+{
+    Text path = {0};
+
+    text_addf(&path, "%s.%s", part->name, member);
+    if (place_unit(state, path.at) != NULL)
+        diag_hint(diag, "it is asked for at a place along the beam: %s(x)", path.at);
+    else if (component_param(part->row, member) >= 0)
+        diag_hint(diag,
+                  "%s= is one of its keys: 'info %s' tells its value, set %s = ... changes it",
+                  member, part->name, path.at);
+    else if (suggest->best != NULL)
+        diag_hint(diag, "did you mean '%s.%s'?", part->name, suggest->best);
+    else if (list->length > 0)
+        diag_hint(diag, "it has%s", list->at);
+    text_free(&path);
+}
+
 static Status member_unknown(const State *state, const Instance *part, const char *member,
                              Place place, Diag *diag)
 {
@@ -186,16 +206,16 @@ static Status member_unknown(const State *state, const Instance *part, const cha
     Text list = {0};
     const Member *m;
 
+    for (int i = 0; i < part->coord_count; i++)
+        suggest_offer(&suggest, instance_coord(part, state->planar, i).member);
+
     for (int i = 0; (m = component_member(part->row, state->planar, i)) != NULL; i++) {
         suggest_offer(&suggest, m->name);
         text_addf(&list, " %s", m->name);
     }
     (void)diag_at(diag, E_NAME, place, "%s %s has no variable '%s'", part->row->name, part->name,
                   member);
-    if (suggest.best != NULL)
-        diag_hint(diag, "did you mean '%s.%s'?", part->name, suggest.best);
-    else if (list.length > 0)
-        diag_hint(diag, "it has%s", list.at);
+    hint_member(state, part, member, &suggest, &list, diag);
     text_free(&list);
     return E_NAME;
 }
@@ -383,6 +403,17 @@ done:
     return status;
 }
 
+/* what gives a flow that can be nothing, in one word; none in hydraulics */
+static const char *idle_source(Domain domain)
+{
+    static const char *const sources[DOMAIN_COUNT] = {[DOMAIN_ELECTRICAL] = "isource",
+                                                      [DOMAIN_SHAFT] = "torquesource",
+                                                      [DOMAIN_SLIDE] = "forcesource",
+                                                      [DOMAIN_THERMAL] = "heatsource"};
+
+    return sources[domain];
+}
+
 static Status dotted_resolve(const State *state, const Instance *own, const char *path,
                              const char *dot, int primes, Place place, Text *name, Diag *diag)
 {
@@ -394,9 +425,20 @@ static Status dotted_resolve(const State *state, const Instance *own, const char
         part = own;
         member = path + length + 1;
     }
+    Status status;
+
     if (part != NULL)
         return member_resolve(state, part, member, primes, place, name, diag);
-    return potential_resolve(state, path, dot, primes, place, name, diag);
+    status = potential_resolve(state, path, dot, primes, place, name, diag);
+    /* a loop of blocks, which is written one after the other */
+    if (status == E_NAME && own != NULL && diag != NULL && diag->hint[0] == '\0' &&
+        own->row->family == FAMILY_SCALAR && own->row->domain != DOMAIN_HYDRAULIC &&
+        strcmp(dot + 1, domain_across(own->row->domain)) == 0)
+        diag_hint(diag,
+                  "a terminal is known from its first part on: before this line, a source of "
+                  "nothing, such as %s I0 %.*s 0 0, brings it",
+                  idle_source(own->row->domain), (int)(dot - path), path);
+    return status;
 }
 
 Status variable_resolve(const State *state, const Instance *own, const char *path, int primes,

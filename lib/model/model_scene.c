@@ -268,6 +268,8 @@ static Status set_pair(State **state, const Pair *pair, Outcome *outcome, Diag *
     if (status == OK)
         status = part_check(s, part, &outcome->remarks, diag);
     if (status != OK) {
+        if (diag != NULL && diag->place.line == 0)
+            diag->place = pair->value->place;
         part->values = kept;
         goto done;
     }

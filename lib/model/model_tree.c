@@ -420,8 +420,11 @@ static Status check_entering(const Request *request)
                       part->is_virtual ? "%s has no freedom there: it can't be a branch"
                                        : "edge %s has no across relation: it can't be a branch",
                       name);
-        diag_hint(request->diag,
-                  "only bodies, joints, arms and components between terminals can be branches");
+        diag_hint(request->diag, part->is_virtual
+                                     ? "a virtual joint is a branch of the trees in which it moves "
+                                       "its tip: a revolute of rotation, a prismatic of translation"
+                                     : "only bodies, joints, arms and components between terminals "
+                                       "can be branches");
         return E_BRANCH;
     }
     return OK;

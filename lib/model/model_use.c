@@ -34,7 +34,7 @@ Status use_check_reach(const State *state, const char *name, Place place, Diag *
     const Use *use = around >= 0 ? &state->uses.at[around] : NULL;
     Text ports = {0};
 
-    if (use == NULL || is_around(state, around) ||
+    if (use == NULL || state->is_open || is_around(state, around) ||
         (is_port_of(use, name) && (use->outer < 0 || is_around(state, use->outer))))
         return OK;
     for (int i = 0; i < use->subsystem->port_count; i++)
@@ -112,8 +112,12 @@ static Status check_allowed(const State *state, int use, const Statement *s, Dia
             return OK;
     (void)diag_at(diag, E_SYNTAX, s->verb_place, "'%s' can't stand in the definition of %s",
                   s->verb, state->uses.at[use].subsystem->name);
-    diag_hint(diag, "in it stand parts, parameters, laws, output, event, init, guess, tree EDGE, "
-                    "cotree and use; 'end' closes it, and Ctrl-C drops it");
+    if (s->row.number == VERB_subsystem)
+        diag_hint(diag, "define the inner one before this one; here stands: use %s NAME ...",
+                  s->operands.count > 0 ? s->operands.at[0].value->text : "SUBSYSTEM");
+    else
+        diag_hint(diag, "in it stand parts, parameters, laws, output, event, init, guess, tree "
+                        "EDGE, cotree and use; 'end' closes it, and Ctrl-C drops it");
     return E_SYNTAX;
 }
 
@@ -263,6 +267,8 @@ static Status apply_override(State **state, const Expansion *x, const Statement 
     s->inside = x->use;
     status = state_apply(state, &renamed, x->outcome, diag);
     s->inside = outer;
+    if (status == OK)
+        parameter_measure_like(*state, renamed.name, measure);
 done:
     text_free(&text);
     LIST_FREE(renamed.operands);
