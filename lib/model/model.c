@@ -4,6 +4,7 @@
 #include "language/functions.h"
 #include "language/verbs.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -53,6 +54,12 @@ Status model_fork(const Model *model, Model **out, Diag *diag)
     (*out)->revision = model->revision;
 done:
     return status;
+}
+
+void model_open_insides(Model *fork)
+{
+    assert(fork->is_fork);
+    fork->state->is_open = true;
 }
 
 void model_free(Model *model)

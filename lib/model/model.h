@@ -79,6 +79,8 @@ MUST_USE Status model_preset_trees(const Model *model, bool absolute, Tree *out[
 /* New: a model of the same statements over the same arena, to try others on; it may not outlive the
  * first. */
 MUST_USE Status model_fork(const Model *model, Model **out, Diag *diag);
+/* What the fork is given from now on may attach inside instances, as what only looks does. */
+void model_open_insides(Model *fork);
 
 /* What formulation takes of the model as it is now; scene_free(). Borrowed until the next change.
  * Fails as model_trees() does. */

@@ -15,10 +15,23 @@ static const char *const conventions[] = {
     [FAMILY_DRIVER] = "the effort acts along the coordinate, on the tip",
     [FAMILY_COUPLER] = "the effort acts along the coordinate, on the tip",
     [FAMILY_FORCE] = "acts on the tip, reversed on the tail; pulling together is negative",
-    [FAMILY_SCALAR] = "v is plus against minus; i flows from plus to minus inside",
-    [FAMILY_TRANSDUCER] = "v is plus against minus; i flows from plus to minus inside; the torque "
-                          "acts on the joint's tip",
 };
+
+/* of what stands between terminals, in the words of its domain */
+static void add_convention(Text *out, const View *view, const Component *row)
+{
+    Text line = {0};
+
+    if (row->family == FAMILY_SCALAR || row->family == FAMILY_TRANSDUCER)
+        text_addf(&line, "%s is plus against minus; %s goes from plus to minus inside%s",
+                  domain_across(row->domain), domain_through(row->domain),
+                  row->family == FAMILY_TRANSDUCER ? "; its force or torque acts on the joint's tip"
+                                                   : "");
+    else
+        text_add(&line, conventions[row->family]);
+    layout_words(out, view->page.columns, "sign: ", line.at);
+    text_free(&line);
+}
 
 /* in which trees the edge is a branch; its own name in front where a part has several */
 static void add_standing(Table *table, const View *view, int edge, bool several)
@@ -234,7 +247,7 @@ static void print_instance(Text *out, const View *view, const Instance *instance
     add_values(&table, view, instance);
     table_print(out, &table, 2);
     table_free(&table);
-    layout_words(out, view->page.columns, "sign: ", conventions[instance->row->family]);
+    add_convention(out, view, instance->row);
     add_variables(out, view, instance);
     if (instance->text != NULL)
         text_addf(out, "made by: %s\n", instance->text);

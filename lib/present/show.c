@@ -40,7 +40,7 @@ static const Topic topics[] = {
 };
 /* clang-format on */
 
-/* `show transfer OUT IN symbolic`: of a linear network as it is */
+/* `show transfer OUT IN`: of a linear network as it is */
 static const Topic symbolic_transfer = {"transfer",   "",          NEED_MODEL,
                                         BEHIND_ITEMS, AS_FORMULAS, show_symbolic_transfer};
 
@@ -76,8 +76,37 @@ static bool is_symbolic(const Statement *statement)
            strcmp(last->text, "symbolic") == 0;
 }
 
-/* the topic's row, NULL where the first operand is a variable or an expression */
-static const Topic *find_topic(const Statement *statement)
+/* whether `show transfer OUT IN` names a pair of the last linearisation */
+static bool was_linearized(const Linear *linear, const Statement *statement)
+{
+    bool has[2] = {false, false};
+
+    for (int k = 0; linear != NULL && k < 2; k++) {
+        char *name = view_name(statement->operands.at[1 + k].value);
+
+        for (int i = 0; i < (k == 0 ? linear->outputs : linear->inputs); i++)
+            has[k] = has[k] ||
+                     strcmp(k == 0 ? linear->output_names[i] : linear->input_names[i], name) == 0;
+        mem_free(name);
+    }
+    return has[0] && has[1];
+}
+
+/* Whether a transfer function is asked for in the network's own symbols: by the word behind it, or
+ * as that of two names which the last linearisation doesn't tell. */
+static bool in_symbols(const Linear *linear, const Statement *statement)
+{
+    if (is_symbolic(statement))
+        return true;
+    for (int i = 1; i < statement->operands.count; i++)
+        if (statement->operands.at[i].value->kind == SYNTAX_NUMBER)
+            return false;
+    return statement->operands.count == 3 && !was_linearized(linear, statement);
+}
+
+/* The topic's row, NULL where the first operand is a variable or an expression. `linear`: of the
+ * last linearisation, NULL where there is none. */
+static const Topic *find_topic(const Linear *linear, const Statement *statement)
 {
     const Syntax *first = statement->operands.count > 0 ? statement->operands.at[0].value : NULL;
 
@@ -85,7 +114,7 @@ static const Topic *find_topic(const Statement *statement)
                              ? topic_find(first->text)
                              : NULL;
 
-    return topic != NULL && topic->behind == BEHIND_PAIR && is_symbolic(statement)
+    return topic != NULL && topic->behind == BEHIND_PAIR && in_symbols(linear, statement)
                ? &symbolic_transfer
                : topic;
 }
@@ -133,9 +162,9 @@ static Status read_notation(const Statement *statement, const Topic *topic, Nota
     return E_NAME;
 }
 
-Status show_need(const Model *model, const Statement *statement, Need *need, Diag *diag)
+Status show_need(const View *view, const Statement *statement, Need *need, Diag *diag)
 {
-    const Topic *topic = find_topic(statement);
+    const Topic *topic = find_topic(view->linear, statement);
     Notation ignored;
 
     TRY(read_notation(statement, topic, &ignored, diag));
@@ -148,7 +177,7 @@ Status show_need(const Model *model, const Statement *statement, Need *need, Dia
     if (topic != NULL)
         *need = topic->need;
     else
-        *need = has_formula(model, statement) ? NEED_SYSTEM : NEED_MODEL;
+        *need = has_formula(view->model, statement) ? NEED_SYSTEM : NEED_MODEL;
     return OK;
 }
 
@@ -223,7 +252,8 @@ static Status take_item(const Topic *topic, const Statement *statement, int oper
 {
     const int at = operand - 1;
 
-    if (topic == &symbolic_transfer && operand == statement->operands.count - 1)
+    if (topic == &symbolic_transfer && operand == statement->operands.count - 1 &&
+        is_symbolic(statement))
         return OK;
     if (at >= COUNT(selection->items))
         return diag_at(diag, E_SYNTAX, statement->operands.at[operand].place,
@@ -366,7 +396,7 @@ static Status show_item(const View *view, const Statement *statement, int item, 
 Status show(const View *view, const Statement *statement, Text *out, Diag *diag)
 {
     View in_notation = *view;
-    const Topic *topic = find_topic(statement);
+    const Topic *topic = find_topic(view->linear, statement);
     Status status = OK;
 
     TRY(read_notation(statement, topic, &in_notation.page.notation, diag));

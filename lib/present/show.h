@@ -62,7 +62,7 @@ const char *topic_notation(const Topic *topic, int i);
 
 /* What the statement `show ...` needs; a variable (`show h9.fx`) needs equations, the name of a
  * part (`show R1`) only the model. */
-MUST_USE Status show_need(const Model *model, const Statement *statement, Need *need, Diag *diag);
+MUST_USE Status show_need(const View *view, const Statement *statement, Need *need, Diag *diag);
 /* Write what the statement asks for; of a name that no formula stands behind, what `info` tells.
  * Fails with E_NAME for an unknown topic or edge, E_VALUE for an entry beyond the last, the
  * errors of equations. */

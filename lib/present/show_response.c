@@ -246,7 +246,7 @@ Status show_symbolic_transfer(const View *view, const Selection *selection, Text
 
     if (items[1] == NULL) {
         (void)diag_set(diag, E_SYNTAX, "a transfer function in symbols has an output and an input");
-        diag_hint(diag, "show transfer C1.v V1 symbolic");
+        diag_hint(diag, "show transfer C1.v V1");
         return E_SYNTAX;
     }
     if (items[1]->kind != SYNTAX_VARIABLE || items[1]->primes > 0)
@@ -342,6 +342,7 @@ static Status put_source(const View *view, const TestPort *port, Model **fork, D
                               : test_sources[port->domain].through,
               TEST_SOURCE, port->plus, port->minus);
     CHECK(model_fork(view->model, fork, diag));
+    model_open_insides(*fork);
     CHECK(statement_parse(text.at, 1, (SyntaxOptions){false}, &next, &statement, diag));
     CHECK(model_apply(*fork, statement, diag));
 done:

@@ -43,7 +43,7 @@ ct_status ct_show(ct_session *session, const ct_statement *statement, char **tex
 
     session_begin(session);
     CHECK(check_no_units(s, &diag));
-    CHECK(show_need(session->model, s, &need, &diag));
+    CHECK(show_need(&view, s, &need, &diag));
     CHECK(session_prepare(session, need, &view, &diag));
     report(&session->watch, "writing out", -1);
     CHECK(show(&view, s, &out, &diag));

@@ -165,7 +165,7 @@ static void a_motor_turns_its_inertia(void)
     EXPECT_DONE(&kit, "show transfer h1'\n");
     EXPECT_HOLDS(kit.text, "left out  1 state between");
     EXPECT_FAILS(&kit, "show transfer V1", "V1 is no output of the last linearisation");
-    EXPECT_FAILS(&kit, "show transfer h1 h1", "h1 is no input of the last linearisation");
+    EXPECT_FAILS(&kit, "show transfer h1 h1", "h1 is no independent source");
     EXPECT_FAILS(&kit, "show transfer h1 V1 1", "an output and an input only");
     EXPECT_FAILS(&kit, "show transfer h1 V1 V1", "an output and an input only");
     EXPECT_FAILS(&kit, "clear\nshow transfer h1", "nothing has been linearized yet");
