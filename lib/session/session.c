@@ -335,6 +335,8 @@ ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error 
     session->at_rest = session->at_rest && !forgets_start(s);
     if (is_search(s) ? model_revision(session->model) != revision : changes != CHANGES_NAMES)
         session_note_change(session, revision, chooses(changes));
+    if (forgets_start(s))
+        session_forget_guesses(session);
     if (chooses_trees(s) && status == OK) {
         remark_trees(session);
         session_remark_free(session);
@@ -377,6 +379,9 @@ static ct_status move_over(ct_session *session, Status (*move)(Model *, Diag *),
         session->rests_since = model_start_statements(session->model);
     text_addf(&session->remarks, "%s: %s\n", what, model_undone(session->model));
     session_note_change(session, revision, is_statement && chooses(changes_of(moved)));
+    /* what it gave is no longer where a coordinate begins that nothing else tells */
+    if (is_statement && changes_of(moved) == CHANGES_START)
+        session_forget_guesses(session);
 done:
     statement_free(moved);
     return session_report(status, &diag, error);

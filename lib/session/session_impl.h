@@ -199,6 +199,8 @@ MUST_USE Status session_source(ct_session *session, Run **out, Diag *diag);
 MUST_USE Status session_last_run(ct_session *session, Run **out, Diag *diag);
 /* the start is no longer that of the model; it stays as what guesses come from */
 void session_forget_start(ct_session *session);
+/* neither it nor the one before it tells where the next begins */
+void session_forget_guesses(ct_session *session);
 
 /* --- one function a verb --- */
 

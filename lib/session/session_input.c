@@ -76,6 +76,13 @@ void session_forget_start(ct_session *session)
     session->start = (Run){0};
 }
 
+void session_forget_guesses(ct_session *session)
+{
+    run_free(&session->warm);
+    if (!session->at_rest)
+        run_free(&session->rest);
+}
+
 /* --- what a run is told --- */
 
 void run_input_free(RunInput *input)
