@@ -523,7 +523,7 @@ static void networks_without_an_answer_are_refused(void)
                    "shaftend Z1 h1 a 0\ntorquesource T1 a 0 0.1*h2''\nsimulate 1\n",
                    "Z1 passes the acceleration of one of h1' and h2' on to the other one way only");
     expect_refused(LIFT, "pump U1 b 0 flow=1e-4\nsimulate 1\n",
-                   "nothing but the sources Y1 U1 joins two parts of the network");
+                   "nothing but sources joins two parts of the network: Y1 U1");
     expect_refused("pump U1 a 0 pressure=step(t - 1)*1e5\n", "tank T1 a 0 A=1\nsimulate 2\n",
                    "a source that jumps would drive an impulse through T1");
 }

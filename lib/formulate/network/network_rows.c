@@ -274,7 +274,7 @@ static Status cant_be_met(System *system, const Unknown *y, Diag *diag)
     } else if (kind == RELATION_THROUGH && branch->branch) {
         (void)diag_set(diag, E_MODEL,
                        ideal ? "%s leave a current no way"
-                             : "nothing but the sources %s joins two parts of the network",
+                             : "nothing but sources joins two parts of the network: %s",
                        network_company(system, branch));
         diag_hint(diag, "put a resistance across one of them");
     } else {

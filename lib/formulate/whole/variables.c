@@ -567,8 +567,8 @@ static Status entry_variable(System *system, const char *path, bool *found, Expr
             return E_MISSING;
         system_block_size(system, block, &rows, &columns);
         if (row < 1 || column < 1 || row > rows || column > columns)
-            return diag_set(diag, E_VALUE, "%s: %s has %d rows and %d columns", path,
-                            block_name(block), rows, columns);
+            return diag_set(diag, E_VALUE, "%s: %s is %d x %d", path, block_name(block), rows,
+                            columns);
         return show_entry(system, block, row - 1, column - 1, out, diag);
     }
     return OK;

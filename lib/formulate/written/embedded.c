@@ -63,15 +63,20 @@ static Expr determinant(System *system, const Partition *part, const int *column
     return expr_sum(arena, terms, count);
 }
 
+/* whether a name is that of a speed, or of the coordinate whose rate it is */
+static bool is_speed(const char *name, const char *speed)
+{
+    const size_t length = strlen(name);
+
+    return strncmp(name, speed, length) == 0 &&
+           (speed[length] == '\0' || strcmp(speed + length, "'") == 0);
+}
+
 /* the user's independent coordinates, or the driven ones */
 static bool is_independent(const System *system, int j)
 {
     for (int i = 0; i < system->origin->independent_count; i++)
-        if (strcmp(system->origin->independent[i], system->kinematics->u.at[j].name) == 0 ||
-            (strncmp(system->origin->independent[i], system->kinematics->u.at[j].name,
-                     strlen(system->origin->independent[i])) == 0 &&
-             strcmp(system->kinematics->u.at[j].name + strlen(system->origin->independent[i]),
-                    "'") == 0))
+        if (is_speed(system->origin->independent[i], system->kinematics->u.at[j].name))
             return true;
     for (int k = 0; k < system->constraints->rows.count && system->origin->independent_count == 0;
          k++) {
@@ -98,6 +103,32 @@ static bool next_choice(int *place, int m)
     return true;
 }
 
+/* what the user named are coordinates of these trees */
+static Status check_named(const System *system, Diag *diag)
+{
+    for (int i = 0; i < system->origin->independent_count; i++) {
+        const char *name = system->origin->independent[i];
+        bool found = false;
+        Text list = {0};
+
+        for (int j = 0; j < system->kinematics->u.count; j++) {
+            found = found || is_speed(name, system->kinematics->u.at[j].name);
+            text_addf(&list, "%s%.*s", j > 0 ? ", " : "",
+                      (int)strcspn(system->kinematics->u.at[j].name, "'"),
+                      system->kinematics->u.at[j].name);
+        }
+        if (!found) {
+            (void)diag_set(diag, E_MODEL,
+                           "independent= names %s, which is no coordinate of these trees", name);
+            diag_hint(diag, "their coordinates are %s; another tree has others", list.at);
+        }
+        text_free(&list);
+        if (!found)
+            return E_MODEL;
+    }
+    return OK;
+}
+
 /* dependent speeds: the last ones that may be, with a determinant that isn't zero */
 static Status choose(System *system, Partition *part, Diag *diag)
 {
@@ -105,13 +136,15 @@ static Status choose(System *system, Partition *part, Diag *diag)
     int place[MOST_ROWS] = {0};
     Status status = OK;
 
+    CHECK(check_named(system, diag));
     for (int j = 0; j < system->kinematics->u.count; j++)
         if (!is_independent(system, j))
             LIST_PUSH(free, j);
     if (free.count < part->m || (system->origin->independent_count > 0 && free.count > part->m)) {
-        status = diag_set(diag, E_MODEL, "%d independent coordinates are named, but %d are needed",
+        status = diag_set(diag, E_MODEL, "%d independent coordinates are named, but %d %s needed",
                           system->kinematics->u.count - free.count,
-                          system->kinematics->u.count - part->m);
+                          system->kinematics->u.count - part->m,
+                          system->kinematics->u.count - part->m == 1 ? "is" : "are");
         goto done;
     }
     for (int i = 0; i < part->m; i++)

@@ -10,9 +10,13 @@
 #include <math.h>
 #include <string.h>
 
-#define CLOSE 1e-12 /* m: positions are solved to less */
-#define PART  1e-3  /* of the largest part in a driver's row: less is rounding */
-#define BRIEF 1e-6  /* of a time that is short: rates are as good as constant */
+#define CLOSE    1e-12 /* m: positions are solved to less */
+#define PART     1e-3  /* of the largest part in a driver's row: less is rounding */
+#define ROUNDING 1e-13 /* of the largest entry of the mass matrix */
+#define SINGULAR 1e-9  /* of a scaled column of it */
+#define BRIEF    1e-6  /* of a time that is short: rates are as good as constant */
+
+enum { MOST_LOOKED_AT = 100 }; /* speeds; the cost is of their fourth power */
 
 static bool value_at(const Layout *l, Parameters *parameters, Expr e, double t, const double *y,
                      double *out)
@@ -107,6 +111,115 @@ static bool tell_massless(const Layout *l, const char *what, Diag *diag)
     return false;
 }
 
+/* a beam whose sections have no rotary inertia; NULL: there is none */
+static const char *thin_beam(const Layout *l)
+{
+    for (int i = 0; i < system_instance_count(l->system); i++) {
+        const Instance *instance = system_instance(l->system, i);
+
+        if (instance_bends(instance) && !instance_value(instance, "inertia_per_length")->given)
+            return instance->name;
+    }
+    return NULL;
+}
+
+/* the mass matrix at y, each row and column divided by the root of its diagonal entry, which
+ * `scale` tells; where that is zero it stays */
+static void scaled_mass(const Layout *l, Parameters *parameters, double t, const double *y,
+                        double *mass, double *scale)
+{
+    const Reading *run = system_run(l->system);
+    double largest = 0;
+
+    for (int i = 0; i < l->nu * l->nu; i++)
+        if (!value_at(l, parameters, run->mass[i], t, y, &mass[i]))
+            mass[i] = 0;
+    for (int j = 0; j < l->nu; j++)
+        largest = fmax(largest, mass[j * l->nu + j]);
+    for (int j = 0; j < l->nu; j++)
+        scale[j] = mass[j * l->nu + j] > ROUNDING * largest ? sqrt(mass[j * l->nu + j]) : 1;
+    for (int i = 0; i < l->nu * l->nu; i++)
+        mass[i] /= scale[i / l->nu] * scale[i % l->nu];
+}
+
+/* Speeds, in `shares`, that together move no mass: of column j what the others don't make of it is
+ * nothing. */
+static bool find_massless(const Layout *l, const double *mass, int j, double *shares)
+{
+    double *others = NEW_ARRAY(double, l->nu * l->nu);
+    double *column = NEW_ARRAY(double, l->nu);
+    double *made = NEW_ARRAY(double, l->nu);
+    double left = 0;
+
+    for (int i = 0; i < l->nu; i++) {
+        column[i] = mass[i * l->nu + j];
+        for (int k = 0; k < l->nu; k++)
+            others[i * l->nu + k] = k == j ? 0 : mass[i * l->nu + k];
+    }
+    if (rows_solve(others, l->nu, l->nu, column, shares) < 0)
+        left = INFINITY;
+    matrix_times(others, l->nu, l->nu, shares, made);
+    for (int i = 0; i < l->nu; i++)
+        left = hypot(left, column[i] - made[i]);
+    shares[j] = -1;
+    MEM_FREE(others, column, made);
+    return left < SINGULAR;
+}
+
+/* the coordinates whose speeds have a share worth naming */
+static int name_shares(const Layout *l, const double *shares, const double *scale, Text *out)
+{
+    double largest = 0;
+    int count = 0;
+
+    for (int j = 0; j < l->nu; j++)
+        largest = fmax(largest, fabs(shares[j]) / scale[j]);
+    for (int j = 0; j < l->nu; j++) {
+        const int q = speed_coordinate(l->system, j);
+
+        if (fabs(shares[j]) / scale[j] > PART * largest)
+            text_addf(out, "%s%s", count++ > 0 ? ", " : "",
+                      q >= 0 ? system_q(l->system, q)->name : system_u(l->system, j)->name);
+    }
+    return count;
+}
+
+/* Speeds that move no mass at y alone, as that about which a beam turns that is straight. Of
+ * equations without constraints, of which such a motion is the end. */
+static bool tell_massless_here(const Layout *l, Parameters *parameters, double t, const double *y,
+                               const char *what, Diag *diag)
+{
+    const char *beam = thin_beam(l);
+    double *mass, *scale, *shares;
+    Text named = {0};
+    bool found = false;
+
+    if (l->m > 0 || l->nu > MOST_LOOKED_AT || system_form_mass(l->system, NULL) != OK)
+        return false;
+    mass = NEW_ARRAY(double, l->nu * l->nu);
+    scale = NEW_ARRAY(double, l->nu);
+    shares = NEW_ARRAY(double, l->nu);
+    scaled_mass(l, parameters, t, y, mass, scale);
+    for (int j = 0; j < l->nu && !found; j++)
+        found = find_massless(l, mass, j, shares);
+    if (found) {
+        const int count = name_shares(l, shares, scale, &named);
+
+        (void)diag_set(diag, E_SINGULAR,
+                       count == 1 ? "%s: what %s moves has no mass or inertia there"
+                                  : "%s: %s can move together where there is no mass or inertia",
+                       what, named.at);
+        if (beam != NULL)
+            diag_hint(diag,
+                      "a beam resists a turn about its axis by its sections alone: give %s "
+                      "inertia_per_length=[Jx, Jy, Jz]",
+                      beam);
+    }
+    text_free(&named);
+    MEM_FREE(mass, scale, shares);
+    return found;
+}
+
 /* what rows take part with in a driver's row, and what is left of it */
 static double find_parts(const Layout *l, const Equations *equations, int driver, double *parts)
 {
@@ -196,5 +309,7 @@ void cause_leading(const Layout *l, const Equations *equations, int driver, cons
 bool cause_tell(const Layout *layout, Parameters *parameters, double t, const double *y,
                 const char *what, Diag *diag)
 {
-    return cause_meeting(layout, parameters, t, y, what, diag) || tell_massless(layout, what, diag);
+    return cause_meeting(layout, parameters, t, y, what, diag) ||
+           tell_massless(layout, what, diag) ||
+           tell_massless_here(layout, parameters, t, y, what, diag);
 }
