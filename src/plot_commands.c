@@ -400,13 +400,40 @@ static void put_scales(FILE *out, const Plot *plot)
         fputs("set size ratio -1\n", out);
 }
 
+/* whether gnuplot writes that curve's axis with powers of ten, which take room */
+static bool has_powers(const Plot *plot, int i)
+{
+    const PlotCurve *curve = &plot->curves[i];
+    const PlotBlock *block = &plot->blocks[curve->block];
+    double least = INFINITY, largest = 0;
+
+    for (int r = 0; r < block->rows; r++) {
+        const double size = fabs(block->values[r * block->columns + curve->column]);
+
+        largest = fmax(largest, isfinite(size) ? size : 0);
+        least = size > 0 ? fmin(least, size) : least;
+    }
+    return largest >= 1e6 || (largest > 0 && largest < 1e-3) ||
+           (plot->keys.y_is_log && least < 1e-4);
+}
+
+/* characters beside the panels, for numbers and the label of an axis; 0: no axis there */
+static int margin_for(const Plot *plot, bool right)
+{
+    enum { PLAIN = 11, POWERS = 16 };
+    int margin = 0;
+
+    for (int i = 0; i < plot->count; i++)
+        if (plot->curves[i].right == right && margin < POWERS)
+            margin = has_powers(plot, i) ? POWERS : PLAIN;
+    return margin;
+}
+
 void plot_put(FILE *out, const Drawing *drawing)
 {
     const Plot *plot = drawing->of;
-    bool has_right = false;
+    const int right = margin_for(plot, true);
 
-    for (int i = 0; i < plot->count; i++)
-        has_right = has_right || plot->curves[i].right;
     put_blocks(out, plot);
     if (plot->panels == 1)
         put_title(out, drawing->title);
@@ -422,7 +449,8 @@ void plot_put(FILE *out, const Drawing *drawing)
             fputs(" noenhanced", out);
         }
         /* the panels' axes of time stand above one another */
-        fprintf(out, "\nset lmargin 11\nset rmargin %d\n", has_right ? 11 : 3);
+        fprintf(out, "\nset lmargin %d\nset rmargin %d\n", margin_for(plot, false),
+                right > 0 ? right : 3);
     }
     for (int i = 0; i < plot->panels; i++)
         put_panel(out, plot, i);

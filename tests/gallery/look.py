@@ -173,6 +173,13 @@ def bars():
     need(p.texts.count("h8 [rad]") == 1, "a panel of one curve has no legend")
 
 
+def powers():
+    """numbers with powers of ten leave room for the labels beside them"""
+    p = plot("powers", 4, "h8 [rad]")
+    turned = [moved(e)[0] for e in p.root.iter() if moved(e) and "rotate" in e.get("transform")]
+    need(len(turned) == 3 and min(turned) > 5, f"labels of axes stand at {turned}")
+
+
 def alone():
     plot("alone", 2, "h8 [rad]", "h9 [rad]", "each alone")
 
@@ -451,8 +458,8 @@ def page():
     need((width, height) == (900, 700) and busy > 0.3, f"{width} x {height}, {busy}")
 
 
-{"one": one, "two": two, "three": three, "bars": bars, "alone": alone, "path": path, "many": many,
- "runs": runs, "measured": measured, "ranges": ranges, "png": png_of_both,
+{"one": one, "two": two, "three": three, "bars": bars, "powers": powers, "alone": alone, "path": path,
+ "many": many, "runs": runs, "measured": measured, "ranges": ranges, "png": png_of_both,
  "documents": documents, "loop": loop, "graph": graph, "mechanism": mechanism, "moving": moving, "events": events, "mixed": mixed,
  "units": units, "spectrum": spectrum, "spatial": spatial, "bent": bent, "springs": springs,
  "forces": forces, "domains": domains, "circuit": circuit, "ports": ports,
