@@ -96,12 +96,31 @@ static void sweep(Layout *layout)
     }
 }
 
+/* how much longer edges are where many meet at few nodes, or lie side by side: their names want
+ * room */
+static double stretch(const Layout *layout)
+{
+    static const double AT_EASE = 1.4, MOST = 1.8; /* edges a node; of the length */
+    int edges = 0;
+
+    for (int i = 0; i < layout->count; i++) {
+        const int *at;
+        const int count = graph_edges_at(layout->graph, layout->nodes[i], &at);
+
+        for (int k = 0; k < count; k++)
+            edges += layout->number[graph_edge(layout->graph, at[k])->tail] == i;
+    }
+    return fmax(1, fmin(MOST, edges / (AT_EASE * layout->count)));
+}
+
 /* into the corner of the sheet */
 static Point settle(Layout *layout)
 {
+    const double longer = stretch(layout);
     Point low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
 
     for (int i = 0; i < layout->count; i++) {
+        layout->at[i] = (Point){longer * layout->at[i].x, longer * layout->at[i].y};
         low = (Point){fmin(low.x, layout->at[i].x), fmin(low.y, layout->at[i].y)};
         high = (Point){fmax(high.x, layout->at[i].x), fmax(high.y, layout->at[i].y)};
     }

@@ -77,23 +77,52 @@ static void draw_brackets(Sheet *sheet, const Instance *beam, Ink ink)
     }
 }
 
+enum { SMOOTH = 4, AXIS_POINTS = (BENT_SPOTS - 1) * SMOOTH + 1 }; /* lines between two spots */
+
+/* the curve through the spots of a beam, by cubics that pass each along the line of its neighbours
+ */
+static void smooth_axis(Sheet *sheet, const Bent *bent, Point *axis)
+{
+    Point spots[BENT_SPOTS + 2]; /* one before and one behind, in line with the curve's end */
+    Point *const at = spots + 1;
+
+    for (int k = 0; k < BENT_SPOTS; k++)
+        at[k] = sheet_node(sheet, bent->first + k, NULL);
+    at[-1] = (Point){3 * (at[0].x - at[1].x) + at[2].x, 3 * (at[0].y - at[1].y) + at[2].y};
+    at[BENT_SPOTS] = (Point){
+        3 * (at[BENT_SPOTS - 1].x - at[BENT_SPOTS - 2].x) + at[BENT_SPOTS - 3].x,
+        3 * (at[BENT_SPOTS - 1].y - at[BENT_SPOTS - 2].y) + at[BENT_SPOTS - 3].y,
+    };
+    for (int i = 0; i < AXIS_POINTS; i++) {
+        const int k = i < AXIS_POINTS - 1 ? i / SMOOTH : BENT_SPOTS - 2;
+        const double s = (double)(i - k * SMOOTH) / SMOOTH;
+        const double share[] = {s * (s * (2 - s) - 1) / 2, (s * s * (3 * s - 5) + 2) / 2,
+                                s * (s * (4 - 3 * s) + 1) / 2, s * s * (s - 1) / 2};
+
+        axis[i] = (Point){0, 0};
+        for (int n = 0; n < 4; n++) {
+            axis[i].x += share[n] * at[k - 1 + n].x;
+            axis[i].y += share[n] * at[k - 1 + n].y;
+        }
+    }
+}
+
 /* A beam as wide as a link: along one side of its axis, round the end, and back. */
 static void draw_bent(Sheet *sheet, const Bent *bent, Ink ink)
 {
     enum { CAP = 8 };
-    Point edge[2 * (BENT_SPOTS + CAP)], d = {1, 0};
+    Point edge[2 * (AXIS_POINTS + CAP)], axis[AXIS_POINTS], d = {1, 0};
     int count = 0;
 
-    for (int k = 0; k < 2 * BENT_SPOTS; k++) {
-        const int side = k < BENT_SPOTS ? 1 : -1;
-        const int spot = side > 0 ? k : 2 * BENT_SPOTS - 1 - k;
-        const int before = spot > 0 ? spot - 1 : 0;
-        const int after = spot < BENT_SPOTS - 1 ? spot + 1 : spot;
-        const Point at = sheet_node(sheet, bent->first + spot, NULL);
-        const Point a = sheet_node(sheet, bent->first + before, NULL);
-        const Point b = sheet_node(sheet, bent->first + after, NULL);
+    smooth_axis(sheet, bent, axis);
+    for (int k = 0; k < 2 * AXIS_POINTS; k++) {
+        const int side = k < AXIS_POINTS ? 1 : -1;
+        const int spot = side > 0 ? k : 2 * AXIS_POINTS - 1 - k;
+        const Point at = axis[spot];
+        const Point a = axis[spot > 0 ? spot - 1 : 0];
+        const Point b = axis[spot < AXIS_POINTS - 1 ? spot + 1 : spot];
         const double length = hypot(b.x - a.x, b.y - a.y);
-        const bool ends = k % BENT_SPOTS == BENT_SPOTS - 1;
+        const bool ends = k % AXIS_POINTS == AXIS_POINTS - 1;
 
         if (length > 1e-6) /* px; seen from its end it has the direction before */
             d = (Point){(b.x - a.x) / length, (b.y - a.y) / length};

@@ -329,6 +329,16 @@ def bent():
     need(abs(found / sag - 1) < 0.03, f"it sags {found} px, not {sag}")
 
 
+def wavy():
+    """a strongly bent beam has no corners but round its ends"""
+    area = Sheet("wavy.svg").points("body b", "polygon")
+    low, high = min(x for x, _ in area) + 12, max(x for x, _ in area) - 12
+    for a, b, c in zip(area, area[1:], area[2:]):
+        if low < b[0] < high and math.dist(a, b) > 1 and math.dist(b, c) > 1:
+            turn = math.atan2(c[1] - b[1], c[0] - b[0]) - math.atan2(b[1] - a[1], b[0] - a[0])
+            need(abs(math.remainder(turn, 2 * math.pi)) < 0.15, f"a corner at {b}")
+
+
 def springs():
     """drawn from end to end, whatever is between; what ends in the ground has a wall there"""
     sheet = Sheet("springs.svg")
@@ -461,6 +471,7 @@ def page():
 {"one": one, "two": two, "three": three, "bars": bars, "powers": powers, "alone": alone, "path": path,
  "many": many, "runs": runs, "measured": measured, "ranges": ranges, "png": png_of_both,
  "documents": documents, "loop": loop, "graph": graph, "mechanism": mechanism, "moving": moving, "events": events, "mixed": mixed,
- "units": units, "spectrum": spectrum, "spatial": spatial, "bent": bent, "springs": springs,
+ "units": units, "spectrum": spectrum, "spatial": spatial, "bent": bent, "wavy": wavy,
+ "springs": springs,
  "forces": forces, "domains": domains, "circuit": circuit, "ports": ports,
  "characters": characters, "page": page}[sys.argv[1]]()
