@@ -263,7 +263,10 @@ static Status next_terminal(PartDraft *draft, int which)
         if (name != NULL)
             CHECK(use_check_bound(draft->state, name, operand->place, draft->diag));
         status = diag_at(draft->diag, E_NAME, operand->place, "a terminal is expected here");
-        diag_hint(draft->diag, "a terminal is any new name, or 0 for the reference");
+        diag_hint(draft->diag, name != NULL
+                                   ? "a terminal is any new name without a dot, or 0 for the "
+                                     "reference; one of an instance comes with its 'use'"
+                                   : "a terminal is any new name, or 0 for the reference");
         goto done;
     }
     if (strcmp(name, "gnd") == 0)

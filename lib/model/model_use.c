@@ -438,8 +438,15 @@ static Status bind_terminal(UseDraft *d, int port, const Syntax *value)
     if (name == NULL || strcmp(name, "ground") == 0 ||
         (!is_there && strchr(name, '.') != NULL && state->inside < 0)) {
         (void)diag_at(d->diag, E_NAME, value->place, "a terminal is expected here");
-        diag_hint(d->diag, "the port %s of %s is a terminal: any new name, or 0",
-                  d->subsystem->ports[port].name, d->subsystem->name);
+        if (name != NULL && strncmp(name, d->use.name, strlen(d->use.name)) == 0 &&
+            name[strlen(d->use.name)] == '.')
+            diag_hint(d->diag,
+                      "%s comes with this line: bind a new name, such as %s=n, and join the two "
+                      "behind it: vsource J n %s 0",
+                      name, d->subsystem->ports[port].name, name);
+        else
+            diag_hint(d->diag, "the port %s of %s is a terminal: any new name, or 0",
+                      d->subsystem->ports[port].name, d->subsystem->name);
         return E_NAME;
     }
     if (strcmp(name, "0") != 0 && !is_there &&

@@ -89,4 +89,27 @@ body c mass=1 inertia=1
 revolute h ground b
 revolute k b c
 simulate 1'
+say 'subsystem follower terminals=[p] through=[q]
+  vcvs E q 0 p 0 gain=1
+end
+resistor R1 f.q 0 5
+use follower f p=f.q
+use follower f p=a
+resistor R1 f.q 0 5'
+echo '--- a diode by its slope, against its operating points beside'
+cat >slope.ct <<'MODEL'
+U = 2 V
+vsource V a 0 U
+resistor R a b 1 kohm
+diode D b 0 Is=1e-14
+linearize inputs=[V] outputs=[b.v] > "linear.txt"
+keep slope = linear.D(1,1)
+U = 2.001
+op > "rest.txt"
+keep above = b.v
+U = 1.999
+op > "rest.txt"
+expect slope ~ (above - b.v)/0.002 within 1e-5*slope
+MODEL
+cotree -q slope.ct && echo held
 true

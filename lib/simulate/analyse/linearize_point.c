@@ -348,6 +348,21 @@ static void open_room(Work *w)
         w->y_error[i] = number_error(w->y[i]);
 }
 
+/* Newton begins where the run has found the network: from nothing it doesn't come back out of an
+ * exponential. */
+static void begin_at_network(Work *w)
+{
+    const Layout *l = w->l;
+    Motion *motion = w->phase->motion;
+    const double *known = motion != NULL && l->nz == w->phase->layout->nz && l->nx + l->nz > 0
+                              ? motion_network(motion, w->order->at, w->y)
+                              : NULL;
+
+    for (int k = 0; k < l->nx + l->nz && known != NULL; k++)
+        w->follow[(k < l->nx ? w->at.rates + k : w->at.z + k - l->nx) - w->at.acceleration] =
+            known[k];
+}
+
 static Status refuse_dependent(Work *w, Diag *diag)
 {
     if (cause_tell(w->l, &w->parameters, w->order->at, w->y, "nothing linear tells how it moves",
@@ -368,6 +383,7 @@ Status linear_point(Work *w, Diag *diag)
         return diag_set(diag, E_MODEL, "with these inputs the model has other unknowns");
     open_room(w);
     choose_rows(w);
+    begin_at_network(w);
     if (!find_rates(w))
         TRY(refuse_dependent(w, diag));
     evaluate_geometry(w);
