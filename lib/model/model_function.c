@@ -299,9 +299,15 @@ static Status call_deflection(Scope *scope, const Syntax *syntax, const Instance
     Text name = {0};
     double at;
 
-    if (scope->kind != SCOPE_ASK && scope->kind != SCOPE_OUTPUT && scope->kind != SCOPE_EVENT)
-        return diag_at(diag, E_NAME, syntax->place,
-                       "%s can be printed, but nothing can depend on it", syntax->text);
+    if (scope->kind != SCOPE_ASK && scope->kind != SCOPE_OUTPUT && scope->kind != SCOPE_EVENT) {
+        (void)diag_at(diag, E_NAME, syntax->place,
+                      "%s can be printed, but nothing can depend on it", syntax->text);
+        diag_hint(diag,
+                  "a frame there can be watched: arm a %s at=..., then a.y, or the coordinate of a "
+                  "virtual joint to it",
+                  part->name);
+        return E_NAME;
+    }
     if (syntax->count != 1 || (expr_kinds(args[0]) & ~(1U << SYMBOL_PARAMETER)) != 0) {
         (void)diag_at(diag, E_VALUE, syntax->place, "%s takes one place along the beam",
                       syntax->text);

@@ -123,6 +123,29 @@ Status apply_title(State **state, const Statement *statement, Outcome *outcome, 
 
 /* --- set NAME.key = value --- */
 
+/* what is said of `set leg1.A = ...`, where A is no parameter */
+static Status key_of_use(const State *state, const Use *use, const char *key, const Pair *pair,
+                         Diag *diag)
+{
+    const char *const subsystem = use->subsystem->name;
+
+    if (subsystem_port(use->subsystem, key) >= 0) {
+        (void)diag_at(diag, E_NAME, pair->name_place, "%s is a port of %s: 'use' binds it", key,
+                      use->name);
+        diag_hint(diag, "delete %s, and make it anew: use %s %s %s=...", use->name, subsystem,
+                  use->name, key);
+    } else if (state_part(state, pair->name) != NULL) {
+        (void)diag_at(diag, E_NAME, pair->name_place,
+                      "%s is a part of %s: 'set' changes a key of it", pair->name, use->name);
+        diag_hint(diag, "it is written set %s.KEY = value; 'info %s' lists its keys", pair->name,
+                  pair->name);
+    } else {
+        (void)diag_at(diag, E_NAME, pair->name_place, "%s has no parameter '%s'", use->name, key);
+        diag_hint(diag, "'info %s' tells what there is of it", use->name);
+    }
+    return E_NAME;
+}
+
 static Status find_key(State *state, const Pair *pair, Instance **part, int *param, Diag *diag)
 {
     const char *dot = strrchr(pair->name, '.');
@@ -133,6 +156,10 @@ static Status find_key(State *state, const Pair *pair, Instance **part, int *par
     if (dot == NULL || pair->primes > 0) {
         status = diag_at(diag, E_NAME, pair->name_place, "'set' changes a key of a part");
         diag_hint(diag, "it is written set NAME.KEY = value");
+        goto done;
+    }
+    if (found == NULL && state_use(state, owner) != NULL) {
+        status = key_of_use(state, state_use(state, owner), dot + 1, pair, diag);
         goto done;
     }
     if (found == NULL) {

@@ -398,6 +398,14 @@ static void say_unit_motion(Text *out, const View *view, const UnitMotion *motio
     story_say_done(out, view, label, &words);
 }
 
+static bool has_beams(const View *view)
+{
+    for (int i = 0; i < model_count(view->model); i++)
+        if (instance_bends(model_instance(view->model, i)))
+            return true;
+    return false;
+}
+
 static void say_unit_motions(Text *out, const View *view, int speed, const UnitMotions *motions)
 {
     Text words = {0};
@@ -408,7 +416,9 @@ static void say_unit_motions(Text *out, const View *view, int speed, const UnitM
     text_add(&words, " moves:");
     for (int i = 0; i < motions->count; i++)
         any = any || motions->at[i].v.count > 0 || !story_is_nothing(motions->at[i].w.at);
-    text_add(&words, any ? "" : " no part with mass");
+    if (!any)
+        text_add(&words, has_beams(view) ? " no rigid part; what beams give is summed along them"
+                                         : " no part with mass");
     story_say_done(out, view, "projected", &words);
     for (int i = 0; i < motions->count; i++)
         if (motions->at[i].v.count > 0 || !story_is_nothing(motions->at[i].w.at))

@@ -112,4 +112,11 @@ op > "rest.txt"
 expect slope ~ (above - b.v)/0.002 within 1e-5*slope
 MODEL
 cotree -q slope.ct && echo held
+say 'scene planar
+beam b length=1 mass_per_length=2 EIz=100 modes=[0, 1]
+revolute h ground b
+arm tip b at=1
+sensor s tip.y o 0
+print h at 3
+show derivation b.v1' | grep -v 'forces\|shapes\|^b'
 true

@@ -314,6 +314,11 @@ Status result_reader_at(ResultReader *reader, double t, Phase **phase, const dou
     StepEnd ends[2];
     int row;
 
+    if (!find_ends(reader, t, ends) && reader->result->grid.count < 2) {
+        (void)diag_set(diag, E_VALUE, "there is no run yet that goes to t = %.6g s", t);
+        diag_hint(diag, "'simulate 10' makes one; without 'at' it is asked of the start");
+        return E_VALUE;
+    }
     if (!find_ends(reader, t, ends))
         return diag_set(diag, E_VALUE,
                         "t = %.6g s is outside the run, which goes from %.6g to %.6g s", t,
