@@ -184,7 +184,10 @@ static Status draw_mechanism(ct_session *session, const Statement *s, ct_paper *
         CHECK(session_start(session, &run, diag));
     if (s->at == NULL)
         strip.times[0] = result_times(run->result)[0];
-    CHECK(fill_strip(session, s, run, &strip, diag));
+    status = fill_strip(session, s, run, &strip, diag);
+    if (status != OK && s->at != NULL && diag->place.line == 0)
+        diag->place = s->at->place;
+    CHECK(status);
     write_picture(session, &strip.pictures[0], paper, out);
 done:
     strip_free(&strip);

@@ -119,4 +119,7 @@ arm tip b at=1
 sensor s tip.y o 0
 print h at 3
 show derivation b.v1' | grep -v 'forces\|shapes\|^b'
+say "$pendulum
+simulate 1 every=0.5
+draw mechanism at 2"
 true
