@@ -336,7 +336,7 @@ def wavy():
     for a, b, c in zip(area, area[1:], area[2:]):
         if low < b[0] < high and math.dist(a, b) > 1 and math.dist(b, c) > 1:
             turn = math.atan2(c[1] - b[1], c[0] - b[0]) - math.atan2(b[1] - a[1], b[0] - a[0])
-            need(abs(math.remainder(turn, 2 * math.pi)) < 0.15, f"a corner at {b}")
+            need(abs(math.remainder(turn, 2 * math.pi)) < 0.12, f"a corner at {b}")
 
 
 def springs():
