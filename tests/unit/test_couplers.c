@@ -165,6 +165,37 @@ static void what_cant_couple_is_refused(void)
     kit_free(&kit);
 }
 
+/* A nut of mass m and inertia I that turns by alpha is pushed by m p alpha, p the shift per angle,
+ * and the thread's moment is -p times that, whatever turns it and wherever the screw stands. */
+static void a_thread_carries_the_same_in_all_trees(void)
+{
+    static const struct {
+        const char *turned, *alpha;
+    } cases[] = {
+        {"actuator A j.theta torque=0.7", "0.7/(0.1 + m*p^2)"},
+        {"spring k j.theta k=2 rest=0.35", "0.7/(0.1 + m*p^2)"},
+        {"driver D j.theta = 0.3*t^2", "0.6"},
+        {"vsource E e 0 3; motor M j.theta e 0 R=2 Kt=0.4 J=0.05", "0.6/(0.15 + m*p^2)"},
+        {"body w mass=1 inertia=[1, 1, 1]; revolute h ground w axis=x\n"
+         "actuator A h torque=0.9; coupler C j.theta = 2*h\ninit h = 0, h' = 0",
+         "2*0.9/(1 + 4*(0.1 + m*p^2))"},
+    };
+    static const char *const trees[] = {"tree joint\n", "tree absolute\n"};
+
+    for (size_t i = 0; i < 2 * sizeof cases / sizeof *cases; i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, "m = 1.5; p = 0.9/(2*pi)\nbody b mass=m inertia=[0.1, 0.2, 0.3]\n"
+                          "screw j ground b axis=x pitch=0.9\ninit j.theta = 0, j.theta' = 0\n");
+        EXPECT_DONE(&kit, cases[i / 2].turned);
+        EXPECT_DONE(&kit, trees[i % 2]);
+        expect_value(&kit, "j.theta''", kit_value(&kit, cases[i / 2].alpha));
+        expect_value(&kit, "j.fx", kit_value(&kit, "m*p*j.theta''"));
+        expect_value(&kit, "j.tx", kit_value(&kit, "-p*m*p*j.theta''"));
+        kit_free(&kit);
+    }
+}
+
 int main(void)
 {
     RUN(gear_reflects_an_inertia);
@@ -172,6 +203,7 @@ int main(void)
     RUN(differential_shares_its_torque);
     RUN(cam_moves_its_follower);
     RUN(trees_and_forms_agree);
+    RUN(a_thread_carries_the_same_in_all_trees);
     RUN(repeated_couplers_are_told);
     RUN(subsystems_have_couplers);
     RUN(what_cant_couple_is_refused);

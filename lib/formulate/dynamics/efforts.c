@@ -149,11 +149,41 @@ bool system_pusher(System *system, int *next, Pusher *out)
     return false;
 }
 
+/* a force along a shift of a joint */
+static void add_shift(System *system, Loads *loads, const Instance *owner, const Step *shift,
+                      Expr effort)
+{
+    Arena *arena = system->arena;
+    const int chain = system->kinematics->frames[owner->tail].chain;
+    Vec force = {{shift->axis[0], shift->axis[1], shift->axis[2]}};
+    const Vec way =
+        vec_sub(arena, node_position(system, owner->head), node_position(system, owner->tail));
+
+    force = vec_scale(arena, effort, frame_vector(system, owner->tail, force));
+    loads_add_force(system, loads, owner->head, force, chain);
+    loads_add_force(system, loads, owner->tail, vec_neg(arena, force), chain);
+    /* the tail feels the force where the head is */
+    force = vec_express(system, force, chain, 0);
+    loads_add_torque(system, loads, owner->tail, vec_neg(arena, vec_cross(arena, way, force)), 0);
+}
+
+/* a torque on a screw that is a chord */
+static void add_tied(const System *system, Loads *loads, const Instance *screw, Expr torque)
+{
+    const int count = system->origin->instance_count;
+
+    if (loads->tied == NULL) {
+        loads->tied = pool_alloc(system->pool, (size_t)count * sizeof(Expr));
+        for (int i = 0; i < count; i++)
+            loads->tied[i] = expr_int(system->arena, 0);
+    }
+    loads->tied[screw->number] = expr_add(system->arena, loads->tied[screw->number], torque);
+}
+
 void loads_add_effort(System *system, Loads *loads, const Instance *owner, int coordinate,
                       Expr effort)
 {
     Arena *arena = system->arena;
-    int chain = system->kinematics->frames[owner->tail].chain;
     Steps steps;
 
     if (coordinate >= owner->pose_count) {
@@ -163,6 +193,13 @@ void loads_add_effort(System *system, Loads *loads, const Instance *owner, int c
         return;
     }
     instance_steps(system, owner, &steps);
+    if (steps_are_tied(&steps) && !owner->is_virtual &&
+        system->kinematics->coordinate[owner->number][coordinate] < 0) {
+        add_tied(system, loads, owner, effort);
+        add_shift(system, loads, owner, &steps.shift[0],
+                  expr_div(arena, effort, steps.shift[0].scale));
+        return;
+    }
     for (int k = 0; k < steps.turn_count; k++) {
         Vec torque;
         int about;
@@ -174,22 +211,9 @@ void loads_add_effort(System *system, Loads *loads, const Instance *owner, int c
         loads_add_torque(system, loads, owner->tail, vec_neg(arena, torque), about);
     }
     /* on a screw the coordinate is the angle, and the effort a torque */
-    for (int k = 0; k < steps.shift_count && !steps_are_tied(&steps); k++) {
-        Vec force = {{steps.shift[k].axis[0], steps.shift[k].axis[1], steps.shift[k].axis[2]}};
-        Vec way;
-
-        if (steps.shift[k].coordinate != coordinate)
-            continue;
-        force = vec_scale(arena, effort, frame_vector(system, owner->tail, force));
-        loads_add_force(system, loads, owner->head, force, chain);
-        loads_add_force(system, loads, owner->tail, vec_neg(arena, force), chain);
-        /* the tail feels the force where the head is */
-        way =
-            vec_sub(arena, node_position(system, owner->head), node_position(system, owner->tail));
-        force = vec_express(system, force, chain, 0);
-        loads_add_torque(system, loads, owner->tail, vec_neg(arena, vec_cross(arena, way, force)),
-                         0);
-    }
+    for (int k = 0; k < steps.shift_count && !steps_are_tied(&steps); k++)
+        if (steps.shift[k].coordinate == coordinate)
+            add_shift(system, loads, owner, &steps.shift[k], effort);
 }
 
 Status efforts_add(System *system, Loads *loads, int take, Diag *diag)

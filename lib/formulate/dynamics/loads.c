@@ -13,9 +13,9 @@ Loads loads_new(const System *system)
 {
     int count = graph_node_count(system->origin->graph);
     const int speeds = system->kinematics->u.count;
-    Loads loads = {pool_alloc(system->pool, (size_t)count * sizeof(Vec)),
-                   pool_alloc(system->pool, (size_t)count * sizeof(Vec)),
-                   pool_alloc(system->pool, (size_t)speeds * sizeof(Expr))};
+    Loads loads = {.force = pool_alloc(system->pool, (size_t)count * sizeof(Vec)),
+                   .torque = pool_alloc(system->pool, (size_t)count * sizeof(Vec)),
+                   .own = pool_alloc(system->pool, (size_t)speeds * sizeof(Expr))};
 
     for (int i = 0; i < count; i++)
         loads.force[i] = loads.torque[i] = vec_zero(system->arena);
@@ -275,6 +275,7 @@ Sums *loads_sum(const System *system, const Loads *loads, SumsFor whom)
 
     find_asked(&s, whom);
     sums->own = loads->own;
+    sums->tied = loads->tied;
     sums->force = pool_alloc(system->pool, size);
     sums->torque = pool_alloc(system->pool, size);
     for (int i = 0; i < nodes; i++) {

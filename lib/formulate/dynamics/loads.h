@@ -10,13 +10,14 @@ typedef struct Loads {
     Vec *force;  /* one a node */
     Vec *torque; /* one a node */
     Expr *own;   /* one a speed: on shapes, which no frame stands for */
+    Expr *tied;  /* one an instance: torques on screws that are chords; NULL: there are none */
 } Loads;
 
 /* what hangs beyond each node: sums of Loads inward */
 typedef struct Sums {
     Vec *force;  /* of everything beyond in the translation tree, a node each */
     Vec *torque; /* of everything beyond in the rotation tree, arms included */
-    const Expr *own;
+    const Expr *own, *tied;
 } Sums;
 
 /* who asks for sums */
@@ -33,8 +34,10 @@ void loads_add_inertia(const System *system, Loads *loads, const Vec *alpha, con
                        const Expr *accelerations);
 void loads_add_force(const System *system, Loads *loads, int node, Vec force, int chain);
 void loads_add_torque(const System *system, Loads *loads, int node, Vec torque, int chain);
-/* a force or torque `effort` along a coordinate of an instance, on its head and reversed on its
- * tail */
+/* A force or torque `effort` along a coordinate of an instance, on its head and reversed on its
+ * tail. Along that of a screw which is a chord it is the force on the shift that does the same work,
+ * as in the rows of motion, where the shift tells the coordinate: the two differ by what the tie
+ * carries, and loads->tied has the torque (chord_reaction()). */
 void loads_add_effort(System *system, Loads *loads, const Instance *owner, int coordinate,
                       Expr effort);
 

@@ -101,11 +101,33 @@ static Vec row_reaction(const System *system, const Row *row, bool rotation)
     return vec_express(system, along, row->kind == ROW_DATUM ? 0 : tail, 0);
 }
 
+/* What a screw's tie carries beside its row. The rows of motion have a torque on it as the force on
+ * the shift that does the same work, and so their multiplier lacks that force; it comes with the
+ * moment that makes the wrench do no work. */
+static Vec tied_reaction(System *system, const Instance *joint, bool rotation)
+{
+    Arena *arena = system->arena;
+    const Expr *tied = system->shown->actual->tied;
+    Steps steps;
+    Vec axis;
+    int chain;
+
+    if (tied == NULL || expr_is_zero(tied[joint->number]))
+        return vec_zero(arena);
+    instance_steps(system, joint, &steps);
+    axis = joint_axis(system, joint, &steps, 0, &chain);
+    axis = vec_express(system, axis, chain, 0);
+    return vec_scale(arena,
+                     rotation ? expr_neg(arena, tied[joint->number])
+                              : expr_div(arena, tied[joint->number], steps.shift[0].scale),
+                     axis);
+}
+
 /* the sum over a chord's rows */
 static Vec chord_reaction(System *system, const Instance *joint, bool rotation)
 {
     Arena *arena = system->arena;
-    Vec sum = vec_zero(arena);
+    Vec sum = tied_reaction(system, joint, rotation);
 
     for (int k = 0; k < system->constraints->rows.count + system->constraints->redundant_rows.count;
          k++) {
