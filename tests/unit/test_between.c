@@ -164,6 +164,16 @@ static void a_table_and_a_question_agree(void)
     kit_free(&kit);
 }
 
+/* What a driver prescribes is where it has to be, however far a method that projects no steps
+ * drifts from it: a cart on a spring rests again, and takes up nothing of that. */
+static void what_drifts_from_a_driver_moves_nothing_else(void)
+{
+    expect_between("scene planar\nbody a mass=1\nprismatic d ground a axis=x\nbody b mass=0.5\n"
+                   "prismatic s a b axis=x\nspring k s k=1 d=1.5\ninit s = 0, s' = 0\n"
+                   "driver D d = exp(-((t - 5)/0.5)^2)\n",
+                   "simulate 400 every=40 rtol=1e-6", "s", 0, 1e-6);
+}
+
 /* What supplies a driven motion follows from it at the instant: R i + L i' + K theta', i = J
  * theta'' / K, of theta = t^3. */
 static void efforts_between_rows_are_solved_for(void)
@@ -187,6 +197,7 @@ int main(void)
     RUN(jumps_between_rows_are_kept);
     RUN(few_rows_tell_what_many_do);
     RUN(a_table_and_a_question_agree);
+    RUN(what_drifts_from_a_driver_moves_nothing_else);
     RUN(efforts_between_rows_are_solved_for);
     return test_end();
 }

@@ -383,6 +383,32 @@ static void take_prescribed(Motion *mo)
         pattern_add(mo->eq->rows, mo->eq->phi_u, mo->rows[k], mo->bottom[k], mo->du);
 }
 
+/* What rows of one speed each miss is that speed's alone, as of a driver: masses would have others
+ * make up for it, which the drift of what is prescribed has nothing to do with. Whether there are
+ * such rows. */
+static bool take_single_rows(Motion *mo)
+{
+    const Pattern *rows = mo->eq->rows;
+    bool found = false;
+
+    memset(mo->du, 0, (size_t)mo->eq->nu * sizeof(double));
+    for (int k = 0; k < mo->used; k++) {
+        const int place = rows->start[mo->rows[k]];
+
+        if (rows->start[mo->rows[k] + 1] != place + 1 || mo->bottom[k] == 0)
+            continue;
+        mo->du[rows->row[place]] = mo->bottom[k] / mo->eq->phi_u[place];
+        found = true;
+    }
+    return found;
+}
+
+static void take_missed_positions(Motion *mo)
+{
+    for (int k = 0; k < mo->used; k++)
+        mo->bottom[k] = -mo->eq->phi[mo->rows[k]];
+}
+
 /* Whether a position is brought back by what the equations have eliminated themselves: to the
  * nearest by masses. Where elimination is sound no singular position is near (kkt_is_sound()), and
  * far from these that is as good. The stages of a step that is projected all take one metric. */
@@ -394,8 +420,7 @@ static bool moves_by_masses(Motion *mo)
 /* Phi_u du = -Phi. */
 static void find_move(Motion *mo, bool by_masses)
 {
-    for (int k = 0; k < mo->used; k++)
-        mo->bottom[k] = -mo->eq->phi[mo->rows[k]];
+    take_missed_positions(mo);
     if (motion_is_prescribed(mo))
         take_prescribed(mo);
     else if (by_masses)
@@ -428,6 +453,12 @@ static bool project_position(Motion *mo, double t, double *y)
     if (!motion_is_prescribed(mo) && !by_masses &&
         !motion_factor_with(mo, mo->nearest_kkt, mo->unit))
         return false;
+    take_missed_positions(mo);
+    if (by_masses && take_single_rows(mo)) {
+        move(mo, mo->du, y);
+        motion_at_position(mo, t, y);
+        left = distance(mo);
+    }
     for (int sweep = 0; sweep < PROJECTION_SWEEPS && left > (by_masses ? 1e-15 : 1e-16) * size;
          sweep++) {
         if (left <= 1e-13 * size && left > 0.5 * before)
@@ -443,6 +474,20 @@ static bool project_position(Motion *mo, double t, double *y)
     return left <= enough;
 }
 
+static void take_missed_speeds(Motion *mo, const double *u)
+{
+    const Equations *eq = mo->eq;
+
+    for (int k = 0; k < mo->used; k++)
+        mo->bottom[k] = eq->nu_rate[mo->rows[k]] - pattern_dot(eq->rows, eq->phi_u, mo->rows[k], u);
+}
+
+static void add_speeds(const Motion *mo, double *u)
+{
+    for (int j = 0; j < mo->eq->nu; j++)
+        u[j] += mo->du[j];
+}
+
 static bool project_velocity(Motion *mo, double t, const double *y, double *u, const double *x)
 {
     const Equations *eq = mo->eq;
@@ -453,16 +498,18 @@ static bool project_velocity(Motion *mo, double t, const double *y, double *u, c
     if (!has_own && !motion_factor(mo))
         return false;
     eq->velocity(eq->context, u, x);
-    for (int k = 0; k < mo->used; k++)
-        mo->bottom[k] = eq->nu_rate[mo->rows[k]] - pattern_dot(eq->rows, eq->phi_u, mo->rows[k], u);
+    take_missed_speeds(mo, u);
+    if (motion_is_eliminated(mo) && take_single_rows(mo)) {
+        add_speeds(mo, u);
+        take_missed_speeds(mo, u);
+    }
     if (motion_is_prescribed(mo))
         take_prescribed(mo);
     else if (has_own)
         eq->eliminated->step(eq->context, mo->bottom, mo->du);
     else
         kkt_solve(mo->kkt, NULL, mo->bottom, mo->du, mo->lambda);
-    for (int j = 0; j < eq->nu; j++)
-        u[j] += mo->du[j];
+    add_speeds(mo, u);
     return vector_is_finite(u, eq->nu);
 }
 
