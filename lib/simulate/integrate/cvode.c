@@ -4,6 +4,10 @@
 #include <cvode/cvode.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+#include <sunnonlinsol/sunnonlinsol_newton.h>
+
+#define AT_ONCE 1e-2 /* of what Newton's method may leave: a first correction that is the last */
+#define SLOWEST 0.9  /* from correction to correction: else it doesn't converge */
 
 static const SundialsCalls calls = {
     .free = CVodeFree,
@@ -93,9 +97,10 @@ static SUNLinearSolver_Type type_of(SUNLinearSolver solver)
 
 static int factor(SUNLinearSolver solver, SUNMatrix matrix)
 {
-    const Sundials *c = solver->content;
+    Sundials *c = solver->content;
 
     (void)matrix;
+    c->becoming = 1;
     return condensed_factor_real(c->condensed, 1 / c->gamma) ? 0 : SUNLS_LUFACT_FAIL;
 }
 
@@ -140,6 +145,51 @@ static int set_linear(Sundials *c)
     c->linear->ops->free = free_solver;
     code = CVodeSetLinearSolver(c->memory, c->linear, c->matrix);
     return code == 0 ? CVodeSetLinSysFn(c->memory, linear_system) : code;
+}
+
+/* As CVODE takes it: by how fast corrections have become less, in earlier steps, too. */
+static int converges_as_before(Sundials *c, double size, double tolerance, int count)
+{
+    if (count > 0)
+        c->becoming = fmax(0.3 * c->becoming, size / c->corrected);
+    if (size * fmin(1, c->becoming) <= tolerance)
+        return SUN_NLS_SUCCESS;
+    if (count > 0 && size > 2 * c->corrected)
+        return SUN_NLS_CONV_RECVR;
+    return SUN_NLS_CONTINUE;
+}
+
+/* Whether Newton's method has come near enough. Where steep elements are, earlier steps tell
+ * nothing: with the tangent of a diode that blocked, a correction is small however far it conducts
+ * now. So the first has to be next to nothing, or the next one tells. */
+static int converges(SUNNonlinearSolver solver, N_Vector w, N_Vector correction, realtype tolerance,
+                     N_Vector weights, void *data)
+{
+    Sundials *c = data;
+    const double size = N_VWrmsNorm(correction, weights), rate = size / c->corrected;
+    int count = 0, code;
+
+    (void)w;
+    (void)SUNNonlinSolGetCurIter(solver, &count);
+    if (!c->base.has_pulses)
+        code = converges_as_before(c, size, tolerance, count);
+    else if (count == 0)
+        code = size <= AT_ONCE * tolerance ? SUN_NLS_SUCCESS : SUN_NLS_CONTINUE;
+    else if (!(rate <= SLOWEST))
+        code = SUN_NLS_CONV_RECVR;
+    else
+        code = fmax(1, rate / (1 - rate)) * size <= tolerance ? SUN_NLS_SUCCESS : SUN_NLS_CONTINUE;
+    c->corrected = size;
+    return code;
+}
+
+static int set_newton(Sundials *c)
+{
+    int code;
+
+    c->nonlinear = MEM_GIVEN(SUNNonlinSol_Newton(c->w, c->context));
+    code = CVodeSetNonlinearSolver(c->memory, c->nonlinear);
+    return code == 0 ? SUNNonlinSolSetConvTestFn(c->nonlinear, converges, c) : code;
 }
 
 /* --- a stepper --- */
@@ -205,8 +255,10 @@ static int first_start(Sundials *c, double t)
         code = CVodeSetMaxStep(c->memory, control_largest(&c->base.control));
     if (code != 0)
         return code;
-    if (c->base.method->is_stiff)
-        return set_linear(c);
+    if (c->base.method->is_stiff) {
+        code = set_newton(c);
+        return code == 0 ? set_linear(c) : code;
+    }
     c->nonlinear = MEM_GIVEN(SUNNonlinSol_FixedPoint(c->w, 0, c->context));
     return CVodeSetNonlinearSolver(c->memory, c->nonlinear);
 }

@@ -52,6 +52,8 @@ typedef struct Sundials {
     double *jacobian;
     Condensed *condensed;
     double gamma;
+    /* by Newton's method: the last correction, in tolerances, and how fast they become less */
+    double corrected, becoming;
     double power; /* largest rate of a quadrature so far: what its errors count beside */
     char reason[200];
 } Sundials;

@@ -11,7 +11,8 @@
 #define FAR      1e3  /* what isn't known is taken up to this, of either sign */
 #define FEW      100  /* unknowns up to which radau's dense factors beat bdf's */
 #define OPEN     10   /* exponents that tolerances move by more than this could be anything, */
-#define UNTOLD   1e3  /* and by this, so could states that such exponents act on: */
+#define UNTOLD   1e3  /* and by this, so could states that such exponents act on, */
+#define HISTORY  1e2  /* or by this in methods with a history, which see less of a short way: */
 #define STIFFER  1e2  /* times by which these change more than where all elements conduct */
 #define BLOCKED  1e-6 /* slope of an element that blocks, */
 #define CONDUCTS 1e15 /* and of one that conducts */
@@ -229,7 +230,8 @@ Status phase_choose_method(const Phase *phase, double t, const double *y, const 
     onset_leave_open(phase->onset, joint != NULL && open.most > OPEN);
     if (*method == NULL && open.most > OPEN)
         *method = joint;
-    if (open.most > UNTOLD && open.state >= 0 && (joint == NULL || *method != joint))
+    if (open.most > (*method != NULL && (*method)->has_history ? HISTORY : UNTOLD) &&
+        open.state >= 0 && (joint == NULL || *method != joint))
         return refuse_untold(phase, t, &open,
                              *method != NULL ? *method : method_for((MethodNeed){0}), diag);
     return OK;
