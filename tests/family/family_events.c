@@ -416,7 +416,7 @@ static void write_corner(Member *m, Script *script, int number, double t, double
 {
     static const char *const laws[] = {
         "vsource X%d x%d 0 step(t - %.17g)\nresistor Y%d x%d 0 1",
-        "vsource X%d x%d 0 pwl(t, 0, 0, %.17g, 1, 100, 0)\nresistor Y%d x%d 0 1",
+        "vsource X%d x%d 0 pwl(t, 0, 0, %.17g, 1, 1e4, 0)\nresistor Y%d x%d 0 1",
         "vsource X%d x%d 0 abs(t - %.17g)\nresistor Y%d x%d 0 1"};
 
     switch (member_one_of(m, 3)) {

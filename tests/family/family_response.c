@@ -324,10 +324,6 @@ static Complex read_atom(Reader *r)
         r->at += *r->at == ')';
         return x;
     }
-    if (*r->at == '-') {
-        r->at++;
-        return -read_atom(r);
-    }
     if (*r->at == 's') {
         r->at++;
         return r->s;
@@ -351,10 +347,17 @@ static Complex read_atom(Reader *r)
     return 0;
 }
 
+/* a minus before a power is that of the whole */
 static Complex read_power(Reader *r)
 {
-    Complex x = read_atom(r);
+    Complex x;
 
+    blanks(r);
+    if (*r->at == '-') {
+        r->at++;
+        return -read_power(r);
+    }
+    x = read_atom(r);
     blanks(r);
     if (*r->at == '^') {
         char *end;
