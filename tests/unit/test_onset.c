@@ -433,6 +433,29 @@ static void a_current_that_tells_no_voltage_is_refused(void)
     kit_free(&kit);
 }
 
+/* Steps that only their largest size bounds are no finer at a tenth of the tolerance: the estimate
+ * was 0 there. */
+static void an_error_is_told_where_no_step_comes_near_the_tolerance(void)
+{
+    static const char *const methods[] = {"radau", "bdf", "adams", "dop853"};
+
+    for (int i = 0; i < COUNT(methods); i++) {
+        Kit kit = kit_new();
+        ct_figures figures = {0};
+        char line[100];
+        double missed;
+
+        EXPECT_DONE(&kit, "capacitor C a 0 1\nresistor R a 0 1\ninit C.v = 1\n");
+        (void)snprintf(line, sizeof line, "simulate 5 every=5 rtol=1e-3 check=on method=%s\n",
+                       methods[i]);
+        EXPECT_DONE(&kit, line);
+        EXPECT(ct_run_figures(kit.session, 0, &figures));
+        missed = fabs(kit_value(&kit, "C.v") - exp(-5));
+        EXPECT(figures.global_error >= missed && missed > 0);
+        kit_free(&kit);
+    }
+}
+
 /* a diode with 59 kohm across it behind a coil: at that tolerance bdf passed whole half waves over,
  * 11 mA for 346 mA by implicit Euler in fine fixed steps (tests/family/networks.h) */
 static void a_current_that_tells_a_history_too_little_is_refused(void)
@@ -482,6 +505,7 @@ int main(void)
     RUN(an_ideal_diode_conducts_in_each_dip);
     RUN(a_diode_in_series_with_a_coil_runs);
     RUN(a_current_that_tells_no_voltage_is_refused);
+    RUN(an_error_is_told_where_no_step_comes_near_the_tolerance);
     RUN(a_current_that_tells_a_history_too_little_is_refused);
     return test_end();
 }
