@@ -148,3 +148,8 @@ FAMILIES += family_estimates
 family_estimates_SOURCES = tests/family/family_estimates.c tests/family/family.h \
 	tests/family/script.h tests/random.h tests/unit/session_kit.h tests/unit/test.h
 family_estimates_LDADD = libcotree.la $(unit_ldadd)
+FAMILIES += family_machines
+family_machines_SOURCES = tests/family/family_machines.c tests/family/machine.h \
+	tests/family/machine_draw.h tests/family/machine_networks.h tests/family/machine_tableau.h \
+	tests/family/extrapolated.h tests/family/family.h tests/family/script.h tests/unit/session_kit.h tests/unit/test.h tests/random.h
+family_machines_LDADD = libcotree.la $(unit_ldadd)
