@@ -1,4 +1,4 @@
-/* jacobians.h: derivatives of the rates of a script's mechanism, told beside differences */
+/* jacobians.h: derivatives of a script's mechanism, told beside differences */
 #ifndef COTREE_TESTS_JACOBIANS_H
 #define COTREE_TESTS_JACOBIANS_H
 
@@ -10,7 +10,8 @@ typedef struct JacobianTrial {
     double at;          /* s, an instant of it */
     uint64_t random;    /* by which the state is off there */
     double worst;       /* entry, in what differences leave open; NAN: there is no derivative */
-    char reason[1300];  /* then */
+    double implicit;    /* the same of its implicit equations, by all unknowns and their rates */
+    char reason[1300];  /* of NAN */
 } JacobianTrial;
 
 /* Run it, and compare all entries near its state at that instant. */

@@ -521,7 +521,8 @@ static void few_states_of_a_network_have_an_exact_jacobian_by_one_evaluation(voi
                      .dae = {.n = 3,
                              .start = network_start,
                              .pattern = network_pattern,
-                             .jacobian = network_jacobian}};
+                             .jacobian = network_jacobian,
+                             .is_index_one = true}};
     const double x = 0.7, y = -1.3, at[] = {x, y}, shift = 5;
     const double J[2][2] = {{2 * x - 3 * y, -3 * x}, {2 * x, -1}};
     Counts counts = {0};

@@ -9,6 +9,8 @@ libcore_la_SOURCES += \
   lib/simulate/equations/input_layout.h \
   lib/simulate/equations/articulated.c \
   lib/simulate/equations/articulated.h \
+  lib/simulate/equations/implicit_jacobian.c \
+  lib/simulate/equations/implicit_jacobian.h \
 	lib/simulate/equations/elimination.c lib/simulate/equations/elimination.h \
   lib/simulate/equations/mass_matrix.c \
   lib/simulate/equations/mass_matrix.h \
@@ -18,6 +20,7 @@ libcore_la_SOURCES += \
   lib/simulate/equations/motion.c \
   lib/simulate/equations/motion.h \
   lib/simulate/equations/motion_impl.h \
+  lib/simulate/equations/motion_implicit.c \
   lib/simulate/equations/motion_place.c \
   lib/simulate/equations/motion_renew.c \
   lib/simulate/equations/motion_solve.c \

@@ -19,9 +19,6 @@ static bool rate(void *context, double t, const double *y, double *out);
 static bool project(void *context, double t, double *y);
 static void begin(void *context, double t, const double *y, double h);
 static double blur(void *context);
-static bool dae_residual(void *context, double t, const double *w, const double *w_rate,
-                         double *out);
-static bool dae_start(void *context, double t, const double *y, double *w, double *w_rate);
 
 static void open_projection(Motion *mo)
 {
@@ -41,7 +38,6 @@ static void open_projection(Motion *mo)
 static void describe_ode(Motion *mo)
 {
     const Equations *eq = mo->eq;
-    int y = motion_length(mo);
 
     mo->ode = (Ode){.n = multi_turn_place(eq) + eq->multi_turn_count,
                     .is_network = eq->n == 0 && eq->nu == 0,
@@ -59,15 +55,7 @@ static void describe_ode(Motion *mo)
         mo->slack[multi_turn_place(eq) + k] = SLACK;
     if (eq->multi_turn_count > 0)
         mo->ode.slack = mo->slack;
-    mo->ode.dae.n = y + (mo->options.embedded ? 0 : 2 * mo->used);
-    mo->ode.dae.context = mo;
-    mo->ode.dae.residual = dae_residual;
-    mo->ode.dae.start = dae_start;
-    mo->dae_weight = NEW_ARRAY(double, mo->ode.dae.n);
-    for (int i = 0; i < mo->ode.dae.n; i++)
-        mo->dae_weight[i] = eq->unit != NULL && i < mo->ode.n ? eq->unit[i] : 1;
-    mo->dae_weight[y - 1] = 1e20; /* work steers nothing */
-    mo->ode.dae.weight = mo->dae_weight;
+    motion_open_implicit(mo);
 }
 
 Motion *motion_new(const Equations *eq, const MotionOptions *options)
@@ -133,7 +121,7 @@ void motion_free(Motion *mo)
     signs_free(mo->signs);
     MEM_FREE(mo->slip, mo->off, mo->way, mo->solved_before, mo->q, mo->references, mo->slack,
              mo->top, mo->bottom, mo->du, mo->kept, mo->lambda, mo->nearest, mo->lambda_all,
-             mo->row_size, mo->dae_weight, mo);
+             mo->row_size, mo->dae_weight, mo->is_tested, mo->slopes, mo);
 }
 
 const Ode *motion_ode(const Motion *mo)
@@ -160,11 +148,6 @@ void motion_guess(Motion *mo, const double *network)
                (size_t)(mo->eq->nx + mo->eq->nz) * sizeof(double));
 }
 
-void motion_offer(Motion *mo, const Dae *dae)
-{
-    mo->ode.dae = *dae;
-}
-
 void motion_offer_jacobian(Motion *mo, OdeJacobian jacobian)
 {
     mo->ode.jacobian = jacobian;
@@ -180,9 +163,7 @@ MotionCounts motion_counts(const Motion *mo)
     return mo->counts;
 }
 
-/* everything but the solution for u': false where the network can't be solved, or no signs keep the
- * motion on its surfaces */
-static bool evaluate(Motion *mo, double t, const double *y)
+bool motion_evaluate_all(Motion *mo, double t, const double *y)
 {
     return mo->signs != NULL ? motion_find_signs(mo, t, y) : motion_evaluate(mo, t, y);
 }
@@ -192,7 +173,7 @@ const double *motion_network(Motion *mo, double t, const double *y)
     bool is_there = mo->is_evaluated && mo->t == motion_clock(mo, t) &&
                     vector_is_finite(mo->solved, mo->eq->nx + mo->eq->nz);
 
-    return is_there || evaluate(mo, t, y) ? mo->solved : NULL;
+    return is_there || motion_evaluate_all(mo, t, y) ? mo->solved : NULL;
 }
 
 void motion_switches(Motion *mo, double t, const double *y, double *out)
@@ -264,7 +245,7 @@ static bool solve_on_manifold(Motion *mo, double t, const double *y)
             return false;
         y = mo->nearest;
     }
-    return evaluate(mo, t, y) && motion_solve_rates(mo);
+    return motion_evaluate_all(mo, t, y) && motion_solve_rates(mo);
 }
 
 /* Most evaluations of small models are these, which would be bookkeeping for the most part. */
@@ -302,7 +283,7 @@ static bool solve_row(Motion *mo, double t, const double *y)
 
     motion_at_position(mo, motion_clock(mo, t), y);
     kept = motion_take_rows(mo);
-    sound = evaluate(mo, t, y) && motion_solve_plain(mo);
+    sound = motion_evaluate_all(mo, t, y) && motion_solve_plain(mo);
     if (sound)
         motion_spread_multipliers(mo);
     motion_return_rows(mo, kept);
@@ -579,118 +560,4 @@ void motion_residuals(Motion *mo, double t, const double *y, double *position, d
         if (!(left <= *velocity))
             *velocity = left;
     }
-}
-
-/* --- embedded form --- */
-
-static int motion_freedoms(const Motion *mo)
-{
-    return mo->eq->nu - mo->used;
-}
-
-/* --- implicit form --- */
-
-/* Embedded: q' = N u, G^T (M u' - F) = 0, Phi_u u' = gamma. */
-static bool embedded_residual(Motion *mo, const double *u_rate, double *out)
-{
-    const Equations *eq = mo->eq;
-    const double *mass = equations_mass(eq), *force = equations_force(eq);
-    int f = motion_freedoms(mo);
-
-    if (!motion_factor_embedded(mo))
-        return false;
-    for (int j = 0; j < eq->nu; j++)
-        mo->top[j] = pattern_dot(eq->masses, mass, j, u_rate) - force[j];
-    partitioning_reduce(mo->partitioning, mo->top, out);
-    for (int k = 0; k < mo->used; k++)
-        out[f + k] = pattern_dot(eq->rows, eq->phi_u, mo->rows[k], u_rate) - eq->gamma[mo->rows[k]];
-    return true;
-}
-
-/* Stabilised index 2: q' = N (u + Phi_u^T mu), M u' + Phi_u^T lambda = F, Phi = 0, Phi_u u = nu;
- * lambda and mu are the rates of the last 2 m unknowns. */
-static void augmented_residual(Motion *mo, const double *w, const double *w_rate, double *out)
-{
-    const Equations *eq = mo->eq;
-    int tail = motion_length(mo);
-    const double *u = w + eq->n, *lambda = w_rate + tail, *mu = lambda + mo->used;
-    const double *mass = equations_mass(eq), *force = equations_force(eq);
-    double *force_rows = out + eq->n;
-
-    memset(mo->du, 0, (size_t)eq->nu * sizeof(double));
-    for (int j = 0; j < eq->nu; j++)
-        force_rows[j] = pattern_dot(eq->masses, mass, j, w_rate + eq->n) - force[j];
-    for (int k = 0; k < mo->used; k++) {
-        const int row = mo->rows[k];
-
-        pattern_add(eq->rows, eq->phi_u, row, lambda[k], force_rows);
-        pattern_add(eq->rows, eq->phi_u, row, mu[k], mo->du);
-        out[tail + k] = eq->phi[row];
-        out[tail + mo->used + k] = pattern_dot(eq->rows, eq->phi_u, row, u) - eq->nu_rate[row];
-    }
-    for (int i = 0; i < eq->n; i++) { /* q' = N (u + Phi_u^T mu) */
-        double sum = eq->map == NULL ? mo->du[i] : 0;
-
-        for (int j = 0; eq->map != NULL && j < eq->nu; j++)
-            sum += eq->map[i * eq->nu + j] * mo->du[j];
-        out[i] -= sum;
-    }
-}
-
-static bool dae_residual(void *context, double t, const double *w, const double *w_rate,
-                         double *out)
-{
-    Motion *mo = context;
-    const Equations *eq = mo->eq;
-    int x = eq->n + eq->nu, references = multi_turn_place(eq),
-        work = references + eq->multi_turn_count;
-
-    if (!evaluate(mo, t, w))
-        return false;
-    if (eq->network_reads != NULL && !motion_solve_together(mo))
-        return false;
-    if (eq->accelerated != NULL) {
-        memset(mo->lambda_all, 0, (size_t)eq->m * sizeof(double));
-        for (int k = 0; k < mo->used && mo->partitioning == NULL; k++)
-            mo->lambda_all[mo->rows[k]] = w_rate[motion_length(mo) + k];
-        if (mo->partitioning != NULL && motion_solve_augmented(mo))
-            for (int k = 0; k < mo->used; k++)
-                mo->lambda_all[mo->rows[k]] = mo->lambda[k];
-        eq->accelerated(eq->context, w_rate + eq->n, mo->lambda_all);
-    }
-    for (int i = 0; i < eq->n; i++)
-        out[i] = w_rate[i] - eq->q_rate[i];
-    if (mo->partitioning != NULL) {
-        if (!embedded_residual(mo, w_rate + eq->n, out + eq->n))
-            return false;
-    } else {
-        augmented_residual(mo, w, w_rate, out);
-    }
-    for (int i = 0; i < eq->nx; i++)
-        out[x + i] = w_rate[x + i] - mo->solved[i];
-    for (int k = 0; k < eq->multi_turn_count; k++)
-        out[references + k] = w_rate[references + k] - eq->multi_turn_rate[k];
-    out[work] = w_rate[work] - (eq->power != NULL ? *eq->power : 0);
-    return vector_is_finite(out, mo->ode.dae.n);
-}
-
-static bool dae_start(void *context, double t, const double *y, double *w, double *w_rate)
-{
-    Motion *mo = context;
-    int tail = motion_length(mo);
-
-    mo->is_implicit = true;
-    memset(w, 0, (size_t)mo->ode.dae.n * sizeof(double));
-    memset(w_rate, 0, (size_t)mo->ode.dae.n * sizeof(double));
-    memcpy(w, y, (size_t)tail * sizeof(double));
-    if (!evaluate(mo, t, y) || !motion_solve_plain(mo))
-        return false;
-    motion_bring_power(mo, mo->du);
-    motion_write_rates(mo, w_rate);
-    if (mo->partitioning == NULL)
-        for (int k = 0; k < mo->used; k++) {
-            w_rate[tail + k] = mo->lambda[k];
-            mo->dae_weight[tail + k] = fmax(1, fabs(mo->lambda[k]));
-        }
-    return vector_is_finite(w_rate, mo->ode.dae.n);
 }

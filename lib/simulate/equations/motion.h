@@ -208,6 +208,20 @@ void motion_window(Motion *motion, double low, double high);
 double motion_clock(const Motion *motion, double t); /* t within that */
 /* Derivatives of the rates for the motion's Ode; what they belong to is borrowed. */
 void motion_offer_jacobian(Motion *motion, OdeJacobian jacobian);
+/* Derivatives of what the motion's implicit equations are with multipliers, w = (y, L, M) of all m
+ * rows, L' = lambda, M' = mu. `pattern` is -1 where there are none to be had: it is asked once,
+ * when a solver starts. Borrowed. */
+typedef struct ImplicitJacobian {
+    void *context;
+    int (*pattern)(void *context, const int **row, const int **column);
+    bool (*at)(void *context, double t, double c, const double *w, const double *w_rate,
+               double *values);
+} ImplicitJacobian;
+void motion_offer_implicit(Motion *motion, ImplicitJacobian jacobian);
+/* Everything evaluated there, with the network that follows from these u' and multipliers; m of
+ * them. What was solved for: u' isn't. False: the network has no solution. */
+bool motion_evaluate_driven(Motion *motion, double t, const double *y, const double *acceleration,
+                            const double *multipliers, Solved *out);
 /* Other implicit equations of the same unknowns, for the motion's Ode; borrowed. */
 void motion_offer(Motion *motion, const Dae *dae);
 

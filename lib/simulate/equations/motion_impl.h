@@ -46,7 +46,10 @@ struct Motion {
     double *solved_before;
     double *top, *bottom, *du, *kept, *lambda, *lambda_all;
     double *nearest; /* a y */
+    ImplicitJacobian implicit;
     double *dae_weight, *row_size, *slack;
+    bool *is_tested; /* of unknowns of implicit equations */
+    double *slopes;  /* of all rates by y, for implicit equations; NULL: not asked for yet */
     MotionCounts counts;
 };
 
@@ -82,6 +85,9 @@ bool motion_find_network(Motion *motion, double t, const double *y);
 /* Everything but the solution for u', with signs on surfaces as they are: false where the network
  * can't be solved. */
 bool motion_evaluate(Motion *motion, double t, const double *y);
+/* the same, or with the signs that keep the motion on its surfaces; false where there are none, too
+ */
+bool motion_evaluate_all(Motion *motion, double t, const double *y);
 /* then u', in the form of the run */
 bool motion_solve_rates(Motion *motion);
 
@@ -102,6 +108,11 @@ void motion_write_rates(const Motion *motion, double *out);
 void motion_spread_multipliers(Motion *motion);
 /* what has been solved for; false: not finite */
 bool motion_tell(const Motion *motion, Solved *out);
+
+/* --- motion_implicit.c --- */
+
+/* the motion's implicit equations, for its Ode */
+void motion_open_implicit(Motion *motion);
 
 /* --- motion_surfaces.c --- */
 

@@ -182,6 +182,7 @@ NetDae *netdae_new(const Layout *l, Parameters *parameters, Motion *motion)
                    .start = start,
                    .pattern = pattern,
                    .jacobian = jacobian,
+                   .is_index_one = true,
                    .is_linear = is_linear,
                    .known = known,
                    .keep = keep};
@@ -192,7 +193,7 @@ NetDae *netdae_new(const Layout *l, Parameters *parameters, Motion *motion)
         d->has_rate[i] = i <= l->nx;
     }
     d->dae.weight = d->weight;
-    d->dae.has_rate = d->has_rate;
+    d->dae.has_rate = d->dae.is_tested = d->has_rate;
     return d;
 }
 

@@ -160,6 +160,16 @@ static void solve_dependent(const Partitioning *p, double *column, double *out, 
         out[p->dependent[k] * stride] = column[k];
 }
 
+/* out[j] = (G^T v)_j, nu - m of them */
+static void reduce(const Partitioning *p, const double *v, double *out)
+{
+    for (int i = 0; i < p->f; i++) {
+        out[i] = 0;
+        for (int j = 0; j < p->nu; j++)
+            out[i] += p->g[j * p->f + i] * v[j];
+    }
+}
+
 bool partitioning_factor(Partitioning *p, const double *mass, const double *phi_u, const int *rows)
 {
     double *small = lu_matrix(p->small);
@@ -186,20 +196,11 @@ bool partitioning_factor(Partitioning *p, const double *mass, const double *phi_
             for (int k = 0; k < p->nu; k++)
                 p->particular[j] += mass[j * p->nu + k] * p->g[k * p->f + i];
         }
-        partitioning_reduce(p, p->particular, p->reduced);
+        reduce(p, p->particular, p->reduced);
         for (int j = 0; j < p->f; j++)
             small[j * p->f + i] = p->reduced[j];
     }
     return lu_factor(p->small);
-}
-
-void partitioning_reduce(const Partitioning *p, const double *v, double *out)
-{
-    for (int i = 0; i < p->f; i++) {
-        out[i] = 0;
-        for (int j = 0; j < p->nu; j++)
-            out[i] += p->g[j * p->f + i] * v[j];
-    }
 }
 
 void partitioning_solve(Partitioning *p, const double *force, const double *gamma, double *du)
@@ -211,7 +212,7 @@ void partitioning_solve(Partitioning *p, const double *force, const double *gamm
     matrix_times(p->mass, p->nu, p->nu, p->particular, p->force);
     for (int j = 0; j < p->nu; j++)
         p->force[j] = force[j] - p->force[j];
-    partitioning_reduce(p, p->force, p->reduced);
+    reduce(p, p->force, p->reduced);
     lu_solve(p->small, p->reduced);
     for (int j = 0; j < p->nu; j++) {
         double sum = p->particular[j];

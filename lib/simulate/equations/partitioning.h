@@ -25,7 +25,5 @@ double partitioning_condition(
 double partitioning_pivots(const Partitioning *partitioning); /* the ratio itself */
 void partitioning_solve(Partitioning *partitioning, const double *force, const double *gamma,
                         double *du);
-/* out[j] = (G^T v)_j, nu - m of them */
-void partitioning_reduce(const Partitioning *partitioning, const double *v, double *out);
 
 #endif

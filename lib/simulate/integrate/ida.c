@@ -1,10 +1,11 @@
 /* ida.c: SUNDIALS IDA on the implicit form that the problem offers
  *
  * With multipliers that is the stabilised index-2 form of Gear, Gupta and Leimkuhler (1985),
- * multipliers entering as derivatives of unknowns, which makes it index 1; in the embedded form it
- * is the index-1 system itself. A network alone is solved for its states and algebraic unknowns
- * together, with a sparse Jacobian. IDA gets consistent values from the problem; IDACalcIC isn't
- * used. */
+ * multipliers entering as derivatives of unknowns, which makes it index 1, and in no error test; in
+ * the embedded form w' is the rates. A network alone is solved for its states and algebraic
+ * unknowns together. Jacobians are sparse and the problem's own, in the embedded form full;
+ * differences are taken where it can't tell them. IDA gets consistent values from the problem;
+ * IDACalcIC isn't used. */
 #include "simulate/integrate/sundials.h"
 
 #include <ida/ida.h>
@@ -28,6 +29,7 @@ typedef struct Ida {
     const int *row;
     int *place, *start;
     double *entries;
+    double share;     /* of tolerances: by how much errors that don't count would make it less */
     double corrected; /* by Newton's method, last, in tolerances */
     bool jumps;       /* what has no rate may move any way in the step that is being taken */
     bool has_jumped;  /* it did in the last one, whose history tells nothing of the next */
@@ -78,6 +80,30 @@ static void destroy(Stepper *stepper)
     sundials_destroy(stepper);
 }
 
+/* One over what an error of each unknown counts from. What has no rate follows from what has, and
+ * is solved for more finely than a loose tolerance asks: a diode's voltage a tenth of a volt off is
+ * no place to begin Newton's method from. */
+static int find_weights(N_Vector w, N_Vector weights, void *data)
+{
+    Ida *d = data;
+    const Dae *dae = &d->s.base.ode->dae;
+    const int work = d->s.base.ode->n;
+    const Control *control = &d->s.base.control;
+    const double part = d->share * stepper_part(&d->s.base);
+
+    for (int i = 0; i < d->s.n; i++) {
+        double error =
+            part * (control->rtol * fabs(NV_Ith_S(w, i)) + control->atol * dae->weight[i]);
+
+        if (i >= work && i < d->s.all)
+            error = sundials_quadrature_error(&d->s, NV_Ith_S(w, i), NV_Ith_S(d->s.rate, i));
+        if (dae->has_rate != NULL && !dae->has_rate[i])
+            error = d->jumps ? SUNDIALS_ANY : fmin(error, fmax(FINER * error, FINE));
+        NV_Ith_S(weights, i) = 1 / error;
+    }
+    return 0;
+}
+
 /* --- sparse Jacobians, by columns --- */
 
 static int jacobian(realtype t, realtype c, N_Vector w, N_Vector rate, N_Vector out,
@@ -102,13 +128,10 @@ static int jacobian(realtype t, realtype c, N_Vector w, N_Vector rate, N_Vector 
     return 0;
 }
 
-static int choose_sparse(Ida *d)
+static int choose_sparse(Ida *d, const int *column)
 {
-    const Dae *dae = &d->s.base.ode->dae;
-    const int *column;
     int code;
 
-    d->entry_count = dae->pattern(dae->context, &d->row, &column);
     d->entries = NEW_ARRAY(double, d->entry_count);
     d->place = NEW_ARRAY(int, d->entry_count);
     d->start = NEW_ARRAY(int, d->s.n + 2);
@@ -124,41 +147,86 @@ static int choose_sparse(Ida *d)
     return code == 0 ? IDASetJacFn(d->s.memory, jacobian) : code;
 }
 
-static int suppress(Ida *d)
-{
-    const bool *has_rate = d->s.base.ode->dae.has_rate;
-    int code;
+/* --- full Jacobians --- */
 
-    if (has_rate == NULL)
-        return 0;
-    for (int i = 0; i < d->s.n; i++)
-        NV_Ith_S(d->s.out, i) = has_rate[i];
-    code = IDASetId(d->s.memory, d->s.out);
-    return code == 0 ? IDASetSuppressAlg(d->s.memory, SUNTRUE) : code;
+/* column by column: each unknown moved alone, with its rate as the method ties it */
+static bool difference(Ida *d, double t, double c, double *w, double *rate, const double *at,
+                       const double *weights, double *out)
+{
+    const Dae *dae = &d->s.base.ode->dae;
+    const int n = d->s.n;
+    bool sound = true;
+
+    for (int j = 0; j < n && sound; j++) {
+        const double value = w[j], slope = rate[j], error = 1 / weights[j];
+        const double h = sqrt(DBL_EPSILON) * fmax(fabs(value), fmax(fabs(slope / c), error));
+        double *column = out + (ptrdiff_t)j * n;
+
+        w[j] = value + h;
+        rate[j] = slope + c * h;
+        d->s.base.counts.evaluations++;
+        sound = dae->residual(dae->context, t, w, rate, column);
+        for (int i = 0; i < n; i++)
+            column[i] = (column[i] - at[i]) / h;
+        w[j] = value;
+        rate[j] = slope;
+    }
+    return sound;
 }
 
-/* One over what an error of each unknown counts from. What has no rate follows from what has, and
- * is solved for more finely than a loose tolerance asks: a diode's voltage a tenth of a volt off is
- * no place to begin Newton's method from. */
-static int find_weights(N_Vector w, N_Vector weights, void *data)
+static int full_jacobian(realtype t, realtype c, N_Vector w, N_Vector rate, N_Vector at,
+                         SUNMatrix matrix, void *data, N_Vector a, N_Vector b, N_Vector more)
 {
     Ida *d = data;
     const Dae *dae = &d->s.base.ode->dae;
-    const int work = d->s.base.ode->n;
-    const Control *control = &d->s.base.control;
-    const double part = stepper_part(&d->s.base);
+    double *values = SUNDenseMatrix_Data(matrix), *here = N_VGetArrayPointer(w);
+    double *rates = N_VGetArrayPointer(rate);
 
+    (void)b, (void)more;
+    if (dae->full != NULL && dae->full(dae->context, t, c, here, rates, values))
+        return 0;
+    (void)find_weights(w, a, d);
+    return difference(d, t, c, here, rates, N_VGetArrayPointer(at), N_VGetArrayPointer(a), values)
+               ? 0
+               : 1;
+}
+
+static int choose_full(Ida *d)
+{
+    int code;
+
+    d->s.matrix = MEM_GIVEN(SUNDenseMatrix(d->s.n, d->s.n, d->s.context));
+    d->s.linear = MEM_GIVEN(SUNLinSol_Dense(d->s.w, d->s.matrix, d->s.context));
+    code = IDASetLinearSolver(d->s.memory, d->s.linear, d->s.matrix);
+    return code == 0 ? IDASetJacFn(d->s.memory, full_jacobian) : code;
+}
+
+static int choose_jacobian(Ida *d)
+{
+    const Dae *dae = &d->s.base.ode->dae;
+    const int *column;
+
+    d->entry_count = dae->pattern != NULL ? dae->pattern(dae->context, &d->row, &column) : -1;
+    return d->entry_count >= 0 ? choose_sparse(d, column) : choose_full(d);
+}
+
+/* The norm of errors divides by all unknowns: they are weighed so that only those count of which
+ * errors do. */
+static int suppress(Ida *d)
+{
+    const bool *is_tested = d->s.base.ode->dae.is_tested;
+    int code, tested = 0;
+
+    d->share = 1;
+    if (is_tested == NULL)
+        return 0;
     for (int i = 0; i < d->s.n; i++) {
-        double error =
-            part * (control->rtol * fabs(NV_Ith_S(w, i)) + control->atol * dae->weight[i]);
-
-        if (i >= work && i < d->s.all)
-            error = sundials_quadrature_error(&d->s, NV_Ith_S(w, i), NV_Ith_S(d->s.rate, i));
-        if (dae->has_rate != NULL && !dae->has_rate[i])
-            error = d->jumps ? SUNDIALS_ANY : fmin(error, fmax(FINER * error, FINE));
-        NV_Ith_S(weights, i) = 1 / error;
+        NV_Ith_S(d->s.out, i) = is_tested[i];
+        tested += is_tested[i];
     }
-    return 0;
+    d->share = sqrt((double)tested / d->s.n);
+    code = IDASetId(d->s.memory, d->s.out);
+    return code == 0 ? IDASetSuppressAlg(d->s.memory, SUNTRUE) : code;
 }
 
 /* Whether Newton's method has come near enough: its last correction is within the tolerance, and so
@@ -211,13 +279,7 @@ static int first_start(Ida *d, double t)
         code = suppress(d);
     if (code == 0 && d->s.base.ode->dae.has_rate != NULL)
         code = set_newton(d);
-    if (code != 0)
-        return code;
-    if (d->s.base.ode->dae.pattern != NULL)
-        return choose_sparse(d);
-    d->s.matrix = MEM_GIVEN(SUNDenseMatrix(d->s.n, d->s.n, d->s.context));
-    d->s.linear = MEM_GIVEN(SUNLinSol_Dense(d->s.w, d->s.matrix, d->s.context));
-    return IDASetLinearSolver(d->s.memory, d->s.linear, d->s.matrix);
+    return code == 0 ? choose_jacobian(d) : code;
 }
 
 static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
@@ -334,8 +396,8 @@ const Method method_ida = {
     .name = "ida",
     .short_part = 0.1,
     .brief =
-        "IDA on the stabilised index-2 form (embedded: index 1), on networks alone sparse; rows "
-        "are projected",
+        "IDA on the equations as they stand, sparse: for networks. Mechanisms in the stabilised "
+        "index-2 form, as a check: near singular positions it fails; rows are projected",
     .create = create,
     .destroy = destroy,
     .start = start,

@@ -28,11 +28,20 @@ typedef struct Dae {
     const double *weight; /* n: absolute tolerance of w_i is atol * weight */
     /* n: whether a rate of w_i stands in F; NULL: take all for such */
     const bool *has_rate;
+    /* n: whether an error of w_i counts; NULL: all do. Multipliers as rates of unknowns jump where
+     * a step becomes longer, and say nothing of y. */
+    const bool *is_tested;
     /* Places of dF/dw + c dF/dw' that may not be 0, each place at most once; known from the first
-     * start() on. NULL: not offered. */
+     * start() on. NULL, or -1 of them: not offered. */
     int (*pattern)(void *context, const int **row, const int **column);
     bool (*jacobian)(void *context, double t, double c, const double *w, const double *rate,
                      double *values);
+    /* The same, where any place may not be 0, column by column; false: it can't be told there but
+     * by differences. NULL: not offered. */
+    bool (*full)(void *context, double t, double c, const double *w, const double *rate,
+                 double *values);
+    /* Whether dF/dy' and dF by the rest of w have an inverse: index 1, without multipliers. */
+    bool is_index_one;
     /* Whether dF/dw and dF/dw' stay as they are until a restart. NULL: not known. */
     bool (*is_linear)(void *context);
     /* Then, whether w' = J w + ... is known in a form for many shifts from an earlier time at which

@@ -33,7 +33,7 @@ struct Shifted {
 
 static bool is_sparse(const Shifted *s)
 {
-    return s->ode->dae.pattern != NULL && s->n > FEW;
+    return s->ode->dae.is_index_one && s->n > FEW;
 }
 
 Shifted *shifted_new(const Ode *ode, Counts *counts)
@@ -177,7 +177,7 @@ static bool by_problem(Shifted *s, double t, const double *y)
 
 static bool find_dense(Shifted *s, double t, const double *y, const double *rate)
 {
-    return by_problem(s, t, y) || (s->ode->dae.pattern != NULL && by_rates(s, t, y)) ||
+    return by_problem(s, t, y) || (s->ode->dae.is_index_one && by_rates(s, t, y)) ||
            by_differences(s, t, y, rate);
 }
 

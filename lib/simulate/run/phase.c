@@ -72,11 +72,15 @@ void phase_enter(const Phase *phase)
         layout_take_sides(phase->layout, phase->closed);
 }
 
-/* exact derivatives of the rates, for implicit methods */
-static void offer_jacobian(Phase *phase, Parameters *parameters)
+/* exact derivatives of the rates and of the implicit equations, for implicit methods */
+static void offer_jacobians(Phase *phase, Parameters *parameters)
 {
     phase->jacobian = rate_jacobian_new(phase->layout, parameters, phase->motion);
     motion_offer_jacobian(phase->motion, (OdeJacobian){phase->jacobian, rate_jacobian_at});
+    phase->implicit = implicit_jacobian_new(phase->layout, parameters, phase->motion);
+    motion_offer_implicit(
+        phase->motion,
+        (ImplicitJacobian){phase->implicit, implicit_jacobian_pattern, implicit_jacobian_at});
 }
 
 Status phase_open(Phase *phase, Parameters *parameters, const MotionOptions *options, Host *host,
@@ -92,7 +96,7 @@ Status phase_open(Phase *phase, Parameters *parameters, const MotionOptions *opt
     if (phase->network != NULL)
         motion_offer(phase->motion, netdae_equations(phase->network));
     else
-        offer_jacobian(phase, parameters);
+        offer_jacobians(phase, parameters);
     CHECK(samples_new(phase->layout, parameters, phase->motion, host, &phase->samples, diag));
     CHECK(steep_new(phase->layout, parameters, phase->motion, numbers_equations(phase->numbers),
                     &phase->steep, diag));
@@ -120,6 +124,7 @@ void phase_free(Phase *phase)
     mem_free(phase->among_whole);
     netdae_free(phase->network);
     rate_jacobian_free(phase->jacobian);
+    implicit_jacobian_free(phase->implicit);
     motion_free(phase->motion);
     numbers_free(phase->numbers);
     layout_free(phase->layout);

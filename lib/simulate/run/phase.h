@@ -8,6 +8,7 @@
 #define COTREE_SIMULATE_RUN_PHASE_H
 
 #include "simulate/assemble/initial.h"
+#include "simulate/equations/implicit_jacobian.h"
 #include "simulate/equations/netdae.h"
 #include "simulate/equations/numbers.h"
 #include "simulate/equations/rate_jacobian.h"
@@ -29,7 +30,8 @@ struct Phase {
     int length;             /* of y */
     NetDae *network;        /* NULL where there is mechanics */
     RateJacobian *jacobian; /* NULL where there is none */
-    Events *events;         /* of `like`; NULL: none, or not made yet */
+    ImplicitSlopes *implicit;
+    Events *events; /* of `like`; NULL: none, or not made yet */
     Samples *samples;
     Steep *steep; /* what can act for a short time, and the search for it; NULL: nothing */
     Onset *onset;
