@@ -138,6 +138,11 @@ FAMILIES += family_couplers
 family_couplers_SOURCES = tests/family/family_couplers.c tests/family/family.h \
 	tests/unit/session_kit.h tests/unit/test.h tests/random.h
 family_couplers_LDADD = libcotree.la $(unit_ldadd)
+FAMILIES += family_far
+family_far_SOURCES = tests/family/family_far.c tests/family/family.h \
+	tests/family/linear_entries.c tests/family/linear_entries.h tests/unit/session_kit.h \
+	tests/unit/test.h tests/random.h
+family_far_LDADD = $(unit_ldadd)
 FAMILIES += family_jacobians
 family_jacobians_SOURCES = tests/family/family_jacobians.c tests/family/family.h \
 	tests/family/jacobians.c tests/family/jacobians.h \

@@ -3,7 +3,8 @@
  * The equations M u' + Phi_u^T lambda = F, Phi_u u' = gamma, A [x'; z] = r and their constraints
  * are compiled, differentiated along deviations through their program (compile/tangents.h), and put
  * together along the constraints. Every entry comes with a bound of what rounding, of the numbers
- * given and on the way, leaves open. */
+ * given and on the way, leaves open. One that its bound doesn't tell from 0 is 0, unless it comes
+ * out the same with all numbers moved in their last places. */
 #ifndef COTREE_SIMULATE_ANALYSE_LINEARIZE_H
 #define COTREE_SIMULATE_ANALYSE_LINEARIZE_H
 

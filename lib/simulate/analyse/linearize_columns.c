@@ -6,6 +6,9 @@
 
 #include <string.h>
 
+#define ROUNDED 1e-12 /* of the largest entry of a row: what rounding may leave */
+#define ALIKE   1e-3  /* of an entry, by which others beside the point differ at most */
+
 /* --- deviations --- */
 
 typedef struct Deviation {
@@ -182,13 +185,25 @@ static LinearColumn column_of(double *at, double *error, int column, int stride)
     return (LinearColumn){at + column, error + column, stride};
 }
 
-/* what can't be told from 0 is 0 */
 static void put(const LinearColumn *column, int row, LinearNumber number)
 {
-    const bool is_zero = fabs(number.value) <= number.error;
-
-    column->at[(ptrdiff_t)row * column->stride] = is_zero ? 0 : number.value;
+    column->at[(ptrdiff_t)row * column->stride] = number.value;
     column->error[(ptrdiff_t)row * column->stride] = number.error;
+}
+
+/* of 0, by what it may be off: whether that is all it is */
+static bool is_untold(double value, double error)
+{
+    return value != 0 && fabs(value) <= error;
+}
+
+/* what can't be told from 0 is 0 */
+static void drop(const LinearColumn *column, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (is_untold(column->at[(ptrdiff_t)i * column->stride],
+                      column->error[(ptrdiff_t)i * column->stride]))
+            column->at[(ptrdiff_t)i * column->stride] = 0;
 }
 
 static LinearNumber get(const LinearColumn *column, int row)
@@ -230,8 +245,10 @@ static Status take_rate(const Work *w, Deviation *d, int input, Linear *out, Dia
     d->input = out->inputs + input;
     spread(w, d, 1);
     write_column(w, d, &rates, &direct);
+    drop(&rates, out->states);
+    drop(&direct, out->outputs);
     for (int o = 0; o < out->outputs; o++)
-        if (d1[o] != 0) {
+        if (d1[o] != 0 && w->beside == 0) {
             (void)diag_set(diag, E_MODEL, "%s follows the rate of %s, which is no linear output",
                            out->output_names[o], out->input_names[input]);
             diag_hint(diag, "a resistance in the circuit of capacitors and source makes it one");
@@ -418,7 +435,7 @@ static void write_deviation(const Work *w, const Deviation *d, int c, Linear *ou
 static Status write_columns(const Work *w, Linear *out, Diag *diag)
 {
     const int columns = out->states + out->inputs;
-    const bool is_whole = is_mechanical(w);
+    const bool is_whole = w->beside == 0 && is_mechanical(w);
     Balance balance = {0};
     Deviation d[TANGENT_LANES];
     Status status = OK;
@@ -543,7 +560,118 @@ void linear_free(Linear *linear)
     mem_free(linear);
 }
 
-Status linear_columns(const Work *w, Linear **out, Diag *diag)
+/* --- what is 0 --- */
+
+/* a matrix of a Linear, row by row, with its bounds */
+typedef struct Entries {
+    double *at, *error;
+    int rows, columns;
+} Entries;
+
+enum { MATRICES = 4, SAMPLES = 2 };
+
+static void list_entries(const Linear *linear, Entries out[MATRICES])
+{
+    const int n = linear->states, p = linear->inputs, q = linear->outputs;
+
+    out[0] = (Entries){linear->a, linear->a_error, n, n};
+    out[1] = (Entries){linear->b, linear->b_error, n, p};
+    out[2] = (Entries){linear->c, linear->c_error, q, n};
+    out[3] = (Entries){linear->d, linear->d_error, q, p};
+}
+
+/* Bounds take every error at its worst, and each by itself: far from rest those of a long chain are
+ * beyond all measure, and what they can't tell from 0 is most of what there is. An entry that they
+ * don't tell, and that is more than rounding would leave of its row, is asked for again. */
+static bool is_doubtful(const Entries *m, int row, int k)
+{
+    const double *at = m->at + (ptrdiff_t)row * m->columns;
+    double largest = 0;
+
+    if (!is_untold(at[k], m->error[(ptrdiff_t)row * m->columns + k]))
+        return false;
+    for (int i = 0; i < m->columns; i++)
+        largest = fmax(largest, fabs(at[i]));
+    return fabs(at[k]) > ROUNDED * largest;
+}
+
+static bool has_doubtful(const Linear *linear)
+{
+    Entries m[MATRICES];
+
+    list_entries(linear, m);
+    for (int i = 0; i < MATRICES; i++)
+        for (int row = 0; row < m[i].rows; row++)
+            for (int k = 0; k < m[i].columns; k++)
+                if (is_doubtful(&m[i], row, k))
+                    return true;
+    return false;
+}
+
+/* What is true is nearly the same where all numbers are moved in their last places; what rounding
+ * left is not. What isn't told from 0 so either is 0. */
+static void settle(Linear *linear, Linear *const *samples, int count)
+{
+    Entries m[MATRICES], sampled[SAMPLES][MATRICES];
+
+    list_entries(linear, m);
+    for (int s = 0; s < count; s++)
+        list_entries(samples[s], sampled[s]);
+    for (int i = 0; i < MATRICES; i++)
+        for (ptrdiff_t at = 0; at < (ptrdiff_t)m[i].rows * m[i].columns; at++) {
+            const double value = m[i].at[at];
+            bool stays = count == SAMPLES &&
+                         is_doubtful(&m[i], (int)(at / m[i].columns), (int)(at % m[i].columns));
+
+            for (int s = 0; s < count && stays; s++)
+                stays = fabs(sampled[s][i].at[at] - value) <= ALIKE * fabs(value);
+            if (is_untold(value, m[i].error[at]) && !stays) {
+                m[i].error[at] += fabs(value);
+                m[i].at[at] = 0;
+            }
+        }
+}
+
+/* the same once more, beside the point: *out is new, NULL where it can't be told there */
+static Status sample(Work *w, uint64_t seed, Linear **out, Diag *diag)
+{
+    Linear *linear;
+    Status status = OK;
+
+    *out = NULL;
+    w->beside = seed;
+    if (linear_beside(w)) {
+        linear = linear_new(w);
+        status = write_columns(w, linear, diag);
+        if (status == OK)
+            *out = linear;
+        else
+            linear_free(linear);
+    }
+    w->beside = 0;
+    return status;
+}
+
+static Status settle_all(Work *w, Linear *linear, Diag *diag)
+{
+    Linear *samples[SAMPLES] = {NULL};
+    int count = 0;
+    Status status = OK;
+
+    if (has_doubtful(linear))
+        for (; count < SAMPLES; count++) {
+            CHECK(sample(w, 1 + (uint64_t)count, &samples[count], diag));
+            if (samples[count] == NULL)
+                break;
+        }
+    settle(linear, samples, count);
+done:
+    for (int s = 0; s < SAMPLES; s++)
+        linear_free(samples[s]);
+    return status;
+}
+
+Status linear_columns(Work *w, Linear **out, Diag *diag)
 {
     Linear *linear = linear_new(w);
     Status status;
@@ -554,6 +682,7 @@ Status linear_columns(const Work *w, Linear **out, Diag *diag)
         diag_hint(diag, "a distance of 0 or an angle at its limit has none: take another point");
         CHECK(E_SINGULAR);
     }
+    CHECK(settle_all(w, linear, diag));
     *out = linear;
     linear = NULL;
 done:

@@ -64,6 +64,8 @@ typedef struct Work {
     Square *held; /* factors of Phi_u's dependent columns, over the rows in use */
     Partitioning *partitioning;
     int used, freedoms, unknowns; /* unknowns: nu + used + nx + nz */
+    uint64_t beside;              /* seed by which all numbers are moved; 0: they aren't, and errors
+                                     are told */
     int *in_use;                  /* constraint rows, so many as are used: independent there */
     bool *is_independent;         /* speeds */
 } Work;
@@ -94,6 +96,10 @@ int linear_unknown(const Work *w, int k);  /* column of the k-th of what follows
 /* Complete v, whose independent entries are set: Phi_u v + right = 0 in the dependent ones. */
 void linear_complete(const Work *w, const LinearNumber *right, LinearNumber *v);
 
+/* Everything evaluated anew a little beside the point, by w->beside, for the same equations and
+ * coordinates; false: it can't be. */
+bool linear_beside(Work *w);
+
 /* Whether coefficients of the mechanical equations change as it moves on from the point, whose
  * deviations `linear` tells of: what leaves them alone keeps the eigenvalues of A the same in all
  * coordinates. */
@@ -101,6 +107,6 @@ bool linear_is_passing(Work *w, const Linear *linear);
 
 /* --- linearize_columns.c --- */
 
-MUST_USE Status linear_columns(const Work *w, Linear **out, Diag *diag);
+MUST_USE Status linear_columns(Work *w, Linear **out, Diag *diag);
 
 #endif

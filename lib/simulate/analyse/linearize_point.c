@@ -84,7 +84,10 @@ static void evaluate(Work *w, bool is_bounded)
     RowValues off = row_with(w, number_error(w->order->at), w->y_error, w->follow_error);
 
     off.references = NULL; /* which turn it is, is certain */
-    probe_tangents(w->derived, &row, is_bounded ? &off : NULL, w->along);
+    if (w->beside != 0)
+        probe_tangents_beside(w->derived, &row, w->beside, w->along);
+    else
+        probe_tangents(w->derived, &row, is_bounded ? &off : NULL, w->along);
     for (int i = 0; i < w->rows.count; i++)
         w->values[i].value = tangents_value(w->along, i, &w->values[i].error);
 }
@@ -182,7 +185,10 @@ static void evaluate_geometry(Work *w)
     RowValues off = row_of_state(l, number_error(w->order->at), w->y_error);
 
     off.references = NULL;
-    probe_tangents(w->geometry, &row, &off, w->turning);
+    if (w->beside != 0)
+        probe_tangents_beside(w->geometry, &row, w->beside, w->turning);
+    else
+        probe_tangents(w->geometry, &row, &off, w->turning);
     for (int i = 0; i < constraints + map; i++) {
         LinearNumber *number = i < constraints ? &w->phi_u[i] : &w->map[i - constraints];
 
@@ -403,6 +409,18 @@ Status linear_point(Work *w, Diag *diag)
     if (!square_is_regular(w->equations))
         TRY(refuse_dependent(w, diag));
     return OK;
+}
+
+bool linear_beside(Work *w)
+{
+    if (!find_rates(w))
+        return false;
+    evaluate_geometry(w);
+    if (!factor_dependent(w))
+        return false;
+    (void)fill_matrix(w);
+    factor(w);
+    return square_is_regular(w->equations);
 }
 
 /* --- how it goes on --- */

@@ -2,6 +2,7 @@
 #include "simulate/equations/probe.h"
 
 #include "base/memory.h"
+#include "base/random.h"
 
 #include <string.h>
 
@@ -216,6 +217,18 @@ void probe_tangents(Probe *probe, const RowValues *row, const RowValues *errors,
     probe_put(probe, row);
     tangents_at(tangents, probe->inputs, off);
     mem_free(off);
+}
+
+void probe_tangents_beside(Probe *probe, const RowValues *row, uint64_t seed, Tangents *tangents)
+{
+    const int count = program_input_count(residual_program(probe->residual));
+    double *inputs = NEW_ARRAY(double, count);
+
+    probe_put(probe, row);
+    for (int i = 0; i < count; i++)
+        inputs[i] = probe->inputs[i] * (1 + 0x1p-50 * random_unit(&seed));
+    tangents_at(tangents, inputs, NULL);
+    mem_free(inputs);
 }
 
 int probe_place(const Probe *probe, Expr symbol)

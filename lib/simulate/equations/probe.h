@@ -87,6 +87,10 @@ void probe_put(Probe *probe, const RowValues *row);
 /* The same values, with their errors unless `errors` is NULL, in tangents of its program. */
 void probe_tangents(Probe *probe, const RowValues *row, const RowValues *errors,
                     Tangents *tangents);
+/* The same, without errors, where every number is moved by up to four units in its last place, at
+ * random: alike for the same seed. What rounding leaves is another then, what is true is as it was.
+ */
+void probe_tangents_beside(Probe *probe, const RowValues *row, uint64_t seed, Tangents *tangents);
 /* which input of its program a symbol is; -1: no root holds it */
 int probe_place(const Probe *probe, Expr symbol);
 
