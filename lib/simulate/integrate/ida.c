@@ -15,6 +15,8 @@
 #include <sunmatrix/sunmatrix_sparse.h>
 #include <sunnonlinsol/sunnonlinsol_newton.h>
 
+#include <string.h>
+
 #define LONG_BEFORE 0.1  /* of the step before: shorter ones don't know their error; */
 #define BEGIN       0.01 /* with so much of one it begins anew */
 #define FINER       1e-2 /* of the tolerance: for what has no rate, */
@@ -29,6 +31,7 @@ typedef struct Ida {
     const int *row;
     int *place, *start;
     double *entries;
+    double *last;     /* y, where a step begins anew */
     double share;     /* of tolerances: by how much errors that don't count would make it less */
     double corrected; /* by Newton's method, last, in tolerances */
     bool jumps;       /* what has no rate may move any way in the step that is being taken */
@@ -67,6 +70,7 @@ static Stepper *create(const Ode *ode, const Control *control)
     sundials_init(&d->s, &calls, &method_ida, ode, control, ode->dae.n);
     d->s.rate = MEM_GIVEN(N_VNew_Serial(d->s.n, d->s.context));
     d->s.memory = MEM_GIVEN(IDACreate(d->s.context));
+    d->last = stepper_numbers(&d->s.base, d->s.all);
     return &d->s.base;
 }
 
@@ -327,9 +331,16 @@ static int begin_anew(Ida *d, double end, double *reached, Diag *diag)
 {
     Stepper *stepper = &d->s.base;
     const Ode *ode = stepper->ode;
+    const size_t bytes = (size_t)d->s.all * sizeof(double);
+    bool sound = true;
 
-    if ((ode->project != NULL && !ode->project(ode->context, stepper->t, stepper->y)) ||
-        start(stepper, stepper->t, stepper->y, diag) != OK)
+    if (ode->project != NULL) {
+        memcpy(d->last, stepper->y, bytes);
+        sound = ode->project(ode->context, stepper->t, stepper->y);
+        if (!sound) /* why is asked about the last point */
+            memcpy(stepper->y, d->last, bytes);
+    }
+    if (!sound || start(stepper, stepper->t, stepper->y, diag) != OK)
         return IDA_CONV_FAIL;
     return advance(&d->s, end, reached);
 }
