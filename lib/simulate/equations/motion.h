@@ -193,8 +193,11 @@ const int *motion_rows(const Motion *motion, int *count); /* in use; borrowed */
 bool motion_slip(Motion *motion, double t, const double *y, const double *signs, double *slip,
                  double *off);
 
+/* Whether what is projected has drifted for many steps, as far as the error test lets it, rather
+ * than for one. */
+void motion_set_drifting(Motion *motion, bool drifts);
 /* Back onto the constraints: to the nearest position in at most 8 sweeps, by masses where the
- * equations have eliminated themselves, and to the velocity there that differs by the least kinetic
+ * equations have eliminated themselves and nothing drifts, and to the velocity there that differs by the least kinetic
  * energy. */
 bool motion_project(Motion *motion, double t, double *y);
 /* largest |Phi| and |Phi_u u - nu| over all rows */

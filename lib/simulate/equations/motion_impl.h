@@ -24,6 +24,7 @@ struct Motion {
     bool is_repartitioned; /* since the last renewal */
     bool is_implicit;      /* multipliers of the rows in use are unknowns of a method */
     double blur;           /* largest since it was asked for */
+    bool drifts;           /* over many steps, until a position is read and brought back */
     bool is_projecting;    /* a step's rates are those of the nearest state on the manifold */
     double began;          /* where a step did last */
     Trend by_groups, by_all;

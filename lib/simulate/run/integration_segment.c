@@ -30,6 +30,7 @@ void integration_give_up_stepper(Integration *m)
 
 Stepper *integration_new_stepper(Integration *m, const Method *method)
 {
+    motion_set_drifting(m->segment.motion, method->has_history);
     return method->create(motion_ode(m->segment.motion), &m->control);
 }
 
