@@ -8,6 +8,7 @@
  * The rates are A u. Among all u with C u = d, which are Phi_u u = nu and what was given, the least
  * |A u| is wanted. Let L L^T = A^T A + P^T P with P the rows of Phi_u, each of length 1: |P u| is
  * the same for all of them, and it is the least |L^T u|. */
+#include "simulate/assemble/beside.h"
 #include "simulate/assemble/initial_place_impl.h"
 
 #include "algebra/kkt.h"
@@ -96,21 +97,6 @@ static void mark_rates(Placing *p)
 
 /* --- rates of joints by speeds --- */
 
-/* poses and coordinates a little to one side along speed j */
-static Pose *poses_beside(const Placing *p, int j, double by)
-{
-    const Equations *eq = p->a->eq;
-    double *q = NEW_ARRAY(double, eq->n);
-    Pose *poses;
-
-    memcpy(q, p->a->y, (size_t)eq->n * sizeof(double));
-    for (int i = 0; i < eq->n; i++)
-        q[i] += by * (eq->map != NULL ? eq->map[i * eq->nu + j] : i == j);
-    poses = skeleton_poses_at(p->s, q);
-    mem_free(q);
-    return poses;
-}
-
 static void read_at(const Link *link, const Pose *poses, double *c, Pose *relative)
 {
     pose_between(&poses[link->tail], &poses[link->head], relative);
@@ -175,19 +161,24 @@ static double *sum_terms(Terms *terms, int rows, int columns, Pattern *pattern)
 static double *find_rates(const Placing *p, Pattern *pattern)
 {
     const int nu = p->a->eq->nu;
+    Sides *sides = sides_new(p->s, p->a->eq, p->a->y, STEP);
     Terms terms = {0};
 
     for (int j = 0; j < nu; j++) {
-        Pose *low = poses_beside(p, j, -STEP), *high = poses_beside(p, j, STEP);
-
+        sides_look(sides, j);
         for (int i = 0; i < p->columns.count; i++) {
-            const double rate = GRID * round(column_rate(p, &p->columns.at[i], low, high) / GRID);
+            const PlaceColumn *column = &p->columns.at[i];
+            double rate;
 
+            if (sides_keep(sides, column->link))
+                continue;
+            rate = column_rate(p, column, sides_low(sides), sides_high(sides));
+            rate = GRID * round(rate / GRID);
             if (rate != 0)
                 push_term(&terms, j, i, rate);
         }
-        MEM_FREE(low, high);
     }
+    sides_free(sides);
     return sum_terms(&terms, nu, p->columns.count, pattern);
 }
 

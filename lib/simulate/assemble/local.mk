@@ -10,6 +10,7 @@ libcore_la_SOURCES += \
   lib/simulate/assemble/skeleton.c \
   lib/simulate/assemble/skeleton.h \
   lib/simulate/assemble/skeleton_rows.c \
+  lib/simulate/assemble/beside.c lib/simulate/assemble/beside.h \
   lib/simulate/assemble/initial.c \
   lib/simulate/assemble/initial.h \
   lib/simulate/assemble/initial_given.c \
