@@ -20,29 +20,45 @@
 typedef struct Least {
     const Rows *rows;
     const bool *held;
+    Pattern full;             /* where the rows have no pattern */
+    const Pattern *pattern;   /* of the Jacobian, a column each row */
     double *scale;            /* rows */
     double *residual, *trial; /* rows, scaled */
-    double *jacobian;         /* rows x columns, scaled */
+    double *jacobian;         /* by places, scaled */
     double *step, *weights;   /* columns; rows */
     double *v, *next;         /* length */
-    Lu *lu;
+    Lu *lu;                   /* NULL: not needed yet */
 } Least;
+
+void rows_evaluate_full(const Rows *rows, const double *v, double *residual, double *jacobian)
+{
+    double *values;
+
+    if (rows->pattern == NULL) {
+        rows->evaluate(rows->context, v, residual, jacobian);
+        return;
+    }
+    values = NEW_ARRAY(double, rows->pattern->count);
+    rows->evaluate(rows->context, v, residual, values);
+    pattern_fill(rows->pattern, values, jacobian);
+    mem_free(values);
+}
 
 static void evaluate(Least *l, const double *v, double *residual, bool with_jacobian)
 {
-    int n = l->rows->columns;
+    const Pattern *p = l->pattern;
 
     l->rows->evaluate(l->rows->context, v, residual, with_jacobian ? l->jacobian : NULL);
     for (int k = 0; k < l->rows->rows; k++) {
         residual[k] *= l->scale[k];
-        for (int j = 0; with_jacobian && j < n; j++)
-            l->jacobian[k * n + j] *= l->held != NULL && l->held[j] ? 0 : l->scale[k];
+        for (int i = p->start[k]; with_jacobian && i < p->start[k + 1]; i++)
+            l->jacobian[i] *= l->held != NULL && l->held[p->row[i]] ? 0 : l->scale[k];
     }
 }
 
 static void choose_scale(Least *l)
 {
-    int n = l->rows->columns;
+    const Pattern *p = l->pattern;
     double largest = 0;
 
     for (int k = 0; k < l->rows->rows; k++)
@@ -51,8 +67,8 @@ static void choose_scale(Least *l)
     for (int k = 0; k < l->rows->rows; k++) {
         double norm = 0;
 
-        for (int j = 0; j < n; j++)
-            norm = hypot(norm, l->jacobian[k * n + j]);
+        for (int i = p->start[k]; i < p->start[k + 1]; i++)
+            norm = hypot(norm, l->jacobian[i]);
         l->scale[k] = norm;
         largest = fmax(largest, norm);
     }
@@ -82,7 +98,7 @@ static double ridge(double damping, double largest)
  * each other for pivots in the order of least filling */
 static bool weigh_sparse(Least *l, double damping)
 {
-    Gram *gram = gram_new(l->jacobian, l->rows->rows, l->rows->columns, NULL);
+    Gram *gram = gram_of_columns(l->pattern, l->jacobian, NULL);
     const bool sound = gram_factor(gram, ridge(damping, gram_largest(gram)), SOUND, l->rows->watch);
 
     if (sound)
@@ -95,10 +111,14 @@ static bool weigh_sparse(Least *l, double damping)
 static bool weigh(Least *l, double damping)
 {
     int m = l->rows->rows;
-    double *a = lu_matrix(l->lu);
+    double *a, *jacobian = pattern_spread(l->pattern, l->jacobian);
     double largest = 0;
 
-    matrix_gram(l->jacobian, m, l->rows->columns, a);
+    if (l->lu == NULL)
+        l->lu = lu_new(m);
+    a = lu_matrix(l->lu);
+    matrix_gram(jacobian, m, l->rows->columns, a);
+    mem_free(jacobian);
     for (int i = 0; i < m; i++)
         for (int j = 0; j < i; j++)
             a[j * m + i] = a[i * m + j];
@@ -122,8 +142,7 @@ static bool find_step(Least *l, double damping)
         return false;
     memset(l->step, 0, (size_t)n * sizeof(double));
     for (int i = 0; i < m; i++)
-        for (int j = 0; j < n; j++)
-            l->step[j] -= l->jacobian[i * n + j] * l->weights[i];
+        pattern_add(l->pattern, l->jacobian, i, -l->weights[i], l->step);
     return vector_is_finite(l->step, n);
 }
 
@@ -144,10 +163,8 @@ static double promised(const Least *l)
     double sum = 0;
 
     for (int i = 0; i < l->rows->rows; i++) {
-        double left = l->residual[i];
+        const double left = l->residual[i] + pattern_dot(l->pattern, l->jacobian, i, l->step);
 
-        for (int j = 0; j < l->rows->columns; j++)
-            left += l->jacobian[i * l->rows->columns + j] * l->step[j];
         sum += left * left;
     }
     return sqrt(sum);
@@ -195,14 +212,16 @@ bool levenberg_marquardt_solve(const Rows *rows, const bool *held, const double 
                .scale = NEW_ARRAY(double, m),
                .residual = NEW_ARRAY(double, m),
                .trial = NEW_ARRAY(double, m),
-               .jacobian = NEW_ARRAY(double, m *n),
                .step = NEW_ARRAY(double, n),
                .weights = NEW_ARRAY(double, m),
                .v = v,
-               .next = NEW_ARRAY(double, rows->length),
-               .lu = lu_new(m)};
+               .next = NEW_ARRAY(double, rows->length)};
     bool solved;
 
+    if (rows->pattern == NULL)
+        l.full = pattern_full(n, m);
+    l.pattern = rows->pattern != NULL ? rows->pattern : &l.full;
+    l.jacobian = NEW_ARRAY(double, l.pattern->count);
     if (scale != NULL)
         memcpy(l.scale, scale, (size_t)m * sizeof(double));
     else
@@ -213,6 +232,7 @@ bool levenberg_marquardt_solve(const Rows *rows, const bool *held, const double 
     if (residual != NULL)
         rows->evaluate(rows->context, v, residual, NULL);
     MEM_FREE(l.scale, l.residual, l.trial, l.jacobian, l.step, l.weights, l.next);
+    pattern_free(&l.full);
     lu_free(l.lu);
     return solved;
 }

@@ -6,6 +6,7 @@
 #ifndef COTREE_ALGEBRA_LEVENBERG_MARQUARDT_H
 #define COTREE_ALGEBRA_LEVENBERG_MARQUARDT_H
 
+#include "algebra/pattern.h"
 #include "base/watch.h"
 
 #include <stdbool.h>
@@ -14,12 +15,18 @@ typedef struct Rows {
     int rows, columns; /* residuals; directions of motion */
     int length;        /* of v */
     void *context;
-    /* residual (rows) and, unless NULL, jacobian (rows x columns) at v */
+    /* where entries of the Jacobian may stand, a column each row; NULL: anywhere. Borrowed */
+    const Pattern *pattern;
+    /* residual (rows) and, unless NULL, jacobian at v: by places of the pattern, or rows x columns
+     */
     void (*evaluate)(void *context, const double *v, double *residual, double *jacobian);
     /* v moved by `step` (columns); NULL: v += step, length == columns */
     void (*move)(void *context, double *v, const double *step);
     const Watch *watch; /* NULL: never stops */
 } Rows;
+
+/* The same with the jacobian in full, rows x columns. */
+void rows_evaluate_full(const Rows *rows, const double *v, double *residual, double *jacobian);
 
 /* Improve v until every scaled residual is below `tolerance`, and then until rounding stops it.
  * held (columns, may be NULL): directions that don't move. scale (rows): what a residual is

@@ -576,6 +576,66 @@ static void least_squares_goes_to_the_near_solution(void)
     EXPECT_NEAR(below[1], -sqrt(3), 1e-13);
 }
 
+/* v_k + v_(k+1)^3 / 8 = sin(k), by places of two entries a row, or in full */
+typedef struct Ladder {
+    int rows;
+    bool is_full;
+} Ladder;
+
+static void ladder(void *context, const double *v, double *residual, double *jacobian)
+{
+    const Ladder *l = context;
+    const int columns = l->rows + 1;
+
+    if (jacobian != NULL && l->is_full)
+        memset(jacobian, 0, (size_t)(l->rows * columns) * sizeof(double));
+    for (int k = 0; k < l->rows; k++) {
+        residual[k] = v[k] + v[k + 1] * v[k + 1] * v[k + 1] / 8 - sin(k);
+        if (jacobian != NULL) {
+            double *row = jacobian + (l->is_full ? k * columns + k : 2 * k);
+
+            row[0] = 1;
+            row[1] = 3 * v[k + 1] * v[k + 1] / 8;
+        }
+    }
+}
+
+static void sparse_least_squares_agree_with_full_ones(void)
+{
+    enum { MOST = 100 };
+
+    for (int rows = 5; rows <= MOST; rows += 19) { /* few and many: by dense and sparse factors */
+        Ladder way[2] = {{rows, true}, {rows, false}};
+        double v[2][MOST + 1] = {{0}}, residual[MOST], full[MOST * (MOST + 1)],
+                           spread[MOST * (MOST + 1)];
+        int row[2 * MOST], column[2 * MOST], place[2 * MOST];
+        Pattern pattern;
+
+        for (int k = 0; k < 2 * rows; k++) {
+            row[k] = (k + 1) / 2;
+            column[k] = k / 2;
+        }
+        pattern = pattern_of(rows + 1, rows, 2 * rows, row, column, place);
+        for (int i = 0; i < 2; i++) {
+            const Rows problem = {.rows = rows,
+                                  .columns = rows + 1,
+                                  .length = rows + 1,
+                                  .context = &way[i],
+                                  .pattern = i == 0 ? NULL : &pattern,
+                                  .evaluate = ladder};
+
+            for (int k = 0; k <= rows; k++)
+                v[i][k] = 0.1 * k / rows;
+            EXPECT(levenberg_marquardt_solve(&problem, NULL, NULL, 1e-12, v[i], residual));
+            rows_evaluate_full(&problem, v[0], residual, i == 0 ? full : spread);
+        }
+        for (int k = 0; k <= rows; k++)
+            EXPECT_NEAR(v[0][k], v[1][k], 1e-13);
+        EXPECT(memcmp(full, spread, (size_t)(rows * (rows + 1)) * sizeof(double)) == 0);
+        pattern_free(&pattern);
+    }
+}
+
 static void least_squares_keeps_what_is_held(void)
 {
     Rows rows = {.rows = 4, .columns = 2, .length = 2, .evaluate = circles};
@@ -608,6 +668,7 @@ int main(void)
     RUN(rank_is_that_of_the_making);
     RUN(least_multipliers_give_the_same_forces);
     RUN(least_squares_goes_to_the_near_solution);
+    RUN(sparse_least_squares_agree_with_full_ones);
     RUN(least_squares_keeps_what_is_held);
     return test_end();
 }

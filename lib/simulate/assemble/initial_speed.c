@@ -241,7 +241,10 @@ static void evaluate(void *context, const double *v, double *residual, double *j
     const size_t nu = (size_t)w->rows.columns, size = (size_t)w->rows.rows * nu;
     const bool first = jacobian != NULL && w->jacobian == NULL;
 
-    w->rows.evaluate(w->rows.context, v, residual, first ? jacobian : NULL);
+    if (first)
+        rows_evaluate_full(&w->rows, v, residual, jacobian);
+    else
+        w->rows.evaluate(w->rows.context, v, residual, NULL);
     if (first) {
         w->jacobian = NEW_ARRAY(double, size);
         for (size_t i = 0; i < (size_t)w->rows.rows; i++)
@@ -275,6 +278,7 @@ static Status solve(Assembly *a, const double *factor, bool guesses, Diag *diag)
     CHECK(initial_open_problem(&p, a, LEVEL_VELOCITY, guesses, diag));
     w.rows = rows = initial_rows(&p);
     rows.context = &w;
+    rows.pattern = NULL;
     rows.evaluate = evaluate;
     rows.move = move;
     /* what can't be met is told by who looks at it next */
@@ -283,18 +287,6 @@ done:
     initial_close_problem(&p);
     mem_free(w.jacobian);
     return status;
-}
-
-/* rows of C, a column each of *pattern; new */
-static double *take_rows(const Rows *rows, const double *jacobian, Pattern *pattern)
-{
-    Terms terms = {0};
-
-    for (int i = 0; i < rows->rows; i++)
-        for (int j = 0; j < rows->columns; j++)
-            if (jacobian[(ptrdiff_t)i * rows->columns + j] != 0)
-                push_term(&terms, j, i, jacobian[(ptrdiff_t)i * rows->columns + j]);
-    return sum_terms(&terms, rows->columns, rows->rows, pattern);
 }
 
 /* no row is missed by more than a part of its size */
@@ -314,8 +306,7 @@ static Status solve_sparse(Assembly *a, const Pattern *square, const double *wei
 {
     const int nu = a->eq->nu;
     double *u = a->y + a->l->n, *before = NEW_ARRAY(double, nu), *du = NEW_ARRAY(double, nu);
-    double *jacobian = NULL, *residual = NULL, *values = NULL, *bottom = NULL, *lambda = NULL;
-    Pattern pattern = {0};
+    double *residual = NULL, *values = NULL, *bottom = NULL, *lambda = NULL;
     Problem p = {0};
     Kkt *kkt = NULL;
     Rows rows;
@@ -330,16 +321,13 @@ static Status solve_sparse(Assembly *a, const Pattern *square, const double *wei
     residual = NEW_ARRAY(double, rows.rows);
     if (rows.rows < MANY)
         goto done;
-    jacobian = NEW_ARRAY(double, (size_t)rows.rows *(size_t)nu);
+    values = NEW_ARRAY(double, rows.pattern->count);
     order = NEW_ARRAY(int, rows.rows);
     bottom = NEW_ARRAY(double, rows.rows);
     lambda = NEW_ARRAY(double, rows.rows);
-    rows.evaluate(rows.context, u, residual, jacobian);
-    values = take_rows(&rows, jacobian, &pattern);
-    mem_free(jacobian);
-    jacobian = NULL;
-    CHECK(rank_columns(&pattern, values, RANK_RATIO, a->setting->watch, &rank, order));
-    kkt = kkt_new(square, &pattern, order, rank);
+    rows.evaluate(rows.context, u, residual, values);
+    CHECK(rank_columns(rows.pattern, values, RANK_RATIO, a->setting->watch, &rank, order));
+    kkt = kkt_new(square, rows.pattern, order, rank);
     kkt_set_watch(kkt, a->setting->watch);
     sound = kkt_factor(kkt, weight, values, order) && !kkt_is_regularised(kkt);
     for (int i = 0; i < SWEEPS && sound; i++) {
@@ -351,14 +339,13 @@ static Status solve_sparse(Assembly *a, const Pattern *square, const double *wei
         rows.evaluate(rows.context, u, residual, NULL);
     }
     CHECK(poll(a->setting->watch));
-    *solved = sound && vector_is_finite(u, nu) && are_met(&pattern, values, residual);
+    *solved = sound && vector_is_finite(u, nu) && are_met(rows.pattern, values, residual);
 done:
     if (!*solved)
         memcpy(u, before, (size_t)nu * sizeof *u);
     kkt_free(kkt);
     initial_close_problem(&p);
-    pattern_free(&pattern);
-    MEM_FREE(before, du, jacobian, residual, values, bottom, lambda, order);
+    MEM_FREE(before, du, residual, values, bottom, lambda, order);
     return status;
 }
 
@@ -416,7 +403,7 @@ static Status is_open(Assembly *a, bool *open, Diag *diag)
 {
     Problem p = {0};
     Rows rows;
-    double *residual = NULL, *jacobian = NULL;
+    double *residual = NULL, *values = NULL;
     int *order = NULL;
     bool moves = any_guess(a, false);
     int rank = 0;
@@ -425,18 +412,17 @@ static Status is_open(Assembly *a, bool *open, Diag *diag)
     CHECK(initial_open_problem(&p, a, LEVEL_VELOCITY, false, diag));
     rows = initial_rows(&p);
     residual = NEW_ARRAY(double, rows.rows);
-    jacobian = NEW_ARRAY(double, (size_t)rows.rows *(size_t)rows.columns);
+    values = NEW_ARRAY(double, rows.pattern->count);
     order = NEW_ARRAY(int, rows.rows);
-    rows.evaluate(rows.context, a->y + a->l->n, residual, jacobian);
+    rows.evaluate(rows.context, a->y + a->l->n, residual, values);
     for (int i = 0; i < rows.rows; i++)
         moves = moves || residual[i] != 0;
     if (moves)
-        CHECK(rank_rows(jacobian, rows.rows, rows.columns, RANK_RATIO, a->setting->watch, &rank,
-                        order));
+        CHECK(rank_columns(rows.pattern, values, RANK_RATIO, a->setting->watch, &rank, order));
     *open = moves && rank < rows.columns;
 done:
     initial_close_problem(&p);
-    MEM_FREE(residual, jacobian, order);
+    MEM_FREE(residual, values, order);
     return status;
 }
 

@@ -34,7 +34,13 @@ typedef struct LevelRows {
     double t;
     const double *y; /* what the level builds on, with references behind; set before use */
     Probe *probe;
-    double *place; /* (q, u, x, x', z) of the last evaluation */
+    /* slopes of expressions as entries: a coordinate's by each speed that its rate reads, by N */
+    int entries;
+    int *slope, *by, *speed; /* of an entry: its slope; coordinate, or -1; column */
+    Pattern pattern;         /* of the Jacobian with the targets as they were then; */
+    bool *is_row;            /* expressions that were rows; */
+    int *at;                 /* of an entry: its place, -1: of no row */
+    double *place;           /* (q, u, x, x', z) of the last evaluation */
 } LevelRows;
 
 /* New; level_rows_free(). Borrows all but the expressions; `equations` may be used by others

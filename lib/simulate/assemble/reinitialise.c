@@ -457,30 +457,29 @@ static bool solve_speeds(Reinit *reinit)
 {
     const Equations *eq = reinit->plan.equations;
     int room = eq->m + reinit->targets.count;
-    double *matrix = NEW_ARRAY(double, room * eq->nu);
-    double *missing = NEW_ARRAY(double, room);
+    double *matrix, *missing = NEW_ARRAY(double, room);
     int *rows = NEW_ARRAY(int, room);
     int count = reinit->plan.row_count;
     int all = eq->m;
     bool sound = true;
-    Rows velocity;
-    Pattern all_rows;
+    const Rows velocity = rows_here(reinit, LEVEL_VELOCITY, true);
     Kkt *kkt;
 
-    velocity = rows_here(reinit, LEVEL_VELOCITY, true);
+    matrix = NEW_ARRAY(double, velocity.pattern->count);
     eq->position(eq->context, reinit->t, reinit->y);
     /* those of the start may be dependent here, where others are not */
     if (count < eq->m) {
-        pattern_fill(eq->rows, eq->phi_u, matrix);
-        (void)rank_choose(matrix, eq->m, eq->nu, count, rows);
+        double *phi_u = pattern_spread(eq->rows, eq->phi_u);
+
+        (void)rank_choose(phi_u, eq->m, eq->nu, count, rows);
+        mem_free(phi_u);
     } else {
         memcpy(rows, reinit->plan.rows, (size_t)count * sizeof(int));
     }
     for (int k = 0; k < reinit->targets.count; k++)
         if (is_chosen(reinit, k, LEVEL_VELOCITY))
             rows[count++] = all++;
-    all_rows = pattern_full(eq->nu, room);
-    kkt = kkt_new(eq->masses, &all_rows, rows, count);
+    kkt = kkt_new(eq->masses, velocity.pattern, rows, count);
     for (int sweep = 0; sweep <= SWEEPS && sound; sweep++) {
         velocity.evaluate(velocity.context, reinit->y + eq->n, missing, matrix);
         if (is_met(reinit, missing, all) || sweep == SWEEPS)
@@ -489,7 +488,6 @@ static bool solve_speeds(Reinit *reinit)
     }
     sound = sound && is_met(reinit, missing, all);
     kkt_free(kkt);
-    pattern_free(&all_rows);
     MEM_FREE(matrix, missing, rows);
     return sound;
 }
