@@ -751,7 +751,8 @@ static void refine(Kkt *kkt, int least, double enough)
     }
 }
 
-void kkt_solve(Kkt *kkt, const double *top, const double *bottom, double *du, double *lambda)
+/* the solution by place, as the factors tell it */
+static void begin_solution(Kkt *kkt, const double *top, const double *bottom)
 {
     for (int i = 0; i < kkt->nu; i++)
         kkt->right[kkt->place_of[i]] = top != NULL ? top[i] : 0;
@@ -761,10 +762,24 @@ void kkt_solve(Kkt *kkt, const double *top, const double *bottom, double *du, do
     solve(kkt, kkt->answer);
     if (kkt->regularised)
         refine(kkt, SWEEPS, ROUNDING);
-    else if (kkt->angle < INEXACT)
+}
+
+void kkt_solve(Kkt *kkt, const double *top, const double *bottom, double *du, double *lambda)
+{
+    begin_solution(kkt, top, bottom);
+    if (!kkt->regularised && kkt->angle < INEXACT)
         refine(kkt, 1, SETTLED);
     for (int i = 0; i < kkt->nu; i++)
         du[i] = kkt->answer[kkt->place_of[i]];
     for (int k = 0; k < kkt->m; k++)
         lambda[k] = kkt->answer[kkt->place_of[kkt->nu + k]];
+}
+
+void kkt_correct(Kkt *kkt, const double *bottom, double *du)
+{
+    begin_solution(kkt, NULL, bottom);
+    if (!kkt->regularised && kkt->is_exchanging && kkt->angle < INEXACT)
+        refine(kkt, 1, SETTLED);
+    for (int i = 0; i < kkt->nu; i++)
+        du[i] = kkt->answer[kkt->place_of[i]];
 }

@@ -61,5 +61,8 @@ bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const doub
                   const int *rows, const double *left, int left_count);
 /* M du + G^T lambda = top, G du = bottom. `top` may be NULL for 0; du may be `top`. */
 void kkt_solve(Kkt *kkt, const double *top, const double *bottom, double *du, double *lambda);
+/* du of the same with top 0, where it corrects something much larger, or is corrected itself: not
+ * refined for what rounding leaves in its last digits. */
+void kkt_correct(Kkt *kkt, const double *bottom, double *du);
 
 #endif

@@ -310,6 +310,40 @@ static void sparse_and_full_elimination_agree(void)
     }
 }
 
+/* Rows at an angle that falls, until epsilon holds one back: a correction isn't refined before, but
+ * one that is corrected once more is the solution. */
+static void corrections_settle_when_they_are_corrected(void)
+{
+    uint64_t seed = 31;
+    Full full;
+    Kkt *kkt = full_open(&full, 3, 2);
+
+    for (double angle = 1; angle > 1e-4; angle /= 3) {
+        const double mass[9] = {1, 0, 0, 0, 1e3, 0, 0, 0, 10};
+        const double phi_u[6] = {1, 0.5, 0, cos(angle), 0.5 * cos(angle), sin(angle)};
+        double bottom[2], left[2], du[3], once[3], again[3], lambda[2];
+
+        random_matrix(&seed, bottom, 2);
+        EXPECT(kkt_factor(kkt, mass, phi_u, all_rows));
+        kkt_solve(kkt, NULL, bottom, du, lambda);
+        kkt_correct(kkt, bottom, once);
+        for (int i = 0; i < 3 && kkt_is_regularised(kkt); i++)
+            EXPECT(once[i] == du[i]);
+        if (kkt_is_regularised(kkt))
+            continue;
+        for (int k = 0; k < 2; k++) {
+            left[k] = bottom[k];
+            for (int i = 0; i < 3; i++)
+                left[k] -= phi_u[3 * k + i] * once[i];
+            EXPECT(fabs(left[k]) < 1e-6);
+        }
+        kkt_correct(kkt, left, again);
+        for (int i = 0; i < 3; i++)
+            EXPECT_NEAR(once[i] + again[i], du[i], 1e-11 * vector_largest(du, 3));
+    }
+    full_close(&full);
+}
+
 /* a row that repeats two others is dropped, and then another one of the three */
 static void rows_in_use_may_be_others(void)
 {
@@ -656,6 +690,7 @@ int main(void)
     RUN(wanted_speeds_become_independent);
     RUN(a_choice_that_fails_leaves_the_one_before);
     RUN(sparse_and_full_elimination_agree);
+    RUN(corrections_settle_when_they_are_corrected);
     RUN(rows_in_use_may_be_others);
     RUN(massless_speeds_are_held_by_their_constraints);
     RUN(a_free_massless_speed_has_no_acceleration);

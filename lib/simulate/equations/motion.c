@@ -415,7 +415,7 @@ static void find_move(Motion *mo, bool by_masses)
     else if (by_masses)
         mo->eq->eliminated->step(mo->eq->context, mo->bottom, mo->du);
     else
-        kkt_solve(mo->nearest_kkt, NULL, mo->bottom, mo->du, mo->lambda);
+        kkt_correct(mo->nearest_kkt, mo->bottom, mo->du);
 }
 
 /* Near a singular position the nearest by how errors are measured, not by masses: where rounding is
@@ -477,6 +477,13 @@ static void add_speeds(const Motion *mo, double *u)
         u[j] += mo->du[j];
 }
 
+/* nu, where positions are */
+static void bring_nu(const Equations *eq, const double *u, const double *x)
+{
+    if (!eq->has_nu_early)
+        eq->velocity(eq->context, u, x);
+}
+
 static bool project_velocity(Motion *mo, double t, const double *y, double *u, const double *x)
 {
     const Equations *eq = mo->eq;
@@ -486,7 +493,7 @@ static bool project_velocity(Motion *mo, double t, const double *y, double *u, c
     has_own = motion_is_prescribed(mo) || motion_is_eliminated(mo);
     if (!has_own && !motion_factor(mo))
         return false;
-    eq->velocity(eq->context, u, x);
+    bring_nu(eq, u, x);
     take_missed_speeds(mo, u);
     if (motion_is_eliminated(mo) && take_single_rows(mo)) {
         add_speeds(mo, u);
@@ -497,7 +504,7 @@ static bool project_velocity(Motion *mo, double t, const double *y, double *u, c
     else if (has_own)
         eq->eliminated->step(eq->context, mo->bottom, mo->du);
     else
-        kkt_solve(mo->kkt, NULL, mo->bottom, mo->du, mo->lambda);
+        kkt_correct(mo->kkt, mo->bottom, mo->du);
     add_speeds(mo, u);
     return vector_is_finite(u, eq->nu);
 }
@@ -560,7 +567,7 @@ void motion_residuals(Motion *mo, double t, const double *y, double *position, d
     if (eq->m == 0)
         return;
     motion_at_position(mo, t, y);
-    eq->velocity(eq->context, y + eq->n, y + eq->n + eq->nu);
+    bring_nu(eq, y + eq->n, y + eq->n + eq->nu);
     *position = vector_largest(eq->phi, eq->m);
     for (int k = 0; k < eq->m; k++) {
         double left = fabs(pattern_dot(eq->rows, eq->phi_u, k, y + eq->n) - eq->nu_rate[k]);

@@ -57,6 +57,7 @@ typedef struct Equations {
     void (*position)(void *context, double t, const double *q);
     /* then q_rate, multi_turn_rate, nu, gamma; network, network_rhs where network_at is NULL */
     void (*velocity)(void *context, const double *u, const double *x);
+    bool has_nu_early; /* nu is up to date with phi_u */
     /* then network and network_residual at w = [x'; z]; NULL: the network is linear, A w = r */
     void (*network_at)(void *context, const double *w);
     /* how far each of network_residual may be off by what was rounded in the last network_at(),

@@ -362,10 +362,11 @@ static int stored_block(Roots *roots, const Expr *entries, int rows, int columns
     return first;
 }
 
-static bool is_constant(const Expr *entries, int count)
+/* whether they are known in that stage */
+static bool are_known_by(Stage stage, const Expr *entries, int count)
 {
     for (int i = 0; i < count; i++)
-        if (stage_of(entries[i]) > STAGE_PARAMETER)
+        if (stage_of(entries[i]) > stage)
             return false;
     return true;
 }
@@ -378,12 +379,13 @@ static int mass_block(Numbers *nb, Roots *roots)
     const Expr *needs;
 
     if (nb->mass == NULL) {
-        nb->is_mass_constant = is_constant(system_run(nb->layout->system)->mass, nu * nu);
+        nb->is_mass_constant =
+            are_known_by(STAGE_PARAMETER, system_run(nb->layout->system)->mass, nu * nu);
         return stored_block(roots, system_run(nb->layout->system)->mass, nu, nu, &nb->masses);
     }
     needs = nb->articulated != NULL ? articulated_needs(nb->articulated, &count)
                                     : mass_matrix_needs(nb->mass, &count);
-    nb->is_mass_constant = is_constant(needs, count);
+    nb->is_mass_constant = are_known_by(STAGE_PARAMETER, needs, count);
     return block(roots, needs, count);
 }
 
@@ -401,7 +403,7 @@ static Status compile_mass(Numbers *nb, Parameters *parameters, Diag *diag)
     if (nb->mass != NULL) {
         needs = mass_matrix_needs(nb->mass, &count);
         (void)block(&roots, needs, count);
-        nb->is_mass_constant = is_constant(needs, count);
+        nb->is_mass_constant = are_known_by(STAGE_PARAMETER, needs, count);
     } else {
         (void)mass_block(nb, &roots);
     }
@@ -480,6 +482,7 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, const Expr 
     else if (!needs_no_mass(nb))
         nb->eq.mass = at + mass;
     nb->eq.nu_rate = at + nu_rate;
+    nb->eq.has_nu_early = are_known_by(STAGE_POSITION, r->nu, l->m);
     nb->eq.gamma = at + gamma;
     nb->eq.q_rate = at + q_rate;
     if (!iterates) {
