@@ -75,6 +75,8 @@ void workspace_free(Workspace *workspace); /* NULL is fine */
 void workspace_choose(Workspace *workspace, Evaluator evaluator);
 /* who computes what may run at the same time, borrowed; NULL: the caller alone */
 void workspace_share(Workspace *workspace, Threads *threads);
+/* So many runs of all stages are to come: where they pay for code it is made with the first. */
+void workspace_foresee(Workspace *workspace, int runs);
 /* The numbers of the inputs, in the order given to program_new(): write here. */
 double *workspace_inputs(Workspace *workspace);
 /* Compute stages from..to, both included. No failure; NaN travels. */

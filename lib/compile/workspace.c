@@ -92,6 +92,19 @@ void workspace_share(Workspace *workspace, Threads *threads)
     workspace->threads = threads;
 }
 
+/* what a run of these stages takes by the interpreter */
+static long interpreted_by(const Program *program, Stage from, Stage to)
+{
+    return CALLING + program->work[to + 1] - program->work[from];
+}
+
+void workspace_foresee(Workspace *workspace, int runs)
+{
+    if (workspace->single.interpreted >= 0)
+        workspace->single.interpreted +=
+            runs * interpreted_by(workspace->program, STAGE_PARAMETER, STAGE_COUNT - 1);
+}
+
 double *workspace_inputs(Workspace *workspace)
 {
     return workspace->slots;
@@ -199,7 +212,7 @@ static void run(Workspace *workspace, NativePart *part, Stage from, Stage to)
     program_hand_over(program, from, to, slots, slots + program->slot_count);
     if (workspace->evaluator == EVALUATOR_INTERPRETER || part->interpreted < 0)
         return;
-    part->interpreted += CALLING + program->work[to + 1] - program->work[from];
+    part->interpreted += interpreted_by(program, from, to);
     if (part->interpreted > MEMORY + (long)MAKING * program->work[STAGE_COUNT]) {
         part->interpreted = -1;
         make_native(workspace, part);

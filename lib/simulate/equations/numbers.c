@@ -556,10 +556,12 @@ static Status compile_constrained(Numbers *nb, const Constrained *solved, const 
     if (status == OK)
         status =
             compile_equations(nb, nb->parameters, solved->acceleration, solved->places.count, diag);
-    if (status == OK)
+    if (status == OK) {
         probe_free(before);
-    else
+        workspace_foresee(nb->main->workspace, MOTION_FACTORS_PAID);
+    } else {
         nb->told_by = told_before;
+    }
     return status;
 }
 
