@@ -662,21 +662,22 @@ static bool are_groups_sound(Kkt *kkt, const double *phi_u, const int *rows)
 }
 
 bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const double *phi_u,
-                  const int *rows, const double *left, int left_count)
+                  const int *rows, const double *left, int left_count, bool is_known)
 {
-    bool is_asked = false;
+    const double enough = is_known ? OWN : SUSPECT;
+    bool is_asked = is_known;
     double least;
 
     for (int i = 0; i < left_count; i++)
         if (!(left[i] > SUSPECT))
             return false;
-    if (kkt_sizes_are_sound(&kkt->sizes, pivot, taken, rows, kkt->m, SUSPECT))
+    if (kkt_sizes_are_sound(&kkt->sizes, pivot, taken, rows, kkt->m, enough))
         return true;
     least = kkt_sizes_keep_most(&kkt->sizes, rows, kkt->m, taken);
     for (int k = 0; k < kkt->m; k++) {
         const double reference = kkt_sizes_reference(&kkt->sizes, rows[k], least);
 
-        if (pivot[k] > SUSPECT * reference)
+        if (pivot[k] > enough * reference)
             continue;
         if (!(pivot[k] > OWN * reference) || !(is_asked || are_groups_sound(kkt, phi_u, rows)))
             return false;

@@ -55,10 +55,11 @@ void kkt_return_sizes(Kkt *kkt);
 bool kkt_is_plain(const Kkt *kkt);
 /* Whether a factorisation that somebody else has made, speeds before multipliers, is as plain: by
  * pivots d of these rows, signs reversed, and p; and of speeds behind them by what is left of their
- * pivots, 1 at most. Less of d will do where groups tell all rows to be independent, by G here and
- * sizes as they were measured last. What pivots show of sizes counts from now on. */
+ * pivots, 1 at most. Less of d will do where all rows are known to be independent, or groups tell
+ * so, by G here and sizes as they were measured last. What pivots show of sizes counts from now on.
+ */
 bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const double *phi_u,
-                  const int *rows, const double *left, int left_count);
+                  const int *rows, const double *left, int left_count, bool is_known);
 /* M du + G^T lambda = top, G du = bottom. `top` may be NULL for 0; du may be `top`. */
 void kkt_solve(Kkt *kkt, const double *top, const double *bottom, double *du, double *lambda);
 /* du of the same with top 0, where it corrects something much larger, or is corrected itself: not

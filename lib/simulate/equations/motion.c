@@ -12,7 +12,8 @@
 #include <string.h>
 
 #define PROJECTION_SWEEPS 8
-#define NEAR              0.1  /* independence of rows: a singular position isn't far */
+#define NEAR              0.1  /* independence of rows: a singular position isn't far; */
+#define FAR               0.2  /* and here it is, for all of a step */
 #define SLACK             0.03 /* rad: what a step may leave between an angle and its reference */
 
 static bool rate(void *context, double t, const double *y, double *out);
@@ -223,7 +224,7 @@ static double follow_trend(Trend *trend, double t, double h, double now, double 
 static void begin(void *context, double t, const double *y, double h)
 {
     Motion *mo = context;
-    double by_groups;
+    double by_groups, by_all = 0;
 
     if (t != mo->began) {
         close_trend(&mo->by_groups);
@@ -233,13 +234,16 @@ static void begin(void *context, double t, const double *y, double h)
         kkt_return_sizes(mo->kkt);
     }
     mo->began = t;
+    mo->ends = t + h;
+    mo->is_far = false;
     motion_at_position(mo, motion_clock(mo, t), y);
     by_groups = follow_trend(&mo->by_groups, t, h,
                              kkt_independence_of_groups(mo->kkt, mo->eq->phi_u, mo->rows), NAN);
-    mo->is_projecting =
-        by_groups < NEAR &&
-        follow_trend(&mo->by_all, t, h, kkt_independence(mo->kkt, mo->eq->phi_u, mo->rows),
-                     by_groups / mo->by_groups.now) < NEAR;
+    if (by_groups < NEAR)
+        by_all = follow_trend(&mo->by_all, t, h, kkt_independence(mo->kkt, mo->eq->phi_u, mo->rows),
+                              by_groups / mo->by_groups.now);
+    mo->is_projecting = fmax(by_groups, by_all) < NEAR;
+    mo->is_far = fmax(by_groups, by_all) > FAR;
 }
 
 static bool solve_on_manifold(Motion *mo, double t, const double *y)

@@ -26,7 +26,8 @@ struct Motion {
     double blur;           /* largest since it was asked for */
     bool drifts;           /* over many steps, until a position is read and brought back */
     bool is_projecting;    /* a step's rates are those of the nearest state on the manifold */
-    double began;          /* where a step did last */
+    double began, ends;    /* where a step did last, and is to */
+    bool is_far;           /* from singular positions, as far as was foreseen there */
     Trend by_groups, by_all;
     Ode ode;
     double low, high; /* time window of evaluations */

@@ -82,6 +82,12 @@ bool motion_factor(Motion *mo)
     return mo->is_factored;
 }
 
+/* whether rows are known to be independent where the motion stands, as a step foresees it */
+static bool is_in_far_step(const Motion *mo)
+{
+    return mo->is_far && mo->t >= mo->began && mo->t <= mo->ends;
+}
+
 bool motion_is_eliminated(Motion *mo)
 {
     const Equations *eq = mo->eq;
@@ -91,9 +97,9 @@ bool motion_is_eliminated(Motion *mo)
         memcmp(own->rows, mo->rows, (size_t)mo->used * sizeof(int)) != 0)
         return false;
     if (!mo->is_alone) {
-        mo->is_alone =
-            own->has_pivots(eq->context) && kkt_is_sound(mo->kkt, own->pivot, own->taken, eq->phi_u,
-                                                         mo->rows, own->left, own->left_count);
+        mo->is_alone = own->has_pivots(eq->context) &&
+                       kkt_is_sound(mo->kkt, own->pivot, own->taken, eq->phi_u, mo->rows, own->left,
+                                    own->left_count, is_in_far_step(mo));
         mo->counts.factorisations += mo->is_alone;
     }
     return mo->is_alone;
