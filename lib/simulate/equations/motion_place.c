@@ -82,10 +82,12 @@ bool motion_factor(Motion *mo)
     return mo->is_factored;
 }
 
-/* whether rows are known to be independent where the motion stands, as a step foresees it */
-static bool is_in_far_step(const Motion *mo)
+/* Whether it is known by other means how independent rows are where the motion stands: far from
+ * dependent, as a step foresees it; or near, so that each position is looked at when it is brought
+ * back. Then pivots tell no more than whether rounding has left them. */
+static bool are_rows_known(const Motion *mo)
 {
-    return mo->is_far && mo->t >= mo->began && mo->t <= mo->ends;
+    return (mo->is_far || mo->is_projecting) && mo->t >= mo->began && mo->t <= mo->ends;
 }
 
 bool motion_is_eliminated(Motion *mo)
@@ -99,7 +101,7 @@ bool motion_is_eliminated(Motion *mo)
     if (!mo->is_alone) {
         mo->is_alone = own->has_pivots(eq->context) &&
                        kkt_is_sound(mo->kkt, own->pivot, own->taken, eq->phi_u, mo->rows, own->left,
-                                    own->left_count, is_in_far_step(mo));
+                                    own->left_count, are_rows_known(mo));
         mo->counts.factorisations += mo->is_alone;
     }
     return mo->is_alone;
