@@ -279,9 +279,14 @@ void ldl_solve(const Ldl *ldl, double *x)
     const LdlOrder *o = ldl->order;
     const int *below = o->below;
 
-    for (int j = 0; j < o->n; j++)
+    for (int j = 0; j < o->n; j++) {
+        const double own = x[j];
+
+        if (own == 0) /* as speeds of a correction are */
+            continue;
         for (int e = o->below_start[j]; e < o->below_start[j + 1]; e++)
-            x[below[e]] -= ldl->l[e] * x[j];
+            x[below[e]] -= ldl->l[e] * own;
+    }
     for (int j = o->n - 1; j >= 0; j--) {
         double sum = x[j] * ldl->inverse[j];
 

@@ -14,6 +14,7 @@
 #define PROJECTION_SWEEPS 8
 #define NEAR              0.1  /* independence of rows: a singular position isn't far; */
 #define FAR               0.2  /* and here it is, for all of a step */
+#define LEAST_SIZE        1e-6 /* of a row, as its entries go */
 #define SLACK             0.03 /* rad: what a step may leave between an angle and its reference */
 
 static bool rate(void *context, double t, const double *y, double *out);
@@ -96,6 +97,7 @@ Motion *motion_new(const Equations *eq, const MotionOptions *options)
     mo->nearest = NEW_ARRAY(double, motion_length(mo));
     mo->lambda_all = NEW_ARRAY(double, eq->m);
     mo->row_size = NEW_ARRAY(double, eq->m);
+    mo->row_part = NEW_ARRAY(double, eq->m);
     mo->counts.singular_time = NAN;
     mo->began = NAN;
     mo->by_groups = mo->by_all = (Trend){.at = NAN, .before_at = NAN};
@@ -122,7 +124,7 @@ void motion_free(Motion *mo)
     signs_free(mo->signs);
     MEM_FREE(mo->slip, mo->off, mo->way, mo->solved_before, mo->q, mo->references, mo->slack,
              mo->top, mo->bottom, mo->du, mo->kept, mo->lambda, mo->nearest, mo->lambda_all,
-             mo->row_size, mo->dae_weight, mo->is_tested, mo->slopes, mo);
+             mo->row_size, mo->row_part, mo->dae_weight, mo->is_tested, mo->slopes, mo);
 }
 
 const Ode *motion_ode(const Motion *mo)
@@ -197,6 +199,18 @@ void motion_switches(Motion *mo, double t, const double *y, double *out)
     eq->switches(eq->context, t, y, y + eq->n, y + eq->n + eq->nu, out);
 }
 
+/* Residuals are measured as distances: a row over the largest entry it has had in Phi_u, where
+ * steps began. */
+static void measure_rows(Motion *mo)
+{
+    for (int k = 0; k < mo->eq->m; k++) {
+        const double largest = pattern_largest(mo->eq->rows, mo->eq->phi_u, k);
+
+        mo->row_size[k] = fmax(mo->row_size[k], fmax(largest, LEAST_SIZE));
+        mo->row_part[k] = 1 / mo->row_size[k];
+    }
+}
+
 /* where another step begins than the last one */
 static void close_trend(Trend *trend)
 {
@@ -237,6 +251,7 @@ static void begin(void *context, double t, const double *y, double h)
     mo->ends = t + h;
     mo->is_far = false;
     motion_at_position(mo, motion_clock(mo, t), y);
+    measure_rows(mo);
     by_groups = follow_trend(&mo->by_groups, t, h,
                              kkt_independence_of_groups(mo->kkt, mo->eq->phi_u, mo->rows), NAN);
     if (by_groups < NEAR)
@@ -308,22 +323,14 @@ bool motion_solve(Motion *mo, double t, const double *y, Solved *out)
 
 /* --- projection --- */
 
-/* Residuals are measured as distances: a row over the largest entry it has had in Phi_u. */
-static void measure_rows(Motion *mo)
-{
-    for (int k = 0; k < mo->used; k++) {
-        double largest = pattern_largest(mo->eq->rows, mo->eq->phi_u, mo->rows[k]);
-
-        mo->row_size[mo->rows[k]] = fmax(mo->row_size[mo->rows[k]], largest);
-    }
-}
-
 static double distance(const Motion *mo)
 {
+    const double *phi = mo->eq->phi, *part = mo->row_part;
+    const int *rows = mo->rows;
     double largest = 0;
 
     for (int k = 0; k < mo->used; k++) {
-        double size = fabs(mo->eq->phi[mo->rows[k]]) / fmax(mo->row_size[mo->rows[k]], 1e-6);
+        const double size = fabs(phi[rows[k]]) * part[rows[k]];
 
         if (!(size <= largest))
             largest = size;
@@ -438,7 +445,8 @@ static bool project_position(Motion *mo, double t, double *y)
 
     equations_normalise(mo->eq, y);
     motion_at_position(mo, t, y);
-    measure_rows(mo);
+    if (!motion_is_in_step(mo))
+        measure_rows(mo);
     left = distance(mo);
     if (left <= 1e-16 * size)
         return true;

@@ -49,9 +49,10 @@ struct Motion {
     double *top, *bottom, *du, *kept, *lambda, *lambda_all;
     double *nearest; /* a y */
     ImplicitJacobian implicit;
-    double *dae_weight, *row_size, *slack;
-    bool *is_tested; /* of unknowns of implicit equations */
-    double *slopes;  /* of all rates by y, for implicit equations; NULL: not asked for yet */
+    double *dae_weight, *slack;
+    double *row_size, *row_part; /* of all rows: largest entry so far, and one over it */
+    bool *is_tested;             /* of unknowns of implicit equations */
+    double *slopes; /* of all rates by y, for implicit equations; NULL: not asked for yet */
     MotionCounts counts;
 };
 
@@ -64,6 +65,12 @@ static inline int multi_turn_place(const Equations *eq)
 }
 
 #define MOTION_WORN 0.1 /* of the pivot ratio when they were chosen: rows, independent speeds */
+
+/* whether it stands in the step that began last */
+static inline bool motion_is_in_step(const Motion *mo)
+{
+    return mo->t >= mo->began && mo->t <= mo->ends;
+}
 
 /* the equations' positions at (t, y), which the factors below belong to */
 void motion_at_position(Motion *motion, double t, const double *y);

@@ -87,7 +87,7 @@ bool motion_factor(Motion *mo)
  * back. Then pivots tell no more than whether rounding has left them. */
 static bool are_rows_known(const Motion *mo)
 {
-    return (mo->is_far || mo->is_projecting) && mo->t >= mo->began && mo->t <= mo->ends;
+    return (mo->is_far || mo->is_projecting) && motion_is_in_step(mo);
 }
 
 bool motion_is_eliminated(Motion *mo)
