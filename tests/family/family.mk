@@ -81,6 +81,11 @@ family_redundant_SOURCES = tests/family/family_redundant.c tests/family/mechanis
 	tests/family/one_freedom.h tests/family/extrapolated.h tests/family/script.h
 family_redundant_LDADD = libcotree.la $(unit_ldadd)
 
+FAMILIES += family_hanging
+family_hanging_SOURCES = tests/family/family_hanging.c tests/family/family.h tests/family/script.h \
+	tests/unit/session_kit.h tests/unit/test.h tests/random.h
+family_hanging_LDADD = libcotree.la $(unit_ldadd)
+
 FAMILIES += family_falls
 family_falls_SOURCES = tests/family/family_falls.c tests/family/family.h tests/family/script.h
 family_falls_LDADD = libcotree.la $(unit_ldadd)

@@ -355,6 +355,31 @@ static void expect_motion(Motion *motion, const System *system, int n, double an
     mem_free(y);
 }
 
+/* the same where a step begins, up to near the flat position, where its rates are those of the
+ * nearest state */
+static void expect_steps(Motion *motion, const System *system, int n)
+{
+    const Ode *ode = motion_ode(motion);
+    const int length = motion_length(motion);
+    double *y = NEW_ARRAY(double, length), *rates = NEW_ARRAY(double, length);
+
+    for (double off = 0.6; off > 0.02; off /= 1.3) {
+        const double angle = asin(1) - off;
+        const double by_hand = GRAVITY * sin(angle) * ((n + 1) / 2.0 + n) / ((n + 1) / 3.0 + n);
+
+        place(system, angle, 1.5, y);
+        ode->begin(ode->context, 0, y, 1e-3);
+        EXPECT(ode->rate(ode->context, 0, y, rates));
+        for (int i = 0; i < system_n(system); i++) {
+            const char *name = system_q(system, i)->name;
+
+            if (strcmp(name, "a0") == 0 || strcmp(name, "c0.theta") == 0)
+                EXPECT_NEAR(rates[system_n(system) + i], by_hand, 1e-11 * n * n / (off * off));
+        }
+    }
+    MEM_FREE(y, rates);
+}
+
 /* A state off by a little is brought back by factors and by what is eliminated: to the nearest in
  * other metrics, so no farther than by what it was off, times what masses differ by; */
 static void expect_near(Motion *motion, const System *system)
@@ -409,6 +434,7 @@ static void expect_alike(const Equations *eq, Motion *motion, const System *syst
     for (int i = 0; i < 6; i++) /* near the flat position, where factors are due again, too */
         expect_motion(motion, system, n, 0.3 + 0.25 * i, 2 - 0.7 * i);
     EXPECT(motion_counts(motion).factorisations >= factored + 6);
+    expect_steps(motion, system, n);
     projected(motion, system, after);
     expect_near(motion, system);
     for (int i = 0; i < all; i++)
