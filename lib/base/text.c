@@ -77,6 +77,18 @@ void text_fill(Text *text, char c, int count)
         text_char(text, c);
 }
 
+char *text_room(Text *text, size_t most)
+{
+    reserve(text, most);
+    return text->at + text->length;
+}
+
+void text_extend(Text *text, char *end)
+{
+    *end = '\0';
+    text->length = (size_t)(end - text->at);
+}
+
 void text_number(Text *text, double value, int digits)
 {
     reserve(text, DECIMAL_SIZE);

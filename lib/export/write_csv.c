@@ -1,6 +1,8 @@
 /* write_csv.c: comma-separated values */
 #include "export/write.h"
 
+#include "base/decimal.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -19,6 +21,17 @@ static void add_name(Text *out, const char *name)
     text_char(out, '"');
 }
 
+static void add_row(Text *out, const double *values, int columns)
+{
+    char *at = text_room(out, (size_t)columns * (DECIMAL_SIZE + 1));
+
+    for (int c = 0; c < columns; c++) {
+        at += decimal_print(at, isfinite(values[c]) ? values[c] : (double)NAN, DECIMAL_EXACT);
+        *at++ = c + 1 < columns ? ',' : '\n';
+    }
+    text_extend(out, at);
+}
+
 void write_csv(Text *out, const char *const *names, const double *values, int rows, int columns,
                bool with_header)
 {
@@ -30,15 +43,7 @@ void write_csv(Text *out, const char *const *names, const double *values, int ro
     if (with_header)
         text_char(out, '\n');
     for (int r = 0; r < rows; r++)
-        for (int c = 0; c < columns; c++) {
-            const double value = values[(size_t)r * (size_t)columns + (size_t)c];
-
-            if (!isfinite(value))
-                text_add(out, "nan");
-            else
-                text_number(out, value, 17);
-            text_char(out, c + 1 < columns ? ',' : '\n');
-        }
+        add_row(out, values + (ptrdiff_t)r * columns, columns);
 }
 
 /* a row a mode, with the amplitude and phase of every part */

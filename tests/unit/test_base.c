@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "test.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -74,34 +75,92 @@ static void numbers_print_with_the_fewest_digits_that_read_back(void)
     text_free(&text);
 }
 
-/* as trying tells: every exponent, powers of two, short decimals, the smallest numbers */
+/* as the C library prints and reads: a number of `most` digits, fewer from 15 on if they read back
+ */
+static bool is_as_tried(double value, int most)
+{
+    char tried[DECIMAL_SIZE], got[DECIMAL_SIZE];
+    size_t length;
+
+    for (int n = most < 15 ? most : 15; n <= most; n++) {
+        (void)snprintf(tried, sizeof tried, "%.*g", n, value);
+        if (n >= 15 && strtod(tried, NULL) == value)
+            break;
+    }
+    length = decimal_print(got, value, most);
+    if (length == strlen(got) && strcmp(got, tried) == 0)
+        return true;
+    printf("# %a in %d digits: %s, not %s\n", value, most, got, tried);
+    return false;
+}
+
+static double read_decimal(uint64_t digits, const char *behind, int exponent)
+{
+    char text[DECIMAL_SIZE];
+
+    (void)snprintf(text, sizeof text, "%llu%se%d", (unsigned long long)digits, behind, exponent);
+    return strtod(text, NULL);
+}
+
+/* any bits, whole numbers, parts of two, short decimals and what is next to them, ties, products as
+ * times of rows are */
+static double any_decimal(uint64_t *random, int which)
+{
+    const uint64_t bits = test_random(random);
+    const int exponent = (int)(test_random(random) % 600) - 310;
+    double value;
+
+    switch (which % 8) {
+    case 0:
+        memcpy(&value, &bits, sizeof value);
+        return value;
+    case 1:
+        return (double)(int64_t)(bits >> bits % 64);
+    case 2:
+        return ldexp((double)(bits >> 44), -(int)(bits % 60));
+    case 3:
+        return read_decimal(bits % 1000000000000000U, "", exponent);
+    case 4:
+        return nextafter(read_decimal(bits % 1000000000000000U, "", exponent), INFINITY);
+    case 5:
+        return read_decimal(bits >> bits % 60 >> 4, "5", exponent % 30);
+    case 6:
+        return (double)(bits % 100000) * 0.01;
+    default:
+        return copysign(test_decades(random, 1e-30, 1e30), (double)(int64_t)bits);
+    }
+}
+
 static void decimals_are_those_that_trying_finds(void)
 {
+    static const double ends[] = {0,      -0.0, INFINITY, -INFINITY, NAN,
+                                  5e-324, 1e23, DBL_MIN,  DBL_MAX,   9007199254740993.0};
     uint64_t random = 5;
+    bool is_right = true;
 
-    for (int i = 0; i < 100000; i++) {
-        const uint64_t bits = test_random(&random);
-        size_t length;
-        char tried[DECIMAL_SIZE], got[DECIMAL_SIZE];
-        double value;
-        int most = 13 + i % 5;
+    for (int i = 0; i < 200000 && is_right; i++)
+        is_right = is_as_tried(any_decimal(&random, i), i / 8 % 3 == 0 ? 1 + i / 8 % 17 : 17);
+    EXPECT(is_right);
+    for (int e = DBL_MIN_EXP - DBL_MANT_DIG; e < DBL_MAX_EXP && is_right; e++)
+        for (int side = -1; side <= 1 && is_right; side++) { /* powers of two and their next */
+            const double power = ldexp(1, e);
+            const double value = side == 0 ? power : nextafter(power, side < 0 ? 0 : INFINITY);
 
-        memcpy(&value, &bits, sizeof value);
-        if (i % 4 == 1)
-            value = ldexp(1, i % 2140 - 1074);
-        else if (i % 4 == 2)
-            value = (double)(bits >> 50) * pow(10, (double)(i % 40) - 25);
-        else if (i % 4 == 3)
-            value = copysign(test_decades(&random, 1e-30, 1e30), value);
-        for (int n = most < 15 ? most : 15; n <= most; n++) {
-            (void)snprintf(tried, sizeof tried, "%.*g", n, value);
-            if (strtod(tried, NULL) == value)
-                break;
+            is_right = is_as_tried(value, 17) && is_as_tried(-value, 16);
         }
-        length = decimal_print(got, value, most);
-        EXPECT(length == strlen(got));
-        EXPECT_TEXT(got, tried);
-    }
+    EXPECT(is_right);
+    for (int e = -324; e <= 308 && is_right; e++) /* and of ten */
+        for (int side = -1; side <= 1 && is_right; side++) {
+            const double power = read_decimal(1, "", e);
+            const double value = side == 0 ? power : nextafter(power, side < 0 ? 0 : INFINITY);
+
+            for (int most = 1; most <= 17 && is_right; most++)
+                is_right = is_as_tried(value, most);
+        }
+    EXPECT(is_right);
+    for (int i = 0; i < 10 * 17 && is_right; i++)
+        is_right = is_as_tried(ends[i / 17], 1 + i % 17);
+    EXPECT(is_right);
 }
 
 int main(void)
