@@ -5,8 +5,10 @@
 #include "compile/program_impl.h"
 
 #include "algebra/elementary.h"
+#include "base/four.h"
 
 #include <math.h>
+#include <string.h>
 
 static void run_calls(const OpcodeRun *run, const uint32_t *operand, double *slots)
 {
@@ -115,4 +117,94 @@ void program_hand_over(const Program *program, Stage from, Stage to, const doubl
 {
     for (int i = program->first_root[from]; i < program->first_root[to + 1]; i++)
         roots[program->roots[i].root] = slots[program->roots[i].slot];
+}
+
+/* --- several at once: a slot is ABREAST numbers, one behind the other --- */
+
+typedef double Eight __attribute__((vector_size(ABREAST * sizeof(double)), aligned(8), may_alias));
+
+static void run_calls_abreast(const OpcodeRun *run, const uint32_t *operand, Curve *const *tables,
+                              double *slots)
+{
+    const int operands = code_operands(run->code);
+    double *result = slots + (ptrdiff_t)run->result * ABREAST;
+
+    for (int i = 0; i < run->count; i++, operand += operands)
+        for (int lane = 0; lane < ABREAST; lane++) {
+            double args[MOST_OPERANDS] = {0};
+
+            for (int k = 0; k < operands; k++)
+                args[k] = slots[(ptrdiff_t)operand[k] * ABREAST + lane];
+            *result++ = run->code == CODE_CALL + OP_TABLE
+                            ? curve_value(tables[(int)args[0]], args[1], (int)args[2])
+                            : op_value((Op)(run->code - CODE_CALL), args);
+        }
+}
+
+static void run_sines_abreast(const OpcodeRun *run, const uint32_t *operand, double *slots)
+{
+    double *result = slots + (ptrdiff_t)run->result * ABREAST;
+
+    for (int i = 0; i < run->count; i++, result += 2 * ABREAST)
+        elementary_sincos_all(slots + (ptrdiff_t)operand[i] * ABREAST, result, result + ABREAST,
+                              ABREAST);
+}
+
+/* what a row of opcodes.def computes: sums and products all at once, functions one by one */
+#define ABREAST_0(...)                                                                             \
+    do {                                                                                           \
+        const Eight a = at[operand[0]], b = at[operand[second]], c = at[operand[third]];           \
+                                                                                                   \
+        (void)b;                                                                                   \
+        (void)c;                                                                                   \
+        at[result] = __VA_ARGS__;                                                                  \
+    } while (0)
+#define ABREAST_1(...)                                                                             \
+    for (int lane = 0; lane < ABREAST; lane++) {                                                   \
+        const double a = at[operand[0]][lane], b = at[operand[second]][lane],                      \
+                     c = at[operand[third]][lane];                                                 \
+                                                                                                   \
+        (void)b;                                                                                   \
+        (void)c;                                                                                   \
+        at[result][lane] = __VA_ARGS__;                                                            \
+    }
+
+AS_WIDE_AS_CAN_BE static void run_one_abreast(const OpcodeRun *run, const uint32_t *operand,
+                                              Eight *at)
+{
+    int result = run->result;
+    const int end = result + run->count;
+
+    switch (run->code) {
+#define OPCODE(id, operands, adds, muls, functions, ...)                                           \
+    case CODE_##id: {                                                                              \
+        enum { second = (operands) > 1, third = (operands) > 2 ? 2 : 0 };                          \
+                                                                                                   \
+        for (; result < end; result++, operand += (operands))                                      \
+            ABREAST_##functions(__VA_ARGS__);                                                      \
+        break;                                                                                     \
+    }
+#include "compile/opcodes.def"
+#undef OPCODE
+    default:
+        break;
+    }
+}
+
+void program_interpret_abreast(const Program *program, Stage from, Stage to, double *slots)
+{
+    for (int r = program->first_run[from]; r < program->first_run[to + 1]; r++) {
+        const OpcodeRun *run = &program->runs.at[r];
+        const uint32_t *operand = program->tape.at + run->operands;
+
+        if (run->code == CODE_SINCOS)
+            run_sines_abreast(run, operand, slots);
+        else if (run->code >= CODE_CALL)
+            run_calls_abreast(run, operand, program->tables.at, slots);
+        else
+            run_one_abreast(run, operand, (Eight *)slots);
+    }
+    for (int i = program->first_root[from]; i < program->first_root[to + 1]; i++)
+        memcpy(slots + (ptrdiff_t)(program->slot_count + program->roots[i].root) * ABREAST,
+               slots + (ptrdiff_t)program->roots[i].slot * ABREAST, ABREAST * sizeof(double));
 }

@@ -29,6 +29,13 @@ Native *lanes_native(const Program *program, int lanes, Evaluator evaluator)
     return width_of(lanes, evaluator, &target) > 0 ? native_new(program, &target) : NULL;
 }
 
+Native *lanes_native_if_it_pays(const Program *program, int lanes, Evaluator evaluator, long runs)
+{
+    const long once = program_interpreting(program, STAGE_TIME, STAGE_COUNT - 1);
+
+    return program_has_paid(program, runs * once) ? lanes_native(program, lanes, evaluator) : NULL;
+}
+
 Lanes *lanes_new(const Program *program, const Native *native, int lanes)
 {
     NativeTarget target;
@@ -39,7 +46,8 @@ Lanes *lanes_new(const Program *program, const Native *native, int lanes)
     out->native = native;
     out->count = lanes;
     out->width = native != NULL ? width_of(lanes, EVALUATOR_NATIVE, &target) : 0;
-    out->width = out->width > 0 ? out->width : 1;
+    if (out->width == 0)
+        out->width = lanes == ABREAST ? ABREAST : 1;
     out->stride = (program->slot_count + program->root_count) * out->width;
     blocks = lanes / out->width;
     out->slots = NEW_ARRAY(double, out->stride *blocks);
@@ -64,12 +72,18 @@ void lanes_put(Lanes *lanes, int input, Stage stage, const double *values)
 {
     for (int first = 0, block = 0; first < lanes->count; first += lanes->width, block++) {
         double *at = lanes->slots + block * lanes->stride + input * lanes->width;
-        const size_t size = (size_t)lanes->width * sizeof(double);
+        uint64_t changed = 0;
 
-        if (memcmp(at, values + first, size) == 0)
-            continue;
-        memcpy(at, values + first, size);
-        if (stage < lanes->changed)
+        /* one by one: values just stored so would have to wait to be read as one */
+        for (int k = 0; k < lanes->width; k++) {
+            uint64_t old, new;
+
+            memcpy(&old, at + k, sizeof old);
+            memcpy(&new, values + first + k, sizeof new);
+            memcpy(at + k, &new, sizeof new);
+            changed |= old ^ new;
+        }
+        if (changed != 0 && stage < lanes->changed)
             lanes->changed = stage;
     }
 }
@@ -86,11 +100,24 @@ void lanes_run(Lanes *lanes)
             native_run(lanes->native, lanes->changed, STAGE_COUNT - 1, slots, lanes->frame);
             continue;
         }
+        if (lanes->width == ABREAST) {
+            program_interpret_abreast(program, lanes->changed, STAGE_COUNT - 1, slots);
+            continue;
+        }
         program_interpret(program, lanes->changed, STAGE_COUNT - 1, slots);
         program_hand_over(program, lanes->changed, STAGE_COUNT - 1, slots,
                           slots + program->slot_count);
     }
     lanes->changed = STAGE_COUNT;
+}
+
+void lanes_take(const Lanes *lanes, int root, double *out)
+{
+    for (int first = 0, block = 0; first < lanes->count; first += lanes->width, block++)
+        memcpy(out + first,
+               lanes->slots + block * lanes->stride +
+                   (lanes->program->slot_count + root) * lanes->width,
+               (size_t)lanes->width * sizeof(double));
 }
 
 double lanes_root(const Lanes *lanes, int root, int lane)

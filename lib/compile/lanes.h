@@ -1,9 +1,9 @@
 /* lanes.h: a program at several inputs at once
  *
- * Native code takes as many of them together as the processor has it; the interpreter one by one. A
- * stage runs again only when one of its inputs has changed. There are 1, 2, 4 or 8 lanes. Nothing
- * is allocated once they are made, and a Lanes is used by one thread; the Native, which several may
- * share, is const. */
+ * Native code takes as many of them together as the processor has it; the interpreter eight, and
+ * fewer one by one. A stage runs again only when one of its inputs has changed. There are 1, 2, 4
+ * or 8 lanes. Nothing is allocated once they are made, and a Lanes is used by one thread; the
+ * Native, which several may share, is const. */
 #ifndef COTREE_COMPILE_LANES_H
 #define COTREE_COMPILE_LANES_H
 
@@ -14,6 +14,8 @@ typedef struct Lanes Lanes;
 /* Native code for so many lanes; NULL: the interpreter is to compute, or there is none here. New;
  * borrows the program. */
 Native *lanes_native(const Program *program, int lanes, Evaluator evaluator);
+/* The same, where it is made sooner than the interpreter has run so often; NULL elsewhere. */
+Native *lanes_native_if_it_pays(const Program *program, int lanes, Evaluator evaluator, long runs);
 /* New; lanes_free(). Borrows both; `native` was made for as many lanes, or is NULL. Inputs are 0.
  */
 Lanes *lanes_new(const Program *program, const Native *native, int lanes);
@@ -21,6 +23,7 @@ void lanes_free(Lanes *lanes); /* NULL is fine */
 /* an input of that stage: a number a lane */
 void lanes_put(Lanes *lanes, int input, Stage stage, const double *values);
 void lanes_run(Lanes *lanes);
+void lanes_take(const Lanes *lanes, int root, double *out); /* of every lane */
 double lanes_root(const Lanes *lanes, int root, int lane);
 
 #endif

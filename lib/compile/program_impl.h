@@ -94,6 +94,17 @@ void program_interpret(const Program *program, Stage from, Stage to, double *slo
 void program_interpret_section(const Program *program, int section, double *slots);
 void program_hand_over(const Program *program, Stage from, Stage to, const double *slots,
                        double *roots);
+/* ABREAST evaluations at once, of slots and then roots that are as many numbers each: to the bits
+ * of one by one. */
+enum { ABREAST = 8 };
+void program_interpret_abreast(const Program *program, Stage from, Stage to, double *slots);
+
+/* --- workspace.c --- */
+
+/* Instructions that interpreting these stages counts as, with the call. */
+long program_interpreting(const Program *program, Stage from, Stage to);
+/* Whether so many took about as long as making native code does. */
+bool program_has_paid(const Program *program, long interpreted);
 
 /* --- rounding.c --- */
 

@@ -10,12 +10,22 @@
 /* Native code is made as soon as what was interpreted took about as long as making it does: so it
  * costs twice the better of both at most, however long a run is. In instructions interpreted
  * (make bench: program.eval_*, make_native_*): one takes MAKING to make, memory for code as much
- * as 40 000, and a call of the interpreter CALLING. */
+ * as MEMORY, and a call of the interpreter CALLING. */
 #if defined COTREE_SMALL || defined COTREE_FAULTS
 enum { MAKING = 0, MEMORY = 1, CALLING = 1 };
 #else
 enum { MAKING = 100, MEMORY = 40000, CALLING = 10 };
 #endif
+
+long program_interpreting(const Program *program, Stage from, Stage to)
+{
+    return CALLING + program->work[to + 1] - program->work[from];
+}
+
+bool program_has_paid(const Program *program, long interpreted)
+{
+    return interpreted > MEMORY + (long)MAKING * program->work[STAGE_COUNT];
+}
 
 /* Several threads are made use of where they are faster, by the clock, since numbers that go from
  * one processor to another may take longer than computing them: as often as TRIES tells by turns
@@ -92,17 +102,11 @@ void workspace_share(Workspace *workspace, Threads *threads)
     workspace->threads = threads;
 }
 
-/* what a run of these stages takes by the interpreter */
-static long interpreted_by(const Program *program, Stage from, Stage to)
-{
-    return CALLING + program->work[to + 1] - program->work[from];
-}
-
 void workspace_foresee(Workspace *workspace, int runs)
 {
     if (workspace->single.interpreted >= 0)
         workspace->single.interpreted +=
-            runs * interpreted_by(workspace->program, STAGE_PARAMETER, STAGE_COUNT - 1);
+            runs * program_interpreting(workspace->program, STAGE_PARAMETER, STAGE_COUNT - 1);
 }
 
 double *workspace_inputs(Workspace *workspace)
@@ -212,8 +216,8 @@ static void run(Workspace *workspace, NativePart *part, Stage from, Stage to)
     program_hand_over(program, from, to, slots, slots + program->slot_count);
     if (workspace->evaluator == EVALUATOR_INTERPRETER || part->interpreted < 0)
         return;
-    part->interpreted += interpreted_by(program, from, to);
-    if (part->interpreted > MEMORY + (long)MAKING * program->work[STAGE_COUNT]) {
+    part->interpreted += program_interpreting(program, from, to);
+    if (program_has_paid(program, part->interpreted)) {
         part->interpreted = -1;
         make_native(workspace, part);
     }

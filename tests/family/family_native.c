@@ -3,8 +3,9 @@
  * Random expressions over all functions, their numbers from tiny to huge, infinite or none, are
  * made native for each instruction set that the processor has, for one and more evaluations at
  * once, with few registers and with all. Strict code has the interpreter's bits, stage by stage;
- * fused code those of C's fma() where a product and a sum are one. Sine, cosine, exponential and
- * logarithm are held against those of long double. */
+ * fused code those of C's fma() where a product and a sum are one; eight that are interpreted at
+ * once have the bits of one. Sine, cosine, exponential and logarithm are held against those of long
+ * double. */
 #include "family.h"
 
 #include "algebra/elementary.h"
@@ -312,6 +313,35 @@ static Verdict native_code(Member *member)
     return verdict;
 }
 
+/* --- the interpreter's own lanes --- */
+
+static Verdict abreast(Member *member)
+{
+    Sample made;
+    Lanes l = {.target = {.width = ABREAST}};
+    bool agrees = true;
+    int numbers;
+
+    make(member, &made);
+    numbers = made.program->slot_count + made.program->root_count;
+    l.program = made.program;
+    l.slots = NEW_ARRAY(double, numbers *ABREAST);
+    l.other = NEW_ARRAY(double, numbers);
+    for (int i = 0; i < made.program->constants.count; i++) {
+        l.other[INPUTS + i] = made.program->constants.at[i];
+        for (int k = 0; k < ABREAST; k++)
+            *lane(&l, INPUTS + i, k) = made.program->constants.at[i];
+    }
+    for (int stage = 0; stage < STAGE_COUNT && agrees; stage++) {
+        draw_inputs(member, &l, (Stage)stage);
+        program_interpret_abreast(l.program, (Stage)stage, STAGE_ACCELERATION, l.slots);
+        agrees = lanes_agree(member, &l, "eight interpreted at once");
+    }
+    MEM_FREE(l.slots, l.other);
+    sample_free(&made);
+    return agrees ? AGREES : DISAGREES;
+}
+
 /* --- workspaces, which have code made on the way --- */
 
 static Verdict workspaces(Member *member)
@@ -436,6 +466,7 @@ int main(int argc, char **argv)
     const double refused = native_has(ISA_SSE2) ? 0 : 1;
     const Family families[] = {
         {"native_code_has_the_interpreters_bits", 400, refused, 0, native_code},
+        {"eight_interpreted_at_once_have_the_bits_of_one", 200, 0, 0, abreast},
         {"workspaces_have_these_bits_too", 100, 0, 0, workspaces},
         {"functions_are_right_to_the_last_place", 200, 0, 0, functions},
         {"many_at_once_have_the_bits_of_one", 5000, 0, 0, at_once},

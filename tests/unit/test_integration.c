@@ -403,9 +403,9 @@ static void output_times_are_multiples_of_the_step(void)
     EXPECT(grid_rows(0, 2, 0.01) == 200);
     EXPECT(grid_rows(0, 0.05, 0.00025) == 200);
     EXPECT(grid_rows(0, 1, 0.3) == 4);
-    EXPECT(grid_time(0, 2, 0.01, 7) == 7 * 0.01);
-    EXPECT(grid_time(0, 1, 0.3, 4) == 1);
-    EXPECT(grid_time(0, 2, 0.01, 200) == 2);
+    EXPECT(grid_time(0, 2, 0.01, grid_rows(0, 2, 0.01), 7) == 7 * 0.01);
+    EXPECT(grid_time(0, 1, 0.3, grid_rows(0, 1, 0.3), 4) == 1);
+    EXPECT(grid_time(0, 2, 0.01, grid_rows(0, 2, 0.01), 200) == 2);
 }
 
 static bool stop_at_once(void *context)

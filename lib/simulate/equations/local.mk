@@ -35,6 +35,7 @@ libcore_la_SOURCES += \
   lib/simulate/equations/parameters.h \
   lib/simulate/equations/probe.c \
   lib/simulate/equations/probe.h \
+  lib/simulate/equations/probe_states.c \
   lib/simulate/equations/rate_jacobian.c \
   lib/simulate/equations/rate_jacobian.h \
   lib/simulate/equations/redundant.c \

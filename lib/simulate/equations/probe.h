@@ -78,6 +78,11 @@ double *probe_input(Probe *probe, int place);
 
 /* the values of the roots, then of the slopes; borrowed, until the next call */
 const double *probe_values(Probe *probe, const RowValues *row);
+/* Of a probe that reads the state alone, at `count` instants with a y of `length` each, one behind
+ * the other: its first `roots` values, count x roots. Many are computed several at once, by what
+ * the evaluator names. */
+void probe_values_of_states(Probe *probe, Evaluator evaluator, const double *times, const double *y,
+                            int length, int count, int roots, double *out);
 /* How far these values may be off where the row is off by `errors`; t and parameters are as
  * number_error() has them. */
 void probe_errors(const Probe *probe, const RowValues *errors, double *out);

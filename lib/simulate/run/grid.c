@@ -29,12 +29,15 @@ void grid_add(Grid *grid, double t, int phase, const double *y, int length)
 
 void grid_append(Grid *grid, const Grid *more)
 {
-    for (int i = 0; i < more->count; i++) {
-        ptrdiff_t end = i + 1 < more->count ? more->first[i + 1] : more->used;
+    for (int i = 0; i < more->count; i++)
+        grid_add(grid, more->times[i], more->phase[i], grid_row(more, i), grid_length(more, i));
+}
 
-        grid_add(grid, more->times[i], more->phase[i], grid_row(more, i),
-                 (int)(end - more->first[i]));
-    }
+int grid_length(const Grid *grid, int row)
+{
+    const ptrdiff_t end = row + 1 < grid->count ? grid->first[row + 1] : grid->used;
+
+    return (int)(end - grid->first[row]);
 }
 
 double *grid_row(const Grid *grid, int row)
@@ -57,9 +60,9 @@ int grid_rows(double from, double to, double every)
     return (int)whole + 1; /* the end lies between two multiples */
 }
 
-double grid_time(double from, double to, double every, int k)
+double grid_time(double from, double to, double every, int rows, int k)
 {
     double t = from + k * every;
 
-    return k >= grid_rows(from, to, every) || t > to ? to : t;
+    return k >= rows || t > to ? to : t;
 }

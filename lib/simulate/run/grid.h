@@ -21,11 +21,12 @@ void grid_add(Grid *grid, double t, int phase, const double *y, int length);
 /* all rows of another one, of the same phases */
 void grid_append(Grid *grid, const Grid *more);
 double *grid_row(const Grid *grid, int row); /* y; borrowed, until a row is added */
+int grid_length(const Grid *grid, int row);  /* of y */
 void grid_free(Grid *grid);                  /* what it holds; it is empty again */
 
-/* Output times: number of them behind `from` up to `to`; grid_time(k) for k = 1.. is the k-th of
- * them. They are products, so that they don't gather rounding. */
+/* Output times: number of them behind `from` up to `to`, `rows`; grid_time(k) for k = 1.. is the
+ * k-th of them. They are products, so that they don't gather rounding. */
 int grid_rows(double from, double to, double every);
-double grid_time(double from, double to, double every, int k);
+double grid_time(double from, double to, double every, int rows, int k);
 
 #endif

@@ -36,8 +36,9 @@ static Status add_rows_to(Integration *m, double end, Diag *diag)
     const IntegrationPlan *plan = m->plan;
 
     for (; m->next_row <= m->rows; m->next_row++) {
-        double t = plan->times != NULL ? plan->times[m->next_row - 1]
-                                       : grid_time(plan->from, plan->to, plan->every, m->next_row);
+        double t = plan->times != NULL
+                       ? plan->times[m->next_row - 1]
+                       : grid_time(plan->from, plan->to, plan->every, m->rows, m->next_row);
 
         if (t > end)
             break;

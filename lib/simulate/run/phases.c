@@ -156,6 +156,16 @@ done:
     return status;
 }
 
+/* how many rows from this one on are of its phase */
+static int same_phase(const Grid *grid, int row)
+{
+    int end = row + 1;
+
+    while (end < grid->count && grid->phase[end] == grid->phase[row])
+        end++;
+    return end - row;
+}
+
 Status phases_ask(Phases *p, const Grid *grid, const Driven *driven, int first, Ask ask,
                   const void *context, int count, double *out, Diag *diag)
 {
@@ -165,14 +175,23 @@ Status phases_ask(Phases *p, const Grid *grid, const Driven *driven, int first, 
 
     if (grid->count == 0)
         CHECK(ask(p, p->at[first], context, &probes[first], diag));
-    for (int i = 0; i < grid->count; i++) {
+    for (int i = 0, rows; i < grid->count; i += rows) {
         Phase *phase = p->at[grid->phase[i]];
         Probe **probe = &probes[grid->phase[i]];
 
+        rows = same_phase(grid, i);
         if (*probe == NULL)
             CHECK(ask(p, phase, context, probe, diag));
-        phase_probe_at(phase, *probe, grid->times[i], grid_row(grid, i), driven_row(driven, i),
-                       count, out + (ptrdiff_t)i * count);
+        if (probe_reads_state(*probe)) {
+            phase_enter(phase);
+            probe_values_of_states(*probe, p->parameters.evaluator, grid->times + i,
+                                   grid_row(grid, i), grid_length(grid, i), rows, count,
+                                   out + (ptrdiff_t)i * count);
+            continue;
+        }
+        for (int k = i; k < i + rows; k++)
+            phase_probe_at(phase, *probe, grid->times[k], grid_row(grid, k), driven_row(driven, k),
+                           count, out + (ptrdiff_t)k * count);
     }
 done:
     for (int i = 0; i < p->count; i++)

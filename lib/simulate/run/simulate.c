@@ -491,7 +491,7 @@ static Status positions(ActiveRun *r, const Setting *setting, const RunOptions *
         CHECK(lost(r, 0, 0, y, diag));
     transaction_stop_asking(); /* there will be rows to be kept */
     for (int k = 0; k <= rows && !stop; k++) {
-        double t = k > 0 ? grid_time(0, options->duration, options->every, k) : 0;
+        double t = k > 0 ? grid_time(0, options->duration, options->every, rows, k) : 0;
 
         if (poll(setting->watch) != OK)
             CHECK(diag_set(diag, E_STOPPED, "stopped at t = %.6g s", last));

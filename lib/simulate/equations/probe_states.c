@@ -1,0 +1,100 @@
+/* probe_states.c: a probe at many states, several at once */
+#include "simulate/equations/probe.h"
+
+#include "compile/lanes.h"
+
+enum {
+    LANES = 8,
+    FEW = 2 * LANES /* states that are computed one by one: lanes have to be made */
+};
+
+typedef struct States {
+    const double *times, *y;
+    int length, count;
+} States;
+
+static void put_parameters(const Probe *probe, Lanes *lanes)
+{
+    const int all = program_input_count(residual_program(probe->residual));
+    double values[LANES];
+
+    for (int i = probe->layout->count; i < all; i++) {
+        for (int k = 0; k < LANES; k++)
+            values[k] = probe->inputs[i];
+        lanes_put(lanes, i, STAGE_PARAMETER, values);
+    }
+}
+
+/* Of these states, from one place on. */
+static void put_part(const double *const y[LANES], int place, int count, int input, Stage stage,
+                     Lanes *lanes)
+{
+    for (int i = place; i < place + count; i++) {
+        double values[LANES];
+
+        for (int k = 0; k < LANES; k++)
+            values[k] = y[k][i];
+        lanes_put(lanes, input + i - place, stage, values);
+    }
+}
+
+/* From one on; where the last ones have no next it stands in for them. */
+static void put_states(const Layout *l, const States *s, int first, Lanes *lanes)
+{
+    const int last = s->count - 1;
+    const double *y[LANES];
+    double times[LANES];
+
+    for (int k = 0; k < LANES; k++) {
+        const int at = first + k < last ? first + k : last;
+
+        times[k] = s->times[at];
+        y[k] = s->y + (ptrdiff_t)at * s->length;
+    }
+    lanes_put(lanes, l->t, STAGE_TIME, times);
+    put_part(y, layout_references(l), l->multi_turns, l->references, STAGE_POSITION, lanes);
+    put_part(y, 0, l->n, l->q, STAGE_POSITION, lanes);
+    put_part(y, l->n, l->nu, l->u, STAGE_VELOCITY, lanes);
+    put_part(y, l->n + l->nu, l->nx, l->x, STAGE_VELOCITY, lanes);
+}
+
+static void by_lanes(Probe *probe, Evaluator evaluator, const States *s, int roots, double *out)
+{
+    const Program *program = residual_program(probe->residual);
+    const int blocks = (s->count + LANES - 1) / LANES;
+    Native *native = lanes_native_if_it_pays(program, LANES, evaluator, blocks);
+    Lanes *lanes = lanes_new(program, native, LANES);
+
+    (void)probe_inputs(probe); /* sides as they are now */
+    put_parameters(probe, lanes);
+    for (int first = 0; first < s->count; first += LANES) {
+        const int count = s->count - first < LANES ? s->count - first : LANES;
+
+        put_states(probe->layout, s, first, lanes);
+        lanes_run(lanes);
+        for (int i = 0; i < roots; i++) {
+            double values[LANES];
+
+            lanes_take(lanes, i, values);
+            for (int k = 0; k < count; k++)
+                out[(ptrdiff_t)(first + k) * roots + i] = values[k];
+        }
+    }
+    lanes_free(lanes);
+    native_free(native);
+}
+
+void probe_values_of_states(Probe *probe, Evaluator evaluator, const double *times, const double *y,
+                            int length, int count, int roots, double *out)
+{
+    if (count > FEW) {
+        by_lanes(probe, evaluator, &(States){times, y, length, count}, roots, out);
+        return;
+    }
+    for (int i = 0; i < count; i++) {
+        const RowValues row = row_of_state(probe->layout, times[i], y + (ptrdiff_t)i * length);
+
+        memcpy(out + (ptrdiff_t)i * roots, probe_values(probe, &row),
+               (size_t)roots * sizeof(double));
+    }
+}
