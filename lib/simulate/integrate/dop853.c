@@ -33,7 +33,8 @@ enum { TOGETHER = 8 /* entries that are summed together: two Fours */ };
 typedef struct Dop853 {
     Stepper base;
     int n, all; /* in the error test; with quadratures */
-    int room;   /* of k and sums: all, and what fills a multiple of TOGETHER, which is 0 */
+    int room;   /* of k, sums, old and dense: all, and what fills a multiple of TOGETHER, which is 0
+                 */
     double *k[STAGES], *sums[3];
     double *old, *new, *stage_point, *scale;
     double *dense[7];
@@ -305,8 +306,8 @@ static Stepper *create(const Ode *ode, const Control *control)
     for (int i = 0; i < COUNT(d->sums); i++)
         d->sums[i] = stepper_numbers(&d->base, d->room);
     for (int i = 0; i < COUNT(d->dense); i++)
-        d->dense[i] = stepper_numbers(&d->base, d->all);
-    d->old = stepper_numbers(&d->base, d->all);
+        d->dense[i] = stepper_numbers(&d->base, d->room);
+    d->old = stepper_numbers(&d->base, d->room);
     d->new = stepper_numbers(&d->base, d->all);
     d->stage_point = stepper_numbers(&d->base, d->all);
     d->scale = stepper_numbers(&d->base, d->all);
@@ -405,6 +406,20 @@ static void make_dense(Dop853 *d)
     d->has_dense = true;
 }
 
+/* at this part of the last step */
+AS_WIDE_AS_CAN_BE static void interpolate(const Dop853 *d, double s, double *out)
+{
+    const double left = 1 - s;
+
+    for (int first = 0; first < d->room; first += 4) {
+        Four sum = *(const Four *)(d->dense[6] + first) * s;
+
+        for (int j = 5; j >= 0; j--)
+            sum = (sum + *(const Four *)(d->dense[j] + first)) * (j % 2 == 0 ? s : left);
+        *(Four *)(out + first) = *(const Four *)(d->old + first) + sum;
+    }
+}
+
 static void at(Stepper *stepper, double t, double *y)
 {
     Dop853 *d = (Dop853 *)stepper;
@@ -416,13 +431,8 @@ static void at(Stepper *stepper, double t, double *y)
     }
     if (!d->has_dense)
         make_dense(d);
-    for (int i = 0; i < d->all; i++) {
-        double sum = 0;
-
-        for (int j = 6; j >= 0; j--)
-            sum = (sum + d->dense[j][i]) * (j % 2 == 0 ? s : 1 - s);
-        y[i] = d->old[i] + sum;
-    }
+    interpolate(d, s, d->sums[0]);
+    memcpy(y, d->sums[0], (size_t)d->all * sizeof(double));
 }
 
 static Status shorten(Stepper *stepper, double t, Diag *diag)
