@@ -10,11 +10,12 @@
 /* Native code is made as soon as what was interpreted took about as long as making it does: so it
  * costs twice the better of both at most, however long a run is. In instructions interpreted
  * (make bench: program.eval_*, make_native_*): one takes MAKING to make, memory for code as much
- * as MEMORY, and a call of the interpreter CALLING. */
+ * as MEMORY, and a call of the interpreter CALLING, which goes from opcode to opcode a dozen times.
+ * None of it may depend on how many parts there are: fused code has other bits. */
 #if defined COTREE_SMALL || defined COTREE_FAULTS
 enum { MAKING = 0, MEMORY = 1, CALLING = 1 };
 #else
-enum { MAKING = 100, MEMORY = 40000, CALLING = 10 };
+enum { MAKING = 100, MEMORY = 20000, CALLING = 100 };
 #endif
 
 long program_interpreting(const Program *program, Stage from, Stage to)
