@@ -11,15 +11,20 @@
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
+#if defined __x86_64__ && defined __GNUC__
+#include <immintrin.h>
+#endif
 
 /* clang-format off */
 #define NEAR      0x1.8p20   /* so far multiples of the parts of a quarter are exact */
-#define TINY      0x1p-27
 #define QUARTERS  0x1.45f306dc9c883p-1 /* 2 / pi */
 #define QUARTER_1 0x1.921fb54400000p+0 /* pi / 2 in 33 + 33 + 33 + 53 bits */
 #define QUARTER_2 0x1.0b4611a600000p-34
 #define QUARTER_3 0x1.3198a2e000000p-69
 #define QUARTER_4 0x1.b839a252049c1p-104
+#define HALF_PI_1 0x1.921fb54442d18p+0 /* in 53 + 53 + 53 bits */
+#define HALF_PI_2 0x1.1a62633145c07p-54
+#define HALF_PI_3 -0x1.f1976b7ed8fbcp-110
 #define LOG2_E    0x1.71547652b82fep+0
 #define LN2_1     0x1.62e42fee00000p-1 /* in 32 + 53 bits */
 #define LN2_2     0x1.a39ef35793c76p-33
@@ -83,16 +88,35 @@ static void sincos_far(double x, double *sine, double *cosine);
 #endif
 
 #define WIDTH 2
+#define TAG   2
 #define TARGET
 #include "algebra/elementary_kernel.def"
 
 /* wider ones where the processor that runs has them; numbers are the same */
 #if defined __x86_64__ && defined __GNUC__
 #define WIDTH  4
+#define TAG    4
 #define TARGET __attribute__((target("avx2")))
 #include "algebra/elementary_kernel.def"
 #define WIDTH  8
+#define TAG    8
 #define TARGET __attribute__((target("avx512f,avx512dq")))
+#include "algebra/elementary_kernel.def"
+/* and with fused operations */
+#define WIDTH                2
+#define TAG                  fused_2
+#define TARGET               __attribute__((target("avx2,fma")))
+#define FUSED(name, a, b, c) _mm_##name##_pd((__m128d)(a), (__m128d)(b), (__m128d)(c))
+#include "algebra/elementary_kernel.def"
+#define WIDTH                4
+#define TAG                  fused_4
+#define TARGET               __attribute__((target("avx2,fma")))
+#define FUSED(name, a, b, c) _mm256_##name##_pd((__m256d)(a), (__m256d)(b), (__m256d)(c))
+#include "algebra/elementary_kernel.def"
+#define WIDTH                8
+#define TAG                  fused_8
+#define TARGET               __attribute__((target("avx512f,avx512dq,fma")))
+#define FUSED(name, a, b, c) _mm512_##name##_pd((__m512d)(a), (__m512d)(b), (__m512d)(c))
 #include "algebra/elementary_kernel.def"
 #define IN_WIDE(done, count, name, ...)                                                            \
     do {                                                                                           \
@@ -211,11 +235,74 @@ void elementary_sincos_all(const double *x, double *sine, double *cosine, int co
 {
     int done = 0;
 
+#if defined __x86_64__ && defined __GNUC__
+    if (count == 3 && __builtin_cpu_supports("avx2")) {
+        sincos_three_4(x, sine, cosine);
+        return;
+    }
+#endif
     IN_WIDE(done, count, sincos, x, sine, cosine, count);
     done += sincos_all_2(x + done, sine + done, cosine + done, count - done);
     if (done < count)
         sincos_one(x[done], &sine[done], &cosine[done]);
 }
+
+#if defined __x86_64__ && defined __GNUC__
+
+bool elementary_has_fused(void)
+{
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+}
+
+/* the last, alone */
+__attribute__((target("avx2,fma"))) static void sincos_fused_one(double x, double *sine,
+                                                                 double *cosine)
+{
+    Doubles_fused_2 s, c;
+
+    if (!(fabs(x) <= NEAR)) {
+        sincos_far(x, sine, cosine);
+        return;
+    }
+    sincos_fused_2((Doubles_fused_2){x, 0}, &s, &c);
+    *sine = s[0];
+    *cosine = c[0];
+}
+
+void elementary_sincos_fused_all(const double *x, double *sine, double *cosine, int count)
+{
+    int done = 0;
+
+    if (!elementary_has_fused()) {
+        elementary_sincos_all(x, sine, cosine, count);
+        return;
+    }
+    if (count == 3) {
+        sincos_three_fused_4(x, sine, cosine);
+        return;
+    }
+    if (count >= 8 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"))
+        done = sincos_all_fused_8(x, sine, cosine, count);
+    else if (count >= 4)
+        done = sincos_all_fused_4(x, sine, cosine, count);
+    done += sincos_all_fused_2(x + done, sine + done, cosine + done, count - done);
+    if (done < count)
+        sincos_fused_one(x[done], &sine[done], &cosine[done]);
+}
+
+#else
+
+bool elementary_has_fused(void)
+{
+    return false;
+}
+
+void elementary_sincos_fused_all(const double *x, double *sine, double *cosine, int count)
+{
+    elementary_sincos_all(x, sine, cosine, count);
+}
+
+#endif
 
 void elementary_exp_all(const double *x, double *out, int count)
 {

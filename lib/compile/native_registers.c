@@ -22,6 +22,7 @@ typedef struct Registers {
     X86Code *code;
     const SectionSteps *steps;
     int count, width;
+    bool has_fused;
     bool has_three; /* operands: the result need not stand where the first did */
     int32_t now;
 
@@ -409,7 +410,9 @@ static void emit_call(Registers *r, const Step *step, const Program *program)
     if (call->code == CODE_SINCOS || call->code == CODE_CALL + OP_EXP ||
         call->code == CODE_CALL + OP_LOG) {
         x86_argument(code, next, numbers);
-        x86_call(code, call->code == CODE_SINCOS          ? (uint64_t)&elementary_sincos_all
+        x86_call(code, call->code == CODE_SINCOS && r->has_fused
+                           ? (uint64_t)&elementary_sincos_fused_all
+                       : call->code == CODE_SINCOS        ? (uint64_t)&elementary_sincos_all
                        : call->code == CODE_CALL + OP_EXP ? (uint64_t)&elementary_exp_all
                                                           : (uint64_t)&elementary_log_all);
     } else {
@@ -490,6 +493,7 @@ uint32_t native_emit(X86Code *code, const NativeTarget *target, const Program *p
                    .steps = steps,
                    .count = target->registers,
                    .width = target->width,
+                   .has_fused = target->fused && elementary_has_fused(),
                    .has_three = target->isa != ISA_SSE2,
                    .frame = steps->frame};
 

@@ -158,6 +158,24 @@ static void run_fused(const OpcodeRun *run, const uint32_t *operand, double *slo
     }
 }
 
+/* one by one, as some may need others */
+static void run_fused_sines(const OpcodeRun *run, const uint32_t *operand, double *slots)
+{
+    double *result = slots + run->result;
+
+    for (int i = 0; i < run->count; i++) {
+        double sine, cosine;
+
+        elementary_sincos_fused_all(&slots[operand[i]], &sine, &cosine, 1);
+        if (run->code == CODE_SINCOS) {
+            *result++ = sine;
+            *result++ = cosine;
+        } else {
+            *result++ = run->code == CODE_SIN ? sine : cosine;
+        }
+    }
+}
+
 /* what native code is to give: slots, then roots */
 static void expected(const Program *program, bool fused, double *slots)
 {
@@ -172,6 +190,9 @@ static void expected(const Program *program, bool fused, double *slots)
         if (fused &&
             (run->code == CODE_MULADD || run->code == CODE_MULSUB || run->code == CODE_SUBMUL))
             run_fused(run, program->tape.at + run->operands, slots);
+        else if (fused &&
+                 (run->code == CODE_SINCOS || run->code == CODE_SIN || run->code == CODE_COS))
+            run_fused_sines(run, program->tape.at + run->operands, slots);
         else
             program_interpret(&one, STAGE_PARAMETER, STAGE_PARAMETER, slots);
     }
@@ -426,7 +447,12 @@ static Verdict functions(Member *member)
                      l = ldexp(member_between(member, 0, 1), member_one_of(member, 2098) - 1074),
                      near = 1 + ldexp(member_between(member, -1, 1), -member_one_of(member, 52));
 
+        double sine, cosine;
+
+        elementary_sincos_fused_all(&x, &sine, &cosine, 1);
         agrees =
+            is_near(member, "fused sine", x, sine, sinl(x)) &&
+            is_near(member, "fused cosine", x, cosine, cosl(x)) &&
             is_near(member, "sine", x, elementary_sin(x), sinl(x)) &&
             is_near(member, "cosine", x, elementary_cos(x), cosl(x)) &&
             is_near(member, "exponential", e, elementary_exp(e), expl(e)) &&
@@ -442,7 +468,7 @@ enum { MANY = 40 };
 static Verdict at_once(Member *member)
 {
     const int count = 1 + member_one_of(member, MANY);
-    double x[MANY], out[4][MANY];
+    double x[MANY], out[6][MANY];
     bool agrees = true;
 
     for (int i = 0; i < count; i++)
@@ -450,10 +476,15 @@ static Verdict at_once(Member *member)
     elementary_sincos_all(x, out[0], out[1], count);
     elementary_exp_all(x, out[2], count);
     elementary_log_all(x, out[3], count);
+    elementary_sincos_fused_all(x, out[4], out[5], count);
     for (int i = 0; i < count && agrees; i++) {
+        double sine, cosine;
+
+        elementary_sincos_fused_all(&x[i], &sine, &cosine, 1);
         agrees =
             is_same(out[0][i], elementary_sin(x[i])) && is_same(out[1][i], elementary_cos(x[i])) &&
-            is_same(out[2][i], elementary_exp(x[i])) && is_same(out[3][i], elementary_log(x[i]));
+            is_same(out[2][i], elementary_exp(x[i])) && is_same(out[3][i], elementary_log(x[i])) &&
+            is_same(out[4][i], sine) && is_same(out[5][i], cosine);
         if (!agrees)
             tell(member, "%a, number %d of %d\n", x[i], i, count);
     }
