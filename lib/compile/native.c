@@ -16,6 +16,7 @@ struct Native {
     CodeMemory *memory;
     SectionFunction **sections; /* NULL: nothing to do */
     const int *first_section;   /* of each stage; the program's */
+    SectionFunction *joined;    /* where stages are one function: it */
     int width;
     size_t frame; /* bytes */
 };
@@ -88,6 +89,8 @@ Native *native_new(const Program *program, const NativeTarget *target)
         MEM_FREE(native->sections, native);
         native = NULL;
     }
+    if (native != NULL && target->joined)
+        native->joined = native->sections[NATIVE_JOINED];
     mem_free(begin);
     LIST_FREE(code.bytes);
     section_steps_free(&steps);
@@ -140,6 +143,12 @@ void native_run(const Native *native, Stage from, Stage to, double *slots, Nativ
         native_run_section(native, s, slots, frame);
 }
 
+void native_run_joined(const Native *native, double *slots, NativeFrame *frame)
+{
+    if (native->joined != NULL)
+        native->joined(slots, aligned(frame));
+}
+
 void native_run_section(const Native *native, int section, double *slots, NativeFrame *frame)
 {
     if (native->sections[section] != NULL)
@@ -185,6 +194,11 @@ void native_frame_free(NativeFrame *frame)
 void native_run(const Native *native, Stage from, Stage to, double *slots, NativeFrame *frame)
 {
     (void)native, (void)from, (void)to, (void)slots, (void)frame;
+}
+
+void native_run_joined(const Native *native, double *slots, NativeFrame *frame)
+{
+    (void)native, (void)slots, (void)frame;
 }
 
 void native_run_section(const Native *native, int section, double *slots, NativeFrame *frame)

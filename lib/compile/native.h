@@ -38,6 +38,8 @@ void native_frame_free(NativeFrame *frame);
 /* Stages from..to, both included; all that are joined, or none of them. Slots, then roots, each of
  * `width` numbers. */
 void native_run(const Native *native, Stage from, Stage to, double *slots, NativeFrame *frame);
+/* All that are joined, where they are one function. */
+void native_run_joined(const Native *native, double *slots, NativeFrame *frame);
 /* one section (program_impl.h); those that run at the same time have a frame each */
 void native_run_section(const Native *native, int section, double *slots, NativeFrame *frame);
 

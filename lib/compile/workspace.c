@@ -231,6 +231,12 @@ void workspace_run(Workspace *workspace, Stage from, Stage to)
 
 void workspace_run_joined(Workspace *workspace)
 {
+    const NativePart *joined = &workspace->joined;
+
+    if (joined->native != NULL && workspace->parts == 1) {
+        native_run_joined(joined->native, workspace->slots, joined->frames[0]);
+        return;
+    }
     run(workspace, &workspace->joined, NATIVE_JOINED, NATIVE_JOINED_END);
 }
 

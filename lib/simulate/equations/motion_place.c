@@ -13,7 +13,8 @@ int motion_length(const Motion *mo)
 
 double motion_clock(const Motion *mo, double t)
 {
-    return fmin(fmax(t, mo->low), mo->high);
+    t = t > mo->low ? t : mo->low;
+    return t < mo->high ? t : mo->high;
 }
 
 /* --- evaluation --- */

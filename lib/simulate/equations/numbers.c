@@ -42,10 +42,18 @@ static bool articulate(void *context, double *acceleration)
     return nb->is_articulated;
 }
 
-AS_WIDE_AS_CAN_BE static bool has_pivots(const double *excess, int count)
+static bool has_few_pivots(const double *excess, int count)
+{
+    bool has = true;
+
+    for (int j = 0; j < count; j++)
+        has &= (excess[j] > 0) & (excess[j] < MOST_EXCESS);
+    return has;
+}
+
+AS_WIDE_AS_CAN_BE static bool has_many_pivots(const double *excess, int count)
 {
     FourTruths all = {-1, -1, -1, -1};
-    bool has = true;
     int j = 0;
 
     for (; j + 4 <= count; j += 4) {
@@ -53,9 +61,12 @@ AS_WIDE_AS_CAN_BE static bool has_pivots(const double *excess, int count)
 
         all &= (four > 0) & (four < MOST_EXCESS);
     }
-    for (; j < count; j++)
-        has = has && excess[j] > 0 && excess[j] < MOST_EXCESS;
-    return has && all[0] && all[1] && all[2] && all[3];
+    return all[0] && all[1] && all[2] && all[3] && has_few_pivots(excess + j, count - j);
+}
+
+static bool has_pivots(const double *excess, int count)
+{
+    return count < 4 ? has_few_pivots(excess, count) : has_many_pivots(excess, count);
 }
 
 /* what the program has eliminated itself */
