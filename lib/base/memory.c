@@ -90,7 +90,7 @@ void *list_make_room(void *at, int count, int more, int *room, size_t size)
     return at;
 }
 
-void *list_more_room(void *at, int count, int *room, size_t size)
+void *list_append_room(void *at, int count, int *room, size_t size)
 {
     if (FAULTS)
         return list_room(at, count - 1, 1, room, size);
@@ -137,7 +137,7 @@ static inline void keep_whole(Pool *pool)
     pool->floor_at = pool->used;
 }
 
-void *pool_alloc(Pool *pool, size_t size)
+void *pool_room(Pool *pool, size_t size)
 {
     void *piece;
 
@@ -156,14 +156,20 @@ void *pool_alloc(Pool *pool, size_t size)
     }
     piece = pool->newest->bytes + pool->used;
     pool->used += size;
-    return memset(piece, 0, size);
+    return piece;
+}
+
+void *pool_alloc(Pool *pool, size_t size)
+{
+    return memset(pool_room(pool, size), 0, size);
 }
 
 char *pool_text(Pool *pool, const char *text, size_t length)
 {
-    char *copy = pool_alloc(pool, length + 1);
+    char *copy = pool_room(pool, length + 1);
 
     memcpy(copy, text, length);
+    copy[length] = '\0';
     return copy;
 }
 

@@ -51,7 +51,15 @@ static inline void *list_room(void *at, int count, int more, int *room, size_t s
         return list_make_room(at, count, more, room, size);
     return at;
 }
-void *list_more_room(void *at, int count, int *room, size_t size);
+void *list_append_room(void *at, int count, int *room, size_t size);
+static inline void *list_more_room(void *at, int count, int *room, size_t size)
+{
+#ifndef COTREE_FAULTS
+    if (count <= *room)
+        return at;
+#endif
+    return list_append_room(at, count, room, size);
+}
 
 typedef struct Pool Pool;
 typedef struct PoolMark {
@@ -62,6 +70,7 @@ typedef struct PoolMark {
 Pool *pool_new(size_t chunk_size); /* bytes; 0: 64 KiB. New; free with pool_free() */
 void pool_free(Pool *pool);
 void *pool_alloc(Pool *pool, size_t size); /* zeroed, aligned to 16 bytes */
+void *pool_room(Pool *pool, size_t size);  /* the same, holding anything */
 char *pool_text(Pool *pool, const char *text, size_t length);
 PoolMark pool_mark(const Pool *pool);
 void pool_release(Pool *pool, PoolMark mark); /* frees what came after the mark */

@@ -104,6 +104,21 @@ static uint32_t hash_args(uint64_t start, const Expr *args, int count)
     return hash_end(h);
 }
 
+static inline bool same_words(const void *one, const void *other, int count)
+{
+    const unsigned char *const a = one, *const b = other;
+
+    for (size_t i = 0; i < 8 * (size_t)count; i += 8) {
+        uint64_t left, right;
+
+        memcpy(&left, a + i, 8);
+        memcpy(&right, b + i, 8);
+        if (left != right)
+            return false;
+    }
+    return true;
+}
+
 /* --- tables --- */
 
 static void slots_put(Slot *slots, uint32_t size, uint32_t hash, uint32_t id)
@@ -163,53 +178,62 @@ static void table_grow(Arena *arena)
 
 /* --- nodes --- */
 
-/* A new node with room for `size` bytes behind its head. */
-static struct ExprNode *node_new(Arena *arena, uint32_t hash, size_t size)
+/* The slot of the node of these contents, or an empty one where it is to be put. */
+static uint32_t slot_of(const Arena *arena, uint32_t hash, ExprKind kind, unsigned op,
+                        const void *words, int count)
+{
+    const Slot *const slots = arena->slots;
+    const uint32_t mask = arena->size - 1;
+    uint32_t i = hash & mask;
+
+    for (; slots[i].id != 0; i = (i + 1) & mask) {
+        Expr e;
+
+        if (slots[i].hash != hash)
+            continue;
+        e = arena->nodes.at[slots[i].id - 1];
+        if (e->kind == kind && e->op == op && (e->kind <= EXPR_REAL || e->count == count) &&
+            same_words(e + 1, words, count))
+            break;
+    }
+    return i;
+}
+
+static inline Expr at_slot(const Arena *arena, uint32_t slot)
+{
+    return arena->slots[slot].id != 0 ? arena->nodes.at[arena->slots[slot].id - 1] : NULL;
+}
+
+/* A new node, found from an empty slot on, with room for `size` bytes behind its head that hold
+ * anything. */
+static inline struct ExprNode *node_new(Arena *arena, uint32_t hash, uint32_t slot, size_t size)
 {
     struct ExprNode *node;
 
     arena_keep_whole(arena);
-    node = pool_alloc(arena->pool, sizeof(struct ExprNode) + size);
-    node->number = (uint32_t)arena->nodes.count;
-    node->hash = hash;
+    node = pool_room(arena->pool, sizeof(struct ExprNode) + size);
+    *node = (struct ExprNode){.number = (uint32_t)arena->nodes.count, .hash = hash};
     LIST_APPEND(arena->nodes, node);
     if ((uint32_t)arena->nodes.count > arena->size / 2)
         table_grow(arena);
     else
-        slots_put(arena->slots, arena->size, hash, node->number + 1);
+        arena->slots[slot] = (Slot){hash, node->number + 1};
     return node;
 }
 
 /* whether one more composite node may be made */
-static bool may_grow(Arena *arena)
+static inline bool may_grow(Arena *arena)
 {
     if (arena->nodes.count >= arena->limit)
         arena_fail(arena, E_MEMORY, "the expressions grow beyond all bounds");
     return !arena->halted;
 }
 
-/* The node of these contents, or NULL. */
-static Expr node_find(const Arena *arena, uint32_t hash, ExprKind kind, unsigned op,
-                      const void *words, int count)
-{
-    for (uint32_t i = hash & (arena->size - 1); arena->slots[i].id != 0;
-         i = (i + 1) & (arena->size - 1)) {
-        Expr e;
-
-        if (arena->slots[i].hash != hash)
-            continue;
-        e = arena->nodes.at[arena->slots[i].id - 1];
-        if (e->kind == kind && e->op == op && (e->kind <= EXPR_REAL || e->count == count) &&
-            memcmp(e + 1, words, 8 * (size_t)count) == 0)
-            return e;
-    }
-    return NULL;
-}
-
 Expr node_intern(Arena *arena, ExprKind kind, Op op, const Expr *args, int count)
 {
-    uint32_t hash = hash_args((uint64_t)kind << 8 | op, args, count);
-    Expr found = node_find(arena, hash, kind, op, args, count);
+    const uint32_t hash = hash_args((uint64_t)kind << 8 | op, args, count);
+    const uint32_t slot = slot_of(arena, hash, kind, op, args, count);
+    const Expr found = at_slot(arena, slot);
     struct ExprNode *node;
     Expr *own;
     unsigned kinds = 0, height = 0;
@@ -219,7 +243,7 @@ Expr node_intern(Arena *arena, ExprKind kind, Op op, const Expr *args, int count
         return found;
     if (!may_grow(arena))
         return arena->zero;
-    node = node_new(arena, hash, sizeof(Expr) * (size_t)count);
+    node = node_new(arena, hash, slot, sizeof(Expr) * (size_t)count);
     node->kind = (uint8_t)kind;
     node->op = (uint8_t)op;
     node->count = count;
@@ -236,13 +260,14 @@ Expr node_intern(Arena *arena, ExprKind kind, Op op, const Expr *args, int count
 
 static Expr leaf_intern(Arena *arena, ExprKind kind, uint8_t op, const void *words, int count)
 {
-    uint32_t hash = hash_words((uint64_t)kind << 8 | op, words, count);
-    Expr found = node_find(arena, hash, kind, op, words, count);
+    const uint32_t hash = hash_words((uint64_t)kind << 8 | op, words, count);
+    const uint32_t slot = slot_of(arena, hash, kind, op, words, count);
+    const Expr found = at_slot(arena, slot);
     struct ExprNode *node;
 
     if (found != NULL)
         return found;
-    node = node_new(arena, hash, 8 * (size_t)count);
+    node = node_new(arena, hash, slot, 8 * (size_t)count);
     node->kind = (uint8_t)kind;
     node->op = op;
     memcpy(node + 1, words, 8 * (size_t)count);
@@ -281,24 +306,31 @@ static uint32_t symbol_hash(const char *name, SymbolKind kind)
     return hash_words(EXPR_SYMBOL, &h, 1);
 }
 
-Expr expr_find_symbol(const Arena *arena, const char *name, SymbolKind kind)
+/* the slot of a symbol, or an empty one where it is to be put */
+static uint32_t symbol_slot(const Arena *arena, uint32_t hash, const char *name, SymbolKind kind)
 {
-    uint32_t hash = symbol_hash(name, kind);
+    uint32_t i = hash & (arena->size - 1);
 
-    for (uint32_t i = hash & (arena->size - 1); arena->slots[i].id != 0;
-         i = (i + 1) & (arena->size - 1)) {
-        Expr e = arena->nodes.at[arena->slots[i].id - 1];
+    for (; arena->slots[i].id != 0; i = (i + 1) & (arena->size - 1)) {
+        const Expr e = arena->nodes.at[arena->slots[i].id - 1];
 
         if (arena->slots[i].hash == hash && e->kind == EXPR_SYMBOL &&
             node_symbol(e)->kind == kind && strcmp(node_symbol(e)->name, name) == 0)
-            return e;
+            break;
     }
-    return NULL;
+    return i;
+}
+
+Expr expr_find_symbol(const Arena *arena, const char *name, SymbolKind kind)
+{
+    return at_slot(arena, symbol_slot(arena, symbol_hash(name, kind), name, kind));
 }
 
 Expr expr_symbol(Arena *arena, const char *name, SymbolKind kind)
 {
-    Expr found = expr_find_symbol(arena, name, kind);
+    const uint32_t hash = symbol_hash(name, kind);
+    const uint32_t slot = symbol_slot(arena, hash, name, kind);
+    const Expr found = at_slot(arena, slot);
     struct ExprNode *node;
     SymbolData data = {.kind = kind};
 
@@ -306,7 +338,7 @@ Expr expr_symbol(Arena *arena, const char *name, SymbolKind kind)
         return found;
     arena_keep_whole(arena);
     data.number = arena->symbols++;
-    node = node_new(arena, symbol_hash(name, kind), sizeof data);
+    node = node_new(arena, hash, slot, sizeof data);
     node->kind = EXPR_SYMBOL;
     node->kinds = (uint16_t)(kind == SYMBOL_TABLE ? 0 : 1U << kind);
     data.name = pool_text(arena->pool, name, strlen(name));

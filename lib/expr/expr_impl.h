@@ -125,6 +125,11 @@ ProductFactors term_factors(const Expr *term);
 Number term_coefficient(Expr term);
 int order_terms(Expr a, Expr b); /* without their coefficients; 0: like terms */
 int order_bases(Expr a, Expr b);
+int order_symbols(Expr a, Expr b);
+/* Whether kinds, numbers and the order of symbols alone say how two compare by order_terms(),
+ * order_bases() or expr_compare(): so they do when other symbols stand for those, in their order.
+ */
+bool order_lasts(Expr a, Expr b, int (*compare)(Expr a, Expr b));
 
 /* A term of a sum, or a factor of a product, on its way into the node. */
 typedef struct Item {
@@ -172,6 +177,11 @@ double power_value(double base, Expr exponent, double exponent_value);
 
 /* --- walk.c: the nodes below some roots, children first --- */
 
+typedef struct WalkLevel {
+    Expr e;
+    int next; /* argument to look at */
+} WalkLevel;
+
 typedef struct Walk {
     Expr *nodes; /* in the order of finishing */
     int count;
@@ -179,6 +189,7 @@ typedef struct Walk {
     uint32_t *keys; /* hash table: creation number + 1, 0 where empty */
     int *places;    /* and the place in `nodes` */
     uint32_t size;
+    LIST(WalkLevel) stack; /* empty between calls */
 } Walk;
 
 /* Whether a walk goes on below a node; a leaf of the walk is listed all the same. */

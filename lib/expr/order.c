@@ -44,15 +44,16 @@ static int order(int64_t a, int64_t b)
     return (a > b) - (a < b);
 }
 
-/* different structures of one hash are one in four thousand millions */
-static int order_hashes(Expr a, Expr b)
+/* Different structures of one hash are one in four thousand millions. */
+static int order_hashes(Expr a, Expr b, bool *by_hash)
 {
+    *by_hash = true;
     return a->hash != b->hash ? order(a->hash, b->hash) : order(a->number, b->number);
 }
 
 /* By kind and making. Parameters that no user wrote, named #..., come behind those of the user's,
- * in an order that doesn't tell when they were first asked for. */
-static int order_symbols(Expr a, Expr b)
+ * by their names, which don't tell when they were first asked for. */
+int order_symbols(Expr a, Expr b)
 {
     const SymbolData *one = node_symbol(a), *other = node_symbol(b);
     const int first = order(one->kind, other->kind);
@@ -62,13 +63,14 @@ static int order_symbols(Expr a, Expr b)
         return first;
     if (one->kind != SYMBOL_PARAMETER || (!own && !others))
         return order(one->number, other->number);
-    return own && others ? order_hashes(a, b) : order(own, others);
+    return own && others ? strcmp(one->name, other->name) : order(own, others);
 }
 
-static int bases_below(Expr a, Expr b);
-static int whole_below(Expr a, Expr b);
+/* `by_hash` becomes true where a hash decided: see order_lasts() */
+static int bases_below(Expr a, Expr b, bool *by_hash);
+static int whole_below(Expr a, Expr b, bool *by_hash);
 
-static int factors_below(Expr a, Expr b)
+static int factors_below(Expr a, Expr b, bool *by_hash)
 {
     Expr base_a = a->kind == EXPR_POWER ? node_args(a)[0] : a;
     Expr base_b = b->kind == EXPR_POWER ? node_args(b)[0] : b;
@@ -76,29 +78,29 @@ static int factors_below(Expr a, Expr b)
 
     if (a == b)
         return 0;
-    first = bases_below(base_a, base_b);
+    first = bases_below(base_a, base_b, by_hash);
     if (first != 0)
         return first;
 
     /* higher powers first; a plain factor is the power 1 */
     if (a->kind == EXPR_POWER && b->kind == EXPR_POWER)
-        return -whole_below(node_args(a)[1], node_args(b)[1]);
+        return -whole_below(node_args(a)[1], node_args(b)[1], by_hash);
     if (a->kind == EXPR_POWER)
         return number_sign(number_add(is_number(node_args(a)[1]) ? number_of(node_args(a)[1])
                                                                  : number_int(2),
                                       number_int(-1))) > 0
                    ? -1
                    : 1;
-    return -factors_below(b, a);
+    return -factors_below(b, a, by_hash);
 }
 
-static int terms_below(Expr a, Expr b)
+static int terms_below(Expr a, Expr b, bool *by_hash)
 {
     ProductFactors left = term_factors(&a);
     ProductFactors right = term_factors(&b);
 
     for (int i = 0; i < left.count && i < right.count; i++) {
-        int first = factors_below(left.at[i], right.at[i]);
+        int first = factors_below(left.at[i], right.at[i], by_hash);
 
         if (first != 0)
             return first;
@@ -107,20 +109,20 @@ static int terms_below(Expr a, Expr b)
 }
 
 /* terms and, of like terms, coefficients */
-static int whole_below(Expr a, Expr b)
+static int whole_below(Expr a, Expr b, bool *by_hash)
 {
     int first;
 
     if (a == b)
         return 0;
-    first = terms_below(a, b);
+    first = terms_below(a, b, by_hash);
     return first != 0 ? first : number_compare(term_coefficient(a), term_coefficient(b));
 }
 
-static int args_below(Expr a, Expr b)
+static int args_below(Expr a, Expr b, bool *by_hash)
 {
     for (int i = 0; i < a->count && i < b->count; i++) {
-        int first = whole_below(node_args(a)[i], node_args(b)[i]);
+        int first = whole_below(node_args(a)[i], node_args(b)[i], by_hash);
 
         if (first != 0)
             return first;
@@ -128,7 +130,7 @@ static int args_below(Expr a, Expr b)
     return order(b->count, a->count);
 }
 
-static int bases_below(Expr a, Expr b)
+static int bases_below(Expr a, Expr b, bool *by_hash)
 {
     Expr inner_a, inner_b;
     int first = 0;
@@ -147,7 +149,7 @@ static int bases_below(Expr a, Expr b)
     if (first != 0)
         return first;
     if (inner_a->height > TALLEST)
-        return order_hashes(a, b);
+        return order_hashes(a, b, by_hash);
     switch (inner_a->kind) {
     case EXPR_RATIONAL:
     case EXPR_REAL:
@@ -159,31 +161,50 @@ static int bases_below(Expr a, Expr b)
     case EXPR_CALL:
         first = order(inner_a->op, inner_b->op);
         if (first == 0)
-            first = args_below(inner_a, inner_b);
+            first = args_below(inner_a, inner_b, by_hash);
         break;
     case EXPR_SUM:
-        first = args_below(inner_a, inner_b);
+        first = args_below(inner_a, inner_b, by_hash);
         break;
     default:
-        first = whole_below(inner_a, inner_b);
+        first = whole_below(inner_a, inner_b, by_hash);
     }
     /* two bases alike but for a hold */
-    return first != 0 ? first : order_hashes(a, b);
+    return first != 0 ? first : order_hashes(a, b, by_hash);
 }
 
 int order_terms(Expr a, Expr b)
 {
-    return a == b ? 0 : terms_below(a, b);
+    bool by_hash;
+
+    return a == b ? 0 : terms_below(a, b, &by_hash);
 }
 
 int order_bases(Expr a, Expr b)
 {
-    return a == b ? 0 : bases_below(a, b);
+    bool by_hash;
+
+    return a == b ? 0 : bases_below(a, b, &by_hash);
 }
 
 int expr_compare(Expr a, Expr b)
 {
-    return whole_below(a, b);
+    bool by_hash;
+
+    return whole_below(a, b, &by_hash);
+}
+
+bool order_lasts(Expr a, Expr b, int (*compare)(Expr a, Expr b))
+{
+    bool by_hash = false;
+
+    if (compare == order_terms)
+        (void)terms_below(a, b, &by_hash);
+    else if (compare == order_bases)
+        (void)bases_below(a, b, &by_hash);
+    else
+        (void)whole_below(a, b, &by_hash);
+    return !by_hash;
 }
 
 /* --- sorting --- */

@@ -2,7 +2,9 @@
  *
  * What is renamed again and again is walked once: an Original lists its nodes, each with the places
  * of its arguments, and a Renaming is a list of images by these places. Nothing is hashed on the
- * way but what is built. */
+ * way but what is built. As long as the new symbols stand in the order of the old ones, what stood
+ * in order stands so again, and its image is a node of the same kind over the images: it isn't
+ * looked at, let alone simplified. */
 #include "expr/expr_impl.h"
 
 #include <string.h>
@@ -12,12 +14,22 @@ enum {
     NUMBER = -1      /* in the place of an argument that stays as it is */
 };
 
+typedef struct Listed {
+    int begin;         /* where the places of the arguments begin, in `args` */
+    int before, after; /* of a symbol: those that stood next to it in order when it came; -1 */
+    int root;          /* the first that was listed together with it */
+    bool lasts;        /* arguments stand in order by their symbols */
+    bool is_hole;      /* something else may come in its place */
+    bool has_hole;     /* it, or what is below */
+} Listed;
+
 struct Original {
     Arena *arena;
     const char *prefix;
     Walk walk;
-    LIST(int) begin; /* a node each: where the places of its arguments begin, */
-    LIST(int) args;  /* in these */
+    LIST(Listed) places;
+    LIST(int) args;
+    LIST(int) symbols; /* their places, in order */
 };
 
 typedef struct Image {
@@ -28,6 +40,7 @@ typedef struct Image {
 struct Renaming {
     Original *original;
     const char *to;
+    bool disorders;    /* symbols don't stand in the order of the original ones */
     LIST(Image) of;    /* by places */
     LIST(int) waiting; /* places whose arguments come first */
     LIST(Expr) args;
@@ -49,29 +62,101 @@ void original_free(Original *original)
     if (original == NULL)
         return;
     walk_free(&original->walk);
-    LIST_FREE(original->begin);
+    LIST_FREE(original->places);
     LIST_FREE(original->args);
+    LIST_FREE(original->symbols);
     mem_free(original);
+}
+
+static Expr base_of(Expr factor)
+{
+    if (factor->kind == EXPR_POWER)
+        factor = node_args(factor)[0];
+    return is_call(factor, OP_SQRT) ? node_args(factor)[0] : factor;
+}
+
+static bool args_last(Expr e)
+{
+    const Expr *args = node_args(e);
+
+    if (e->kind == EXPR_CALL && e->count == 2)
+        return order_lasts(args[0], args[1], expr_compare);
+    for (int i = 1; i < e->count && (e->kind == EXPR_SUM || e->kind == EXPR_PRODUCT); i++) {
+        if (is_number(args[i - 1]) || is_number(args[i]))
+            continue;
+        if (e->kind == EXPR_SUM ? !order_lasts(args[i - 1], args[i], order_terms)
+                                : !order_lasts(base_of(args[i - 1]), base_of(args[i]), order_bases))
+            return false;
+    }
+    return true;
+}
+
+/* puts it where it belongs among the symbols that came before it */
+static void enter_symbol(Original *original, int place)
+{
+    const Expr symbol = original->walk.nodes[place];
+    int at;
+
+    LIST_PUSH(original->symbols, place);
+    for (at = original->symbols.count - 1; at > 0; at--) {
+        const int other = original->symbols.at[at - 1];
+
+        if (order_symbols(original->walk.nodes[other], symbol) < 0)
+            break;
+        original->symbols.at[at] = other;
+    }
+    original->symbols.at[at] = place;
+    if (at > 0)
+        original->places.at[place].before = original->symbols.at[at - 1];
+    if (at + 1 < original->symbols.count)
+        original->places.at[place].after = original->symbols.at[at + 1];
+}
+
+static void enter(Original *original, int place, int root)
+{
+    const Expr own = original->walk.nodes[place];
+    Listed entry = {.begin = original->args.count, .before = -1, .after = -1, .root = root};
+
+    for (int k = 0; k < own->count; k++) {
+        const Expr arg = node_args(own)[k];
+        const int at = arg->kinds == 0 ? NUMBER : walk_find(&original->walk, arg);
+
+        entry.has_hole = entry.has_hole || (at >= 0 && original->places.at[at].has_hole);
+        LIST_PUSH(original->args, at);
+    }
+    entry.lasts = args_last(own);
+    LIST_PUSH(original->places, entry);
+    if (own->kind == EXPR_SYMBOL)
+        enter_symbol(original, place);
 }
 
 /* of an expression with symbols; what is below it has one then, too */
 static int place_of(Original *original, Expr e)
 {
     Walk *walk = &original->walk;
-    const int known = walk_find(walk, e);
+    const int known = walk_find(walk, e), root = walk->count;
 
     if (known >= 0)
         return known;
     walk_below(walk, e, ~0U, NULL, NULL);
-    for (int i = original->begin.count; i < walk->count; i++) {
-        const Expr own = walk->nodes[i];
-
-        LIST_PUSH(original->begin, original->args.count);
-        for (int k = 0; k < own->count; k++)
-            LIST_PUSH(original->args,
-                      node_args(own)[k]->kinds == 0 ? NUMBER : walk_find(walk, node_args(own)[k]));
-    }
+    for (int i = root; i < walk->count; i++)
+        enter(original, i, root);
     return walk->count - 1;
+}
+
+static void make_hole(Original *original, int place)
+{
+    Listed *const places = original->places.at;
+
+    if (places[place].is_hole)
+        return;
+    places[place].is_hole = places[place].has_hole = true;
+    for (int i = place + 1; i < original->places.count; i++)
+        for (int k = 0; k < original->walk.nodes[i]->count && !places[i].has_hole; k++) {
+            const int arg = original->args.at[places[i].begin + k];
+
+            places[i].has_hole = arg >= 0 && places[arg].has_hole;
+        }
 }
 
 /* --- what becomes of it --- */
@@ -100,6 +185,8 @@ static int image_place(Renaming *renaming, Expr e)
 {
     const int place = place_of(renaming->original, e), count = renaming->original->walk.count;
 
+    if (renaming->of.count == count)
+        return place;
     LIST_ROOM(renaming->of, count - renaming->of.count);
     while (renaming->of.count < count)
         renaming->of.at[renaming->of.count++] = (Image){0};
@@ -116,25 +203,43 @@ static Expr renamed(const Renaming *renaming, Expr symbol, bool *alike)
 {
     const char *name = expr_name(symbol);
     const bool is_marked = name[0] == '#';
-    Text other = {0};
+    const size_t length = strlen(renaming->to), kept = strlen(renaming->original->prefix);
+    char *other, *at;
 
     *alike = expr_data(symbol) != NULL || !begins_with(name + is_marked, renaming->to);
     if (expr_data(symbol) != NULL || !begins_with(name + is_marked, renaming->original->prefix))
         return symbol;
+    at = other = mem_new(strlen(name) + length + 1);
     if (is_marked)
-        text_char(&other, '#');
-    text_add(&other, renaming->to);
-    text_add(&other, name + is_marked + strlen(renaming->original->prefix));
-    symbol = expr_symbol(renaming->original->arena, other.at, expr_symbol_kind(symbol));
-    text_free(&other);
+        *at++ = '#';
+    memcpy(at, renaming->to, length);
+    memcpy(at + length, name + is_marked + kept, strlen(name + is_marked + kept));
+    symbol = expr_symbol(renaming->original->arena, other, expr_symbol_kind(symbol));
+    mem_free(other);
     return symbol;
 }
 
-static Expr base_of(Expr factor)
+/* The image of a symbol for which nothing else comes. Each stands between those between which the
+ * original came: so all of them stand in order. */
+static void build_symbol(Renaming *renaming, int place)
 {
-    if (factor->kind == EXPR_POWER)
-        factor = node_args(factor)[0];
-    return is_call(factor, OP_SQRT) ? node_args(factor)[0] : factor;
+    const Listed *own = &renaming->original->places.at[place];
+    Image *const of = renaming->of.at;
+
+    if (of[place].e != NULL)
+        return;
+    of[place].e = renamed(renaming, renaming->original->walk.nodes[place], &of[place].alike);
+    for (int side = 0; side < 2; side++) {
+        const int next = side == 0 ? own->before : own->after;
+        int order;
+
+        if (next < 0 || renaming->original->places.at[next].is_hole)
+            continue;
+        build_symbol(renaming, next); /* which came before it: no deeper than symbols are many */
+        order = order_symbols(of[next].e, of[place].e);
+        if (side == 0 ? order >= 0 : order <= 0)
+            renaming->disorders = true;
+    }
 }
 
 /* whether arguments that are built as those of e stand in order, too, and none twice */
@@ -161,44 +266,48 @@ static bool are_ordered(Expr e, const Expr *args)
     return true;
 }
 
-/* What is built alike needs no simplifying where its parts stand in the same order. */
-static Image rebuilt(Renaming *renaming, int place)
+/* What is built alike needs no simplifying where its parts stand in the same order. False: an
+ * argument has no image yet. */
+static bool rebuild(Renaming *renaming, int place)
 {
     const Original *original = renaming->original;
-    const Expr e = original->walk.nodes[place];
-    const int *const places = original->args.at + original->begin.at[place];
+    const Listed *own = &original->places.at[place];
+    const Expr e = original->walk.nodes[place], *const from = node_args(e);
+    const int *const places = original->args.at + own->begin;
+    const int count = e->count;
     bool changed = false, alike = true;
+    Expr *args, built = e;
 
-    renaming->args.count = 0;
-    LIST_ROOM(renaming->args, e->count);
-    for (int k = 0; k < e->count; k++) {
-        const Image own =
-            places[k] == NUMBER ? (Image){node_args(e)[k], true} : renaming->of.at[places[k]];
+    if (renaming->args.room < count)
+        LIST_ROOM(renaming->args, count);
+    args = renaming->args.at;
+    for (int k = 0; k < count; k++) {
+        const Image arg = places[k] == NUMBER ? (Image){from[k], true} : renaming->of.at[places[k]];
 
-        renaming->args.at[k] = own.e;
-        changed = changed || own.e != node_args(e)[k];
-        alike = alike && own.alike;
+        if (arg.e == NULL)
+            return false;
+        args[k] = arg.e;
+        alike = alike && arg.alike;
+        changed = changed || arg.e != from[k];
     }
-    alike = alike && are_ordered(e, renaming->args.at);
-    if (!changed)
-        return (Image){e, alike};
-    return (Image){alike ? node_intern(original->arena, (ExprKind)e->kind, (Op)e->op,
-                                       renaming->args.at, e->count)
-                         : expr_rebuild(original->arena, e, renaming->args.at),
-                   alike};
+    alike =
+        alike && ((own->lasts && !own->has_hole && !renaming->disorders) || are_ordered(e, args));
+    if (changed)
+        built = alike ? node_intern(original->arena, (ExprKind)e->kind, (Op)e->op, args, count)
+                      : expr_rebuild(original->arena, e, args);
+    renaming->of.at[place] = (Image){built, alike};
+    return true;
 }
 
-/* the arguments that have no image yet, the first of them on top; false: all have one */
-static bool wait_for_args(Renaming *renaming, int place)
+/* puts the arguments that have no image yet on top, the first of them last */
+static void wait_for_args(Renaming *renaming, int place)
 {
     const Original *original = renaming->original;
-    const int *const places = original->args.at + original->begin.at[place];
-    const int before = renaming->waiting.count;
+    const int *const places = original->args.at + original->places.at[place].begin;
 
     for (int k = original->walk.nodes[place]->count - 1; k >= 0; k--)
         if (places[k] != NUMBER && renaming->of.at[places[k]].e == NULL)
             LIST_PUSH(renaming->waiting, places[k]);
-    return renaming->waiting.count > before;
 }
 
 static void build(Renaming *renaming, int root)
@@ -206,20 +315,34 @@ static void build(Renaming *renaming, int root)
     LIST_PUSH(renaming->waiting, root);
     while (renaming->waiting.count > 0) {
         const int place = renaming->waiting.at[renaming->waiting.count - 1];
-        const Expr e = renaming->original->walk.nodes[place];
-        Image *image = &renaming->of.at[place];
 
         transaction_worked(PLACE_WORK);
-        if (image->e == NULL && wait_for_args(renaming, place))
-            continue;
+        if (renaming->of.at[place].e == NULL) { /* else two waited for it */
+            if (renaming->original->walk.nodes[place]->kind == EXPR_SYMBOL)
+                build_symbol(renaming, place);
+            else if (!rebuild(renaming, place)) {
+                wait_for_args(renaming, place);
+                continue;
+            }
+        }
         renaming->waiting.count--;
-        if (image->e != NULL)
-            continue; /* two waited for it */
-        if (e->kind == EXPR_SYMBOL)
-            image->e = renamed(renaming, e, &image->alike);
-        else
-            *image = rebuilt(renaming, place);
     }
+}
+
+/* What was listed together with a place stands before it, arguments first: most of it is below.
+ * What has a hole may be asked for before that is filled. */
+static void build_listed(Renaming *renaming, int place)
+{
+    const Listed *const places = renaming->original->places.at;
+
+    for (int i = places[place].root; i < place; i++)
+        if (renaming->of.at[i].e == NULL && !places[i].has_hole) {
+            if (renaming->original->walk.nodes[i]->kind == EXPR_SYMBOL)
+                build_symbol(renaming, i);
+            else
+                (void)rebuild(renaming, i); /* or as part of what waits for it */
+        }
+    build(renaming, place);
 }
 
 bool renaming_pair(Renaming *renaming, Expr from, Expr to)
@@ -238,9 +361,14 @@ bool renaming_pair(Renaming *renaming, Expr from, Expr to)
         return false;
     place = image_place(renaming, from);
     image = &renaming->of.at[place];
+    if (image->e == NULL && from->kind == EXPR_SYMBOL && to == from &&
+        renamed(renaming, from, &image->alike) == to)
+        build_symbol(renaming, place);
     /* nothing that it stands in looks into the one or the other */
-    if (image->e == NULL)
+    if (image->e == NULL) {
+        make_hole(renaming->original, place);
         *image = (Image){to, to->kind == EXPR_SYMBOL || held(to) != to};
+    }
     return image->e == to;
 }
 
@@ -252,6 +380,6 @@ Expr renaming_of(Renaming *renaming, Expr e)
         return e;
     place = image_place(renaming, e);
     if (renaming->of.at[place].e == NULL)
-        build(renaming, place);
+        build_listed(renaming, place);
     return renaming->of.at[place].e;
 }

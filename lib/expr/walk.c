@@ -6,11 +6,6 @@
 
 enum { WALK_WORK = 32 }; /* of a look, for transaction_worked() */
 
-typedef struct WalkLevel {
-    Expr e;
-    int next; /* argument to look at */
-} WalkLevel;
-
 static uint32_t slot_of(const Walk *walk, uint32_t key)
 {
     uint32_t i = key * 2654435769U >> 7 & (walk->size - 1);
@@ -65,29 +60,32 @@ int walk_add(Walk *walk, Expr e)
     return walk->count++;
 }
 
+static inline void push_level(Walk *walk, Expr e, WalkInto into, void *context)
+{
+    if (walk->stack.count == walk->stack.room)
+        LIST_ROOM(walk->stack, 1);
+    walk->stack.at[walk->stack.count++] =
+        (WalkLevel){e, into == NULL || into(context, e) ? 0 : e->count};
+}
+
 void walk_below(Walk *walk, Expr root, unsigned mask, WalkInto into, void *context)
 {
-    LIST(WalkLevel) stack = {0};
-
     if ((mask != 0 && (root->kinds & mask) == 0) || walk_find(walk, root) >= 0)
         return;
-    LIST_PUSH(stack, (WalkLevel){root, into == NULL || into(context, root) ? 0 : root->count});
-    while (stack.count > 0) {
-        WalkLevel *level = &stack.at[stack.count - 1];
+    push_level(walk, root, into, context);
+    while (walk->stack.count > 0) {
+        WalkLevel *level = &walk->stack.at[walk->stack.count - 1];
         Expr child;
 
         if (level->next == level->e->count) {
-            walk_add(walk, level->e);
-            stack.count--;
+            (void)walk_add(walk, level->e);
+            walk->stack.count--;
             continue;
         }
         child = node_args(level->e)[level->next++];
-        if ((mask != 0 && (child->kinds & mask) == 0) || walk_find(walk, child) >= 0)
-            continue;
-        LIST_PUSH(stack,
-                  (WalkLevel){child, into == NULL || into(context, child) ? 0 : child->count});
+        if ((mask == 0 || (child->kinds & mask) != 0) && walk_find(walk, child) < 0)
+            push_level(walk, child, into, context);
     }
-    LIST_FREE(stack);
 }
 
 void walk_roots(Walk *walk, const Expr *roots, int count)
@@ -98,6 +96,6 @@ void walk_roots(Walk *walk, const Expr *roots, int count)
 
 void walk_free(Walk *walk)
 {
-    MEM_FREE(walk->nodes, walk->keys, walk->places);
+    MEM_FREE(walk->nodes, walk->keys, walk->places, walk->stack.at);
     *walk = (Walk){0};
 }
