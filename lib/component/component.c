@@ -135,16 +135,26 @@ Value *values_copy(Pool *pool, const Value *values, int count)
 
 Expr instance_literal(const Instance *instance, Arena *arena, int param, int entry)
 {
-    Text name = {0};
+    const char *const part = instance->name, *const value = instance->row->params[param].name;
+    const size_t length = strlen(part), more = strlen(value);
+    char *name = mem_new(length + more + sizeof "#.[99]");
+    char *at = name;
     Expr symbol;
 
-    text_char(&name, '#');
-    text_add(&name, instance->name);
-    text_char(&name, '.');
-    text_add(&name, instance->row->params[param].name);
-    text_addf(&name, "[%d]", entry);
-    symbol = expr_symbol(arena, name.at, SYMBOL_PARAMETER);
-    text_free(&name);
+    assert(entry < 100); /* no value has so many entries */
+    *at++ = '#';
+    memcpy(at, part, length);
+    at += length;
+    *at++ = '.';
+    memcpy(at, value, more);
+    at += more;
+    *at++ = '[';
+    if (entry >= 10)
+        *at++ = (char)('0' + entry / 10);
+    *at++ = (char)('0' + entry % 10);
+    *at = ']';
+    symbol = expr_symbol(arena, name, SYMBOL_PARAMETER);
+    mem_free(name);
     return symbol;
 }
 

@@ -103,10 +103,21 @@ int graph_add_node(Graph *graph, const char *name, Domain domain, bool datum)
     return node;
 }
 
+/* its name and ends, not yet at these */
+static void enter_edge(Graph *graph, const Edge *edge)
+{
+    const int number = graph->edges.count;
+    Edge copy = *edge;
+
+    copy.name = pool_text(graph->texts, edge->name, strlen(edge->name));
+    if (names_add(graph->edge_names, copy.name) == graph->first_edge.count)
+        LIST_PUSH(graph->first_edge, number);
+    LIST_PUSH(graph->edges, copy);
+}
+
 int graph_add_edge(Graph *graph, const Edge *edge)
 {
-    int number = graph->edges.count;
-    Edge copy = *edge;
+    const int number = graph->edges.count;
 
     assert(edge->tail >= 0 && edge->tail < graph->nodes.count);
     assert(edge->head >= 0 && edge->head < graph->nodes.count);
@@ -114,16 +125,36 @@ int graph_add_edge(Graph *graph, const Edge *edge)
     assert(graph->nodes.at[edge->head].domain == edge->domain);
 
     mem_keep(graph);
-    copy.name = pool_text(graph->texts, edge->name, strlen(edge->name));
-    if (names_add(graph->edge_names, copy.name) == graph->first_edge.count)
-        LIST_PUSH(graph->first_edge, number);
-    LIST_PUSH(graph->edges, copy);
+    enter_edge(graph, edge);
     keep_incident(graph, edge->tail);
     LIST_PUSH(graph->at.at[edge->tail].edges, number);
     keep_incident(graph, edge->head);
     if (edge->head != edge->tail)
         LIST_PUSH(graph->at.at[edge->head].edges, number);
     return number;
+}
+
+Graph *graph_copy(const Graph *from)
+{
+    Graph *graph = graph_new();
+
+    LIST_ROOM(graph->nodes, from->nodes.count);
+    LIST_ROOM(graph->at, from->nodes.count);
+    LIST_ROOM(graph->edges, from->edges.count);
+    for (int i = 0; i < from->nodes.count; i++) {
+        const Incident *at = &from->at.at[i];
+        Incident own = {.edges = {0}};
+
+        (void)graph_add_node(graph, from->nodes.at[i].name, from->nodes.at[i].domain,
+                             from->nodes.at[i].datum);
+        LIST_ROOM(own.edges, at->edges.count);
+        for (int k = 0; k < at->edges.count; k++)
+            own.edges.at[own.edges.count++] = at->edges.at[k];
+        graph->at.at[i] = own;
+    }
+    for (int i = 0; i < from->edges.count; i++)
+        enter_edge(graph, &from->edges.at[i]);
+    return graph;
 }
 
 GraphMark graph_mark(const Graph *graph)

@@ -70,7 +70,8 @@ typedef struct Edge {
 typedef struct Graph Graph;
 
 Graph *graph_new(void);
-void graph_free(Graph *graph); /* NULL is fine */
+Graph *graph_copy(const Graph *from); /* new, of the same numbers */
+void graph_free(Graph *graph);        /* NULL is fine */
 int graph_add_node(Graph *graph, const char *name, Domain domain, bool datum);
 /* `edge` is copied, its name too; tail and head must be nodes of the edge's domain (assert). */
 int graph_add_edge(Graph *graph, const Edge *edge);

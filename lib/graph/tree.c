@@ -133,6 +133,38 @@ done:
     return status;
 }
 
+static int *numbers(const int *from, int count)
+{
+    int *copy = NEW_ARRAY(int, count);
+
+    if (count > 0)
+        memcpy(copy, from, (size_t)count * sizeof *copy);
+    return copy;
+}
+
+Tree *tree_copy(const Tree *from, const Graph *graph)
+{
+    const int nodes = graph_node_count(graph), edges = graph_edge_count(graph);
+    Tree *tree = NEW(Tree);
+
+    *tree = *from;
+    tree->graph = graph;
+    tree->standing = NEW_ARRAY(unsigned char, edges);
+    for (int e = 0; e < edges; e++)
+        tree->standing[e] =
+            from->standing[e] == STANDING_COMPLETED ? STANDING_CHOSEN : from->standing[e];
+    tree->nodes = numbers(from->nodes, nodes);
+    tree->branches = numbers(from->branches, nodes);
+    tree->chords = numbers(from->chords, edges);
+    tree->parent = numbers(from->parent, nodes);
+    tree->parent_edge = numbers(from->parent_edge, nodes);
+    tree->depth = numbers(from->depth, nodes);
+    tree->place = numbers(from->place, nodes);
+    tree->beyond = numbers(from->beyond, nodes);
+    tree->far = numbers(from->far, edges);
+    return tree;
+}
+
 TreeKind tree_kind(const Tree *tree)
 {
     return tree->kind;

@@ -35,6 +35,8 @@ typedef struct TreeChoice {
  * branches contracted. */
 MUST_USE Status tree_complete(const Graph *graph, TreeKind kind, const TreeChoice *choice,
                               bool exact, Tree **out, Diag *diag);
+/* New: the same in a copy of its graph (graph_copy()), all its branches chosen. */
+Tree *tree_copy(const Tree *from, const Graph *graph);
 void tree_free(Tree *tree); /* NULL is fine */
 
 TreeKind tree_kind(const Tree *tree);

@@ -17,7 +17,7 @@
 
 static Expr whole_symbol(System *system, const char *name)
 {
-    return expr_symbol(system->arena, system_keep(system, "#turns of %s", name), SYMBOL_PARAMETER);
+    return expr_symbol(system->arena, system_join(system, "#turns of ", name), SYMBOL_PARAMETER);
 }
 
 static void add_counted(System *system, const Instance *joint, int coordinate, Expr sum)
@@ -69,7 +69,7 @@ static void add_multi_turn(System *system, const Instance *joint, const Steps *s
     chord.cosine = turn.cosine;
     chord.told.name = joint->coord[coordinate];
     chord.told.reference =
-        expr_symbol(arena, system_keep(system, "%s.near", chord.told.name), SYMBOL_TURN);
+        expr_symbol(arena, system_join(system, chord.told.name, ".near"), SYMBOL_TURN);
     chord.told.angle =
         expr_call(arena, OP_UNWRAP, (Expr[]){turn.sine, turn.cosine, chord.told.reference});
     LIST_PUSH(system->constraints->multi_turns, chord);

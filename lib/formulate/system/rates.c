@@ -57,7 +57,7 @@ Expr network_add_rate(System *system, int unknown, SymbolKind kind)
 {
     Unknown *y = &system->network->unknowns.at[unknown];
     const char *last = expr_name(y->order > 0 ? y->rates[y->order - 1] : y->symbol);
-    Expr rate = expr_symbol(system->arena, system_keep(system, "%s'", last), kind);
+    Expr rate = expr_symbol(system->arena, system_join(system, last, "'"), kind);
 
     push_rate(system, y, rate, false);
     network_know(system, rate, unknown, y->order);
@@ -170,6 +170,7 @@ static Status effort_rate(System *system, Expr symbol, Expr *out, Diag *diag)
 Status system_rate_of(System *system, Expr e, Expr *out, Diag *diag)
 {
     const unsigned late = 1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER;
+    const bool moves = (expr_kinds(e) & (1U << SYMBOL_COORDINATE | 1U << SYMBOL_SPEED)) != 0;
     Expr *symbols = NULL;
     LIST(Expr) moved = {0};
     LIST(Expr) rates = {0};
@@ -179,12 +180,12 @@ Status system_rate_of(System *system, Expr e, Expr *out, Diag *diag)
     if ((expr_kinds(e) & late) != 0)
         CHECK(late_rate(diag));
     count = expr_symbols(&e, 1, &symbols);
-    for (int i = 0; i < system->kinematics->q.count; i++)
+    for (int i = 0; moves && i < system->kinematics->q.count; i++)
         if (occurs(symbols, count, system->kinematics->q.at[i].symbol)) {
             LIST_PUSH(moved, system->kinematics->q.at[i].symbol);
             LIST_PUSH(rates, system_q_rate(system, i));
         }
-    for (int i = 0; i < system->kinematics->u.count; i++)
+    for (int i = 0; moves && i < system->kinematics->u.count; i++)
         if (occurs(symbols, count, system->kinematics->u.at[i].symbol)) {
             LIST_PUSH(moved, system->kinematics->u.at[i].symbol);
             LIST_PUSH(rates, system->kinematics->accelerations[i]);

@@ -11,6 +11,16 @@
 #include <stdio.h>
 #include <string.h>
 
+const char *system_join(const System *system, const char *one, const char *other)
+{
+    const size_t length = strlen(one), more = strlen(other);
+    char *text = pool_alloc(system->pool, length + more + 1);
+
+    memcpy(text, one, length);
+    memcpy(text + length, other, more);
+    return text;
+}
+
 const char *system_keep(const System *system, const char *format, ...)
 {
     char text[600];

@@ -52,7 +52,8 @@ static inline void system_touch(System *view)
     mem_keep(view->shown);
 }
 
-/* text in the pool */
+/* texts in the pool: two joined, or as printf() does it */
+const char *system_join(const System *system, const char *one, const char *other);
 const char *system_keep(const System *system, const char *format, ...) PRINTF(2, 3);
 
 #endif

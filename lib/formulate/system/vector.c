@@ -116,6 +116,8 @@ Vec rotation_apply(Arena *arena, const Rotation *a, Vec b)
 {
     Vec c;
 
+    if (rotation_is_one(a))
+        return b;
     for (int i = 0; i < 3; i++) {
         Expr terms[3];
 

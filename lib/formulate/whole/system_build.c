@@ -136,32 +136,14 @@ static void vary_values(System *system, VaryValue vary, void *context)
         system->origin->gravity.at[i] = vary(context, NULL, -1, system->origin->gravity.at[i]);
 }
 
-static Status copy_graph(System *system, const Scene *scene, Diag *diag)
+static void copy_graph(System *system, const Scene *scene)
 {
-    const Graph *graph = scene->graph;
-    const Tree *const *trees = scene->trees;
-    Status status = OK;
+    Origin *origin = system->origin;
 
-    system->origin->graph = graph_new();
-    for (int i = 0; i < graph_node_count(graph); i++) {
-        const Node *node = graph_node(graph, i);
-
-        (void)graph_add_node(system->origin->graph, node->name, node->domain, node->datum);
-    }
-    for (int i = 0; i < graph_edge_count(graph); i++)
-        (void)graph_add_edge(system->origin->graph, graph_edge(graph, i));
-    for (TreeKind kind = 0; kind < TREE_KINDS; kind++) {
-        TreeChoice choice = {0};
-
-        if (trees[kind] == NULL)
-            continue;
-        choice.branches = tree_branches(trees[kind]);
-        choice.branch_count = tree_branch_count(trees[kind]);
-        CHECK(tree_complete(system->origin->graph, kind, &choice, true,
-                            &system->origin->trees[kind], diag));
-    }
-done:
-    return status;
+    origin->graph = graph_copy(scene->graph);
+    for (TreeKind kind = 0; kind < TREE_KINDS; kind++)
+        if (scene->trees[kind] != NULL)
+            origin->trees[kind] = tree_copy(scene->trees[kind], origin->graph);
 }
 
 static void copy_outputs(System *system, const Scene *scene)
@@ -231,7 +213,7 @@ static void add_coordinate(System *system, const Instance *instance, int c)
     if (instance->coord_kind[c] == COORDINATE_PARAMETER)
         return;
     system->kinematics->speed[instance->number][c] = system->kinematics->u.count;
-    add_speed(system, own, system_keep(system, "%s'", name));
+    add_speed(system, own, system_join(system, name, "'"));
 }
 
 /* four Euler parameters go with three components of angular velocity, in the axes of the head */
@@ -278,7 +260,7 @@ static void add_coordinates(System *system)
         pool_alloc(system->pool, (size_t)system->kinematics->u.count * sizeof(Expr));
     for (int j = 0; j < system->kinematics->u.count; j++) {
         system->kinematics->accelerations[j] =
-            expr_symbol(system->arena, system_keep(system, "%s'", system->kinematics->u.at[j].name),
+            expr_symbol(system->arena, system_join(system, system->kinematics->u.at[j].name, "'"),
                         SYMBOL_ACCELERATION);
     }
 }
@@ -511,7 +493,7 @@ static Status make_as(const Making *making, bool *has_no_states, System **out, D
     system->variable = system_variable;
     report(watch, "formulating", -1.0);
     take_scene(system, making);
-    CHECK(copy_graph(system, making->scene, diag));
+    copy_graph(system, making->scene);
     CHECK(build(system, diag));
     *out = system;
     system->scene = NULL;
