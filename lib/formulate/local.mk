@@ -23,6 +23,7 @@ libcore_la_SOURCES += \
 	lib/formulate/kinematics/stations.c lib/formulate/kinematics/stations.h \
 	lib/formulate/network/ideal_share.c lib/formulate/network/ideal_sides.c \
 	lib/formulate/network/ideal_sides.h lib/formulate/network/law_ends.c \
+	lib/formulate/network/network_alike.c lib/formulate/network/network_alike.h \
 	lib/formulate/network/network.c lib/formulate/network/network_build.c \
 	lib/formulate/network/network_build.h lib/formulate/network/network_impl.h \
 	lib/formulate/network/network_node_rows.c lib/formulate/network/network_nodes.c \

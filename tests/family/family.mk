@@ -10,6 +10,11 @@ family_trees_SOURCES = tests/family/family_trees.c tests/family/family.h tests/f
 	tests/family/trees.h tests/random.h tests/unit/form.h
 family_trees_LDADD = $(unit_ldadd)
 
+FAMILIES += family_cells
+family_cells_SOURCES = tests/family/family_cells.c tests/family/family.h \
+	tests/random.h tests/unit/session_kit.h tests/unit/test.h
+family_cells_LDADD = libcotree.la $(unit_ldadd)
+
 FAMILIES += family_subsystems
 family_subsystems_SOURCES = tests/family/family_subsystems.c tests/family/family.h \
 	tests/random.h tests/unit/session_kit.h tests/unit/test.h

@@ -26,7 +26,9 @@ typedef enum Derived {
     DERIVED_FORCE,     /* Vec: the sum at a node */
     DERIVED_PASSED,    /* that passed on, and its moment */
     DERIVED_TORQUE,    /* Vec: the sum at a node */
-    DERIVED_TURNED     /* Vec: that passed on */
+    DERIVED_TURNED,    /* Vec: that passed on */
+    DERIVED_NETWORK_ROW,
+    DERIVED_NETWORK_SLOPES
 } Derived;
 
 /* Of all chains and frames; behind these. Where parts deform, none are told (NULL). */

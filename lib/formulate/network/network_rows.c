@@ -1,5 +1,6 @@
 /* network_rows.c: equations of the network's unknowns, G([x'; z], ...) = 0, and their Jacobian */
 #include "formulate/network/ideal_sides.h"
+#include "formulate/network/network_alike.h"
 #include "formulate/network/network_build.h"
 #include "formulate/network/network_impl.h"
 #include "formulate/network/scalar_edges.h"
@@ -161,9 +162,16 @@ Status network_row(System *system, int unknown, Diag *diag)
 {
     Arena *arena = system->arena;
     Unknown y = system->network->unknowns.at[unknown]; /* the list may move on the way */
+    bool is_known;
 
     if (y.has_row)
         return OK;
+    TRY(network_alike_find(system, unknown, &y, &is_known, diag));
+    if (is_known) {
+        y.has_row = true;
+        system->network->unknowns.at[unknown] = y;
+        return OK;
+    }
     if (y.derives >= 0) {
         TRY(network_row(system, y.derives, diag));
         y.left = expr_open(arena, system->network->unknowns.at[y.derives].left);
@@ -185,8 +193,10 @@ Status network_row(System *system, int unknown, Diag *diag)
     sort_sides(system, &y);
     choose_sign(system, &y);
     y.right = expr_fold(arena, expr_open(arena, y.right));
+    y.lack = expr_sub(arena, expr_open(arena, y.left), expr_open(arena, y.right));
     y.has_row = true;
     system->network->unknowns.at[unknown] = y;
+    network_alike_keep(system, unknown, &y);
     return OK;
 }
 
@@ -231,7 +241,7 @@ void network_list(System *system)
             }
             LIST_PUSH(system->network->x, variable);
             LIST_PUSH(system->network->rates,
-                      expr_symbol(system->arena, system_keep(system, "%s'", variable.name),
+                      expr_symbol(system->arena, system_join(system, variable.name, "'"),
                                   SYMBOL_STATE_RATE));
             symbol = k < y->order ? y->rates[k] : NULL;
             if (symbol == NULL)
@@ -247,6 +257,7 @@ typedef struct NetworkRows {
     int count;        /* of equations and unknowns */
     LIST(int) column; /* by expr_symbol_number(): 1 + place in [x'; z]; 0: none */
     LIST(Entry) entries;
+    Slopes slopes; /* of a row */
 } NetworkRows;
 
 static void place(NetworkRows *rows, Expr symbol, int column)
@@ -286,17 +297,14 @@ static Status cant_be_met(System *system, const Unknown *y, Diag *diag)
     return E_MODEL;
 }
 
-static Status add_row(NetworkRows *rows, int row, Expr residual, const Unknown *y, Diag *diag)
+static void find_slopes(Arena *arena, Expr residual, Slopes *slopes)
 {
-    System *system = rows->system;
-    Arena *arena = system->arena;
-    Reading *run = &system->run;
     Expr *symbols;
-    int count = expr_symbols(&residual, 1, &symbols);
-    int first = rows->entries.count;
+    const int count = expr_symbols(&residual, 1, &symbols);
     int used = 0;
-    Status status = OK;
 
+    slopes->symbols.count = slopes->values.count = 0;
+    slopes->is_nonlinear = switch_jumps_over(arena, residual, solved_kinds);
     for (int i = 0; i < count; i++) {
         Expr slope;
 
@@ -306,20 +314,38 @@ static Status add_row(NetworkRows *rows, int row, Expr residual, const Unknown *
         slope = expr_diff(arena, residual, symbols[i]);
         if (expr_is_zero(slope))
             continue;
-        if ((expr_kinds(slope) & solved_kinds) != 0)
-            run->network_nonlinear = true;
-        LIST_PUSH(rows->entries,
-                  (Entry){row, rows->column.at[expr_symbol_number(symbols[i])] - 1, slope});
+        slopes->is_nonlinear = slopes->is_nonlinear || (expr_kinds(slope) & solved_kinds) != 0;
+        LIST_PUSH(slopes->symbols, symbols[i]);
+        LIST_PUSH(slopes->values, slope);
     }
-    run->network_nonlinear =
-        run->network_nonlinear || switch_jumps_over(arena, residual, solved_kinds);
-    if (rows->entries.count == first)
-        CHECK(cant_be_met(system, y, diag));
-    run->network_residual[row] = residual;
-    run->network_rhs[row] = expr_neg(arena, expr_substitute(arena, residual, symbols, NULL, used));
-done:
+    slopes->rest = expr_neg(arena, expr_substitute(arena, residual, symbols, NULL, used));
     mem_free(symbols);
-    return status;
+}
+
+/* `unknown`: that whose left - right it is; -1: it is another one */
+static Status add_row(NetworkRows *rows, int row, Expr residual, int unknown, const Unknown *y,
+                      Diag *diag)
+{
+    System *system = rows->system;
+    Reading *run = &system->run;
+    Slopes *slopes = &rows->slopes;
+
+    if (unknown < 0 || !network_alike_slopes(system, unknown, slopes)) {
+        find_slopes(system->arena, residual, slopes);
+        if (unknown >= 0)
+            network_alike_keep_slopes(system, unknown, slopes);
+    }
+    if (slopes->symbols.count == 0)
+        return cant_be_met(system, y, diag);
+    for (int i = 0; i < slopes->symbols.count; i++) {
+        const int column = rows->column.at[expr_symbol_number(slopes->symbols.at[i])] - 1;
+
+        LIST_PUSH(rows->entries, (Entry){row, column, slopes->values.at[i]});
+    }
+    run->network_nonlinear = run->network_nonlinear || slopes->is_nonlinear;
+    run->network_residual[row] = residual;
+    run->network_rhs[row] = slopes->rest;
+    return OK;
 }
 
 /* rates of other states on the right go to the left: capacitors in a circuit, coupled inductors */
@@ -357,9 +383,7 @@ static Status add_rows(NetworkRows *rows, Diag *diag)
 
     for (int k = 0; k < system->network->unknowns.count; k++) {
         const Unknown *y = &system->network->unknowns.at[k];
-        Expr residual = y->residual != NULL ? y->residual
-                                            : expr_sub(arena, expr_open(arena, y->left),
-                                                       expr_open(arena, y->right));
+        const Expr residual = y->residual != NULL ? y->residual : y->lack;
         bool is_state = expr_symbol_kind(y->symbol) == SYMBOL_STATE;
         int first = rows->entries.count;
         Expr left = y->left;
@@ -372,8 +396,9 @@ static Status add_rows(NetworkRows *rows, Diag *diag)
             TRY(add_row(rows, state,
                         expr_sub(arena, system->network->rates.at[state],
                                  system->network->x.at[state + 1].symbol),
-                        y, diag));
-        TRY(add_row(rows, is_state ? state++ : algebraic++, residual, y, diag));
+                        -1, y, diag));
+        TRY(add_row(rows, is_state ? state++ : algebraic++, residual, y->residual != NULL ? -1 : k,
+                    y, diag));
         if (system->network->form == NETWORK_STATE && is_state &&
             (expr_kinds(right) & 1U << SYMBOL_STATE_RATE) != 0 && !system->run.network_nonlinear)
             gather_rates(rows, first, &left, &right);
@@ -410,9 +435,8 @@ static void find_samples(System *system)
 static Status differentiate_fixed(System *system, int unknown, Diag *diag)
 {
     const unsigned moves = 1U << SYMBOL_STATE;
-    Arena *arena = system->arena;
     const Unknown *y = &system->network->unknowns.at[unknown];
-    Expr residual = expr_sub(arena, expr_open(arena, y->left), expr_open(arena, y->right));
+    const Expr residual = y->lack;
     Expr rate;
 
     if (y->residual != NULL || (expr_kinds(residual) & solved_kinds) != 0 ||
@@ -456,5 +480,9 @@ Status network_rows(System *system, Diag *diag)
 done:
     LIST_FREE(rows.column);
     LIST_FREE(rows.entries);
+    LIST_FREE(rows.slopes.symbols);
+    LIST_FREE(rows.slopes.values);
+    network_alike_free(system->network->alike);
+    system->network->alike = NULL;
     return status;
 }

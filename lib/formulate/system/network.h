@@ -42,7 +42,8 @@ typedef struct Unknown {
     int order;   /* of the highest that is no expression of others */
     bool has_row;
     Expr left, right; /* its equation */
-    Expr residual;    /* what a run solves instead of left - right; NULL: that */
+    Expr lack;        /* left - right without holds */
+    Expr residual;    /* what a run solves instead; NULL: that */
 } Unknown;
 
 typedef struct NetworkEquation { /* as printed */
@@ -79,6 +80,7 @@ typedef struct Network {
     LIST(const char *) at_rest; /* in the form of the user's tree: states of state form, by name */
     LIST(Expr) invariants;      /* 0 throughout: rows that were differentiated */
     LIST(Expr) open;            /* potentials asked for of terminals on which nothing stands */
+    struct NetworkAlike *alike; /* while it is made: rows that needn't be derived; NULL: none */
 } Network;
 
 #endif

@@ -16,14 +16,49 @@ Status system_wait_for_motion(System *system, Diag *diag)
     return diag_set(diag, E_MISSING, "what the network reads here follows from forces");
 }
 
+static Status resolve_symbol(System *system, Expr symbol, Expr *out, Diag *diag)
+{
+    const char *name = expr_name(symbol);
+    size_t length = strlen(name);
+    int primes = 0;
+    Status status;
+    char *path;
+
+    for (; length > 0 && name[length - 1] == '\''; length--)
+        primes++;
+    path = mem_text(name, length);
+    status = system->variable(system, path, primes, out, diag);
+    if (status != OK)
+        diag_about(diag, "%s", path);
+    mem_free(path);
+    return status;
+}
+
+static Status resolve_all(System *system, Expr user, Expr *out, Diag *diag)
+{
+    Expr *symbols, *values;
+    const int count = expr_symbols(&user, 1, &symbols);
+    int used = 0;
+    Status status = OK;
+
+    values = NEW_ARRAY(Expr, count);
+    for (int i = 0; i < count; i++) {
+        if (expr_symbol_kind(symbols[i]) != SYMBOL_VARIABLE)
+            continue;
+        symbols[used] = symbols[i];
+        CHECK(resolve_symbol(system, symbols[used], &values[used], diag));
+        used++;
+    }
+    *out = expr_substitute(system->arena, user, symbols, values, used);
+done:
+    MEM_FREE(symbols, values);
+    return status;
+}
+
 Status variables_resolve(System *system, Expr user, Expr *out, Diag *diag)
 {
     enum { DEEPEST = 40 };
-    Expr *symbols;
-    Expr *values;
-    int count;
-    int used = 0;
-    Status status = OK;
+    Status status;
 
     *out = user;
     if ((expr_kinds(user) & 1U << SYMBOL_VARIABLE) == 0)
@@ -32,32 +67,9 @@ Status variables_resolve(System *system, Expr user, Expr *out, Diag *diag)
         system->shown->depth--;
         return diag_set(diag, E_MODEL, "the definitions of outputs or sources lead in a circle");
     }
-    count = expr_symbols(&user, 1, &symbols);
-    values = NEW_ARRAY(Expr, count);
-    for (int i = 0; i < count; i++) {
-        const char *name = expr_name(symbols[i]);
-        size_t length = strlen(name);
-        int primes = 0;
-        char *path;
-
-        if (expr_symbol_kind(symbols[i]) != SYMBOL_VARIABLE)
-            continue;
-        while (length > 0 && name[length - 1] == '\'') {
-            length--;
-            primes++;
-        }
-        path = mem_text(name, length);
-        symbols[used] = symbols[i];
-        status = system->variable(system, path, primes, &values[used++], diag);
-        if (status != OK)
-            diag_about(diag, "%s", path);
-        mem_free(path);
-        CHECK(status);
-    }
-    *out = expr_substitute(system->arena, user, symbols, values, used);
-done:
+    status = expr_kind(user) == EXPR_SYMBOL ? resolve_symbol(system, user, out, diag)
+                                            : resolve_all(system, user, out, diag);
     system->shown->depth--;
-    MEM_FREE(symbols, values);
     return status;
 }
 

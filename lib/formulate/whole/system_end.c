@@ -2,6 +2,7 @@
 #include "formulate/dynamics/composite_mass.h"
 #include "formulate/dynamics/shapes.h"
 #include "formulate/kinematics/stations.h"
+#include "formulate/network/network_alike.h"
 #include "formulate/system/constraints.h"
 #include "formulate/system/dynamics.h"
 #include "formulate/system/kinematics.h"
@@ -91,6 +92,7 @@ static void network_free(Network *network)
     LIST_FREE(network->at_rest);
     LIST_FREE(network->invariants);
     LIST_FREE(network->open);
+    network_alike_free(network->alike);
     mem_free(network);
 }
 
