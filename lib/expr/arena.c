@@ -18,6 +18,8 @@ enum { FIRST_SIZE = 1024 };
 /* some four gigabytes */
 #define NODE_LIMIT ((int64_t)1 << 26)
 
+enum { WHOLES = 32 }; /* that are found without a look into the table */
+
 enum { NODE_WORK = 64 }; /* of making or finding one, for transaction_worked() */
 
 typedef struct Slot {
@@ -54,6 +56,9 @@ struct Arena {
     LIST(Made) made; /* the one asked for last at the end */
     Expr zero;
     Expr one;
+    Expr whole[WHOLES]; /* whole numbers, as far as they were asked for */
+    Renamings *renamings;
+    int touched; /* how often these were given something new */
     int64_t limit;
     Status status;
     const char *failure;
@@ -65,6 +70,7 @@ struct ArenaMark {
     int nodes;
     int symbols;
     int memories;
+    int touched;
 };
 
 /* a round of the finaliser of MurmurHash3 (Appleby 2011) */
@@ -162,9 +168,8 @@ static inline void arena_keep_whole(Arena *arena)
     mem_keep_now(arena);
 }
 
-static void table_grow(Arena *arena)
+static void table_grow(Arena *arena, uint32_t size)
 {
-    const uint32_t size = 2 * arena->size;
     Slot *slots = NEW_ARRAY(Slot, size);
 
     for (int i = 0; i < arena->nodes.count; i++) {
@@ -215,10 +220,24 @@ static inline struct ExprNode *node_new(Arena *arena, uint32_t hash, uint32_t sl
     *node = (struct ExprNode){.number = (uint32_t)arena->nodes.count, .hash = hash};
     LIST_APPEND(arena->nodes, node);
     if ((uint32_t)arena->nodes.count > arena->size / 2)
-        table_grow(arena);
+        table_grow(arena, 2 * arena->size);
     else
         arena->slots[slot] = (Slot){hash, node->number + 1};
     return node;
+}
+
+void arena_expect(Arena *arena, int nodes)
+{
+    uint32_t size = arena->size;
+
+    while (size / 2 < (uint32_t)nodes && size < UINT32_MAX / 4)
+        size *= 2;
+    if (size == arena->size)
+        return;
+    arena_keep_whole(arena);
+    table_grow(arena, size);
+    if (arena->nodes.count < nodes)
+        LIST_ROOM(arena->nodes, nodes - arena->nodes.count);
 }
 
 /* whether one more composite node may be made */
@@ -276,11 +295,16 @@ static Expr leaf_intern(Arena *arena, ExprKind kind, uint8_t op, const void *wor
 
 Expr node_rational(Arena *arena, int64_t num, int64_t den)
 {
-    Ratio ratio = {num, den};
+    const Ratio ratio = {num, den};
+    Expr made;
 
-    if (den == 1 && (num == 0 || num == 1) && arena->one != NULL)
-        return num == 0 ? arena->zero : arena->one;
-    return leaf_intern(arena, EXPR_RATIONAL, 0, &ratio, 2);
+    if (den != 1 || num < 0 || num >= WHOLES)
+        return leaf_intern(arena, EXPR_RATIONAL, 0, &ratio, 2);
+    if (arena->whole[num] != NULL)
+        return arena->whole[num];
+    made = leaf_intern(arena, EXPR_RATIONAL, 0, &ratio, 2);
+    arena_keep_whole(arena);
+    return arena->whole[num] = made;
 }
 
 Expr node_real(Arena *arena, double value)
@@ -552,6 +576,7 @@ void arena_free(Arena *arena)
     while (arena->made.count > 0)
         drop_made(arena, arena->made.count - 1);
     LIST_FREE(arena->made);
+    renamings_free(arena->renamings);
     pool_free(arena->pool);
     pool_free(arena->texts);
     MEM_FREE(arena->slots, arena->memory_slots);
@@ -620,6 +645,7 @@ ArenaMark *arena_mark(Arena *arena)
     mark->nodes = arena->nodes.count;
     mark->symbols = arena->symbols;
     mark->memories = arena->memories.count;
+    mark->touched = arena->touched;
     return mark;
 }
 
@@ -630,6 +656,10 @@ void arena_release(Arena *arena, ArenaMark *mark)
     for (int i = arena->made.count - 1; i >= 0; i--)
         if (arena->made.at[i].newest >= (uint32_t)mark->nodes)
             drop_made(arena, i);
+    if (arena->touched != mark->touched) {
+        renamings_free(arena->renamings);
+        arena->renamings = NULL;
+    }
     while (arena->memories.count > mark->memories) {
         Memory *memory = &arena->memories.at[arena->memories.count - 1];
 
@@ -638,6 +668,9 @@ void arena_release(Arena *arena, ArenaMark *mark)
         *memory = (Memory){0};
         arena->memories.count--;
     }
+    for (int i = 0; i < WHOLES; i++)
+        if (arena->whole[i] != NULL && arena->whole[i]->number >= (uint32_t)mark->nodes)
+            arena->whole[i] = NULL;
     while (arena->nodes.count > mark->nodes) {
         slots_drop(arena->slots, arena->size, arena->nodes.at[arena->nodes.count - 1]->hash,
                    (uint32_t)arena->nodes.count);
@@ -646,6 +679,18 @@ void arena_release(Arena *arena, ArenaMark *mark)
     arena->symbols = mark->symbols;
     pool_release(arena->pool, mark->pool);
     mem_free(mark);
+}
+
+Renamings **arena_renamings(Arena *arena)
+{
+    arena_keep_whole(arena);
+    return &arena->renamings;
+}
+
+void arena_touch_renamings(Arena *arena)
+{
+    arena_keep_whole(arena);
+    arena->touched++;
 }
 
 void arena_keep(Arena *arena, ArenaMark *mark)

@@ -104,6 +104,8 @@ void expr_remember(Arena *arena, Expr tuple, int which, const void *values, size
 /* Those remembered (out NULL: only asks); false: none are. */
 bool expr_recall(Arena *arena, Expr tuple, int which, void *out, size_t size);
 int64_t arena_nodes(const Arena *arena);
+/* So many nodes are to be expected in all: room for them is made at once. */
+void arena_expect(Arena *arena, int nodes);
 size_t arena_bytes(const Arena *arena);
 
 /* --- leaves --- */
@@ -216,6 +218,12 @@ typedef struct Renaming Renaming;
 Original *original_new(Arena *arena, const char *prefix);   /* new */
 void original_free(Original *original);                     /* NULL is fine */
 Renaming *renaming_new(Original *original, const char *to); /* new */
+/* The same, kept by the arena for whoever asks again: what was built is there still, but what
+ * something else was put into (renaming_pair()) is open again. Borrowed until renamings_end(),
+ * where those that nobody asks for any more go. */
+Renaming *renaming_kept(Arena *arena, const char *prefix, const char *to, bool *is_new);
+void renaming_forget(Arena *arena); /* the one that came last */
+void renamings_end(Arena *arena);
 /* From now on `from`, a symbol or what is held, becomes `to`; a number becomes itself. False: they
  * can't, or something else became of it. */
 bool renaming_pair(Renaming *renaming, Expr from, Expr to);

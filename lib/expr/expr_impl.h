@@ -113,6 +113,14 @@ bool expr_integer(Expr e, int64_t *value);
  */
 bool decimal_exact(const char *text, int64_t *num, int64_t *den);
 
+/* --- rename.c: renamings that the arena keeps --- */
+
+typedef struct Renamings Renamings;
+void renamings_free(Renamings *renamings); /* NULL is fine */
+Renamings **arena_renamings(Arena *arena);
+/* They hold nodes from now on that weren't there: an older mark drops them. */
+void arena_touch_renamings(Arena *arena);
+
 /* --- order.c --- */
 
 /* A view of a term without its numeric coefficient: its factors. */

@@ -7,6 +7,9 @@
  * looked at, let alone simplified. */
 #include "expr/expr_impl.h"
 
+#include "base/names.h"
+#include "base/text.h"
+
 #include <string.h>
 
 enum {
@@ -30,6 +33,8 @@ struct Original {
     LIST(Listed) places;
     LIST(int) args;
     LIST(int) symbols; /* their places, in order */
+    char *kept;        /* the prefix, of one that the arena keeps, */
+    int usual;         /* and how many nodes it had behind its first use; 0: it is in that */
 };
 
 typedef struct Image {
@@ -44,6 +49,16 @@ struct Renaming {
     LIST(Image) of;    /* by places */
     LIST(int) waiting; /* places whose arguments come first */
     LIST(Expr) args;
+    LIST(int) filled; /* places that something else came into */
+    char *kept;       /* `to`, of one that the arena keeps, */
+    bool is_used;     /* and that was asked for since it was last looked at */
+};
+
+struct Renamings { /* that an arena keeps */
+    Names *names;  /* "from to" */
+    LIST(Renaming *) list;
+    Names *prefixes;
+    LIST(Original *) originals;
 };
 
 /* --- what is renamed --- */
@@ -65,6 +80,7 @@ void original_free(Original *original)
     LIST_FREE(original->places);
     LIST_FREE(original->args);
     LIST_FREE(original->symbols);
+    mem_free(original->kept);
     mem_free(original);
 }
 
@@ -177,6 +193,8 @@ void renaming_free(Renaming *renaming)
     LIST_FREE(renaming->of);
     LIST_FREE(renaming->waiting);
     LIST_FREE(renaming->args);
+    LIST_FREE(renaming->filled);
+    mem_free(renaming->kept);
     mem_free(renaming);
 }
 
@@ -335,6 +353,7 @@ static void build_listed(Renaming *renaming, int place)
 {
     const Listed *const places = renaming->original->places.at;
 
+    arena_touch_renamings(renaming->original->arena);
     for (int i = places[place].root; i < place; i++)
         if (renaming->of.at[i].e == NULL && !places[i].has_hole) {
             if (renaming->original->walk.nodes[i]->kind == EXPR_SYMBOL)
@@ -367,6 +386,7 @@ bool renaming_pair(Renaming *renaming, Expr from, Expr to)
     /* nothing that it stands in looks into the one or the other */
     if (image->e == NULL) {
         make_hole(renaming->original, place);
+        LIST_PUSH(renaming->filled, place);
         *image = (Image){to, to->kind == EXPR_SYMBOL || held(to) != to};
     }
     return image->e == to;
@@ -382,4 +402,150 @@ Expr renaming_of(Renaming *renaming, Expr e)
     if (renaming->of.at[place].e == NULL)
         build_listed(renaming, place);
     return renaming->of.at[place].e;
+}
+
+/* --- those that an arena keeps --- */
+
+void renamings_free(Renamings *renamings)
+{
+    if (renamings == NULL)
+        return;
+    for (int i = 0; i < renamings->list.count; i++)
+        renaming_free(renamings->list.at[i]);
+    for (int i = 0; i < renamings->originals.count; i++)
+        original_free(renamings->originals.at[i]);
+    LIST_FREE(renamings->list);
+    LIST_FREE(renamings->originals);
+    names_free(renamings->names);
+    names_free(renamings->prefixes);
+    mem_free(renamings);
+}
+
+static Renamings *renamings_of(Arena *arena)
+{
+    Renamings **at = arena_renamings(arena);
+
+    if (*at == NULL) {
+        *at = NEW(Renamings);
+        (*at)->names = names_new();
+        (*at)->prefixes = names_new();
+    }
+    mem_keep(*at);
+    return *at;
+}
+
+/* Before what an earlier call made of it is changed in place. */
+static void announce(Renaming *renaming)
+{
+    Original *original = renaming->original;
+
+    mem_keep(original);
+    mem_keep(original->walk.nodes);
+    mem_keep(original->walk.keys);
+    mem_keep(original->walk.places);
+    mem_keep(original->places.at);
+    mem_keep(original->symbols.at);
+    LIST_FREE(original->walk.stack);
+    mem_keep(renaming);
+    mem_keep(renaming->of.at);
+    LIST_FREE(renaming->waiting);
+    LIST_FREE(renaming->args);
+}
+
+/* what stands over what was filled is to be built anew */
+static void open_again(Renaming *renaming)
+{
+    const Original *original = renaming->original;
+    bool *is_open;
+
+    if (renaming->filled.count == 0)
+        return;
+    is_open = NEW_ARRAY(bool, renaming->of.count);
+    for (int i = 0; i < renaming->filled.count; i++)
+        is_open[renaming->filled.at[i]] = true;
+    for (int i = 0; i < renaming->of.count; i++) {
+        const int *const args = original->args.at + original->places.at[i].begin;
+
+        for (int k = 0; k < original->walk.nodes[i]->count && !is_open[i]; k++)
+            is_open[i] = args[k] != NUMBER && is_open[args[k]];
+        if (is_open[i])
+            renaming->of.at[i] = (Image){0};
+    }
+    LIST_FREE(renaming->filled);
+    mem_free(is_open);
+}
+
+static Original *original_kept(Renamings *renamings, Arena *arena, const char *prefix)
+{
+    const int number = names_add(renamings->prefixes, prefix);
+    Original *original;
+
+    if (number < renamings->originals.count)
+        return renamings->originals.at[number];
+    original = original_new(arena, NULL);
+    original->prefix = original->kept = mem_text(prefix, strlen(prefix));
+    LIST_PUSH(renamings->originals, original);
+    return original;
+}
+
+Renaming *renaming_kept(Arena *arena, const char *prefix, const char *to, bool *is_new)
+{
+    Renamings *renamings = renamings_of(arena);
+    Renaming *renaming;
+    Text name = {0};
+    int number;
+
+    text_add(&name, prefix);
+    text_char(&name, ' ');
+    text_add(&name, to);
+    number = names_add(renamings->names, name.at);
+    text_free(&name);
+    *is_new = number == renamings->list.count;
+    if (*is_new) {
+        renaming = renaming_new(original_kept(renamings, arena, prefix), NULL);
+        renaming->to = renaming->kept = mem_text(to, strlen(to));
+        LIST_PUSH(renamings->list, renaming);
+        arena_touch_renamings(arena);
+    }
+    renaming = renamings->list.at[number];
+    announce(renaming);
+    open_again(renaming);
+    renaming->is_used = true;
+    return renaming;
+}
+
+void renaming_forget(Arena *arena)
+{
+    Renamings *renamings = renamings_of(arena);
+    Renaming *last = renamings->list.at[--renamings->list.count];
+
+    names_trim(renamings->names, renamings->list.count);
+    renaming_free(last);
+}
+
+/* What is edited over and over leaves images that nobody asks for any more: then all are built
+ * anew. */
+void renamings_end(Arena *arena)
+{
+    Renamings **at = arena_renamings(arena), *renamings = *at;
+    int used = 0;
+    bool is_stale = false;
+
+    for (int i = 0; renamings != NULL && i < renamings->originals.count; i++) {
+        Original *original = renamings->originals.at[i];
+
+        mem_keep(original);
+        if (original->usual == 0)
+            original->usual = original->walk.count;
+        is_stale = is_stale || original->walk.count > 4 * original->usual + 1000;
+    }
+    for (int i = 0; renamings != NULL && i < renamings->list.count; i++) {
+        mem_keep(renamings->list.at[i]);
+        used += renamings->list.at[i]->is_used;
+        renamings->list.at[i]->is_used = false;
+    }
+    if (renamings == NULL || (!is_stale && renamings->list.count <= 2 * used + 16))
+        return;
+    renamings_free(renamings);
+    *at = NULL;
 }

@@ -1,8 +1,12 @@
 /* bench_subsystems.c: a planar robot of 30 legs, and a platform on 30 spatial ones, each leg an
  * instance of one definition, against the same parts written out: forming the equations in
  * milliseconds, both in turn, alone and with the programs that a run steps with, and after one leg
- * was changed, removed and added again; and runs of them, on two threads in parts of the time on
- * one
+ * was changed, removed and added again, with the programs then; and runs of them, on two threads in
+ * parts of the time on one
+ *
+ * `bench_subsystems planar legs` (or spatial; or flat) forms the equations once: its instructions
+ * are counted by
+ *     valgrind --tool=callgrind --toggle-collect=form bench_subsystems planar legs
  */
 #include "formulate/system/system.h"
 #include "model/model.h"
@@ -93,7 +97,7 @@ static void apply(Model *model, const char *line)
 
 /* seconds, from the equations before an edit (*before NULL: none) to those of the model as it is,
  * as a session does it */
-static double form(Model *model, System **before)
+__attribute__((noinline)) static double form(Model *model, System **before)
 {
     const SystemOptions options = {.has_literals = true};
     Scene scene = {0};
@@ -129,8 +133,8 @@ static void line(bool planar, const char *what, double value, const char *unit)
 /* one leg of many: its number, itself away, itself again; parts of the time that all take */
 static void bench_edits(bool planar, const char *text)
 {
-    static const char *const what[] = {"edit", "remove", "add"};
-    double least[COUNT(what)] = {1e300, 1e300, 1e300}, all = 1e300;
+    static const char *const what[] = {"edit", "remove", "add", "compile_after_add"};
+    double least[COUNT(what)] = {1e300, 1e300, 1e300, 1e300}, all = 1e300;
 
     for (int i = 0; i < TRIES; i++) {
         Model *model = bench_model(text);
@@ -146,6 +150,7 @@ static void bench_edits(bool planar, const char *text)
         apply(model, planar ? "revolute h7 leg7.B p7" : "spherical h7 leg7.B p7");
         apply(model, "tree + leg7.th1 + leg7.th2 - h7");
         least[2] = fmin(least[2], form(model, &system));
+        least[3] = fmin(least[3], compile(model, system));
         system_free(system);
         model_free(model);
     }
@@ -222,8 +227,25 @@ static void bench_run(bool planar)
     mem_free(text);
 }
 
-int main(void)
+/* one of them, for who counts instructions */
+static int form_once(bool planar, bool flat)
 {
+    char *text = robot_text(planar, flat);
+    Model *model = bench_model(text);
+    System *system = NULL;
+
+    if (model != NULL)
+        (void)form(model, &system);
+    system_free(system);
+    model_free(model);
+    mem_free(text);
+    return 0;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc == 3)
+        return form_once(strcmp(argv[1], "planar") == 0, strcmp(argv[2], "flat") == 0);
     bench_robot(true);
     bench_robot(false);
     bench_run(true);

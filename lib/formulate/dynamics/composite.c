@@ -104,7 +104,7 @@ Composite composite_at(const System *system, const Composites *all, int node)
         own.inertia.at[k] = alike_take(follower, own.inertia.at[k]);
     all->at[node] = own;
     all->is_known[node] = true;
-    derived_keep(system, all->key[node], DERIVED_COMPOSITE, &own, sizeof own);
+    alike_keep(system, follower, all->key[node], DERIVED_COMPOSITE, &own, sizeof own);
     return own;
 }
 
@@ -158,10 +158,13 @@ static bool passes_on(const System *system, const Passing *passing, int node)
 
 static void recall_composites(const System *system, const Passing *passing, Composites *all)
 {
+    int first;
+
     for (int i = 0; i < passing->count; i++) {
         const int node = passing->inward[i], parent = system->kinematics->frames[node].parent;
 
-        all->is_known[node] = derived_recall(system, all->key[node], DERIVED_COMPOSITE,
+        all->is_known[node] = follows_whole(system, node, &first) == NULL &&
+                              derived_recall(system, all->key[node], DERIVED_COMPOSITE,
                                              &all->at[node], sizeof all->at[node]);
         if (passes_on(system, passing, node))
             all->key[parent] =

@@ -147,7 +147,7 @@ static SpeedVectors speed_motion(const System *system, int j)
                           .slide = speed_slide(system, j, axes)};
 }
 
-/* Recalled, or in the names of an instance, or derived. `all`: of those that others take over */
+/* In the names of an instance, or recalled, or derived. `all`: of those that others take over */
 static void find_vectors(const System *system, const Composites *composites, Loads *loads, int j,
                          SpeedVectors *all)
 {
@@ -155,22 +155,23 @@ static void find_vectors(const System *system, const Composites *composites, Loa
     int first;
     const Follower *follower = alike_speed(system, j, &first);
     Key key = key_of(composites->key[node]);
+    const bool takes = follower != NULL && alike_ends(follower);
     Vec effect[2];
-    Expr told;
+    Expr told = NULL;
 
     all[j] = speed_motion(system, j);
     key_add(&key, &all[j].turn, sizeof all[j].turn);
     key_add(&key, &all[j].slide, sizeof all[j].slide);
-    told = key_end(system, &key);
-    if (!derived_recall(system, told, DERIVED_SPEED, effect, sizeof effect)) {
-        if (follower != NULL && alike_ends(follower)) {
-            effect[0] = alike_vec(follower, all[first].force);
-            effect[1] = alike_vec(follower, all[first].torque);
-        } else {
-            composite_loads(system, composite_at(system, composites, node), j, loads);
-            effect[0] = loads->force[node];
-            effect[1] = loads->torque[node];
-        }
+    if (!takes || alike_is_heir(follower))
+        told = key_end(system, &key);
+    if (takes) {
+        effect[0] = alike_vec(follower, all[first].force);
+        effect[1] = alike_vec(follower, all[first].torque);
+        alike_keep(system, follower, told, DERIVED_SPEED, effect, sizeof effect);
+    } else if (!derived_recall(system, told, DERIVED_SPEED, effect, sizeof effect)) {
+        composite_loads(system, composite_at(system, composites, node), j, loads);
+        effect[0] = loads->force[node];
+        effect[1] = loads->torque[node];
         derived_keep(system, told, DERIVED_SPEED, effect, sizeof effect);
     }
     all[j].force = effect[0];

@@ -292,16 +292,20 @@ static Inertia find_inertia(const System *system, const Loads *loads, const Mass
                             const Follower *follower, int first, const Vec *gravity)
 {
     const Kinematics *kinematics = system->kinematics;
-    const Expr told = key_of_inertia(system, mass);
+    const bool takes = follower != NULL && alike_moves(follower);
+    const Expr told = !takes || alike_is_heir(follower) ? key_of_inertia(system, mass) : NULL;
     Inertia inertia;
 
+    if (takes) {
+        inertia = (Inertia){alike_vec(follower, loads->force[first]),
+                            alike_vec(follower, loads->torque[first])};
+        alike_keep(system, follower, told, DERIVED_INERTIA, &inertia, sizeof inertia);
+        return inertia;
+    }
     if (derived_recall(system, told, DERIVED_INERTIA, &inertia, sizeof inertia))
         return inertia;
-    inertia = follower != NULL && alike_moves(follower)
-                  ? (Inertia){alike_vec(follower, loads->force[first]),
-                              alike_vec(follower, loads->torque[first])}
-                  : inertia_of(system, mass, gravity[node_axes(system, mass->node)],
-                               kinematics->alpha0, kinematics->a0);
+    inertia = inertia_of(system, mass, gravity[node_axes(system, mass->node)], kinematics->alpha0,
+                         kinematics->a0);
     derived_keep(system, told, DERIVED_INERTIA, &inertia, sizeof inertia);
     return inertia;
 }

@@ -149,15 +149,6 @@ static void find_alike(const Summing *s, const Loads *loads)
     mem_free(asked);
 }
 
-/* what a node's is, given the first's */
-static Vec as_first(const System *system, int node, const Vec *of)
-{
-    int first;
-    const Follower *follower = alike_node(system, node, &first);
-
-    return alike_vec(follower, of[first]);
-}
-
 typedef struct Carried {
     Vec force, moment; /* in the axes of the parent, and of the base */
 } Carried;
@@ -208,7 +199,15 @@ static void end_sum(const Summing *s, int n, bool is_known, Expr key, Derived wh
 {
     if (is_known)
         return;
-    of[n] = s->alike[n] ? as_first(s->system, n, of) : vec_hold(s->system->arena, of[n]);
+    if (s->alike[n]) {
+        int first;
+        const Follower *follower = alike_node(s->system, n, &first);
+
+        of[n] = alike_vec(follower, of[first]);
+        alike_keep(s->system, follower, key, which, &of[n], sizeof of[n]);
+        return;
+    }
+    of[n] = vec_hold(s->system->arena, of[n]);
     derived_keep(s->system, key, which, &of[n], sizeof of[n]);
 }
 

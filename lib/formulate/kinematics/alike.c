@@ -25,18 +25,19 @@ typedef struct Inside { /* what an instance made, those inside it too */
     Numbers nodes, chains, speeds, masses;
     bool is_open; /* something else hangs on it */
     LIST(FirstWay) ways;
-    Original *original; /* what others rename; NULL: nobody asked */
+    bool has_heir;
 } Inside;
 
 struct Follower {
     const Inside *own;
     Inside *first;
     Renaming *renaming;
-    bool moves;
+    bool moves, is_heir;
 };
 
 struct Alike {
-    int count; /* of instances */
+    Arena *arena; /* that keeps the renamings */
+    int count;    /* of instances */
     Inside *inside;
     int *use_of_node, *use_of_chain; /* the innermost; -1 */
     int *place;                      /* of a node in the tree's order */
@@ -316,7 +317,8 @@ static void follow(Alike *alike, const Pairing *p, int use)
 {
     Follower *follower = NEW(Follower);
 
-    *follower = (Follower){p->own, p->first, p->renaming, true};
+    *follower = (Follower){p->own, p->first, p->renaming, true, !p->first->has_heir};
+    p->first->has_heir = true;
     alike->of[use] = follower;
     for (int k = 0; k < p->own->nodes.count; k++)
         alike->of_node[p->own->nodes.at[k]] = follower;
@@ -342,6 +344,7 @@ static void look_for_first(const System *system, Alike *alike, const int *order,
 {
     Instanced *made = system->origin->uses;
     const int use = order[at];
+    bool is_new;
 
     for (int k = 0; k < at; k++) {
         const int first = order[k];
@@ -353,15 +356,15 @@ static void look_for_first(const System *system, Alike *alike, const int *order,
         if (strcmp(made[first].definition, made[use].definition) != 0 ||
             is_taken(system, alike, first))
             continue;
-        if (p.first->original == NULL)
-            p.first->original = original_new(system->arena, p.first->prefix);
-        p.renaming = renaming_new(p.first->original, p.own->prefix);
+        p.renaming = renaming_kept(system->arena, p.first->prefix, p.own->prefix, &is_new);
         if (are_alike(&p)) {
             follow(alike, &p, use);
             made[use].first = first;
+            made[use].is_recalled = made[first].is_recalled && !is_new;
             return;
         }
-        renaming_free(p.renaming);
+        if (is_new)
+            renaming_forget(system->arena);
     }
 }
 
@@ -395,6 +398,7 @@ static Alike *alike_new(const System *system)
               chains = system->kinematics->chains.count, speeds = system->kinematics->speed_count;
     Alike *alike = NEW(Alike);
 
+    alike->arena = system->arena;
     alike->count = system->origin->use_count;
     alike->inside = NEW_ARRAY(Inside, alike->count);
     alike->of = NEW_ARRAY(Follower *, alike->count);
@@ -447,6 +451,7 @@ void alike_free(Alike *alike)
 {
     if (alike == NULL)
         return;
+    renamings_end(alike->arena);
     for (int i = 0; i < alike->count; i++) {
         Inside *inside = &alike->inside[i];
 
@@ -456,12 +461,8 @@ void alike_free(Alike *alike)
         LIST_FREE(inside->masses);
         LIST_FREE(inside->ways);
         mem_free(inside->prefix);
-        if (alike->of[i] != NULL)
-            renaming_free(alike->of[i]->renaming);
         mem_free(alike->of[i]);
     }
-    for (int i = 0; i < alike->count; i++)
-        original_free(alike->inside[i].original);
     MEM_FREE(alike->inside, alike->of, alike->use_of_node, alike->use_of_chain, alike->place,
              alike->of_node, alike->of_chain, alike->of_speed, alike->node, alike->chain,
              alike->speed);
@@ -558,6 +559,18 @@ bool alike_moves(const Follower *follower)
 bool alike_ends(const Follower *follower)
 {
     return !follower->own->is_open && !follower->first->is_open;
+}
+
+bool alike_is_heir(const Follower *follower)
+{
+    return follower->is_heir;
+}
+
+void alike_keep(const System *system, const Follower *follower, Expr key, Derived which,
+                const void *values, size_t size)
+{
+    if (follower->is_heir && !derived_is_kept(system, key, which))
+        derived_keep(system, key, which, values, size);
 }
 
 Expr alike_take(const Follower *follower, Expr e)

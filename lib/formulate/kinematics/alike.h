@@ -8,6 +8,7 @@
 #ifndef COTREE_FORMULATE_KINEMATICS_ALIKE_H
 #define COTREE_FORMULATE_KINEMATICS_ALIKE_H
 
+#include "formulate/kinematics/identity.h"
 #include "formulate/system/system_impl.h"
 #include "formulate/system/vector.h"
 #include "graph/tree.h"
@@ -47,6 +48,12 @@ bool alike_ends(const Follower *follower);
 bool alike_fill(const Follower *follower, Expr hole, Expr value);
 Expr alike_take(const Follower *follower, Expr e);
 Vec alike_vec(const Follower *follower, Vec v);
+
+/* What is taken over needs no key: it is found by the first's. But whoever comes first where that
+ * one is gone, the heir, has it kept under keys of its own. */
+bool alike_is_heir(const Follower *follower);
+void alike_keep(const System *system, const Follower *follower, Expr key, Derived which,
+                const void *values, size_t size);
 
 /* How many first ones lie behind a node: that of its instance, that of whose this is, ... */
 int alike_level(const System *system, int node);

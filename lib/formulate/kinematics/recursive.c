@@ -48,7 +48,7 @@ static ChainMotion turn_motion(const System *system, int c)
                          vec_hold(arena, vec_cross(arena, w, turn))};
 }
 
-/* Recalled, or as the first's, or derived. That it could be the first's is to be known of all. */
+/* As the first's, or recalled, or derived. */
 static void find_turn_motion(const System *system, int c)
 {
     const Chain *chain = &system->kinematics->chains.at[c];
@@ -57,11 +57,15 @@ static void find_turn_motion(const System *system, int c)
     Follower *follower = alike_chain(system, c, &first);
     const bool is_alike = follower != NULL && turns_alike(system, follower, chain->parent);
 
+    if (is_alike) {
+        motions[c] = (ChainMotion){alike_vec(follower, motions[first].w),
+                                   alike_vec(follower, motions[first].product)};
+        alike_keep(system, follower, chain->identity, DERIVED_TURN, &motions[c], sizeof motions[c]);
+        return;
+    }
     if (derived_recall(system, chain->identity, DERIVED_TURN, &motions[c], sizeof motions[c]))
         return;
-    motions[c] = is_alike ? (ChainMotion){alike_vec(follower, motions[first].w),
-                                          alike_vec(follower, motions[first].product)}
-                          : turn_motion(system, c);
+    motions[c] = turn_motion(system, c);
     derived_keep(system, chain->identity, DERIVED_TURN, &motions[c], sizeof motions[c]);
 }
 
@@ -119,11 +123,12 @@ static void find_step_motion(System *system, int node)
         moves_alike(system, follower, node, frames[like->parent].v, frames[frame->parent].v);
     StepMotion motion;
 
-    if (!derived_recall(system, frame->identity, DERIVED_STEP, &motion, sizeof motion)) {
-        motion = is_alike
-                     ? (StepMotion){alike_vec(follower, like->step), alike_vec(follower, like->v),
-                                    alike_vec(follower, like->product)}
-                     : step_motion(system, node);
+    if (is_alike) {
+        motion = (StepMotion){alike_vec(follower, like->step), alike_vec(follower, like->v),
+                              alike_vec(follower, like->product)};
+        alike_keep(system, follower, frame->identity, DERIVED_STEP, &motion, sizeof motion);
+    } else if (!derived_recall(system, frame->identity, DERIVED_STEP, &motion, sizeof motion)) {
+        motion = step_motion(system, node);
         derived_keep(system, frame->identity, DERIVED_STEP, &motion, sizeof motion);
     }
     frame->step = motion.step;
@@ -173,7 +178,7 @@ static Vec chain_acceleration(const System *system, int c, const Expr *accelerat
     return vec_hold(arena, own);
 }
 
-/* what is left of a chain's at u' = 0: recalled, as the first's, or derived */
+/* what is left of a chain's at u' = 0: as the first's, recalled, or derived */
 static Vec chain_rest(const System *system, int c, const Vec *alpha)
 {
     const Chain *chain = &system->kinematics->chains.at[c];
@@ -185,10 +190,14 @@ static Vec chain_rest(const System *system, int c, const Vec *alpha)
                                : alike_hangs(follower, alpha[chain->parent], alpha[chain->parent]));
     Vec rest;
 
+    if (is_alike) {
+        rest = alike_vec(follower, alpha[first]);
+        alike_keep(system, follower, chain->identity, DERIVED_TURN_REST, &rest, sizeof rest);
+        return rest;
+    }
     if (derived_recall(system, chain->identity, DERIVED_TURN_REST, &rest, sizeof rest))
         return rest;
-    rest =
-        is_alike ? alike_vec(follower, alpha[first]) : chain_acceleration(system, c, NULL, alpha);
+    rest = chain_acceleration(system, c, NULL, alpha);
     derived_keep(system, chain->identity, DERIVED_TURN_REST, &rest, sizeof rest);
     return rest;
 }
@@ -203,9 +212,14 @@ static Vec node_rest(const System *system, int n, const Vec *alpha, const Vec *a
         moves_alike(system, follower, n, a[frames[first].parent], a[frame->parent]);
     Vec rest;
 
+    if (is_alike) {
+        rest = alike_vec(follower, a[first]);
+        alike_keep(system, follower, frame->identity, DERIVED_STEP_REST, &rest, sizeof rest);
+        return rest;
+    }
     if (derived_recall(system, frame->identity, DERIVED_STEP_REST, &rest, sizeof rest))
         return rest;
-    rest = is_alike ? alike_vec(follower, a[first]) : node_acceleration(system, n, NULL, alpha, a);
+    rest = node_acceleration(system, n, NULL, alpha, a);
     derived_keep(system, frame->identity, DERIVED_STEP_REST, &rest, sizeof rest);
     return rest;
 }

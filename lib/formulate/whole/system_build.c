@@ -445,12 +445,16 @@ static const bool *keep_sides(System *system, const Making *making)
     return kept;
 }
 
+/* nodes that a part's equations take, or more */
+enum { NODES_OF_A_PART = 24 };
+
 static void take_scene(System *system, const Making *making)
 {
     const Scene *scene = making->scene;
     const SystemOptions *options = making->options;
 
     system->arena = scene->arena;
+    arena_expect(system->arena, NODES_OF_A_PART * scene->instance_count);
     system->origin->revision = scene->revision;
     system->origin->planar = scene->planar;
     for (int i = 0; i < 3; i++)
