@@ -251,8 +251,13 @@ static void build_symbol(Renaming *renaming, int place)
         const int next = side == 0 ? own->before : own->after;
         int order;
 
-        if (next < 0 || renaming->original->places.at[next].is_hole)
+        if (next < 0)
             continue;
+        /* what a hole becomes says nothing of those beyond it */
+        if (renaming->original->places.at[next].is_hole) {
+            renaming->disorders = true;
+            continue;
+        }
         build_symbol(renaming, next); /* which came before it: no deeper than symbols are many */
         order = order_symbols(of[next].e, of[place].e);
         if (side == 0 ? order >= 0 : order <= 0)
