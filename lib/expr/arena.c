@@ -56,8 +56,9 @@ struct Arena {
     LIST(Made) made; /* the one asked for last at the end */
     Expr zero;
     Expr one;
-    Expr whole[WHOLES]; /* whole numbers, as far as they were asked for */
-    Renamings *renamings;
+    Expr whole[WHOLES];   /* whole numbers, as far as they were asked for */
+    Renamings *renamings; /* NULL: none */
+    void (*release_renamings)(Renamings *renamings);
     int touched; /* how often these were given something new */
     int64_t limit;
     Status status;
@@ -551,6 +552,31 @@ void *arena_find_made(Arena *arena, uint64_t hash,
     return NULL;
 }
 
+Renamings *arena_renamings(const Arena *arena)
+{
+    return arena->renamings;
+}
+
+void arena_put_renamings(Arena *arena, Renamings *renamings, void (*release)(Renamings *))
+{
+    arena_keep_whole(arena);
+    arena->renamings = renamings;
+    arena->release_renamings = release;
+}
+
+void arena_touch_renamings(Arena *arena)
+{
+    arena_keep_whole(arena);
+    arena->touched++;
+}
+
+static void drop_renamings(Arena *arena)
+{
+    if (arena->renamings != NULL)
+        arena->release_renamings(arena->renamings);
+    arena->renamings = NULL;
+}
+
 /* --- the arena --- */
 
 Arena *arena_new(void)
@@ -576,7 +602,7 @@ void arena_free(Arena *arena)
     while (arena->made.count > 0)
         drop_made(arena, arena->made.count - 1);
     LIST_FREE(arena->made);
-    renamings_free(arena->renamings);
+    drop_renamings(arena);
     pool_free(arena->pool);
     pool_free(arena->texts);
     MEM_FREE(arena->slots, arena->memory_slots);
@@ -656,10 +682,8 @@ void arena_release(Arena *arena, ArenaMark *mark)
     for (int i = arena->made.count - 1; i >= 0; i--)
         if (arena->made.at[i].newest >= (uint32_t)mark->nodes)
             drop_made(arena, i);
-    if (arena->touched != mark->touched) {
-        renamings_free(arena->renamings);
-        arena->renamings = NULL;
-    }
+    if (arena->touched != mark->touched)
+        drop_renamings(arena);
     while (arena->memories.count > mark->memories) {
         Memory *memory = &arena->memories.at[arena->memories.count - 1];
 
@@ -679,18 +703,6 @@ void arena_release(Arena *arena, ArenaMark *mark)
     arena->symbols = mark->symbols;
     pool_release(arena->pool, mark->pool);
     mem_free(mark);
-}
-
-Renamings **arena_renamings(Arena *arena)
-{
-    arena_keep_whole(arena);
-    return &arena->renamings;
-}
-
-void arena_touch_renamings(Arena *arena)
-{
-    arena_keep_whole(arena);
-    arena->touched++;
 }
 
 void arena_keep(Arena *arena, ArenaMark *mark)

@@ -113,11 +113,12 @@ bool expr_integer(Expr e, int64_t *value);
  */
 bool decimal_exact(const char *text, int64_t *num, int64_t *den);
 
-/* --- rename.c: renamings that the arena keeps --- */
+/* --- renamings that the arena keeps (rename.c) --- */
 
 typedef struct Renamings Renamings;
-void renamings_free(Renamings *renamings); /* NULL is fine */
-Renamings **arena_renamings(Arena *arena);
+Renamings *arena_renamings(const Arena *arena); /* NULL: none */
+/* `release` ends those; what was there before is the caller's */
+void arena_put_renamings(Arena *arena, Renamings *renamings, void (*release)(Renamings *));
 /* They hold nodes from now on that weren't there: an older mark drops them. */
 void arena_touch_renamings(Arena *arena);
 

@@ -411,10 +411,8 @@ Expr renaming_of(Renaming *renaming, Expr e)
 
 /* --- those that an arena keeps --- */
 
-void renamings_free(Renamings *renamings)
+static void renamings_free(Renamings *renamings)
 {
-    if (renamings == NULL)
-        return;
     for (int i = 0; i < renamings->list.count; i++)
         renaming_free(renamings->list.at[i]);
     for (int i = 0; i < renamings->originals.count; i++)
@@ -428,15 +426,16 @@ void renamings_free(Renamings *renamings)
 
 static Renamings *renamings_of(Arena *arena)
 {
-    Renamings **at = arena_renamings(arena);
+    Renamings *renamings = arena_renamings(arena);
 
-    if (*at == NULL) {
-        *at = NEW(Renamings);
-        (*at)->names = names_new();
-        (*at)->prefixes = names_new();
-    }
-    mem_keep(*at);
-    return *at;
+    mem_keep(renamings);
+    if (renamings != NULL)
+        return renamings;
+    renamings = NEW(Renamings);
+    renamings->names = names_new();
+    renamings->prefixes = names_new();
+    arena_put_renamings(arena, renamings, renamings_free);
+    return renamings;
 }
 
 /* Before what an earlier call made of it is changed in place. */
@@ -532,7 +531,7 @@ void renaming_forget(Arena *arena)
  * anew. */
 void renamings_end(Arena *arena)
 {
-    Renamings **at = arena_renamings(arena), *renamings = *at;
+    Renamings *renamings = arena_renamings(arena);
     int used = 0;
     bool is_stale = false;
 
@@ -552,5 +551,5 @@ void renamings_end(Arena *arena)
     if (renamings == NULL || (!is_stale && renamings->list.count <= 2 * used + 16))
         return;
     renamings_free(renamings);
-    *at = NULL;
+    arena_put_renamings(arena, NULL, NULL);
 }
