@@ -275,6 +275,33 @@ static void line(const char *what, const char *size, double value, const char *u
 }
 
 /* the same natively: of one, and a chain each of as many at once as the processor has it */
+/* the slots of so many evaluations side by side, with inputs and constants; new */
+static double *slots_of(const Chain *chain, const Program *program, int width)
+{
+    double *slots = NEW_ARRAY(double, (program->slot_count + program->root_count) * width);
+
+    for (int k = 0; k < width; k++) {
+        for (int i = 0; i < chain->input_count; i++)
+            slots[i * width + k] = 1 + 0.1 * sin(i + k);
+        for (int i = 0; i < program->constants.count; i++)
+            slots[(chain->input_count + i) * width + k] = program->constants.at[i];
+    }
+    return slots;
+}
+
+/* as rows are told: by the interpreter, eight at once */
+static void measure_abreast(const Chain *chain, const Program *program, const char *size, int calls)
+{
+    double *slots = slots_of(chain, program, ABREAST), seconds;
+
+    program_interpret_abreast(program, STAGE_PARAMETER, STAGE_ACCELERATION, slots);
+    BENCH_LEAST(200, seconds,
+                for (int i = 0; i < calls; i++)
+                    program_interpret_abreast(program, STAGE_POSITION, STAGE_ACCELERATION, slots));
+    line("eval_moving_8", size, 1e9 * seconds / calls / ABREAST, "ns");
+    mem_free(slots);
+}
+
 static void measure_native(const Chain *chain, const Program *program, const char *size, int calls)
 {
     const struct {
@@ -298,13 +325,7 @@ static void measure_native(const Chain *chain, const Program *program, const cha
         if (native == NULL)
             continue;
         frame = native_frame_new(native);
-        slots = NEW_ARRAY(double, (program->slot_count + program->root_count) * width);
-        for (int k = 0; k < width; k++) {
-            for (int i = 0; i < chain->input_count; i++)
-                slots[i * width + k] = 1 + 0.1 * sin(i + k);
-            for (int i = 0; i < program->constants.count; i++)
-                slots[(chain->input_count + i) * width + k] = program->constants.at[i];
-        }
+        slots = slots_of(chain, program, width);
         native_run(native, STAGE_PARAMETER, STAGE_ACCELERATION, slots, frame);
         BENCH_LEAST(200, seconds,
                     for (int i = 0; i < calls; i++)
@@ -344,6 +365,7 @@ static void measure(int links, const char *size)
                 for (int i = 0; i < calls; i++)
                     workspace_run(workspace, STAGE_POSITION, STAGE_ACCELERATION));
     line("eval_moving", size, 1e9 * seconds / calls, "ns");
+    measure_abreast(chain, program, size, calls);
     measure_native(chain, program, size, calls);
     BENCH_LEAST(200, seconds, for (int i = 0; i < calls; i++) plain_run(plain));
     line("eval_switch", size, 1e9 * seconds / calls, "ns");

@@ -2,6 +2,7 @@
  *
  * bench_session SCRIPTS PROGRAM; each script of SCRIPTS/paper and SCRIPTS/reference that this
  * version can read is formulated and replayed. */
+#include "base/decimal.h"
 #include "formulate/system/system.h"
 
 #include "../unit/form.h"
@@ -182,6 +183,21 @@ static double rows_time(Kit *kit, const char *every)
     return done ? least : -1;
 }
 
+/* nanoseconds of a decimal that reads back, of numbers as results are */
+static double decimal_time(void)
+{
+    enum { MANY = 20000 };
+    double *values = NEW_ARRAY(double, MANY), seconds;
+    char text[DECIMAL_SIZE];
+
+    for (int i = 0; i < MANY; i++)
+        values[i] = 3 * sin(1.7 * i * i);
+    BENCH_LEAST(50, seconds,
+                for (int i = 0; i < MANY; i++)(void) decimal_print(text, values[i], DECIMAL_EXACT));
+    mem_free(values);
+    return 1e9 * seconds / MANY;
+}
+
 /* what rows cost, beside the run that they are of */
 static void bench_rows(void)
 {
@@ -199,6 +215,7 @@ static void bench_rows(void)
         printf("# rows: a run of two rods failed\n");
         return;
     }
+    bench_line("rows.decimal", decimal_time(), "ns");
     bench_line("rows.2_with_csv", few * 1e3, "ms");
     bench_line("rows.1001_with_csv", many * 1e3, "ms");
     bench_line("rows.1001_over_2", many / few, "times");
