@@ -686,9 +686,19 @@ bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const doub
     return true;
 }
 
+static double blur_of(double pivot)
+{
+    return pivot < NEAR ? fmin(MOST_BLUR, ROUNDED / (pivot + 1e-300)) : 0;
+}
+
 double kkt_blur(const Kkt *kkt)
 {
-    return kkt->pivot < NEAR ? fmin(MOST_BLUR, ROUNDED / (kkt->pivot + 1e-300)) : 0;
+    return blur_of(kkt->pivot);
+}
+
+double kkt_blur_at(double independence)
+{
+    return blur_of(independence * independence);
 }
 
 bool kkt_is_regularised(const Kkt *kkt)

@@ -44,8 +44,10 @@ double kkt_blur(const Kkt *kkt);
 /* How independent the rows are, without M: the root of the least of those pivots, 1 at most. It
  * falls to 0 as the distance to a singular configuration does. */
 double kkt_independence(Kkt *kkt, const double *phi_u, const int *rows);
-/* The same by the rows of each group of a block triangular form alone (triangular.h), which is less
- * work: the rows are independent as long as it isn't small. 0: they have no such form. */
+double kkt_blur_at(double independence); /* kkt_blur() where rows are as independent */
+/* How independent they are by the rows of each group of a block triangular form alone
+ * (triangular.h), which is less work: the rows are independent as long as it isn't small. 0: they
+ * have no such form. */
 double kkt_independence_of_groups(Kkt *kkt, const double *phi_u, const int *rows);
 /* What is next to nothing is told by how large it has been. Sizes as they are now are kept, and
  * come back where a step that was tried and given up has seen what the motion never does. */

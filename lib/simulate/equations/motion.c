@@ -258,6 +258,8 @@ static void begin(void *context, double t, const double *y, double h)
         by_all = follow_trend(&mo->by_all, t, h, kkt_independence(mo->kkt, mo->eq->phi_u, mo->rows),
                               by_groups / mo->by_groups.now);
     mo->is_projecting = fmax(by_groups, by_all) < NEAR;
+    if (mo->is_projecting) /* as no factors may be asked for */
+        mo->blur = fmax(mo->blur, kkt_blur_at(mo->by_all.now));
     mo->is_far = fmax(by_groups, by_all) > FAR;
 }
 
