@@ -171,11 +171,6 @@ MotionCounts motion_counts(const Motion *mo)
     return mo->counts;
 }
 
-bool motion_evaluate_all(Motion *mo, double t, const double *y)
-{
-    return mo->signs != NULL ? motion_find_signs(mo, t, y) : motion_evaluate(mo, t, y);
-}
-
 const double *motion_network(Motion *mo, double t, const double *y)
 {
     bool is_there = mo->is_evaluated && mo->t == motion_clock(mo, t) &&

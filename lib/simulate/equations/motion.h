@@ -198,8 +198,8 @@ bool motion_slip(Motion *motion, double t, const double *y, const double *signs,
  * than for one. */
 void motion_set_drifting(Motion *motion, bool drifts);
 /* Back onto the constraints: to the nearest position in at most 8 sweeps, by masses where the
- * equations have eliminated themselves and nothing drifts, and to the velocity there that differs by the least kinetic
- * energy. */
+ * equations have eliminated themselves and nothing drifts, and to the velocity there that differs
+ * by the least kinetic energy. */
 bool motion_project(Motion *motion, double t, double *y);
 /* largest |Phi| and |Phi_u u - nu| over all rows */
 void motion_residuals(Motion *motion, double t, const double *y, double *position,

@@ -94,9 +94,6 @@ bool motion_find_network(Motion *motion, double t, const double *y);
 /* Everything but the solution for u', with signs on surfaces as they are: false where the network
  * can't be solved. */
 bool motion_evaluate(Motion *motion, double t, const double *y);
-/* the same, or with the signs that keep the motion on its surfaces; false where there are none, too
- */
-bool motion_evaluate_all(Motion *motion, double t, const double *y);
 /* then u', in the form of the run */
 bool motion_solve_rates(Motion *motion);
 
@@ -109,8 +106,6 @@ static inline bool motion_is_prescribed(const Motion *mo)
 /* --- motion_solve.c --- */
 
 /* the solution by form, with the network where they hang together, and what is made of it */
-bool motion_solve_augmented(Motion *motion);
-bool motion_solve_together(Motion *motion);
 bool motion_solve_plain(Motion *motion);
 void motion_bring_power(Motion *motion, const double *acceleration);
 void motion_write_rates(const Motion *motion, double *out);
@@ -128,6 +123,8 @@ void motion_open_implicit(Motion *motion);
 void motion_open_surfaces(Motion *motion);
 /* motion_evaluate() with the signs that keep the motion on its surfaces; false: there are none */
 bool motion_find_signs(Motion *motion, double t, const double *y);
+/* that where there are surfaces, or else motion_evaluate() */
+bool motion_evaluate_all(Motion *motion, double t, const double *y);
 /* y back onto the surfaces, along what signs do to the rates */
 bool motion_project_surfaces(Motion *motion, double t, double *y);
 

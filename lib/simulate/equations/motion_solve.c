@@ -17,7 +17,7 @@ static void pick_rows(const Motion *mo, const double *all, double *out)
         out[k] = all[mo->rows[k]];
 }
 
-bool motion_solve_augmented(Motion *mo)
+static bool solve_augmented(Motion *mo)
 {
     const Equations *eq = mo->eq;
 
@@ -55,7 +55,7 @@ static bool solve_embedded(Motion *mo)
         sound = motion_factor_embedded(mo);
     }
     if (!sound || partitioning_pivots(mo->partitioning) < SUSPECT) {
-        if (!motion_solve_augmented(mo))
+        if (!solve_augmented(mo))
             return false;
         if (!sound || kkt_is_regularised(mo->kkt))
             return true;
@@ -80,7 +80,7 @@ void motion_bring_power(Motion *mo, const double *acceleration)
         return;
     if (mo->partitioning != NULL) {
         memcpy(mo->kept, acceleration, (size_t)mo->eq->nu * sizeof(double));
-        if (!motion_solve_augmented(mo))
+        if (!solve_augmented(mo))
             return;
         memcpy(mo->du, mo->kept, (size_t)mo->eq->nu * sizeof(double));
     }
@@ -120,7 +120,7 @@ void motion_spread_multipliers(Motion *mo)
 
 /* A network that reads u' or lambda, while forces read the network: each in turn, until nothing
  * changes. Where forces don't read what follows from it, the second turn is the last. */
-bool motion_solve_together(Motion *mo)
+static bool solve_together(Motion *mo)
 {
     const Equations *eq = mo->eq;
     int n = eq->nx + eq->nz;
@@ -128,7 +128,7 @@ bool motion_solve_together(Motion *mo)
     for (int k = 0; k < TURNS; k++) {
         bool changed = false;
 
-        if (!motion_solve_augmented(mo))
+        if (!solve_augmented(mo))
             return false;
         motion_spread_multipliers(mo);
         memcpy(mo->solved_before, mo->solved, (size_t)n * sizeof(double));
@@ -150,7 +150,7 @@ bool motion_solve_together(Motion *mo)
 /* u' and lambda in the augmented form, with what the network reads of them */
 bool motion_solve_plain(Motion *mo)
 {
-    return mo->eq->network_reads != NULL ? motion_solve_together(mo) : motion_solve_augmented(mo);
+    return mo->eq->network_reads != NULL ? solve_together(mo) : solve_augmented(mo);
 }
 
 bool motion_tell(const Motion *mo, Solved *out)
@@ -181,5 +181,5 @@ bool motion_solve_rates(Motion *mo)
 {
     if (mo->partitioning == NULL)
         return motion_solve_plain(mo);
-    return (mo->eq->network_reads == NULL || motion_solve_together(mo)) && solve_embedded(mo);
+    return (mo->eq->network_reads == NULL || solve_together(mo)) && solve_embedded(mo);
 }

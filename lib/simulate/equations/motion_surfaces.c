@@ -126,3 +126,8 @@ bool motion_project_surfaces(Motion *mo, double t, double *y)
     }
     return true;
 }
+
+bool motion_evaluate_all(Motion *mo, double t, const double *y)
+{
+    return mo->signs != NULL ? motion_find_signs(mo, t, y) : motion_evaluate(mo, t, y);
+}
