@@ -111,13 +111,16 @@ static bool tell_massless(const Layout *l, const char *what, Diag *diag)
     return false;
 }
 
-/* a beam whose sections have no rotary inertia; NULL: there is none */
+/* a beam in space whose sections have no rotary inertia; NULL: there is none */
 static const char *thin_beam(const Layout *l)
 {
+    enum { IN_PLANE = 2 }; /* families of shapes: stretch and bending */
+
     for (int i = 0; i < system_instance_count(l->system); i++) {
         const Instance *instance = system_instance(l->system, i);
 
-        if (instance_bends(instance) && !instance_value(instance, "inertia_per_length")->given)
+        if (instance_bends(instance) && instance_value(instance, "modes")->count > IN_PLANE &&
+            !instance_value(instance, "inertia_per_length")->given)
             return instance->name;
     }
     return NULL;
