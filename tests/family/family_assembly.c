@@ -2,14 +2,12 @@
  *
  * cotree is told of where the bodies of a random scene stand by joint coordinates, by body
  * coordinates, or by some of each, as initial values or as guesses, in trees of all kinds; then its
- * trees are changed, and what was told is forgotten. The poses come from scenes.h. */
+ * trees are changed, and what was told is forgotten, so that it begins as if nothing had been told.
+ * The poses come from scenes.h. */
 #include "standing.h"
 
+#include "base/memory.h"
 #include "base/text.h"
-
-/* Where nothing is told any more loops close again from where they stood: near a singular position
- * that tells the root of rounding alone. */
-#define CARRIED 1e-4
 
 /* --- telling --- */
 
@@ -166,10 +164,38 @@ static bool agrees(Member *m, Kit *kit, const Scene *s, const Told *told, double
 
 /* --- starts that are told --- */
 
+/* whether bodies stand where they do in a session that was never told of a start, or neither finds
+ * one */
+static bool begins_anew(Member *m, Kit *kit, const Scene *s, const char *text)
+{
+    static const char *const members[] = {"x", "y", "z", "q0", "q1", "q2", "q3", "a1", "a2", "a3"};
+    Kit fresh = kit_new();
+    double most = 0;
+    const bool was_set = kit_do(&fresh, s->text) == CT_OK;
+    const bool stands = kit_do(kit, text) == CT_OK;
+    const bool alike = was_set && (kit_do(&fresh, text) == CT_OK) == stands;
+
+    for (int i = 0; i < s->bodies && alike && stands; i++)
+        for (int k = 0; k < COUNT(members); k++) {
+            char item[40];
+            double told, untold;
+
+            (void)snprintf(item, sizeof item, "b%d.%s", i, members[k]);
+            told = kit_value(kit, item);
+            untold = kit_value(&fresh, item);
+            /* a body has parameters or angles */
+            if (!isnan(told) || !isnan(untold))
+                most = worst(most, fabs(told - untold));
+        }
+    kit_free(&fresh);
+    if (!(alike && most < NEAR))
+        tell(m, "%safter init none bodies are %g from where they begin\n", text, most);
+    return alike && most < NEAR;
+}
+
 /* one way of telling, in trees that are changed twice */
 static bool start_agrees(Member *m, const Scene *s, int choice)
 {
-    static const Told nothing;
     static Scene out;
     Told told;
     Kit kit = kit_new();
@@ -189,8 +215,7 @@ static bool start_agrees(Member *m, const Scene *s, int choice)
     write(&out, "init none\n");
     write_trees(m, s, pick(m, 4), &out);
     write(&out, "assemble\n");
-    right = right &&
-            (told.verbs > 0 || told.guessed || agrees(m, &kit, s, &nothing, CARRIED, out.text));
+    right = right && (told.verbs > 0 || told.guessed || begins_anew(m, &kit, s, out.text));
     kit_free(&kit);
     return right;
 }
