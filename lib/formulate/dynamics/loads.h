@@ -35,9 +35,9 @@ void loads_add_inertia(const System *system, Loads *loads, const Vec *alpha, con
 void loads_add_force(const System *system, Loads *loads, int node, Vec force, int chain);
 void loads_add_torque(const System *system, Loads *loads, int node, Vec torque, int chain);
 /* A force or torque `effort` along a coordinate of an instance, on its head and reversed on its
- * tail. Along that of a screw which is a chord it is the force on the shift that does the same work,
- * as in the rows of motion, where the shift tells the coordinate: the two differ by what the tie
- * carries, and loads->tied has the torque (chord_reaction()). */
+ * tail. Along that of a screw which is a chord it is the force on the shift that does the same
+ * work, as in the rows of motion, where the shift tells the coordinate: the two differ by what the
+ * tie carries, and loads->tied has the torque (chord_reaction()). */
 void loads_add_effort(System *system, Loads *loads, const Instance *owner, int coordinate,
                       Expr effort);
 
