@@ -237,7 +237,7 @@ static inline void add_transducer(const Machine *m, Instant *now, const Element 
     const Row row = coordinate_row(m, now, e->coordinate);
     const double s = now->q[e->coordinate], z = e->state >= 0 ? now->z[e->state] : 0;
     const int i = c->current + number, n = T->n;
-    double slope, value;
+    double slope = 0, value;
 
     switch (e->kind) {
     case MOTOR:

@@ -17,11 +17,11 @@
 #define FINE         1e-10 /* one that rounding allows nearly everywhere */
 #define COARSEST     1e-7  /* a tolerance that is worth trying */
 
-#define DWINDLING                                                                                  \
-    200             /* steps: what they get over together is compared with that of those before    \
-                     */
-#define WANING 3    /* times on end that it has become less; a transient's steps grow */
-#define SHORT  1e-6 /* of the run, each time */
+/* steps: what they get over together is compared with that of those before */
+#define DWINDLING 200
+#define WANING    3 /* times on end that it has become less, */
+#define LESS      0.5 /* this part of it: a transient's steps grow, those that stability bounds sway */
+#define SHORT     1e-6 /* of the run, each time */
 
 /* Whether the method takes its steps by rates as a function of y alone. One that solves for a
  * network's unknowns together with its states doesn't read what rounding of a coil's current leaves
@@ -109,7 +109,7 @@ static bool wanes(Stepper *s)
 
     if (s->counts.steps - w->steps < DWINDLING)
         return false;
-    w->times = way < w->way && way < SHORT * s->control.span ? w->times + 1 : 0;
+    w->times = way < LESS * w->way && way < SHORT * s->control.span ? w->times + 1 : 0;
     w->way = way;
     w->steps = s->counts.steps;
     w->t = s->t;
