@@ -136,18 +136,15 @@ Value *values_copy(Pool *pool, const Value *values, int count)
 Expr instance_literal(const Instance *instance, Arena *arena, int param, int entry)
 {
     const char *const part = instance->name, *const value = instance->row->params[param].name;
-    const size_t length = strlen(part), more = strlen(value);
-    char *name = mem_new(length + more + sizeof "#.[99]");
+    char *name = mem_new(strlen(part) + strlen(value) + sizeof "#.[99]");
     char *at = name;
     Expr symbol;
 
     assert(entry < 100); /* no value has so many entries */
     *at++ = '#';
-    memcpy(at, part, length);
-    at += length;
+    at = stpcpy(at, part);
     *at++ = '.';
-    memcpy(at, value, more);
-    at += more;
+    at = stpcpy(at, value);
     *at++ = '[';
     if (entry >= 10)
         *at++ = (char)('0' + entry / 10);

@@ -6,12 +6,14 @@
 
 #include <string.h>
 
+static const char of_joints[] = "a positive coordinate moves or turns the tip against the tail; fx "
+                                "... act on the tip, reversed on the tail";
+
 /* which way things count positive, by family */
 static const char *const conventions[] = {
     [FAMILY_BODY] = "position and angle of the body against ground",
     [FAMILY_ARM] = "fixed in the body of its tail; x y theta are against ground",
-    [FAMILY_JOINT] = "a positive coordinate moves or turns the tip against the tail; fx ... act on "
-                     "the tip, reversed on the tail",
+    [FAMILY_JOINT] = of_joints,
     [FAMILY_DRIVER] = "the effort acts along the coordinate, on the tip",
     [FAMILY_COUPLER] = "the effort acts along the coordinate, on the tip",
     [FAMILY_FORCE] = "acts on the tip, reversed on the tail; pulling together is negative",

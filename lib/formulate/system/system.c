@@ -13,11 +13,9 @@
 
 const char *system_join(const System *system, const char *one, const char *other)
 {
-    const size_t length = strlen(one), more = strlen(other);
-    char *text = pool_alloc(system->pool, length + more + 1);
+    char *text = pool_alloc(system->pool, strlen(one) + strlen(other) + 1);
 
-    memcpy(text, one, length);
-    memcpy(text + length, other, more);
+    (void)stpcpy(stpcpy(text, one), other);
     return text;
 }
 

@@ -3,14 +3,22 @@
 
 #include "base/memory.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
+
+static int number_of(Expr symbol)
+{
+    const int number = expr_symbol_number(symbol);
+
+    assert(number >= 0);
+    return number;
+}
 
 /* its place; -1: it isn't kept */
 static int find(const Parameters *p, Expr symbol)
 {
-    const int number = expr_symbol_number(symbol);
-
+    const int number = number_of(symbol);
     const int at = number < p->numbers ? p->places[number] - 1 : -1;
 
     return at >= 0 && p->symbols[at] == symbol ? at : -1;
@@ -18,7 +26,7 @@ static int find(const Parameters *p, Expr symbol)
 
 static int add(Parameters *p, Expr symbol)
 {
-    const int number = expr_symbol_number(symbol);
+    const int number = number_of(symbol);
 
     if (p->count == p->room) {
         p->room = p->room < 16 ? 32 : 2 * p->room;
