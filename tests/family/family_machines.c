@@ -45,7 +45,7 @@ static void write_start(Drawn *d)
 {
     const Machine *m = &d->m;
     static Instant now;
-    Real *y = d->y, states[2 * ELEMENTS];
+    Real *y = d->y, states[2 * ELEMENTS] = {0};
 
     for (int i = 0; i < m->states; i++)
         states[i] = d->y[13 * BODIES + TURNS + i];

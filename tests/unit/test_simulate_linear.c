@@ -640,8 +640,8 @@ static void sparse_least_squares_agree_with_full_ones(void)
 
     for (int rows = 5; rows <= MOST; rows += 19) { /* few and many: by dense and sparse factors */
         Ladder way[2] = {{rows, true}, {rows, false}};
-        double v[2][MOST + 1] = {{0}}, residual[MOST], full[MOST * (MOST + 1)],
-                           spread[MOST * (MOST + 1)];
+        double v[2][MOST + 1] = {{0}}, residual[MOST];
+        double full[MOST * (MOST + 1)] = {0}, spread[MOST * (MOST + 1)] = {0};
         int row[2 * MOST], column[2 * MOST], place[2 * MOST];
         Pattern pattern;
 
