@@ -382,6 +382,23 @@ static void what_is_not_resolved_has_no_number(void)
 
 /* --- what ends a run --- */
 
+/* The steps of a pendulum with a motor are as long as stability lets them, a little less for a
+ * while: that is no end of the motion, however short it is beside the run. */
+static void steps_that_sway_are_no_end(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar; gravity [0, -9.81]\n"
+                      "body p mass=1.3 inertia=0.02; arm a p [0, 0.45]; revolute h ground a\n"
+                      "body w mass=0.4 inertia=0.003; arm e p [0, -0.3]; arm c w [0, 0.2]\n"
+                      "revolute k e c; damper d1 k d=0.02\n"
+                      "motor M h n 0 R=2 L=0.01 Kt=0.3 Kv=0.3; vsource V n 0 3*sin(4*t)\n"
+                      "init h = 100 deg; event late when=t > 20 do=stop\n"
+                      "simulate 1e6 every=1e5");
+    EXPECT_NEAR(kit_value(&kit, "t"), 20, 1e-9);
+    kit_free(&kit);
+}
+
 /* x'' = 6 x^2 by x = 1/(1 - t)^2, with another force beside that */
 static void what_grows_without_bound_is_named(void)
 {
@@ -424,6 +441,7 @@ static void frames_that_come_together_are_named(void)
 
 int main(void)
 {
+    RUN(steps_that_sway_are_no_end);
     RUN(what_grows_without_bound_is_named);
     RUN(frames_that_come_together_are_named);
     RUN(what_is_far_off_is_told_so);
