@@ -13,13 +13,14 @@ check-total: all
 	@$(MAKE) -s check 2>&1 | grep -E '^(PASS|FAIL|SKIP|ERROR|XPASS)' || :
 	@$(dev)/total $(TEST_LOGS)
 
-# the same tests in a build with the address and undefined-behaviour sanitizers
+# the same tests in a build with the address and undefined-behaviour sanitizers, where tables, lists
+# and chunks of memory begin with one element: what goes past its end is seen, what grows moves
 check-san: san/Makefile
 	@$(MAKE) -s -C san check-total
 
 san/Makefile:
 	@mkdir -p san
-	@cd san && $(abs_srcdir)/configure -q --enable-sanitizers --enable-werror CFLAGS='-O1 -g'
+	@cd san && $(abs_srcdir)/configure -q --enable-sanitizers --enable-small --enable-werror CFLAGS='-O1 -g'
 
 # what uses several threads, where the thread sanitizer watches who touches what
 threads/Makefile:
@@ -31,27 +32,19 @@ check-threads: threads/Makefile
 	@$(MAKE) -s -C threads $(sharing_tests)
 	@for test in $(sharing_tests); do TSAN_OPTIONS=halt_on_error=1 threads/$$test || exit 1; done
 
-# tables, lists and chunks of memory that begin with one element; and each call tried with
-# allocations that fail (lib/base/faults.c). Units and sessions are what calls the library in all its
-# ways; manuals and long cases call it in the same ones. The small build counts the lines that they
-# reach, with those of the shell that want a terminal.
+# each call tried with allocations that fail (lib/base/faults.c). Units and sessions are what calls
+# the library in all its ways; manuals and long cases call it in the same ones. With those of the
+# shell that want a terminal they tell the lines that are reached.
 unit_and_session = run-session $(filter-out test_costs,$(UNIT_TESTS))
 
-check-small: small/Makefile
-	@find small -name '*.gcda' -exec rm -f {} +
-	@$(MAKE) -s -C small check-total TESTS="$(unit_and_session) $(terminal_tests)"
-	@$(dev)/coverage small
-
 check-faults: faults/Makefile
-	@$(MAKE) -s -C faults check-total TESTS="$(unit_and_session)"
-
-small/Makefile:
-	@mkdir -p small
-	@cd small && $(abs_srcdir)/configure -q --enable-small --enable-coverage --enable-werror CFLAGS='-O1 -g'
+	@find faults -name '*.gcda' -exec rm -f {} +
+	@$(MAKE) -s -C faults check-total TESTS="$(unit_and_session) $(terminal_tests)"
+	@$(dev)/coverage faults
 
 faults/Makefile:
 	@mkdir -p faults
-	@cd faults && $(abs_srcdir)/configure -q --enable-faults --enable-werror CFLAGS='-O1 -g'
+	@cd faults && $(abs_srcdir)/configure -q --enable-faults --enable-coverage --enable-werror CFLAGS='-O1 -g'
 
 # make lint PARTS="format size": only these
 lint:
@@ -163,6 +156,6 @@ mostlyclean-local:
 	rm -f $(BENCHES) $(FUZZERS) bench.out check.log
 
 distclean-local:
-	rm -rf san threads small faults coverage bench.work precision scaling
+	rm -rf san threads faults coverage bench.work precision scaling
 
-.PHONY: check-total check-hacking check-san check-threads check-small check-faults lint format bench benches bench-precision bench-scaling bench-estimates bench-peers bench-races bench-latency bench-record precision-record scaling-record fuzz stress check-coverage
+.PHONY: check-total check-hacking check-san check-threads check-faults lint format bench benches bench-precision bench-scaling bench-estimates bench-peers bench-races bench-latency bench-record precision-record scaling-record fuzz stress check-coverage
