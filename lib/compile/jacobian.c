@@ -109,6 +109,12 @@ static void choose_colours(Jacobian *j)
 
 /* --- a matrix --- */
 
+void moves_push(ColumnMoves *moves, int first, int input, int count)
+{
+    for (int i = 0; i < count; i++)
+        LIST_PUSH(*moves, (ColumnMove){.column = first + i, .input = input + i});
+}
+
 static void sort_moves(Jacobian *j, int columns)
 {
     j->first_move = NEW_ARRAY(int, columns + 2);

@@ -6,6 +6,7 @@
 #define COTREE_COMPILE_JACOBIAN_H
 
 #include "algebra/pattern.h"
+#include "base/memory.h"
 #include "compile/program.h"
 
 typedef struct Jacobian Jacobian;
@@ -14,6 +15,11 @@ typedef struct Jacobian Jacobian;
 typedef struct ColumnMove {
     int column, input;
 } ColumnMove;
+
+typedef LIST(ColumnMove) ColumnMoves;
+
+/* Columns from `first` on move the inputs from `input` on, one each; appended. */
+void moves_push(ColumnMoves *moves, int first, int input, int count);
 
 /* Of the first `rows` roots; new, jacobian_free(). Borrows the program, copies `moves`. O(columns
  * times instructions / 64, and entries times their rows). */

@@ -241,16 +241,7 @@ static Status push_roots(const EquilibriumResidual *s, Roots *roots, Diag *diag)
     return OK;
 }
 
-typedef LIST(ColumnMove) Moves;
-
-/* columns from first on move these inputs, one each */
-static void push_moves(Moves *moves, int first, int input, int count)
-{
-    for (int i = 0; i < count; i++)
-        LIST_PUSH(*moves, (ColumnMove){.column = first + i, .input = input + i});
-}
-
-static void make_part(EquilibriumResidual *s, Moves *moves, Part *out)
+static void make_part(EquilibriumResidual *s, ColumnMoves *moves, Part *out)
 {
     out->jacobian = jacobian_new(residual_program(probe_residual(s->probe)), s->n, s->n, moves->at,
                                  moves->count);
@@ -268,14 +259,14 @@ static void free_part(Part *part)
 static void make_slopes(EquilibriumResidual *s)
 {
     const Layout *l = s->l;
-    Moves moves = {0};
+    ColumnMoves moves = {0};
 
     for (int i = 0; i < l->n; i++)
         for (int k = s->map.start[i]; k < s->map.start[i + 1]; k++)
             LIST_PUSH(moves, (ColumnMove){.column = s->map.speed[k], .input = l->q + i});
-    push_moves(&moves, l->nu, l->x, l->nx);
-    push_moves(&moves, l->nu + l->nx, l->multipliers, l->m);
-    push_moves(&moves, l->nu + l->nx + l->m, l->z, l->nz);
+    moves_push(&moves, l->nu, l->x, l->nx);
+    moves_push(&moves, l->nu + l->nx, l->multipliers, l->m);
+    moves_push(&moves, l->nu + l->nx + l->m, l->z, l->nz);
     s->by = NEW_ARRAY(double, moves.count);
     for (int k = 0; k < moves.count; k++)
         s->by[k] = 1;
@@ -286,10 +277,10 @@ static void make_slopes(EquilibriumResidual *s)
 static void make_inertia(EquilibriumResidual *s)
 {
     const Layout *l = s->l;
-    Moves moves = {0};
+    ColumnMoves moves = {0};
 
-    push_moves(&moves, 0, l->acceleration, l->nu);
-    push_moves(&moves, l->nu, l->rates, l->nx);
+    moves_push(&moves, 0, l->acceleration, l->nu);
+    moves_push(&moves, l->nu, l->rates, l->nx);
     make_part(s, &moves, &s->inertia);
 }
 

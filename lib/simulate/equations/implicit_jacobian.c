@@ -90,45 +90,33 @@ static Status push_rows(const ImplicitSlopes *j, Roots *roots)
 {
     const Layout *l = j->l;
     const Reading *run = system_run(l->system);
-    Status status = OK;
 
     for (int i = 0; i < j->network; i++)
         LIST_PUSH(*roots, row_network(l, i));
-    LIST_ROOM(*roots, j->kinematic);
-    CHECK(rows_balance(l, roots->at + j->balance, NULL));
-    roots->count = j->kinematic;
-    for (int i = 0; i < l->n; i++)
-        LIST_PUSH(*roots, system_q_rate(l->system, i));
-    for (int k = 0; k < l->multi_turns; k++) {
-        Expr rate;
-
-        CHECK(system_multi_turn_rate(l->system, k, &rate, NULL));
-        LIST_PUSH(*roots, rate);
-    }
+    LIST_ROOM(*roots, j->position);
+    TRY(rows_balance(l, roots->at + j->balance, NULL));
+    TRY(rows_kinematic(l, roots->at + j->kinematic, NULL));
+    roots->count = j->position;
     for (int k = 0; k < l->m; k++)
         LIST_PUSH(*roots, run->phi[k]);
     for (int k = 0; k < l->m; k++)
         LIST_PUSH(*roots, row_velocity(l, k));
-done:
-    return status;
+    return OK;
 }
 
 /* the inputs that are unknowns, a column each */
-static ColumnMove *list_moves(const ImplicitSlopes *j)
+static void push_moves(const ImplicitSlopes *j, ColumnMoves *moves)
 {
     const Layout *l = j->l;
-    const struct {
-        int first, count;
-    } parts[] = {{l->rates, l->nx},      {l->z, l->nz}, {l->acceleration, l->nu},
-                 {l->multipliers, l->m}, {l->q, l->n},  {l->u, l->nu},
-                 {l->x, l->nx}};
-    ColumnMove *moves = NEW_ARRAY(ColumnMove, j->network + j->by_rate + j->states);
-    int column = 0;
+    const int follow = j->network + j->by_rate;
 
-    for (int p = 0; p < COUNT(parts); p++)
-        for (int i = 0; i < parts[p].count; i++, column++)
-            moves[column] = (ColumnMove){column, parts[p].first + i};
-    return moves;
+    moves_push(moves, 0, l->rates, l->nx);
+    moves_push(moves, l->nx, l->z, l->nz);
+    moves_push(moves, j->network, l->acceleration, l->nu);
+    moves_push(moves, j->network + l->nu, l->multipliers, l->m);
+    moves_push(moves, follow, l->q, l->n);
+    moves_push(moves, follow + l->n, l->u, l->nu);
+    moves_push(moves, follow + l->n + l->nu, l->x, l->nx);
 }
 
 /* --- where entries go --- */
@@ -305,7 +293,7 @@ static bool make(ImplicitSlopes *j)
     const bool before = mem_scratch(true); /* numbers that each call finds anew */
     const int columns = j->network + j->by_rate + j->states;
     Roots roots = {0};
-    ColumnMove *moves = NULL;
+    ColumnMoves moves = {0};
     Arena *arena = system_arena(j->l->system);
     int used;
     bool sound = push_rows(j, &roots) == OK && arena_status(arena) == OK &&
@@ -313,9 +301,9 @@ static bool make(ImplicitSlopes *j)
 
     (void)motion_rows(j->motion, &used);
     if (sound) {
-        moves = list_moves(j);
+        push_moves(j, &moves);
         j->jacobian = jacobian_new(residual_program(probe_residual(j->probe)), roots.count, columns,
-                                   moves, columns);
+                                   moves.at, columns);
         j->values = NEW_ARRAY(double, jacobian_pattern(j->jacobian)->count);
         if (j->network > 0)
             find_network(j);
@@ -324,7 +312,7 @@ static bool make(ImplicitSlopes *j)
     } else {
         arena_reset(arena); /* what was too large is given up: others go on */
     }
-    mem_free(moves);
+    LIST_FREE(moves);
     LIST_FREE(roots);
     (void)mem_scratch(before);
     return sound;
@@ -417,16 +405,6 @@ static void put_terms(const ImplicitSlopes *j, double c, double *out)
     }
 }
 
-static void find_in_use(ImplicitSlopes *j)
-{
-    int used;
-    const int *rows = motion_rows(j->motion, &used);
-
-    memset(j->in_use, 0, (size_t)j->l->m * sizeof *j->in_use);
-    for (int k = 0; k < used; k++)
-        j->in_use[rows[k]] = true;
-}
-
 bool implicit_jacobian_at(void *context, double t, double c, const double *w, const double *w_rate,
                           double *out)
 {
@@ -443,7 +421,7 @@ bool implicit_jacobian_at(void *context, double t, double c, const double *w, co
     if (!vector_is_finite(j->values, jacobian_pattern(j->jacobian)->count) ||
         (j->network > 0 && !solve_network(j)))
         return false;
-    find_in_use(j);
+    motion_rows_in_use(j->motion, j->in_use);
     memset(out, 0, (size_t)j->pattern.count * sizeof(double));
     put_terms(j, c, out);
     if (j->network > 0)

@@ -144,6 +144,13 @@ const int *motion_rows(const Motion *mo, int *count)
     return mo->rows;
 }
 
+void motion_rows_in_use(const Motion *mo, bool *out)
+{
+    memset(out, 0, (size_t)mo->eq->m * sizeof *out);
+    for (int k = 0; k < mo->used; k++)
+        out[mo->rows[k]] = true;
+}
+
 void motion_guess(Motion *mo, const double *network)
 {
     if (mo->eq->nx + mo->eq->nz > 0)

@@ -189,6 +189,7 @@ bool motion_solve(Motion *motion, double t, const double *y, Solved *out);
  * singular positions. */
 bool motion_solve_in_use(Motion *motion, double t, const double *y, Solved *out);
 const int *motion_rows(const Motion *motion, int *count); /* in use; borrowed */
+void motion_rows_in_use(const Motion *motion, bool *out); /* the same: whether each is (m) */
 
 /* Slip where the signs are given (slide_count each). */
 bool motion_slip(Motion *motion, double t, const double *y, const double *signs, double *slip,

@@ -57,48 +57,33 @@ void rate_jacobian_free(RateJacobian *j)
 static Status push_rows(const RateJacobian *j, Roots *roots)
 {
     const Layout *l = j->l;
-    Status status = OK;
 
     LIST_ROOM(*roots, l->nu);
-    CHECK(rows_balance(l, roots->at, NULL));
+    TRY(rows_balance(l, roots->at, NULL));
     roots->count = l->nu;
     for (int k = 0; k < l->m; k++)
         LIST_PUSH(*roots, row_acceleration(l, k));
     for (int i = 0; i < l->nx + l->nz; i++)
         LIST_PUSH(*roots, row_network(l, i));
-    for (int i = 0; i < l->n; i++)
-        LIST_PUSH(*roots, system_q_rate(l->system, i));
-    for (int k = 0; k < l->multi_turns; k++) {
-        Expr rate;
-
-        CHECK(system_multi_turn_rate(l->system, k, &rate, NULL));
-        LIST_PUSH(*roots, rate);
-    }
+    LIST_ROOM(*roots, j->follow + l->n + l->multi_turns);
+    TRY(rows_kinematic(l, roots->at + j->follow, NULL));
+    roots->count = j->follow + l->n + l->multi_turns;
     LIST_PUSH(*roots, system_power(l->system));
-done:
-    return status;
+    return OK;
 }
 
 /* the inputs that e and w are, a column each */
-static ColumnMove *list_moves(const RateJacobian *j)
+static void push_moves(const RateJacobian *j, ColumnMoves *moves)
 {
     const Layout *l = j->l;
-    const struct {
-        int first, count;
-    } parts[] = {{l->acceleration, l->nu},
-                 {l->multipliers, l->m},
-                 {l->rates, l->nx},
-                 {l->z, l->nz},
-                 {l->q, l->n},
-                 {l->u, l->nu},
-                 {l->x, l->nx}};
-    ColumnMove *moves = NEW_ARRAY(ColumnMove, j->follow + j->states);
-    int column = 0;
 
-    for (int p = 0; p < COUNT(parts); p++)
-        for (int i = 0; i < parts[p].count; i++, column++)
-            moves[column] = (ColumnMove){column, parts[p].first + i};
-    return moves;
+    moves_push(moves, 0, l->acceleration, l->nu);
+    moves_push(moves, l->nu, l->multipliers, l->m);
+    moves_push(moves, l->nu + l->m, l->rates, l->nx);
+    moves_push(moves, l->nu + l->m + l->nx, l->z, l->nz);
+    moves_push(moves, j->follow, l->q, l->n);
+    moves_push(moves, j->follow + l->n, l->u, l->nu);
+    moves_push(moves, j->follow + l->n + l->nu, l->x, l->nx);
 }
 
 static void find_matrix(RateJacobian *j)
@@ -140,21 +125,21 @@ static bool make(RateJacobian *j)
 {
     const bool before = mem_scratch(true); /* numbers that each call finds anew */
     Roots roots = {0};
-    ColumnMove *moves = NULL;
+    ColumnMoves moves = {0};
     Arena *arena = system_arena(j->l->system);
     bool sound = push_rows(j, &roots) == OK && arena_status(arena) == OK &&
                  probe_new(j->l, j->parameters, roots.at, roots.count, &j->probe, NULL) == OK;
 
     if (sound) {
-        moves = list_moves(j);
+        push_moves(j, &moves);
         j->jacobian = jacobian_new(residual_program(probe_residual(j->probe)), roots.count,
-                                   j->follow + j->states, moves, j->follow + j->states);
+                                   j->follow + j->states, moves.at, j->follow + j->states);
         find_matrix(j);
         open_room(j);
     }
     if (!sound)
         arena_reset(arena); /* what was too large is given up: others go on */
-    mem_free(moves);
+    LIST_FREE(moves);
     LIST_FREE(roots);
     (void)mem_scratch(before);
     return sound;
@@ -167,12 +152,8 @@ static bool factor(RateJacobian *j)
 {
     const Layout *l = j->l;
     const Pattern *p = jacobian_pattern(j->jacobian);
-    int used;
-    const int *rows = motion_rows(j->motion, &used);
 
-    memset(j->in_use, 0, (size_t)l->m * sizeof *j->in_use);
-    for (int k = 0; k < used; k++)
-        j->in_use[rows[k]] = true;
+    motion_rows_in_use(j->motion, j->in_use);
     memset(j->entries, 0, (size_t)j->matrix.count * sizeof(double));
     for (int k = 0; k < p->count; k++) {
         const int row = p->row[k] - l->nu;

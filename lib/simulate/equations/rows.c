@@ -52,6 +52,15 @@ Status rows_balance(const Layout *l, Expr *out, Diag *diag)
     return OK;
 }
 
+Status rows_kinematic(const Layout *l, Expr *out, Diag *diag)
+{
+    for (int i = 0; i < l->n; i++)
+        out[i] = system_q_rate(l->system, i);
+    for (int k = 0; k < l->multi_turns; k++)
+        TRY(system_multi_turn_rate(l->system, k, &out[l->n + k], diag));
+    return OK;
+}
+
 /* Phi_u v - right */
 static Expr rate_row(const Layout *l, int constraint, int first, Expr right)
 {

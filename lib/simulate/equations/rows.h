@@ -12,6 +12,8 @@
 Expr row_balance(const Layout *layout, int speed);
 /* All nu of these; without M where a run does without. Fails with E_MEMORY. */
 MUST_USE Status rows_balance(const Layout *layout, Expr *out, Diag *diag);
+/* q', then the rates of references (n, multi_turns). Fails with E_MEMORY. */
+MUST_USE Status rows_kinematic(const Layout *layout, Expr *out, Diag *diag);
 Expr row_acceleration(const Layout *layout, int constraint);
 Expr row_velocity(const Layout *layout, int constraint);
 Expr row_network(const Layout *layout, int equation);
