@@ -41,6 +41,8 @@ libcore_la_SOURCES += \
   lib/algebra/polynomial.h \
   lib/algebra/rank.c \
   lib/algebra/rank.h \
+  lib/algebra/remainders.c \
+  lib/algebra/remainders.h \
   lib/algebra/roots.c \
   lib/algebra/roots.h \
   lib/algebra/schur.c \

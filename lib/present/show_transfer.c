@@ -101,6 +101,11 @@ static void add_doubts(Table *table, const Transfer *t)
 {
     double largest = 0;
 
+    if (t->within > 0) {
+        table_cell(table, "?");
+        table_cellf(table, "0 within %.2g: rounding leaves open whether anything gets through",
+                    t->within);
+    }
     for (int i = 0; i < t->zeros + t->poles; i++) {
         const Root *root = i < t->zeros ? &t->zero[i] : &t->pole[i - t->zeros];
 
@@ -178,6 +183,7 @@ static void print_text(Text *out, const View *view, const Transfer *t, int outpu
     else
         text_addf(&body, "gain prod(s - zero)/prod(s - pole), %d zeros and %d poles", t->zeros,
                   t->poles);
+    text_add(&body, t->within > 0 ? "?" : "");
     if (t->poles > 0 && has_coefficients(t)) {
         text_char(&body, '/');
         add_factor(&body, t->denominator, t->poles);
@@ -195,8 +201,8 @@ static void print_text(Text *out, const View *view, const Transfer *t, int outpu
                         t->numerator[t->zeros] / last);
         add_roots(&table, "zeros", t, t->zero, t->zeros);
         add_roots(&table, "poles", t, t->pole, t->poles);
-        add_doubts(&table, t);
     }
+    add_doubts(&table, t);
     add_left_out(&table, t);
     table_print(out, &table, 2);
     table_free(&table);

@@ -397,10 +397,19 @@ static bool responds(Member *member, const Linear *linear, const Transfer *t, co
     return true;
 }
 
-static Verdict responses_of_whole_numbers(Member *member)
+/* half a unit in the last place of a double */
+static void round_off(const double *from, int count, double *error)
+{
+    for (int i = 0; i < count; i++)
+        error[i] = 0x1p-53 * fabs(from[i]);
+}
+
+/* Entries exact, or known to their rounding: then the answer may be refused, or 0 with a mark. */
+static Verdict responses(Member *member, bool is_exact)
 {
     const int n = whole(member, 1, 6), zeros = whole(member, 0, n);
-    double a[MOST * MOST] = {0}, b[MOST] = {0}, c[MOST] = {0}, none[MOST * MOST] = {0};
+    double a[MOST * MOST] = {0}, b[MOST] = {0}, c[MOST] = {0};
+    double a_error[MOST * MOST] = {0}, b_error[MOST] = {0}, c_error[MOST] = {0}, d_error = 0;
     double numerator[MOST] = {0}, denominator[MOST];
     const double gain = whole(member, 0, 1) == 0 ? -whole(member, 1, 5) : whole(member, 1, 5);
     Known pole[MOST], zero[MOST];
@@ -413,10 +422,10 @@ static Verdict responses_of_whole_numbers(Member *member)
                      .b = b,
                      .c = c,
                      .d = &d,
-                     .a_error = none,
-                     .b_error = none,
-                     .c_error = none,
-                     .d_error = none,
+                     .a_error = a_error,
+                     .b_error = b_error,
+                     .c_error = c_error,
+                     .d_error = &d_error,
                      .input_names = names,
                      .output_names = names};
     Transfer *t = NULL;
@@ -441,8 +450,19 @@ static Verdict responses_of_whole_numbers(Member *member)
         shear(a, b, c, n, i, j, whole(member, 0, 1) * 2 - 1);
     }
     rescale(member, a, b, c, n, 30);
-    if (transfer_new(&linear, 0, 0, &t, &diag) != OK || t->poles != n || t->zeros != zeros ||
-        fabs(t->gain - gain) > 1e-12 * fabs(gain)) {
+    if (!is_exact) {
+        round_off(a, n * n, a_error);
+        round_off(b, n, b_error);
+        round_off(c, n, c_error);
+    }
+    if (transfer_new(&linear, 0, 0, &t, &diag) != OK && !is_exact) {
+        tell(member, "%s\n", diag.message);
+        verdict = REFUSED;
+    } else if (t != NULL && t->within > 0) {
+        tell(member, "0 within %g\n", t->within);
+        verdict = is_exact ? DISAGREES : REFUSED;
+    } else if (t == NULL || t->poles != n || t->zeros != zeros ||
+               fabs(t->gain - gain) > 1e-12 * fabs(gain)) {
         tell(member, "%s: %d poles of %d, %d zeros of %d, gain %.17g of %.17g\n", diag.message,
              t != NULL ? t->poles : -1, n, t != NULL ? t->zeros : -1, zeros,
              t != NULL ? t->gain : NAN, gain);
@@ -455,6 +475,16 @@ static Verdict responses_of_whole_numbers(Member *member)
     }
     transfer_free(t);
     return verdict;
+}
+
+static Verdict responses_of_whole_numbers(Member *member)
+{
+    return responses(member, true);
+}
+
+static Verdict responses_of_rounded_numbers(Member *member)
+{
+    return responses(member, false);
 }
 
 /* --- through the shell --- */
@@ -741,6 +771,7 @@ int main(int argc, char **argv)
         {"triangles in any order", 300, 0, 0, triangles_in_any_order},
         {"chains of neighbours", 300, 0.01, 0, chains_of_neighbours},
         {"responses of whole numbers", 300, 0.05, 0, responses_of_whole_numbers},
+        {"responses of rounded numbers", 300, 0.05, 0, responses_of_rounded_numbers},
         {"ladders of any parts", 60, 0, 0, ladders_of_any_parts},
         {"stages behind each other", 60, 0, 0, stages_behind_each_other},
         {"chains of masses", 40, 0, 0, chains_of_masses},

@@ -6,6 +6,7 @@
 #include "algebra/independence.h"
 #include "algebra/linear.h"
 #include "algebra/rank.h"
+#include "algebra/remainders.h"
 #include "base/memory.h"
 
 #include "../random.h"
@@ -317,6 +318,33 @@ static void rows_times_rows_are_solved_where_their_pivots_are_sound(void)
     mem_free(matrix);
 }
 
+/* 3^200 of 2^-52 is left where two that differ by so much cancel; 1 is left of (2^53 - 1)^2 and its
+ * neighbours' product; an endless road has Fibonacci's numbers */
+static void sums_that_cancel_keep_all_their_digits(void)
+{
+    const double threes[] = {3, 0, 0, 3}, near[] = {1 + 0x1p-52, 1}, apart[] = {1, -1};
+    const double ways[] = {0, 0x1p53 - 1, 0x1p53, 0};
+    const double even[] = {0x1p53 - 1, 0, 0, 0x1p53 - 2}, first[] = {1, 1};
+    const double last[] = {0x1p53 - 1, -0x1p53}, road[] = {1, 1, 1, 0}, begin[] = {1, 0};
+    int at;
+    Remainders *r = remainders_new(threes, near, apart, 2, 300);
+    double sum = remainders_value(r, 200, &at);
+
+    EXPECT(fabs(ldexp(sum, at) / (pow(3, 200) * 0x1p-52) - 1) < 1e-14);
+    remainders_free(r);
+    r = remainders_new(even, first, last, 2, 2);
+    sum = remainders_value(r, 1, &at);
+    EXPECT(ldexp(sum, at) == 1);
+    remainders_free(r);
+    r = remainders_new(ways, begin, begin, 2, 2);
+    EXPECT(remainders_value(r, 1, &at) == 0);
+    remainders_free(r);
+    r = remainders_new(road, begin, apart, 2, 90);
+    sum = remainders_value(r, 80, &at); /* F_81 - F_80 = F_79 */
+    EXPECT(ldexp(sum, at) == 14472334024676221);
+    remainders_free(r);
+}
+
 int main(void)
 {
     RUN(blocks_are_what_acts_both_ways);
@@ -324,6 +352,7 @@ int main(void)
     RUN(cholesky_factors_solve);
     RUN(rows_times_rows_are_solved_where_their_pivots_are_sound);
     RUN(many_rows_have_the_rank_that_they_are_made_of);
+    RUN(sums_that_cancel_keep_all_their_digits);
     RUN(rows_of_a_long_chain_are_told_to_be_independent);
 #ifndef COTREE_FAULTS
     RUN(threads_leave_the_error_handler_to_who_set_it);

@@ -443,6 +443,26 @@ static void what_rounding_decides_is_marked(void)
     kit_free(&kit);
 }
 
+/* a bridge whose arms divide alike, and two ways that cancel: 1 is left of 2^106 */
+static void what_cancels_within_rounding_is_no_number(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "vsource E a 0 0\nresistor R1 a b 3\nresistor R2 b 0 7\nresistor R3 a c 0.3\n"
+                      "resistor R4 c 0 0.7\ncapacitor C b c 1 uF\n"
+                      "linearize inputs=[E] outputs=[C.v]\n");
+    EXPECT_HOLDS(kit.text, "B    E\nC.v  0\n");
+    EXPECT_DONE(&kit, "clear\nvsource E u 0 0\nintegrator I0 x0 0 of=u.v k=1\n"
+                      "integrator A1 a1 0 of=x0.v k=9007199254740991\n"
+                      "integrator A2 a2 0 of=a1.v k=9007199254740991\n"
+                      "integrator B1 b1 0 of=x0.v k=9007199254740990\n"
+                      "integrator B2 b2 0 of=b1.v k=9007199254740992\n"
+                      "linearize inputs=[E] outputs=[(a2.v - b2.v)]\nshow transfer\n");
+    EXPECT_HOLDS(kit.text, " = 0?\n");
+    EXPECT_HOLDS(kit.text, "rounding leaves open whether anything gets through\n");
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(a_low_pass_falls_by_20_decibels_a_decade);
@@ -456,6 +476,7 @@ int main(void)
     RUN(equal_stages_have_equal_poles);
     RUN(a_slow_pole_is_seen_beside_fast_ones);
     RUN(what_rounding_decides_is_marked);
+    RUN(what_cancels_within_rounding_is_no_number);
     RUN(coefficients_that_no_number_holds_are_not_printed);
     RUN(coefficients_go_to_other_programs);
     RUN(a_response_needs_something_linear_and_a_range);

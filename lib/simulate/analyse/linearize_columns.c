@@ -19,6 +19,7 @@ typedef struct Deviation {
     LinearNumber *outputs;
     int input; /* that deviates by 1, or -1 */
     int state; /* network state that does, or -1 */
+    int column;
 } Deviation;
 
 static const LinearNumber one = {1, 0}, none = {0, 0};
@@ -139,8 +140,11 @@ static void spread(const Work *w, Deviation *d, int count)
         by_map(w, &d[lane]);
     move(w, d, count, BY_SPEED);
     for (int lane = 0; lane < count; lane++) {
-        for (int r = 0; r < w->unknowns; r++)
+        for (int r = 0; r < w->unknowns; r++) {
             d[lane].right[r] = linear_slope(w, linear_equation(w, r), lane);
+            d[lane].right[r].value =
+                linear_moved(w, r, -1 - d[lane].column, d[lane].right[r].value);
+        }
         take_turn(w, &d[lane], lane);
         solve(w, &d[lane]);
     }
@@ -243,6 +247,7 @@ static Status take_rate(const Work *w, Deviation *d, int input, Linear *out, Dia
         d->s[j] = d->u[j] = none;
     d->state = -1;
     d->input = out->inputs + input;
+    d->column = out->states + d->input;
     spread(w, d, 1);
     write_column(w, d, &rates, &direct);
     drop(&rates, out->states);
@@ -293,6 +298,7 @@ static void begin(const Work *w, const Linear *out, int c, Deviation *d)
         (c < f ? d->s : d->u)[independent[c % f]] = one;
     d->state = c >= 2 * f && c < out->states ? c - 2 * f : -1;
     d->input = c >= out->states ? c - out->states : -1;
+    d->column = c;
 }
 
 /* --- M s'' + K s + C s' = 0 --- */
@@ -608,8 +614,8 @@ static bool has_doubtful(const Linear *linear)
     return false;
 }
 
-/* What is true is nearly the same where all numbers are moved in their last places; what rounding
- * left is not. What isn't told from 0 so either is 0. */
+/* What is true is nearly the same where all numbers and all coefficients are moved in their last
+ * places; what rounding left is not. What isn't told from 0 so either is 0. */
 static void settle(Linear *linear, Linear *const *samples, int count)
 {
     Entries m[MATRICES], sampled[SAMPLES][MATRICES];

@@ -93,6 +93,9 @@ static inline LinearNumber linear_slope(const Work *w, int row, int lane)
 MUST_USE Status linear_point(Work *w, Diag *diag);
 int linear_equation(const Work *w, int r); /* row of the r-th of the equations in use */
 int linear_unknown(const Work *w, int k);  /* column of the k-th of what follows */
+/* A coefficient of row r of them as it is beside the point: coefficients are moved as numbers are,
+ * or what rounding leaves would be the same where none of the numbers is an unknown. */
+double linear_moved(const Work *w, int r, int column, double value);
 /* Complete v, whose independent entries are set: Phi_u v + right = 0 in the dependent ones. */
 void linear_complete(const Work *w, const LinearNumber *right, LinearNumber *v);
 

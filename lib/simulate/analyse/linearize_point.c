@@ -6,12 +6,15 @@
 
 #include "algebra/rank.h"
 #include "base/memory.h"
+#include "base/random.h"
 #include "simulate/equations/causes.h"
 
 #include <string.h>
 
 #define AHEAD 0.1  /* of the time that the fastest swing takes for a radian */
 #define SAME  1e-5 /* over that time, of the largest coefficient of its row */
+
+#define BESIDE 0x1p-50 /* relative: by which coefficients are others beside the point */
 
 enum { MOST_STEPS = 8 }; /* of Newton's method; equations that are linear in it take two */
 
@@ -52,6 +55,13 @@ static RowValues row_with(const Work *w, double t, const double *y, const double
     return row;
 }
 
+double linear_moved(const Work *w, int r, int column, double value)
+{
+    uint64_t seed = w->beside + (uint64_t)r * 0xD1B54A32D192ED03U + (uint64_t)column;
+
+    return w->beside == 0 || value == 0 ? value : value * (1 + BESIDE * random_unit(&seed));
+}
+
 /* E_e, which is read from the tangents; whether it isn't as it was */
 static bool fill_matrix(const Work *w)
 {
@@ -69,9 +79,11 @@ static bool fill_matrix(const Work *w)
             for (int lane = 0; lane < count; lane++) {
                 const LinearNumber entry = linear_slope(w, linear_equation(w, r), lane);
                 const int at = r * n + first + lane;
+                const double value =
+                    linear_moved(w, r, linear_unknown(w, first + lane), entry.value);
 
-                is_new = is_new || !(w->matrix[at] == entry.value);
-                w->matrix[at] = entry.value;
+                is_new = is_new || !(w->matrix[at] == value);
+                w->matrix[at] = value;
                 w->matrix_error[at] = entry.error;
             }
     }

@@ -2,6 +2,8 @@ libcore_la_SOURCES += \
   lib/simulate/analyse/equilibrium.c \
   lib/simulate/analyse/freedoms.c \
   lib/simulate/analyse/freedoms.h \
+  lib/simulate/analyse/gain.c \
+  lib/simulate/analyse/gain.h \
   lib/simulate/analyse/linear_equations.h \
   lib/simulate/analyse/linearize.c \
   lib/simulate/analyse/linearize.h \

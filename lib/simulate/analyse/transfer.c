@@ -144,19 +144,38 @@ void transfer_free(Transfer *transfer)
     MEM_FREE(transfer->zero, transfer->pole, transfer->numerator, transfer->denominator, transfer);
 }
 
+static Status refuse_open(const Linear *linear, int output, int input, Diag *diag)
+{
+    (void)diag_set(diag, E_SOLVER,
+                   "rounding leaves open which gain, poles and zeros %s against %s has",
+                   linear->output_names[output], linear->input_names[input]);
+    diag_hint(diag, "an output nearer to %s, or states less far apart in size, leave less open",
+              linear->input_names[input]);
+    return E_SOLVER;
+}
+
 Status transfer_new(const Linear *linear, int output, int input, Transfer **out, Diag *diag)
 {
     Single s = single_new(linear, output, input);
     Transfer *t = NEW(Transfer);
+    Gain gain;
+    double largest;
     Status status = OK;
 
     t->pole = NEW_ARRAY(Root, s.n);
     t->zero = NEW_ARRAY(Root, s.n);
     t->idle = linear->states - s.n;
-    if (!find_poles(&s, t->pole) || !zeros_find(&s, t->pole, t->zero, &t->zeros, &t->gain))
+    if (!gain_find(&s, &gain))
+        CHECK(refuse_open(linear, output, input, diag));
+    if (!find_poles(&s, t->pole) || !isfinite(gain.value) ||
+        !zeros_find(&s, &gain, t->pole, t->zero, &t->zeros))
         CHECK(diag_set(diag, E_SOLVER,
                        "the gain, poles and zeros of %s against %s are beyond what numbers hold",
                        linear->output_names[output], linear->input_names[input]));
+    if (!zeros_agree(&s, &(Answer){&gain, t->pole, t->zero, t->zeros}, &largest))
+        CHECK(refuse_open(linear, output, input, diag));
+    t->within = gain.is_open ? largest : 0;
+    t->gain = gain.value;
     t->poles = t->gain != 0 ? s.n : 0;
     sort(t->pole, t->poles);
     sort(t->zero, t->zeros);

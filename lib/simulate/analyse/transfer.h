@@ -11,7 +11,9 @@
 #include "simulate/analyse/linear_equations.h"
 
 typedef struct Transfer {
-    double gain; /* 0: the input doesn't reach the output */
+    double gain;   /* 0: the input doesn't reach the output */
+    double within; /* where the gain is 0, though rounding leaves that open: what the response may
+                      be about the poles */
     int zeros, poles;
     Root *zero, *pole;               /* 1/s; by size; of a conjugate pair both */
     double *numerator, *denominator; /* falling powers of s; zeros + 1, poles + 1; the first of the

@@ -1,6 +1,6 @@
 /* zeros.c: zeros of one output against one input
  *
- * The gain is the first of d, c b, c A b ... that can be told from 0. As often as one is passed by,
+ * As often as one of d, c b, c A b ... is passed by until one isn't 0, the gain (gain.h),
  * the output is turned into one state (Householder), which is 0 then, and whose rate takes the
  * place of the output; that takes a state away. Zeros are the eigenvalues of A - b d^-1 c that is
  * left (Emami-Naeini and Van Dooren 1982): as doubles enclose them (enclosure.h), or else disturbed
@@ -13,16 +13,21 @@
 #include "algebra/schur.h"
 #include "base/memory.h"
 
-#include <float.h>
+#include <stdlib.h>
 #include <string.h>
 
-enum { MOST_STEPS = 6 };
+enum {
+    MOST_STEPS = 6,
+    PLACES = 3 /* where an answer is held against the response: by the sizes of its roots */
+};
 
 #define UNIT  0x1p-53
 #define ALONE 0.1  /* a step less than this of the way to the next zero */
 #define APART 1e-6 /* likewise: what is known so well needs no more digits to begin with */
 #define NEAR  1e-3 /* of its error is as good as 0 */
 #define CLOSE 4    /* roundings: doubles hold no better */
+#define SAME  1e-6 /* of a response */
+#define ASIDE 0.6  /* rad, from the real axis to the right */
 #define SPLIT 1e-7 /* relative; closer than its square is as good as the same */
 
 /* in more digits */
@@ -31,68 +36,6 @@ typedef struct Wider {
     Wide *a, *b, *c;
     Wide d;
 } Wider;
-
-/* --- the gain --- */
-
-/* How often the output is passed by: the first of d, c b, c A b ... that isn't 0, by its bound, and
- * its value, INFINITY where no number holds it; n + 1 where there is none. */
-static int find_gain(const Single *s, double *gain)
-{
-    const int n = s->n;
-    Wide *v = NEW_ARRAY(Wide, n), *next = NEW_ARRAY(Wide, n);
-    double *off = NEW_ARRAY(double, n), *next_off = NEW_ARRAY(double, n);
-    double error = s->d_error, norm = 0;
-    int degree = 0, unit;
-
-    /* powers of A stay in range in units of time in which A is about 1 */
-    for (int i = 0; i < n * n; i++)
-        norm = fmax(norm, fabs(s->a[i]));
-    unit = norm > 0 ? ilogb(norm) : 0;
-    *gain = s->d;
-    for (int i = 0; i < n; i++) {
-        v[i] = wide_of(s->b[i]);
-        off[i] = s->b_error[i];
-    }
-    while (!(fabs(*gain) > error) && degree <= n) {
-        Wide sum = wide_of(0);
-
-        error = 0;
-        for (int i = 0; i < n; i++) {
-            const double size = fabs(v[i].high) + off[i];
-
-            sum = wide_add(sum, wide_times(v[i], s->c[i]));
-            error += fabs(s->c[i]) * (off[i] + n * WIDE_UNIT * size) + s->c_error[i] * size;
-        }
-        *gain = wide_double(sum);
-        degree++;
-        for (int i = 0; i < n; i++) {
-            next[i] = wide_of(0);
-            next_off[i] = 0;
-            for (int j = 0; j < n; j++) {
-                const double size = fabs(v[j].high) + off[j];
-                double entry;
-
-                if (s->a[i * n + j] == 0 && s->a_error[i * n + j] == 0)
-                    continue;
-                entry = ldexp(s->a[i * n + j], -unit);
-                next[i] = wide_add(next[i], wide_times(v[j], entry));
-                next_off[i] += fabs(entry) * (off[j] + n * WIDE_UNIT * size) +
-                               ldexp(s->a_error[i * n + j], -unit) * size;
-            }
-        }
-        memcpy(v, next, (size_t)n * sizeof *v);
-        memcpy(off, next_off, (size_t)n * sizeof *off);
-    }
-    if (degree > n)
-        *gain = 0;
-    else if (degree > 1 && (ilogb(*gain) + (degree - 1) * unit < DBL_MIN_EXP ||
-                            ilogb(*gain) + (degree - 1) * unit >= DBL_MAX_EXP))
-        *gain = INFINITY;
-    else if (degree > 1)
-        *gain = ldexp(*gain, (degree - 1) * unit);
-    MEM_FREE(v, next, off, next_off);
-    return degree;
-}
 
 /* --- one state less --- */
 
@@ -222,6 +165,22 @@ typedef struct Trial {
     double least; /* what counts as a size beside 0: the least pole's that isn't 0 */
 } Trial;
 
+static Trial trial_new(const Single *s, const Wider *wide)
+{
+    return (Trial){.s = s,
+                   .wide = wide,
+                   .resolvent = resolvent_new(wide->a, wide->b, wide->c, s->n),
+                   .x = mem_array((size_t)s->n, sizeof(double complex)),
+                   .y = mem_array((size_t)s->n, sizeof(double complex)),
+                   .x_size = NEW_ARRAY(double, s->n)};
+}
+
+static void trial_free(Trial *at)
+{
+    resolvent_free(at->resolvent);
+    MEM_FREE(at->x, at->y, at->x_size);
+}
+
 static double least_error(double value, double error)
 {
     return fmax(error, UNIT * fabs(value));
@@ -336,17 +295,12 @@ static double group_error(void *context, const int *members, int count, double c
 static void bound_zeros(const Single *s, const Wider *wide, double least, double complex *value,
                         int count, Root *zero)
 {
-    Trial at = {.s = s,
-                .wide = wide,
-                .least = least,
-                .resolvent = resolvent_new(wide->a, wide->b, wide->c, s->n),
-                .x = mem_array((size_t)s->n, sizeof(double complex)),
-                .y = mem_array((size_t)s->n, sizeof(double complex)),
-                .x_size = NEW_ARRAY(double, s->n)};
+    Trial at = trial_new(s, wide);
     double complex *first = mem_array((size_t)count, sizeof *first);
     double *error = NEW_ARRAY(double, count);
     Split split = {value, error};
 
+    at.least = least;
     memcpy(first, value, (size_t)count * sizeof *first);
     for (int k = 0; k < count; k++) {
         /* one of a pair tells the other, unless they are about equal and have to split */
@@ -358,8 +312,8 @@ static void bound_zeros(const Single *s, const Wider *wide, double least, double
         }
     }
     roots_join(value, error, count, group_error, &split, zero);
-    resolvent_free(at.resolvent);
-    MEM_FREE(at.x, at.y, at.x_size, first, error);
+    trial_free(&at);
+    MEM_FREE(first, error);
 }
 
 /* --- zeros --- */
@@ -397,18 +351,18 @@ static double least_of(const Root *root, int count)
     return least > 0 ? least : 1;
 }
 
-bool zeros_find(const Single *single, const Root *pole, Root *zero, int *count, double *gain)
+bool zeros_find(const Single *single, const Gain *gain, const Root *pole, Root *zero, int *count)
 {
-    const int n = single->n, degree = find_gain(single, gain);
+    const int n = single->n;
     Wider whole = wider_new(n), left = wider_new(n);
     double complex *value = NULL;
-    bool sound = isfinite(*gain);
+    bool sound = true;
 
-    *count = sound && *gain != 0 ? n - degree : 0;
+    *count = gain->value != 0 ? n - gain->degree : 0;
     if (*count > 0) {
         widen(single, &whole);
         widen(single, &left);
-        for (int k = 0; k < degree; k++) {
+        for (int k = 0; k < gain->degree; k++) {
             turn_output(&left);
             drop_last(&left);
         }
@@ -421,4 +375,75 @@ bool zeros_find(const Single *single, const Root *pole, Root *zero, int *count, 
     wider_free(&left);
     mem_free(value);
     return sound;
+}
+
+/* --- the answer as a whole --- */
+
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+
+    return (x > y) - (x < y);
+}
+
+/* log of prod(z - root), and how far that may be off */
+static double complex log_product(const Root *root, int count, double complex z, double *error)
+{
+    double complex sum = 0;
+
+    for (int i = 0; i < count; i++) {
+        const double complex by = z - CMPLX(root[i].real, root[i].imaginary);
+
+        sum += clog(by);
+        *error += root[i].error / cabs(by);
+    }
+    return sum;
+}
+
+/* at one place */
+static bool agrees_at(Trial *at, const Answer *a, double complex z, double *largest)
+{
+    double error = 0, open;
+    double complex log = log_product(a->zero, a->zeros, z, &error), product = 0;
+
+    log -= log_product(a->pole, at->s->n, z, &error);
+    if (a->gain->value != 0)
+        product = cexp(log + clog(a->gain->value));
+    go_to(at, z);
+    open = at->error + method_error(at);
+    if (isfinite(cabs(at->value) + open))
+        *largest = fmax(*largest, cabs(at->value) + open);
+    /* what is known to little says so itself */
+    return !(error < ALONE) || !isfinite(cabs(product)) || !isfinite(cabs(at->value)) ||
+           cabs(at->value - product) <= SAME * cabs(at->value) + 2 * error * cabs(product) + open;
+}
+
+bool zeros_agree(const Single *single, const Answer *answer, double *largest)
+{
+    const int n = single->n;
+    Wider whole = wider_new(n);
+    double *size = NEW_ARRAY(double, n + answer->zeros);
+    bool agrees = true;
+    int count = 0;
+    Trial at;
+
+    *largest = 0;
+    for (int i = 0; i < n + answer->zeros; i++) {
+        const Root *root = i < n ? &answer->pole[i] : &answer->zero[i - n];
+
+        size[count] = hypot(root->real, root->imaginary);
+        count += size[count] > 0;
+    }
+    qsort(size, (size_t)count, sizeof *size, by_value);
+    widen(single, &whole);
+    at = trial_new(single, &whole);
+    for (int k = 0; k < PLACES && agrees; k++) {
+        const double about = count == 0 ? 1 : size[k * (count - 1) / (PLACES - 1)];
+
+        agrees = agrees_at(&at, answer, about * cexp(I * ASIDE), largest);
+    }
+    trial_free(&at);
+    wider_free(&whole);
+    mem_free(size);
+    return agrees;
 }

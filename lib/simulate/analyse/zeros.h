@@ -3,11 +3,23 @@
 #define COTREE_SIMULATE_ANALYSE_ZEROS_H
 
 #include "algebra/spectrum.h"
-#include "simulate/analyse/single.h"
+#include "simulate/analyse/gain.h"
 
-/* From the poles (n), write the zeros of d + c (s - A)^-1 b (room for n), and the gain of it in
- * poles and zeros; 0 where it can't be told from 0. False where they can't be found. O(n^3). */
-MUST_USE bool zeros_find(const Single *single, const Root *pole, Root *zero, int *count,
-                         double *gain);
+/* From gain and poles (n), write the zeros of d + c (s - A)^-1 b (room for n). False where they
+ * can't be found. O(n^3). */
+MUST_USE bool zeros_find(const Single *single, const Gain *gain, const Root *pole, Root *zero,
+                         int *count);
+
+/* all together, borrowed */
+typedef struct Answer {
+    const Gain *gain;
+    const Root *pole, *zero; /* n, zeros */
+    int zeros;
+} Answer;
+
+/* Whether the response at some places is what these tell of it, as far as errors of entries and
+ * roots and the rounding of both go; what is known to little is passed over. *largest: what it may
+ * be there at most. O(n^3). */
+bool zeros_agree(const Single *single, const Answer *answer, double *largest);
 
 #endif
