@@ -171,6 +171,28 @@ static bool has_coefficients(const Transfer *t)
     return true;
 }
 
+/* one that is 0 but for what rounding leaves open */
+static bool is_open(const Root *root, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (root_is_doubtful(&root[i]) && root[i].imaginary == 0)
+            return true;
+    return false;
+}
+
+/* what a constant input leads to; with a mark where that hangs on a root that may be 0 */
+static void add_at_rest(Table *table, const Transfer *t)
+{
+    const double last = t->denominator[t->poles];
+    const bool is_doubtful = is_open(t->zero, t->zeros) || is_open(t->pole, t->poles);
+
+    table_cell(table, "at rest");
+    if (last != 0)
+        table_cellf(table, "%.*g%s", DIGITS, t->numerator[t->zeros] / last, is_doubtful ? "?" : "");
+    else
+        table_cellf(table, "no bound%s", is_doubtful ? "?" : "");
+}
+
 static void print_text(Text *out, const View *view, const Transfer *t, int output, int input)
 {
     const Linear *linear = view->linear;
@@ -190,15 +212,10 @@ static void print_text(Text *out, const View *view, const Transfer *t, int outpu
     }
     layout_formula(out, &view->page, lead.at, body.at);
     if (t->gain != 0 && t->poles > 0) {
-        const double last = t->denominator[t->poles];
-
         table_cell(&table, "gain");
         table_cellf(&table, "%.*g", DIGITS, t->gain);
         if (has_coefficients(t))
-            table_cell(&table, "at rest");
-        if (has_coefficients(t))
-            table_cellf(&table, last != 0 ? "%.*g" : "no bound", DIGITS,
-                        t->numerator[t->zeros] / last);
+            add_at_rest(&table, t);
         add_roots(&table, "zeros", t, t->zero, t->zeros);
         add_roots(&table, "poles", t, t->pole, t->poles);
     }

@@ -223,6 +223,40 @@ static void equal_poles_and_zeros_are_left_out(void)
     kit_free(&kit);
 }
 
+/* (R + Z)/(2 R + Z) of a coil Z with a plunger that is moved by next to no current */
+static double complex beside_a_plunger(double complex s)
+{
+    return (s + 10) / (s + 20);
+}
+
+/* What hardly acts on what is asked for has zeros all but equal to its poles: the others are known
+ * as well as without it. */
+static void zeros_beside_hidden_poles_are_known(void)
+{
+    static const char *const currents[] = {"1e-30", "1e-13", "1e-7"};
+
+    for (int k = 0; k < 3; k++) {
+        Kit kit = kit_new();
+        char start[40];
+        Bode table;
+
+        EXPECT_DONE(&kit, "scene planar\nbody b mass=1 inertia=1\nprismatic s ground b axis=x\n"
+                          "spring k s k=100 d=1\nvsource V a 0 0\nresistor R a n 1\n"
+                          "solenoid X s n 0 L=0.1*(1 + 0.3*s) R=1\n");
+        (void)snprintf(start, sizeof start, "init X.i=%s\n", currents[k]);
+        EXPECT_DONE(&kit, start);
+        EXPECT_DONE(&kit, "linearize inputs=[V] outputs=[n.v]\nshow transfer\n");
+        EXPECT_HOLDS(kit.text, "gain      1\n");
+        EXPECT_HOLDS(kit.text, "at rest   0.5\n");
+        EXPECT_HOLDS(kit.text, "zeros     -10\n");
+        EXPECT_HOLDS(kit.text, "left out  2 poles equal to zeros\n");
+        table = bode(&kit, "bode from=0.001 to=10");
+        expect_response(&table, 0, beside_a_plunger, 0, 1e-9);
+        bode_free(&table);
+        kit_free(&kit);
+    }
+}
+
 /* --- a ladder: one recursion tells all of it --- */
 
 enum { SECTIONS = 60 };
@@ -378,6 +412,7 @@ static void equal_stages_have_equal_poles(void)
     EXPECT_DONE(&kit, "show transfer\n");
     EXPECT_HOLDS(kit.text, "poles    -100000, -100000, -100000, -100000\n");
     EXPECT_HOLDS(kit.text, "zeros    0?, 0?, 0?, 0?\n");
+    EXPECT_HOLDS(kit.text, "at rest  0?\n");
     EXPECT_HOLDS(kit.text, "?        0 within ");
     EXPECT_DONE(&kit, "show linear\n");
     EXPECT_HOLDS(kit.text, "l4.i    1e+20   -1e+15    1e+10  -100000\n");
@@ -472,6 +507,7 @@ int main(void)
     RUN(a_motor_turns_its_inertia);
     RUN(what_floats_has_two_poles_at_0);
     RUN(equal_poles_and_zeros_are_left_out);
+    RUN(zeros_beside_hidden_poles_are_known);
     RUN(a_long_ladder_keeps_its_digits);
     RUN(equal_stages_have_equal_poles);
     RUN(a_slow_pole_is_seen_beside_fast_ones);

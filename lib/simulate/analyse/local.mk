@@ -19,5 +19,7 @@ libcore_la_SOURCES += \
   lib/simulate/analyse/equilibrium_residual.h \
   lib/simulate/analyse/transfer.c \
   lib/simulate/analyse/transfer.h \
+  lib/simulate/analyse/zero_pencil.c \
+  lib/simulate/analyse/zero_pencil.h \
   lib/simulate/analyse/zeros.c \
   lib/simulate/analyse/zeros.h

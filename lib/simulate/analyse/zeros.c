@@ -5,13 +5,15 @@
  * place of the output; that takes a state away. Zeros are the eigenvalues of A - b d^-1 c that is
  * left (Emami-Naeini and Van Dooren 1982): as doubles enclose them (enclosure.h), or else disturbed
  * a little so that multiple ones split; single ones are brought to H(z) = 0 by Newton's method. A
- * zero z is off by (|dH(z)| + |H(z)|)/|H'(z)|; one that comes m times, of which s is the distance
+ * zero z is off by (|dH(z)| + |H(z)|)/|H'(z)|, or by less where its null vectors tell so
+ * (zero_pencil.h); one that comes m times, of which s is the distance
  * of a split one from the mean, by the m-th root of m s^(m-1) times that. */
 #include "simulate/analyse/zeros.h"
 
 #include "algebra/enclosure.h"
 #include "algebra/schur.h"
 #include "base/memory.h"
+#include "simulate/analyse/zero_pencil.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -21,14 +23,15 @@ enum {
     PLACES = 3 /* where an answer is held against the response: by the sizes of its roots */
 };
 
-#define UNIT  0x1p-53
-#define ALONE 0.1  /* a step less than this of the way to the next zero */
-#define APART 1e-6 /* likewise: what is known so well needs no more digits to begin with */
-#define NEAR  1e-3 /* of its error is as good as 0 */
-#define CLOSE 4    /* roundings: doubles hold no better */
-#define SAME  1e-6 /* of a response */
-#define ASIDE 0.6  /* rad, from the real axis to the right */
-#define SPLIT 1e-7 /* relative; closer than its square is as good as the same */
+#define UNIT   0x1p-53
+#define ALONE  0.1  /* a step less than this of the way to the next zero */
+#define APART  1e-6 /* likewise: what is known so well needs no more digits to begin with */
+#define NEAR   1e-3 /* of its error is as good as 0 */
+#define CLOSE  4    /* roundings: doubles hold no better */
+#define LITTLE 1e-9 /* of a zero, by which it is off at most: then H tells it well */
+#define SAME   1e-6 /* of a response */
+#define ASIDE  0.6  /* rad, from the real axis to the right */
+#define SPLIT  1e-7 /* relative; closer than its square is as good as the same */
 
 /* in more digits */
 typedef struct Wider {
@@ -273,6 +276,19 @@ static double improve(Trial *at, const double complex *first, double complex *va
     return error > 0 ? error + cabs(at->value / at->slope) : 0;
 }
 
+/* As it was found, if that is the better known and others are far; so it is where a pole all but
+ * equals it. */
+static void take_from_pencil(const Single *s, const double complex *first, int count, int k,
+                             double complex *value, double *error)
+{
+    const double by_pencil = zero_pencil_error(s, first[k]);
+
+    if (by_pencil < *error && by_pencil <= ALONE * nearest_of(first, count, k)) {
+        *value = first[k];
+        *error = by_pencil;
+    }
+}
+
 typedef struct Split {
     const double complex *value;
     const double *error;
@@ -309,6 +325,8 @@ static void bound_zeros(const Single *s, const Wider *wide, double least, double
             error[k] = error[k - 1];
         } else {
             error[k] = improve(&at, first, value, count, k);
+            if (!(error[k] <= LITTLE * cabs(first[k])))
+                take_from_pencil(s, first, count, k, &value[k], &error[k]);
         }
     }
     roots_join(value, error, count, group_error, &split, zero);
@@ -371,6 +389,8 @@ bool zeros_find(const Single *single, const Gain *gain, const Root *pole, Root *
     }
     if (sound && *count > 0)
         bound_zeros(single, &whole, least_of(pole, n), value, *count, zero);
+    for (int k = 0; k < *count && sound; k++)
+        sound = isfinite(zero[k].real) && isfinite(zero[k].imaginary);
     wider_free(&whole);
     wider_free(&left);
     mem_free(value);
