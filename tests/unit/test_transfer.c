@@ -257,6 +257,30 @@ static void zeros_beside_hidden_poles_are_known(void)
     }
 }
 
+/* a mass on a spring, then two lags */
+static double complex behind_two_lags(double complex s)
+{
+    return 100 / ((s * s + s + 100) * (s + 10) * (s + 10));
+}
+
+/* A way that is shorter, but hardly leads on, has zeros far beyond all poles, and costs no others.
+ */
+static void zeros_far_beyond_poles_are_known(void)
+{
+    Kit kit = kit_new();
+    Bode table;
+
+    EXPECT_DONE(&kit, "scene planar\nbody b mass=1 inertia=1\nprismatic s ground b axis=x\n"
+                      "spring k s k=100 d=1\nactuator F s force=0\nlag L m 0 of=s T=0.1\n"
+                      "resistor R m n 1\nplatecap X s n 0 C=0.1*(1 + 0.3*s)\ninit X.v=1e-27\n"
+                      "linearize inputs=[F] outputs=[X.v]\nshow transfer\n");
+    EXPECT_HOLDS(kit.text, "at rest  0.01\n");
+    table = bode(&kit, "bode from=0.001 to=10");
+    expect_response(&table, 0, behind_two_lags, 0, 1e-9);
+    bode_free(&table);
+    kit_free(&kit);
+}
+
 /* --- a ladder: one recursion tells all of it --- */
 
 enum { SECTIONS = 60 };
@@ -508,6 +532,7 @@ int main(void)
     RUN(what_floats_has_two_poles_at_0);
     RUN(equal_poles_and_zeros_are_left_out);
     RUN(zeros_beside_hidden_poles_are_known);
+    RUN(zeros_far_beyond_poles_are_known);
     RUN(a_long_ladder_keeps_its_digits);
     RUN(equal_stages_have_equal_poles);
     RUN(a_slow_pole_is_seen_beside_fast_ones);

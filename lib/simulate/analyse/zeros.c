@@ -276,14 +276,15 @@ static double improve(Trial *at, const double complex *first, double complex *va
     return error > 0 ? error + cabs(at->value / at->slope) : 0;
 }
 
-/* As it was found, if that is the better known and others are far; so it is where a pole all but
- * equals it. */
+/* As it was found, if that is the better known and others are far: where a pole all but equals it,
+ * and where it is so far beyond all poles that H there is rounding alone, and 0 stands for it. */
 static void take_from_pencil(const Single *s, const double complex *first, int count, int k,
                              double complex *value, double *error)
 {
     const double by_pencil = zero_pencil_error(s, first[k]);
+    const bool is_lost = *value == 0 && by_pencil <= ALONE * cabs(first[k]);
 
-    if (by_pencil < *error && by_pencil <= ALONE * nearest_of(first, count, k)) {
+    if ((by_pencil < *error || is_lost) && by_pencil <= ALONE * nearest_of(first, count, k)) {
         *value = first[k];
         *error = by_pencil;
     }
@@ -325,7 +326,7 @@ static void bound_zeros(const Single *s, const Wider *wide, double least, double
             error[k] = error[k - 1];
         } else {
             error[k] = improve(&at, first, value, count, k);
-            if (!(error[k] <= LITTLE * cabs(first[k])))
+            if (!(error[k] <= LITTLE * cabs(first[k])) || value[k] == 0)
                 take_from_pencil(s, first, count, k, &value[k], &error[k]);
         }
     }
