@@ -166,5 +166,15 @@ family_estimates_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_machines
 family_machines_SOURCES = tests/family/family_machines.c tests/family/machine.h \
 	tests/family/machine_draw.h tests/family/machine_networks.h tests/family/machine_tableau.h \
+	tests/family/machine_whole.h \
 	tests/family/extrapolated.h tests/family/family.h tests/family/script.h tests/unit/session_kit.h tests/unit/test.h tests/random.h
 family_machines_LDADD = libcotree.la $(unit_ldadd)
+
+FAMILIES += family_machine_slopes
+family_machine_slopes_SOURCES = tests/family/family_machine_slopes.c tests/family/machine.h \
+	tests/family/machine_draw.h tests/family/machine_networks.h \
+	tests/family/machine_inputs.h tests/family/machine_slopes.h tests/family/machine_tableau.h \
+	tests/family/machine_whole.h \
+	tests/family/extrapolated.h tests/family/family.h tests/family/script.h \
+	tests/unit/session_kit.h tests/unit/test.h tests/random.h
+family_machine_slopes_LDADD = libcotree.la $(unit_ldadd)
