@@ -28,7 +28,10 @@
 #define CALM_COUNT     6
 #define DIFFERENCE     1e-7 /* of y, for a derivative */
 
-enum { TOGETHER = 8 /* entries that are summed together: two Fours */ };
+enum {
+    TOGETHER = 8,  /* entries that are summed together: two Fours; */
+    MOST_FOURS = 8 /* or so many where there are */
+};
 
 typedef struct Dop853 {
     Stepper base;
@@ -63,22 +66,34 @@ static const Terms dense_rows[4] = {
 };
 /* clang-format on */
 
-/* The weighted sums of stages, in the order of their terms whatever stands beside. */
+/* Of `fours` Fours from `first` on: the weighted sums of stages, in the order of their terms
+ * whatever stands beside. What a term takes beside its products, all of them share. */
+static inline __attribute__((always_inline)) void weigh_fours(const Dop853 *d, const Terms *terms,
+                                                              int first, int fours, double *sums)
+{
+    Four sum[MOST_FOURS] = {{0}};
+
+    for (int j = 0; j < terms->count; j++) {
+        const double weight = terms->at[j].weight;
+        const Four *k = (const Four *)(d->k[terms->at[j].stage] + first);
+
+#pragma GCC unroll 8
+        for (int i = 0; i < fours; i++)
+            sum[i] += weight * k[i];
+    }
+#pragma GCC unroll 8
+    for (int i = 0; i < fours; i++)
+        *(Four *)(sums + first + 4 * (ptrdiff_t)i) = sum[i];
+}
+
 AS_WIDE_AS_CAN_BE static const double *weigh(const Dop853 *d, const Terms *terms, double *sums)
 {
-    for (int first = 0; first < d->room; first += TOGETHER) {
-        Four low = {0}, high = {0};
+    int first = 0;
 
-        for (int j = 0; j < terms->count; j++) {
-            const double weight = terms->at[j].weight;
-            const Four *k = (const Four *)(d->k[terms->at[j].stage] + first);
-
-            low += weight * k[0];
-            high += weight * k[1];
-        }
-        *(Four *)(sums + first) = low;
-        *(Four *)(sums + first + 4) = high;
-    }
+    for (; first + 4 * MOST_FOURS <= d->room; first += 4 * MOST_FOURS)
+        weigh_fours(d, terms, first, MOST_FOURS, sums);
+    for (; first < d->room; first += TOGETHER)
+        weigh_fours(d, terms, first, TOGETHER / 4, sums);
     return sums;
 }
 
@@ -156,7 +171,7 @@ static double first_step(Dop853 *d, double t, double span)
 static double step_error(Dop853 *d, double h)
 {
     static const Terms five = {error5, COUNT(error5)}, three = {third, COUNT(third)};
-    const double *fifth = weigh(d, &five, d->sums[0]), *eighth = weigh(d, &stages[12], d->sums[1]);
+    const double *fifth = weigh(d, &five, d->sums[0]), *eighth = d->sums[1]; /* of try_step() */
     const double *of_third = weigh(d, &three, d->sums[2]);
     double sum5 = 0, sum3 = 0, under, third_order;
 
@@ -265,15 +280,11 @@ static void watch_stiffness(Dop853 *d, double h)
  * 11. */
 static bool try_step(Dop853 *d, double h)
 {
-    const double *sum;
-
     stepper_begin(&d->base, d->base.before, d->old, h);
     for (int stage = 1; stage < 12; stage++)
         if (!take_stage(d, stage, h, d->stage_point))
             return false;
-    sum = weigh(d, &stages[12], d->sums[0]);
-    for (int i = 0; i < d->all; i++)
-        d->new[i] = d->old[i] + h *sum[i];
+    move(d->old, h, weigh(d, &stages[12], d->sums[1]), d->all, d->new);
     return true;
 }
 
