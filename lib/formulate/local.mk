@@ -56,7 +56,7 @@ libcore_la_SOURCES += \
 	lib/formulate/solved/constrained.c lib/formulate/solved/constrained.h \
 	lib/formulate/solved/groups.c lib/formulate/solved/groups.h lib/formulate/solved/linear_network.c \
 	lib/formulate/solved/linear_network.h lib/formulate/solved/prescribed.c lib/formulate/solved/prescribed.h \
-	lib/formulate/solved/price.h \
+	lib/formulate/solved/price.h lib/formulate/solved/substituted.c lib/formulate/solved/substituted.h \
 	lib/formulate/solved/ratio.c lib/formulate/solved/ratio.h \
 	lib/formulate/solved/resistance.c lib/formulate/solved/resistance.h \
 	lib/formulate/solved/response.c lib/formulate/solved/response.h \

@@ -141,8 +141,9 @@ static void expect_taken(const Dense *d, const Constrained *solved, SceneState *
     mem_free(x);
 }
 
-/* *waiting: how many speeds are eliminated behind the rows; may be NULL */
-static void compare(System *system, SceneState *state, int *waiting)
+/* *waiting: how many speeds are eliminated behind the rows; *looked_at: of how many rows pivots are
+ * told; each may be NULL */
+static void compare(System *system, SceneState *state, int *waiting, int *looked_at)
 {
     const int nu = system_nu(system), m = system_m(system);
     double *x = NEW_ARRAY(double, nu + m), *s = NEW_ARRAY(double, nu + m), size, step;
@@ -167,7 +168,10 @@ static void compare(System *system, SceneState *state, int *waiting)
     for (int j = 0; j < nu; j++) {
         EXPECT_NEAR(value(solved->acceleration[j], state), x[j], 1e-8 * size);
         EXPECT_NEAR(value(solved->step[j], state), s[j], 1e-8 * step);
-        EXPECT(value(solved->excess[j], state) > (solved->left_count > 0 ? 0 : 1 - 1e-12));
+        EXPECT(value(solved->excess[j], state) > (solved->left_count > 0   ? 0
+                                                  : solved->looked_at == 0 ? 0.5
+                                                                           : 1) -
+                                                     1e-12);
     }
     for (int i = 0; i < solved->left_count; i++) {
         EXPECT(value(solved->left[i], state) > 0);
@@ -177,7 +181,10 @@ static void compare(System *system, SceneState *state, int *waiting)
         *waiting = solved->left_count;
     for (int k = 0; k < m; k++)
         EXPECT_NEAR(value(solved->multiplier[k], state), x[nu + k], 1e-8 * size);
-    expect_taken(&d, solved, state);
+    if (solved->looked_at > 0)
+        expect_taken(&d, solved, state);
+    if (looked_at != NULL)
+        *looked_at = solved->looked_at;
     dense_free(&d);
     constrained_free(solved);
     MEM_FREE(x, s, rows);
@@ -195,7 +202,57 @@ static void symbols_solve_what_dense_factors_solve(void)
         scene_add(model, i % 4 < 2 ? "tree joint" : "tree absolute");
         system = scene_system(model);
         if (system != NULL)
-            compare(system, &(SceneState){model, 5U + (unsigned)i}, NULL);
+            compare(system, &(SceneState){model, 5U + (unsigned)i}, NULL, NULL);
+        if (test_faults > 0)
+            printf("    in\n%s", text);
+        system_free(system);
+        model_free(model);
+        mem_free(text);
+    }
+}
+
+/* a tree of bodies, either of which is a joint's tail */
+static char *hanging(uint64_t *random, bool planar, int bodies)
+{
+    const char *joint = planar ? "revolute" : "spherical";
+    Text text = {0};
+
+    text_add(&text, planar ? "scene planar\ngravity [0, -9.81]\n" : "gravity [0, 0, -9.81]\n");
+    for (int i = 0; i < bodies; i++) {
+        const int before = i == 0 ? -1 : (int)test_uniform(random, 0, i);
+        const char *z = planar ? "]" : ", 0.3]";
+
+        text_addf(&text, "body b%d mass=%g inertia=", i, test_uniform(random, 0.5, 2));
+        text_addf(&text, planar ? "%g" : "[%g, 1, 2, 0.1, 0.2, 0.3]", test_uniform(random, 1, 2));
+        text_addf(&text, "\narm h%d b%d [%g, 0.1%s\n", i, i, test_uniform(random, -1, 1), z);
+        text_addf(&text, "arm e%d b%d [%g, 0.7%s\n", i, i, test_uniform(random, -1, 1), z);
+        if (before < 0)
+            text_addf(&text, "%s j%d ground h%d\n", joint, i, i);
+        else if (i % 2 == 0)
+            text_addf(&text, "%s j%d e%d h%d\n", joint, i, before, i);
+        else
+            text_addf(&text, "%s j%d h%d e%d\n", joint, i, i, before);
+    }
+    return text_done(&text);
+}
+
+/* where each row has an entry of 1 at a speed that those behind it haven't: no pivots of rows,
+ * which can't become dependent */
+static void rows_of_trees_tell_speeds(void)
+{
+    uint64_t random = 1906;
+
+    for (int i = 0; i < 12 && test_faults == 0; i++) {
+        char *text = hanging(&random, i % 3 < 2, 2 + i);
+        Model *model = scene_new(text);
+        System *system;
+        int looked_at = -1;
+
+        scene_add(model, "tree absolute");
+        system = scene_system(model);
+        if (system != NULL)
+            compare(system, &(SceneState){model, 17U + (unsigned)i}, NULL, &looked_at);
+        EXPECT(i % 3 == 2 || looked_at == 0); /* in space it may take more products */
         if (test_faults > 0)
             printf("    in\n%s", text);
         system_free(system);
@@ -272,7 +329,7 @@ static void a_platform_waits_for_its_legs(void)
         int waiting = 0;
 
         if (system != NULL)
-            compare(system, &(SceneState){model, 11U + (unsigned)legs}, &waiting);
+            compare(system, &(SceneState){model, 11U + (unsigned)legs}, &waiting, NULL);
         EXPECT(legs < 6 || waiting == 3);
         if (test_faults > 0)
             printf("    of %d legs\n", legs);
@@ -495,6 +552,7 @@ static void four_bars_move_as_by_hand(void)
 int main(void)
 {
     RUN(symbols_solve_what_dense_factors_solve);
+    RUN(rows_of_trees_tell_speeds);
     RUN(what_is_too_large_is_given_up);
     RUN(a_platform_waits_for_its_legs);
     RUN(four_bars_move_as_by_hand);

@@ -16,6 +16,7 @@
 #include "formulate/dynamics/composite_mass.h"
 #include "formulate/dynamics/cutset_equations.h"
 #include "formulate/solved/price.h"
+#include "formulate/solved/substituted.h"
 #include "formulate/system/system_impl.h"
 
 #include <math.h>
@@ -308,26 +309,33 @@ static void tell(const Elimination *e, const MassEntries *entries, const Constra
     }
 }
 
-static Constrained *arrays_new(int nu, int m, int waiting)
+static Constrained *arrays_new(int nu, int m, int looked_at, int waiting)
 {
     Constrained *out = NEW(Constrained);
 
-    out->places = constrained_places(nu, m, waiting);
+    out->places = constrained_places(nu, m, looked_at, waiting);
     out->acceleration = NEW_ARRAY(Expr, out->places.count);
     out->multiplier = out->acceleration + out->places.multiplier;
     out->excess = out->acceleration + out->places.excess;
     out->pivot = out->acceleration + out->places.pivot;
     out->taken = out->acceleration + out->places.taken;
     out->left = out->acceleration + out->places.left;
+    out->looked_at = looked_at;
     out->left_count = waiting;
     out->step = out->acceleration + out->places.step;
     return out;
 }
 
+static bool is_worth_it(const Elimination *e, const Constrained *out)
+{
+    return arena_status(e->arena) == OK &&
+           price_of(out->acceleration, out->places.count) <= MOST_OPERATIONS;
+}
+
 /* NULL: it can't be, or isn't worth it */
 static Constrained *solve(Elimination *e, const Expr *force, const Expr *gamma)
 {
-    Constrained *out = arrays_new(e->nu, e->m, e->nu - e->owns);
+    Constrained *out = arrays_new(e->nu, e->m, e->m, e->nu - e->owns);
 
     place_entries(e);
     for (int j = 0; j < e->nu; j++)
@@ -341,12 +349,30 @@ static Constrained *solve(Elimination *e, const Expr *force, const Expr *gamma)
     if (eliminate(e, out)) {
         substitute_back(e);
         tell(e, &e->entries, out);
-        if (arena_status(e->arena) == OK &&
-            price_of(out->acceleration, out->places.count) <= MOST_OPERATIONS)
+        if (is_worth_it(e, out))
             return out;
     }
     constrained_free(out);
     return NULL;
+}
+
+/* The same by rows that tell speeds; NULL: they don't, or it would take more than `most` products.
+ */
+static Constrained *solve_substituting(Elimination *e, const Expr *force, const Expr *gamma,
+                                       double most)
+{
+    Substitution *s = substitution_new(e->system, &e->entries, e->rows, e->m);
+    Constrained *out = NULL;
+
+    if (s != NULL && (double)substitution_products(s) <= most) {
+        out = arrays_new(e->nu, e->m, 0, 0);
+        if (!substitution_solve(s, force, gamma, out) || !is_worth_it(e, out)) {
+            constrained_free(out);
+            out = NULL;
+        }
+    }
+    substitution_free(s);
+    return out;
 }
 
 Constrained *constrained_new(System *system, const int *rows, int row_count, const Expr *force,
@@ -366,9 +392,17 @@ Constrained *constrained_new(System *system, const int *rows, int row_count, con
     e.place_of = NEW_ARRAY(int, e.size);
     e.row = NEW_ARRAY(Row, e.size);
     if (list_mass(&e)) {
+        const int mass_count = e.entries.count;
+        double products;
+
         list_constraints(&e);
-        if ((double)find_order(&e) <= fmin(MOST_PRODUCTS, most))
+        products = (double)find_order(&e);
+        e.entries.count = mass_count;
+        out = solve_substituting(&e, force, gamma, fmin(MOST_PRODUCTS, fmin(most, products)));
+        if (out == NULL && arena_status(e.arena) == OK && products <= fmin(MOST_PRODUCTS, most)) {
+            list_constraints(&e);
             out = solve(&e, force, gamma);
+        }
     }
     if (out == NULL)
         arena_reset(e.arena); /* what was too large, or stopped, is given up: others go on */

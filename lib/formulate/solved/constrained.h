@@ -12,14 +12,14 @@ typedef struct ConstrainedPlaces {
     int count; /* all of them */
 } ConstrainedPlaces;
 
-static inline ConstrainedPlaces constrained_places(int nu, int rows, int waiting)
+static inline ConstrainedPlaces constrained_places(int nu, int rows, int looked_at, int waiting)
 {
     ConstrainedPlaces p = {.multiplier = nu};
 
     p.excess = p.multiplier + rows;
     p.pivot = p.excess + nu;
-    p.taken = p.pivot + rows;
-    p.left = p.taken + rows;
+    p.taken = p.pivot + looked_at;
+    p.left = p.taken + looked_at;
     p.step = p.left + waiting;
     p.count = p.step + nu;
     return p;
@@ -30,8 +30,10 @@ typedef struct Constrained {
     Expr *acceleration; /* nu: u' */
     Expr *multiplier;   /* rows: lambda */
     Expr *excess;       /* nu: of pivots of M (accelerations.h) */
-    /* rows: pivot d of a multiplier, its sign reversed, and p, of which that is the rest */
+    /* looked_at: pivot d of a multiplier, its sign reversed, and p, of which that is the rest. Of
+     * all rows; or of none, where they are independent whatever the position (substituted.h). */
     Expr *pivot, *taken;
+    int looked_at;
     Expr *left; /* of speeds that wait for the rows: what is left of their pivots */
     int left_count;
     Expr *step; /* nu: du of M du + G^T mu = 0, G du = s, where s_k is the multiplier's symbol */

@@ -36,8 +36,9 @@ typedef struct Eliminated {
     const int *rows;
     int row_count;
     const double *acceleration, *multiplier; /* nu, row_count: as power is up to date */
-    const double *pivot, *taken;             /* row_count, by position(): for kkt_is_sound() */
-    const double *left;                      /* of speeds that wait, likewise */
+    /* row_count, by position(): for kkt_is_sound(); NULL: rows are always independent */
+    const double *pivot, *taken;
+    const double *left; /* of speeds that wait, likewise */
     int left_count;
     /* whether M leaves more of its pivots than rounding, by position() */
     bool (*has_pivots)(void *context);

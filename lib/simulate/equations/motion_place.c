@@ -101,8 +101,9 @@ bool motion_is_eliminated(Motion *mo)
         return false;
     if (!mo->is_alone) {
         mo->is_alone = own->has_pivots(eq->context) &&
-                       kkt_is_sound(mo->kkt, own->pivot, own->taken, eq->phi_u, mo->rows, own->left,
-                                    own->left_count, are_rows_known(mo));
+                       (own->pivot == NULL ||
+                        kkt_is_sound(mo->kkt, own->pivot, own->taken, eq->phi_u, mo->rows,
+                                     own->left, own->left_count, are_rows_known(mo)));
         mo->counts.factorisations += mo->is_alone;
     }
     return mo->is_alone;

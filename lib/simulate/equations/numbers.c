@@ -435,13 +435,13 @@ done:
 static void place_eliminated(Numbers *nb)
 {
     Eliminated *own = &nb->eliminated;
-    const ConstrainedPlaces p = constrained_places(nb->layout->nu, own->row_count, own->left_count);
+    const ConstrainedPlaces p = nb->told_places;
     const double *at = nb->told_accelerations;
 
     own->acceleration = at;
     own->multiplier = at + p.multiplier;
-    own->pivot = at + p.pivot;
-    own->taken = at + p.taken;
+    own->pivot = p.taken > p.pivot ? at + p.pivot : NULL;
+    own->taken = p.taken > p.pivot ? at + p.taken : NULL;
     nb->told_excess = at + p.excess;
     own->left = at + p.left;
     nb->told_step = at + p.step;
@@ -562,6 +562,7 @@ static Status compile_constrained(Numbers *nb, const Constrained *solved, const 
     nb->told_by = TOLD_CONSTRAINED;
     nb->eliminated = (Eliminated){
         .rows = nb->told_rows, .row_count = row_count, .left_count = solved->left_count};
+    nb->told_places = solved->places;
     nb->eq.eliminated = NULL;
     status = nb->massing == NULL ? compile_mass(nb, nb->parameters, diag) : OK;
     if (status == OK)

@@ -29,9 +29,10 @@ struct Numbers {
     Eliminated eliminated;               /* of constrained speeds, */
     const double *told_excess, *told_step;
     int *told_rows; /* for these rows */
-    Probe *slip;    /* of surfaces that are slid along: h', or what of it they reach, and h */
-    Guard *guards;  /* of the conditions, */
-    Expr *told;     /* which are these for a user; NULL: margins */
+    ConstrainedPlaces told_places;
+    Probe *slip;   /* of surfaces that are slid along: h', or what of it they reach, and h */
+    Guard *guards; /* of the conditions, */
+    Expr *told;    /* which are these for a user; NULL: margins */
     int *quaternions, *network_places;
     LIST(int) margins;   /* whose they are, of the switches */
     bool is_network_new; /* its program has seen t, q, u, x as they are */
