@@ -4,9 +4,9 @@
  * was changed, removed and added again, with the programs then; and runs of them, on two threads in
  * parts of the time on one
  *
- * `bench_subsystems planar legs` (or spatial; or flat) forms the equations once: its instructions
- * are counted by
- *     valgrind --tool=callgrind --toggle-collect=form bench_subsystems planar legs
+ * `bench_subsystems planar legs form` (or spatial; or flat) forms the equations once; with another
+ * last word it forms them again after an edit, or compiles: instructions are counted by
+ *     valgrind --tool=callgrind --toggle-collect=counted bench_subsystems planar legs form
  */
 #include "formulate/system/system.h"
 #include "model/model.h"
@@ -130,6 +130,19 @@ static void line(bool planar, const char *what, double value, const char *unit)
     text_free(&name);
 }
 
+static void remove_leg(Model *model)
+{
+    apply(model, "delete h7");
+    apply(model, "delete leg7");
+}
+
+static void add_again(Model *model, bool planar)
+{
+    apply(model, "use leg leg7 A=g7");
+    apply(model, planar ? "revolute h7 leg7.B p7" : "spherical h7 leg7.B p7");
+    apply(model, "tree + leg7.th1 + leg7.th2 - h7");
+}
+
 /* one leg of many: its number, itself away, itself again; parts of the time that all take */
 static void bench_edits(bool planar, const char *text)
 {
@@ -143,12 +156,9 @@ static void bench_edits(bool planar, const char *text)
         all = fmin(all, form(model, &system));
         apply(model, "set leg7.l1.mass = 5");
         least[0] = fmin(least[0], form(model, &system));
-        apply(model, "delete h7");
-        apply(model, "delete leg7");
+        remove_leg(model);
         least[1] = fmin(least[1], form(model, &system));
-        apply(model, "use leg leg7 A=g7");
-        apply(model, planar ? "revolute h7 leg7.B p7" : "spherical h7 leg7.B p7");
-        apply(model, "tree + leg7.th1 + leg7.th2 - h7");
+        add_again(model, planar);
         least[2] = fmin(least[2], form(model, &system));
         least[3] = fmin(least[3], bench_compile(model, system));
         system_free(system);
@@ -227,16 +237,54 @@ static void bench_run(bool planar)
     mem_free(text);
 }
 
-/* one of them, for who counts instructions */
-static int form_once(bool planar, bool flat)
+/* --- one of them, for who counts instructions --- */
+
+enum { COUNT_FORM, COUNT_EDIT, COUNT_REMOVE, COUNT_ADD, COUNT_COMPILE, COUNT_COMPILE_ADDED };
+
+static const char *const counts[] = {"form", "edit", "remove", "add", "compile", "compile_added"};
+
+__attribute__((noinline)) static void counted(Model *model, System **system, bool compiles)
+{
+    if (compiles)
+        (void)bench_compile(model, *system);
+    else
+        (void)form(model, system);
+}
+
+/* what comes before it isn't counted */
+static void count_after(Model *model, bool planar, int what)
+{
+    const bool compiles = what == COUNT_COMPILE_ADDED || what == COUNT_COMPILE;
+    System *system = NULL;
+
+    if (what != COUNT_FORM)
+        (void)form(model, &system);
+    if (what == COUNT_COMPILE_ADDED)
+        (void)bench_compile(model, system);
+    if (what == COUNT_EDIT)
+        apply(model, "set leg7.l1.mass = 5");
+    if (what == COUNT_REMOVE || what == COUNT_ADD || what == COUNT_COMPILE_ADDED)
+        remove_leg(model);
+    if (what == COUNT_ADD || what == COUNT_COMPILE_ADDED) {
+        (void)form(model, &system);
+        add_again(model, planar);
+    }
+    if (what == COUNT_COMPILE_ADDED)
+        (void)form(model, &system);
+    counted(model, &system, compiles);
+    system_free(system);
+}
+
+static int count_once(bool planar, bool flat, const char *word)
 {
     char *text = robot_text(planar, flat);
     Model *model = bench_model(text);
-    System *system = NULL;
+    int what = 0;
 
-    if (model != NULL)
-        (void)form(model, &system);
-    system_free(system);
+    while (what < COUNT(counts) && strcmp(counts[what], word) != 0)
+        what++;
+    if (model != NULL && what < COUNT(counts))
+        count_after(model, planar, what);
     model_free(model);
     mem_free(text);
     return 0;
@@ -244,8 +292,8 @@ static int form_once(bool planar, bool flat)
 
 int main(int argc, char **argv)
 {
-    if (argc == 3)
-        return form_once(strcmp(argv[1], "planar") == 0, strcmp(argv[2], "flat") == 0);
+    if (argc == 4)
+        return count_once(strcmp(argv[1], "planar") == 0, strcmp(argv[2], "flat") == 0, argv[3]);
     bench_robot(true);
     bench_robot(false);
     bench_run(true);
