@@ -3,7 +3,8 @@ libcore_la_SOURCES += \
 	lib/compile/interpret.c \
 	lib/compile/jacobian.c lib/compile/jacobian.h \
 	lib/compile/lanes.c lib/compile/lanes.h \
-	lib/compile/lower.c lib/compile/lower.h \
+	lib/compile/lower.c lib/compile/lower.h lib/compile/lower_impl.h \
+	lib/compile/lowered.c \
 	lib/compile/native.c lib/compile/native.h lib/compile/native_impl.h \
 	lib/compile/native_registers.c \
 	lib/compile/native_steps.c \

@@ -4,27 +4,17 @@
  * so that each value is what expr_evaluate() finds, to the last bit. Signs are carried
  * along (a Signed is a value or its negative) until a subtraction swallows them: both
  * are exact. Equal operations are one value, whatever expression they come from. */
-#include "compile/lower.h"
+#include "compile/lower_impl.h"
 #include "compile/program.h"
 
 #include <math.h>
 #include <string.h>
-
-/* a value times two, plus one where its negative is meant */
-typedef uint32_t Signed;
 
 /* An expression on its way: arguments before `next` are lowered. */
 typedef struct LowerLevel {
     Expr e;
     int next;
 } LowerLevel;
-
-typedef struct Lowering {
-    Lowered *out;
-    Signed *known;       /* by creation number: plus 1; 0 where not lowered */
-    uint32_t *table;     /* hash table of values: plus 1; 0 where free */
-    uint32_t table_size; /* a power of two */
-} Lowering;
 
 /* What a function of ops.def is done by; without a row: CODE_CALL + op. */
 static const struct {
@@ -36,24 +26,20 @@ static const struct {
 /* a higher whole power is left to pow(), as expr_evaluate() does */
 enum { HIGHEST_POWER = 64 };
 
-int code_operands(Opcode code)
-{
-    static const int operands[] = {
+const uint8_t code_operand_counts[] = {
 #define OPCODE(id, count, ...) count,
 #include "compile/opcodes.def"
 #undef OPCODE
-        [CODE_SINCOS] = 1,
-        [CODE_CALL] =
+    [CODE_SINCOS] = 1,
+    [CODE_CALL] =
 #define OP(id, name, count, ...) count,
 #include "expr/ops.def"
 #undef OP
-            [CODE_INPUT] = 0,
-        [CODE_CONSTANT] = 0,
-        [CODE_COSINE] = 1,
-        [CODE_ABSORBED] = 0,
-    };
-    return operands[code];
-}
+        [CODE_INPUT] = 0,
+    [CODE_CONSTANT] = 0,
+    [CODE_COSINE] = 1,
+    [CODE_ABSORBED] = 0,
+};
 
 double value_constant(const LoweredValue *constant)
 {
@@ -65,7 +51,7 @@ double value_constant(const LoweredValue *constant)
 
 /* --- values --- */
 
-static uint32_t slot_of(const Lowering *low, const LoweredValue *wanted)
+uint32_t lowering_slot(const Lowering *low, const LoweredValue *wanted)
 {
     uint32_t hash = wanted->code * 0x9E3779B1U;
     uint32_t slot;
@@ -77,7 +63,7 @@ static uint32_t slot_of(const Lowering *low, const LoweredValue *wanted)
     }
     slot = hash & (low->table_size - 1);
     while (low->table[slot] != 0) {
-        const LoweredValue *value = &low->out->values.at[low->table[slot] - 1];
+        const LoweredValue *value = &low->values.at[low->table[slot] - 1];
 
         if (value->code == wanted->code &&
             memcmp(value->args, wanted->args, sizeof value->args) == 0)
@@ -87,13 +73,23 @@ static uint32_t slot_of(const Lowering *low, const LoweredValue *wanted)
     return slot;
 }
 
+/* room for so many values, most likely more */
+static uint32_t first_size(int values)
+{
+    uint32_t size = 256;
+
+    while (size < (uint32_t)values)
+        size *= 2;
+    return size;
+}
+
 static void resize_table(Lowering *low, uint32_t size)
 {
     mem_free(low->table);
     low->table = NEW_ARRAY(uint32_t, size);
     low->table_size = size;
-    for (int i = 0; i < low->out->values.count; i++)
-        low->table[slot_of(low, &low->out->values.at[i])] = (uint32_t)i + 1;
+    for (int i = 0; i < low->values.count; i++)
+        low->table[lowering_slot(low, &low->values.at[i])] = (uint32_t)i + 1;
 }
 
 /* the value, found or made */
@@ -101,12 +97,12 @@ static uint32_t add_value(Lowering *low, LoweredValue value)
 {
     uint32_t slot;
 
-    if ((uint32_t)low->out->values.count >= low->table_size / 2)
+    if ((uint32_t)low->values.count >= low->table_size / 2)
         resize_table(low, 4 * low->table_size);
-    slot = slot_of(low, &value);
+    slot = lowering_slot(low, &value);
     if (low->table[slot] == 0) {
-        LIST_PUSH(low->out->values, value);
-        low->table[slot] = (uint32_t)low->out->values.count;
+        LIST_PUSH(low->values, value);
+        low->table[slot] = (uint32_t)low->values.count;
     }
     return low->table[slot] - 1;
 }
@@ -116,7 +112,7 @@ static uint32_t add_operation(Lowering *low, Opcode code, const uint32_t args[MO
     LoweredValue value = {.code = (uint8_t)code, .stage = STAGE_PARAMETER};
 
     for (int i = 0; i < code_operands(code); i++) {
-        uint8_t stage = low->out->values.at[args[i]].stage;
+        uint8_t stage = low->values.at[args[i]].stage;
 
         value.args[i] = args[i];
         if (stage > value.stage)
@@ -171,8 +167,8 @@ static uint32_t settle(Lowering *low, Signed a)
 
     if (!is_negative(a))
         return value;
-    if (low->out->values.at[value].code == CODE_CONSTANT)
-        return add_constant(low, -value_constant(&low->out->values.at[value]));
+    if (low->values.at[value].code == CODE_CONSTANT)
+        return add_constant(low, -value_constant(&low->values.at[value]));
     return add_unary(low, CODE_NEG, value);
 }
 
@@ -277,7 +273,22 @@ static Signed lower_call(Lowering *low, Expr call)
     return positive(add_operation(low, code, args));
 }
 
-static Status lower_node(Lowering *low, Expr e, Diag *diag)
+static Signed lower_symbol(Lowering *low, Expr symbol)
+{
+    LoweredValue input = {.code = CODE_INPUT, .args = {(uint32_t)low->symbols.count}};
+
+    if (expr_data(symbol) != NULL) {
+        LIST_PUSH(low->tables, expr_data(symbol));
+        return positive(add_constant(low, low->tables.count - 1));
+    }
+    /* what can't be given has none, and is missed by whoever needs it */
+    if (expr_symbol_kind(symbol) < SYMBOL_VARIABLE)
+        input.stage = (uint8_t)stage_of_symbol(expr_symbol_kind(symbol));
+    LIST_PUSH(low->symbols, symbol);
+    return positive(add_value(low, input));
+}
+
+static void lower_node(Lowering *low, Expr e)
 {
     Signed value = 0;
 
@@ -287,14 +298,8 @@ static Status lower_node(Lowering *low, Expr e, Diag *diag)
         value = lower_number(low, e);
         break;
     case EXPR_SYMBOL:
-        if (expr_data(e) != NULL) {
-            value = positive(add_constant(low, low->out->tables.count));
-            LIST_PUSH(low->out->tables, expr_data(e));
-            break;
-        }
-        (void)diag_set(diag, E_NAME, "%s has no value here", expr_name(e));
-        diag_hint(diag, "it is needed and is none of the inputs");
-        return E_NAME;
+        value = lower_symbol(low, e);
+        break;
     case EXPR_POWER:
         value = lower_power(low, e);
         break;
@@ -311,17 +316,15 @@ static Status lower_node(Lowering *low, Expr e, Diag *diag)
         break;
     }
     low->known[expr_number(e)] = value + 1;
-    return OK;
 }
 
 /* `root` and what is below it, with a stack of its own: expressions may be deep */
-static Status lower_below(Lowering *low, Expr root, Diag *diag)
+static void lower_below(Lowering *low, Expr root)
 {
-    Status status = OK;
     LIST(LowerLevel) stack = {0};
 
     if (low->known[expr_number(root)] != 0)
-        return OK;
+        return;
     LIST_PUSH(stack, (LowerLevel){root, 0});
     while (stack.count > 0) {
         LowerLevel *level = &stack.at[stack.count - 1];
@@ -334,77 +337,41 @@ static Status lower_below(Lowering *low, Expr root, Diag *diag)
             if (low->known[expr_number(child)] == 0)
                 LIST_PUSH(stack, (LowerLevel){child, 0});
         } else {
-            CHECK(lower_node(low, level->e, diag));
+            lower_node(low, level->e);
         }
     }
-done:
     LIST_FREE(stack);
-    return status;
 }
 
-/* A sine and a cosine of one thing are computed together: the cosine becomes the second result. */
-static void pair_sines(Lowering *low)
+/* what was there is known on */
+static void make_known(Lowering *low, uint32_t count)
 {
-    for (int i = 0; i < low->out->values.count; i++) {
-        LoweredValue *value = &low->out->values.at[i];
-        LoweredValue wanted = *value;
-        uint32_t slot;
+    Signed *known;
 
-        if (value->code != CODE_COS)
-            continue;
-        wanted.code = CODE_SIN;
-        slot = slot_of(low, &wanted);
-        if (low->table[slot] == 0)
-            continue;
-        low->out->values.at[low->table[slot] - 1].code = CODE_SINCOS;
-        *value = (LoweredValue){
-            .code = CODE_COSINE, .stage = value->stage, .args = {low->table[slot] - 1}};
-    }
+    if (count <= low->known_count)
+        return;
+    known = NEW_ARRAY(Signed, count);
+    if (low->known_count > 0)
+        memcpy(known, low->known, low->known_count * sizeof *known);
+    mem_free(low->known);
+    low->known = known;
+    low->known_count = count;
 }
 
-static uint32_t highest_number(const Expr *roots, int count, uint32_t highest)
+uint32_t *lowering_add(Lowering *low, const Expr *roots, int count)
 {
-    for (int i = 0; i < count; i++) {
+    uint32_t *values = NEW_ARRAY(uint32_t, count);
+    uint32_t highest = 0;
+
+    for (int i = 0; i < count; i++)
         if (expr_number(roots[i]) > highest)
             highest = expr_number(roots[i]);
+    make_known(low, highest + 1);
+    if (low->table_size == 0)
+        resize_table(low, first_size(count));
+    for (int i = 0; i < count; i++) {
+        lower_below(low, roots[i]);
+        values[i] = settle(low, known(low, roots[i]));
     }
-    return highest;
-}
-
-Status lowered_make(const Expr *roots, int root_count, const Expr *inputs, int input_count,
-                    Lowered *out, Diag *diag)
-{
-    Status status = OK;
-    uint32_t highest = highest_number(inputs, input_count, highest_number(roots, root_count, 0));
-    Lowering low = {.out = out};
-
-    *out = (Lowered){.input_count = input_count, .root_count = root_count};
-    out->roots = NEW_ARRAY(uint32_t, root_count);
-    low.known = NEW_ARRAY(Signed, (size_t)highest + 1);
-    resize_table(&low, 256);
-
-    for (int i = 0; i < input_count; i++) {
-        uint8_t stage = (uint8_t)stage_of_symbol(expr_symbol_kind(inputs[i]));
-        LoweredValue input = {.code = CODE_INPUT, .stage = stage, .args = {(uint32_t)i}};
-
-        low.known[expr_number(inputs[i])] = positive(add_value(&low, input)) + 1;
-    }
-    for (int i = 0; i < root_count; i++) {
-        CHECK(lower_below(&low, roots[i], diag));
-        out->roots[i] = settle(&low, known(&low, roots[i]));
-    }
-    pair_sines(&low);
-done:
-    MEM_FREE(low.known, low.table);
-    if (status != OK)
-        lowered_free(out);
-    return status;
-}
-
-void lowered_free(Lowered *lowered)
-{
-    LIST_FREE(lowered->values);
-    LIST_FREE(lowered->tables);
-    mem_free(lowered->roots);
-    *lowered = (Lowered){.input_count = 0};
+    return values;
 }

@@ -33,15 +33,26 @@ typedef struct LoweredValue {
 typedef struct Lowered {
     LIST(LoweredValue) values;  /* inputs first */
     LIST(const Curve *) tables; /* borrowed; what data is as a value is its place here */
+    Expr *inputs;               /* as given, and the parameters that were found */
     int input_count;
     uint32_t *roots; /* values */
     int root_count;
 } Lowered;
 
-int code_operands(Opcode code);
+extern const uint8_t code_operand_counts[];
+static inline int code_operands(Opcode code)
+{
+    return code_operand_counts[code];
+}
 double value_constant(const LoweredValue *constant);
+/* Fails as program_new() does. O(nodes) */
 MUST_USE Status lowered_make(const Expr *roots, int root_count, const Expr *inputs, int input_count,
                              Lowered *out, Diag *diag);
+/* Likewise, with the parameters that are none of the inputs put behind these, in the order in which
+ * their symbols were made. What was lowered last is kept by the arena, if it is much, and what of
+ * it stands in these roots isn't lowered again: O(nodes that are new, operations). */
+MUST_USE Status lowered_make_again(Arena *arena, const Expr *roots, int root_count,
+                                   const Expr *inputs, int input_count, Lowered *out, Diag *diag);
 void lowered_free(Lowered *lowered);
 
 #endif

@@ -16,27 +16,31 @@ Status program_new(const Expr *roots, int root_count, const Expr *inputs, int in
 Status program_new_in_blocks(const Expr *roots, int root_count, const Expr *inputs, int input_count,
                              const ProgramBlocks *blocks, Program **out, Diag *diag)
 {
-    Program *program = NULL;
     Lowered lowered;
 
     TRY(lowered_make(roots, root_count, inputs, input_count, &lowered, diag));
+    *out = program_of(&lowered, blocks);
+    return OK;
+}
 
-    program = NEW(Program);
-    program->input_count = input_count;
-    program->root_count = root_count;
+Program *program_of(Lowered *lowered, const ProgramBlocks *blocks)
+{
+    Program *program = NEW(Program);
+
+    program->input_count = lowered->input_count;
+    program->root_count = lowered->root_count;
     program->texts = pool_new(4096);
-    program->input_names = NEW_ARRAY(const char *, input_count);
-    for (int i = 0; i < input_count; i++) {
-        const char *name = expr_name(inputs[i]);
+    program->input_names = NEW_ARRAY(const char *, lowered->input_count);
+    for (int i = 0; i < lowered->input_count; i++) {
+        const char *name = expr_name(lowered->inputs[i]);
 
         program->input_names[i] = pool_text(program->texts, name, strlen(name));
     }
-    for (int i = 0; i < lowered.tables.count; i++)
-        LIST_PUSH(program->tables, curve_copy(lowered.tables.at[i]));
-    program_schedule(program, &lowered, blocks);
-    lowered_free(&lowered);
-    *out = program;
-    return OK;
+    for (int i = 0; i < lowered->tables.count; i++)
+        LIST_PUSH(program->tables, curve_copy(lowered->tables.at[i]));
+    program_schedule(program, lowered, blocks);
+    lowered_free(lowered);
+    return program;
 }
 
 void program_free(Program *program)

@@ -58,6 +58,11 @@ struct Program {
 /* Fill everything but names and counts of inputs and roots. Changes `lowered`. */
 void program_schedule(Program *program, Lowered *lowered, const ProgramBlocks *blocks);
 
+/* --- program.c --- */
+
+/* The program of what is lowered, which that is used up by: new, program_free(). */
+Program *program_of(Lowered *lowered, const ProgramBlocks *blocks);
+
 /* the value whose instruction computes this one */
 static inline uint32_t maker_of(const LoweredValue *values, uint32_t value)
 {

@@ -2,6 +2,7 @@
 #include "compile/residual.h"
 
 #include "base/memory.h"
+#include "compile/program_impl.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -92,24 +93,14 @@ static Status differentiate(const ResidualOrder *order, Residual *r, Roots *root
     return status;
 }
 
-/* the order's inputs, then the parameters of the roots; new */
-static Expr *list_inputs(const ResidualOrder *order, Residual *r, const Roots *roots)
+/* what comes behind the order's inputs */
+static void take_parameters(const ResidualOrder *order, Residual *r, const Lowered *lowered)
 {
-    Expr *symbols;
-    const int found = expr_symbols(roots->at, roots->count, &symbols);
-    Expr *inputs = NEW_ARRAY(Expr, order->input_count + found);
-
-    if (order->input_count > 0)
-        memcpy(inputs, order->inputs, (size_t)order->input_count * sizeof(Expr));
-    r->parameters = NEW_ARRAY(Expr, found);
-    for (int i = 0; i < found; i++)
-        if (expr_symbol_kind(symbols[i]) == SYMBOL_PARAMETER)
-            r->parameters[r->parameter_count++] = symbols[i];
+    r->parameter_count = lowered->input_count - order->input_count;
+    r->parameters = NEW_ARRAY(Expr, r->parameter_count);
     if (r->parameter_count > 0)
-        memcpy(inputs + order->input_count, r->parameters,
+        memcpy(r->parameters, lowered->inputs + order->input_count,
                (size_t)r->parameter_count * sizeof(Expr));
-    mem_free(symbols);
-    return inputs;
 }
 
 /* --- those made before --- */
@@ -179,7 +170,7 @@ static void release(void *residual)
 
 static void keep(Residual *r, const ResidualOrder *order)
 {
-    Made made = {.object = r, .release = release};
+    Made made = {.object = r, .is = is_of, .release = release};
     Expr *to = r->key =
         NEW_ARRAY(Expr, order->root_count + order->unknown_count + order->input_count);
 
@@ -216,7 +207,7 @@ static Status make(const ResidualOrder *order, Residual **out, Diag *diag)
 {
     Residual *r = NEW(Residual);
     Roots roots = {0};
-    Expr *inputs = NULL;
+    Lowered lowered = {0};
     int *blocks = NULL;
     Status status = OK;
 
@@ -231,16 +222,16 @@ static Status make(const ResidualOrder *order, Residual **out, Diag *diag)
     CHECK(differentiate(order, r, &roots));
     for (int i = 0; i < roots.count && order->put != NULL; i++)
         roots.at[i] = order->put(order->context, roots.at[i]);
-    inputs = list_inputs(order, r, &roots);
-    blocks = blocks_of(order, order->input_count + r->parameter_count);
-    CHECK(program_new_in_blocks(roots.at, roots.count, inputs,
-                                order->input_count + r->parameter_count,
-                                &(ProgramBlocks){blocks, order->blocks.parts}, &r->program, diag));
+    CHECK(lowered_make_again(order->arena, roots.at, roots.count, order->inputs, order->input_count,
+                             &lowered, diag));
+    take_parameters(order, r, &lowered);
+    blocks = blocks_of(order, lowered.input_count);
+    r->program = program_of(&lowered, &(ProgramBlocks){blocks, order->blocks.parts});
     *out = r;
     r = NULL;
 done:
     LIST_FREE(roots);
-    MEM_FREE(inputs, blocks);
+    mem_free(blocks);
     residual_free(r);
     return status;
 }

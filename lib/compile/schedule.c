@@ -23,11 +23,12 @@ typedef struct Plan {
     Program *program;
     LoweredValue *values;
     uint32_t count;
-    uint32_t *slot;       /* of each value */
-    uint32_t *pending;    /* operands of the same stage that aren't there yet */
-    uint32_t *users;      /* of the same stage, by operand */
-    uint32_t *first_user; /* where those of each value begin; count + 1 */
-    uint32_t *next;       /* in a queue */
+    uint32_t *slot;              /* of each value */
+    uint32_t *pending;           /* operands of the same stage that aren't there yet */
+    uint32_t *users;             /* of the same stage, by operand */
+    uint32_t *first_user;        /* where those of each value begin; count + 1 */
+    uint32_t *next;              /* in a queue, or of those that wait for no one in their stage */
+    uint32_t ready[STAGE_COUNT]; /* the first of these */
     Queue queues[CODES];
     Opcode codes[CODES]; /* those there are, rising */
     int code_count;
@@ -78,12 +79,14 @@ static void fuse(const Lowered *lowered)
 /* --- who waits for whom --- */
 
 /* Call `note` for each operand of an instruction that its own stage computes. */
-static void for_dependences(Plan *plan, void (*note)(Plan *, uint32_t maker, uint32_t user))
+static inline void for_dependences(Plan *plan, void (*note)(Plan *, uint32_t maker, uint32_t user))
 {
     for (uint32_t v = 0; v < plan->count; v++) {
         const LoweredValue *value = &plan->values[v];
 
-        for (int i = 0; is_instruction(value) && i < code_operands(value->code); i++) {
+        if (!is_instruction(value))
+            continue;
+        for (int i = 0; i < code_operands(value->code); i++) {
             uint32_t maker = maker_of(plan->values, value->args[i]);
 
             if (is_instruction(&plan->values[maker]) && plan->values[maker].stage == value->stage)
@@ -139,6 +142,20 @@ static void measure(Plan *plan)
             plan->codes[plan->code_count++] = (Opcode)code;
     LIST_ROOM(plan->program->tape, operands);
     LIST_ROOM(plan->program->derived, instructions);
+}
+
+static void find_ready(Plan *plan)
+{
+    for (int stage = 0; stage < STAGE_COUNT; stage++)
+        plan->ready[stage] = NOBODY;
+    for (uint32_t v = plan->count; v-- > 0;) {
+        const LoweredValue *value = &plan->values[v];
+
+        if (is_instruction(value) && plan->pending[v] == 0) {
+            plan->next[v] = plan->ready[value->stage];
+            plan->ready[value->stage] = v;
+        }
+    }
 }
 
 static bool is_of_section(const Plan *plan, uint32_t value)
@@ -202,6 +219,23 @@ static void emit_run(Plan *plan, Opcode code)
     LIST_PUSH(program->runs, run);
 }
 
+/* what waits for no one when a section begins, in order */
+static void enqueue_ready(Plan *plan, Stage stage)
+{
+    if (!plan->apart.is_split[stage]) {
+        for (uint32_t v = plan->ready[stage], next; v != NOBODY; v = next) {
+            next = plan->next[v];
+            enqueue(plan, v);
+        }
+        return;
+    }
+    for (uint32_t v = 0; v < plan->count && plan->work[stage] > 0; v++) {
+        if (is_instruction(&plan->values[v]) && plan->values[v].stage == stage &&
+            plan->pending[v] == 0 && is_of_section(plan, v))
+            enqueue(plan, v);
+    }
+}
+
 /* What has begun before its section is there to be taken up when that begins. */
 static void emit_section(Plan *plan, Stage stage, int together)
 {
@@ -210,11 +244,7 @@ static void emit_section(Plan *plan, Stage stage, int together)
     LIST_PUSH(program->sections, (Section){.first_run = program->runs.count,
                                            .first_slot = program->slot_count,
                                            .together = together});
-    for (uint32_t v = 0; v < plan->count && plan->work[stage] > 0; v++) {
-        if (is_instruction(&plan->values[v]) && plan->values[v].stage == stage &&
-            plan->pending[v] == 0 && is_of_section(plan, v))
-            enqueue(plan, v);
-    }
+    enqueue_ready(plan, stage);
     for (;;) {
         Opcode best = plan->codes[0];
 
@@ -308,6 +338,7 @@ void program_schedule(Program *program, Lowered *lowered, const ProgramBlocks *b
     find_users(&plan);
     place_leaves(&plan, lowered);
     measure(&plan);
+    find_ready(&plan);
 
     for (int stage = 0; stage < STAGE_COUNT; stage++) {
         program->first_run[stage] = program->runs.count;

@@ -539,11 +539,19 @@ void arena_add_made(Arena *arena, const Made *made)
     LIST_PUSH(arena->made, *made);
 }
 
+void arena_end_made(Arena *arena, bool (*is)(const void *object, const void *asked))
+{
+    for (int i = arena->made.count - 1; i >= 0; i--)
+        if (arena->made.at[i].is == is)
+            drop_made(arena, i);
+}
+
 void *arena_find_made(Arena *arena, uint64_t hash,
                       bool (*is)(const void *object, const void *asked), const void *asked)
 {
     for (int i = arena->made.count - 1; i >= 0; i--)
-        if (arena->made.at[i].hash == hash && is(arena->made.at[i].object, asked)) {
+        if (arena->made.at[i].hash == hash && arena->made.at[i].is == is &&
+            is(arena->made.at[i].object, asked)) {
             const Made found = take_made(arena, i);
 
             LIST_PUSH(arena->made, found);

@@ -90,9 +90,12 @@ typedef struct Made {
     uint64_t hash;
     uint32_t newest;
     void *object;
+    bool (*is)(const void *object, const void *asked); /* by which it is found */
     void (*release)(void *object);
 } Made;
 void arena_add_made(Arena *arena, const Made *made);
+/* all that is found by that */
+void arena_end_made(Arena *arena, bool (*is)(const void *object, const void *asked));
 /* one of that hash for which `is` holds, or NULL */
 void *arena_find_made(Arena *arena, uint64_t hash,
                       bool (*is)(const void *object, const void *asked), const void *asked);

@@ -207,25 +207,29 @@ typedef struct Gathering {
     uint32_t room;
 } Gathering;
 
-static char *mark_of(Gathering *g, Expr e)
+static void make_room(Gathering *g, uint32_t number)
 {
-    uint32_t number = expr_number(e);
+    uint32_t more = number + number / 2 + 64;
 
-    if (number >= g->room) {
-        uint32_t more = number + number / 2 + 64;
+    g->seen = mem_grow(g->seen, more, 1);
+    memset(g->seen + g->room, 0, more - g->room);
+    g->room = more;
+}
 
-        g->seen = mem_grow(g->seen, more, 1);
-        memset(g->seen + g->room, 0, more - g->room);
-        g->room = more;
-    }
+static inline char *mark_of(Gathering *g, Expr e)
+{
+    const uint32_t number = expr_number(e);
+
+    if (number >= g->room)
+        make_room(g, number);
     return &g->seen[number];
 }
 
-static void visit(Gathering *g, Expr e)
+/* a call, whose value may be chosen or jump */
+static void visit_call(Gathering *g, Expr e)
 {
     Expr condition = switch_condition(g->system->arena, e);
-    bool bends =
-        expr_kind(e) == EXPR_CALL && expr_op(e) == OP_IF && is_continuous(g->system->arena, e);
+    bool bends = expr_op(e) == OP_IF && is_continuous(g->system->arena, e);
 
     if (condition != NULL && !expr_is_number(condition))
         LIST_PUSH(g->system->shown->switches, ((Switch){condition, .call = e, .surface = -1}));
@@ -233,6 +237,30 @@ static void visit(Gathering *g, Expr e)
         LIST_PUSH(g->stack, expr_arg(e, i));
         if (switch_jumps(expr_arg(e, i)) && !(bends && i == 0))
             *mark_of(g, expr_arg(e, i)) |= 2;
+    }
+}
+
+/* what is below that hasn't been visited; most of it is no call */
+static void visit(Gathering *g, Expr e)
+{
+    const int count = expr_arg_count(e);
+
+    if (expr_kind(e) == EXPR_CALL) {
+        visit_call(g, e);
+        return;
+    }
+    for (int i = 0; i < count; i++) {
+        const Expr arg = expr_arg(e, i);
+        const ExprKind kind = expr_kind(arg);
+        char *mark;
+
+        if (kind <= EXPR_SYMBOL)
+            continue;
+        mark = mark_of(g, arg);
+        if (kind == EXPR_CALL && switch_jumps(arg))
+            *mark |= 2;
+        if ((*mark & 1) == 0)
+            LIST_PUSH(g->stack, arg);
     }
 }
 
