@@ -44,7 +44,7 @@ libcore_la_SOURCES += \
 # what is the same for all models in code and FMUs, as strings, a line each
 shared_parts = share/fmu/fmu.h share/fmu/fmu.c share/fmu/fmu_step.c share/fmu/fmu_ahead.c \
 	share/fmu/fmi.h share/fmu/fmi2.c share/fmu/fmi3.c \
-	share/code/modes.c share/code/modes_step.c
+	share/code/modes.c share/code/modes_step.c share/code/open.c
 EXTRA_DIST += $(shared_parts)
 nodist_libcore_la_SOURCES = lib/export/shared_text.c
 CLEANFILES += lib/export/shared_text.c

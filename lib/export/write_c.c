@@ -304,6 +304,9 @@ static void add_tangent_declarations(Text *out)
 {
     text_add(out, "/* s[MODEL_S]: dt, dy, ds, which it sets, and dp */\n"
                   "int model_tangent(const real *p, real t, const real *y, real *s, real *work);\n"
+                  "/* A direction along which what is solved for may move, by equations that "
+                  "determine it no\n * further, where that puts ds; 0 where they do */\n"
+                  "int model_open(const real *p, real t, const real *y, real *s, real *work);\n"
                   "/* A x = b, from rows [A | b] */\n"
                   "int model_solve_rows(real *a, int n, real *x, real *work);\n");
 }
@@ -389,6 +392,44 @@ static void add_tangent(const Code *code, Text *out)
     text_add(out, "    return status;\n}\n"
                   "\nint model_solve_rows(real *a, int n, real *x, real *work)\n{\n"
                   "    return model_eliminate(a, n, x, work);\n}\n");
+}
+
+static void add_lines(Text *out, const char *const *lines)
+{
+    for (; *lines != NULL; lines++)
+        text_add(out, *lines);
+}
+
+/* a direction in which nothing holds ds, behind dt and dy */
+static void add_open(const Code *code, Text *out)
+{
+    const int first = code->ns + 1 + code->ny;
+
+    add_lines(out, shared_text_open_c);
+    text_addf(out,
+              "\nint model_open(const real *p, real t, const real *y, real *s, real *work)\n{\n"
+              "    int i, status = MODEL_OK;\n\n    (void)p, (void)t, (void)y, (void)work;\n"
+              "    for (i = 0; i < MODEL_S; i++)\n        s[%d + i] = 0;\n",
+              first);
+    for (int g = 0; g < code->group_count; g++) {
+        const CodeGroup *group = &code->groups[g];
+
+        if (code_has_modes(code) && g == code->modes.group)
+            text_addf(out,
+                      "    status = model_open_modes(p, t, y, s, s + %d, work);\n"
+                      "    if (status != MODEL_OK)\n        return status;\n",
+                      first);
+        else
+            text_addf(out,
+                      "    model_%s(p, t, y, s, work);\n"
+                      "    for (i = 0; i < %d; i++)\n        work[i * %d + %d] = 0;\n"
+                      "    status = model_open_rows(work, %d, s + %d, work + %d);\n"
+                      "    if (status != MODEL_OK)\n        return status;\n",
+                      code->functions.at[group->function].name, group->count, group->count + 1,
+                      group->count, group->count, first + group->first,
+                      group->count * (group->count + 1));
+    }
+    text_add(out, "    return status;\n}\n");
 }
 
 static void add_list(Text *out, const double *values, int count)
@@ -555,12 +596,6 @@ static void add_projection(const Code *code, Text *out)
     text_free(&body);
 }
 
-static void add_lines(Text *out, const char *const *lines)
-{
-    for (; *lines != NULL; lines++)
-        text_add(out, *lines);
-}
-
 /* of each state of networks: the first that is a current, a voltage ... as it is */
 static void add_kinds(const Layout *l, Text *out)
 {
@@ -687,9 +722,10 @@ static void write_file(const Code *code, const Language *language, Text *out)
     }
     if (code->inverse != NULL)
         add_inverse(code, out);
-    if (code->live.is_wanted)
+    if (code->live.is_wanted) {
         add_tangent(code, out);
-    else {
+        add_open(code, out);
+    } else {
         add_check(code, out);
         add_driver(code, out);
     }

@@ -44,6 +44,22 @@ static void add_events(const Code *code, Text *out)
     MEM_FREE(first, count, action, level);
 }
 
+/* what was asked for, in words, which may hold strings */
+static void add_output_names(const Code *code, Text *out)
+{
+    text_add(out, "static const char *const fmu_output_name[] = {");
+    for (int i = 0; i < code->outputs.count; i++) {
+        text_char(out, '"');
+        for (const char *c = code->outputs.at[i]; *c != '\0'; c++) {
+            if (*c == '"' || *c == '\\')
+                text_char(out, '\\');
+            text_char(out, *c);
+        }
+        text_add(out, "\", ");
+    }
+    text_add(out, "0};\n");
+}
+
 /* by state: whether it is an input */
 static void add_inputs(const Code *code, Text *out)
 {
@@ -82,6 +98,7 @@ static void add_tables(const Code *code, Text *out)
     for (int i = 0; i < code->layout->nx; i++)
         text_addf(out, "\"%s\", ", system_x(code->layout->system, i)->name);
     text_add(out, "0};\n");
+    add_output_names(code, out);
     add_events(code, out);
     text_add(out, "#endif\n\n#endif\n");
 }
@@ -132,11 +149,12 @@ static void write_header(const Code *code, const Exported *what, const char *tok
               "    FMU_EVENTS_COUNT = %d,\n    FMU_TARGETS = %d, /* that events give values to */\n"
               "    FMU_FOLLOWS_TIME = %d,\n    FMU_SAMPLES = %d,\n    FMU_INPUTS = %d,\n    "
               "FMU_QUATERNIONS = %d,\n    "
-              "FMU_ROWS = %d,\n",
+              "FMU_ROWS = %d,\n    FMU_MAY_SHARE = %d, /* what nothing determines */\n",
               token, FMU_TOLERANCE, !what->only_simulation, !what->only_exchange,
               model_parameter_count(code->view->model), live->first, live->sides.count,
               code->modes.ideals.count, live->timed, live->events.count, live->targets.count,
-              follows_time(code), live->samples.count, live->held.count, quaternions, rows);
+              follows_time(code), live->samples.count, live->held.count, quaternions, rows,
+              code->is_redundant || code_has_modes(code));
     text_addf(out,
               "    FMU_SPACE = 2 * (FMU_ROWS + 2) * (FMU_ROWS + 2) + %d\n};\n"
               "enum { FMU_MARKS, FMU_STOPS, FMU_SETS };          /* what events do */\n"

@@ -106,10 +106,16 @@ static void begin_at(Fmu *fmu, FmiBoolean hasTolerance, double tolerance, double
 static FmiStatus get_all(Fmu *fmu, const FmiReference references[], size_t count, double values[])
 {
     FmuStatus status = FMU_OK;
+    int looks = 0;
     size_t i;
 
-    for (i = 0; i < count && status == FMU_OK; i++)
-        status = fmu_get(fmu, references[i], &values[i]);
+    for (i = 0; i < count && status == FMU_OK; i++) {
+        if (!looks && references[i] >= FMU_FIRST_STATE)
+            status = fmu_look_behind(fmu, &looks);
+        if (status == FMU_OK)
+            status = fmu_get(fmu, references[i], &values[i]);
+    }
+    fmu_look_back(fmu, looks);
     return (FmiStatus)status;
 }
 

@@ -14,6 +14,7 @@ enum { ROUNDS = 100 };  /* in which one event may set off others */
 #define PROJECTED 1e-12 /* how near it is put */
 #define NEAR      1e-9  /* of 1 + |t|: how far ahead sides of ideal switches are looked for, */
 #define FURTHEST  1e-5  /* and where they don't change, though a margin has ended */
+#define OPEN      1e-7  /* of what an output moves by: less of it follows what nothing determines */
 #define ROUNDING  1e-11 /* of the largest current or voltage: margins that can't be told from 0 */
 
 FmuStatus fmu_fail(Fmu *fmu, FmuStatus status, const char *text, double value)
@@ -265,9 +266,46 @@ FmuStatus fmu_direction(Fmu *fmu, double dt, const double *dy)
     return direction(fmu, dt, dy, NULL);
 }
 
-FmuStatus fmu_derivatives(Fmu *fmu, const unsigned *unknowns, size_t unknown_count,
-                          const unsigned *knowns, size_t known_count, const double *seed,
-                          double *out)
+/* What the equations leave open is shared by a rule: where that is least, or alike. Outputs that
+ * move with it have no derivatives: NAN, and a warning. */
+static FmuStatus mark_open(Fmu *fmu, const unsigned *unknowns, size_t count, double *outputs)
+{
+    FmuNumbers *now = &fmu->now;
+    double along[MODEL_OUTPUTS + 1], uneven[MODEL_OUTPUTS + 1];
+    double *seed = now->s + MODEL_S, *ds = seed + 1 + MODEL_Y;
+    FmuStatus status = FMU_OK;
+    size_t i;
+    int k, any = 0;
+
+    for (i = 0; i < count; i++)
+        any |= unknowns[i] >= FMU_FIRST_OUTPUT && unknowns[i] < FMU_FIRST_INDICATOR;
+    if (!any)
+        return FMU_OK;
+    memset(seed, 0, FMU_SEEDS * sizeof(double));
+    if (model_open(now->p, now->t, now->y, now->s, fmu->work) != MODEL_OK)
+        return fmu_fail(fmu, FMU_DISCARD, "the equations are singular", now->y[0]);
+    model_tangent_outputs(now->p, now->t, now->y, now->s, along);
+    for (k = 0; k < MODEL_S; k++)
+        ds[k] *= 1 + fmod(k * 0.6180339887498949, 1); /* no two alike: nothing cancels */
+    model_tangent_outputs(now->p, now->t, now->y, now->s, uneven);
+    for (i = 0; i < count; i++) {
+        char line[160];
+
+        k = (int)unknowns[i] - FMU_FIRST_OUTPUT;
+        if (k < 0 || k >= MODEL_OUTPUTS || !(fabs(along[k]) > OPEN * fabs(uneven[k])))
+            continue;
+        outputs[k] = NAN;
+        (void)snprintf(line, sizeof line,
+                       "%.80s is shared by what nothing determines: NaN is its derivative",
+                       fmu_output_name[k]);
+        status = fmu_fail(fmu, FMU_WARNING, line, now->y[0]);
+    }
+    return status;
+}
+
+static FmuStatus derivatives(Fmu *fmu, const unsigned *unknowns, size_t unknown_count,
+                             const unsigned *knowns, size_t known_count, const double *seed,
+                             double *out)
 {
     FmuNumbers *now = &fmu->now;
     double dy[FMU_STATES + 1], rates[MODEL_Y + 1], outputs[MODEL_OUTPUTS + 1];
@@ -305,6 +343,8 @@ FmuStatus fmu_derivatives(Fmu *fmu, const unsigned *unknowns, size_t unknown_cou
         for (k = 0; k < MODEL_OUTPUTS; k++)
             outputs[k] += fmu->work[k];
     }
+    if (FMU_MAY_SHARE)
+        status = mark_open(fmu, unknowns, unknown_count, outputs);
     for (i = 0; i < unknown_count; i++) {
         if (unknowns[i] >= FMU_FIRST_RATE && unknowns[i] < FMU_FIRST_OUTPUT)
             out[i] = rates[unknowns[i] - FMU_FIRST_RATE];
@@ -315,7 +355,20 @@ FmuStatus fmu_derivatives(Fmu *fmu, const unsigned *unknowns, size_t unknown_cou
         else
             return fmu_fail(fmu, FMU_ERROR, "derivatives are of rates and outputs", unknowns[i]);
     }
-    return FMU_OK;
+    return status;
+}
+
+FmuStatus fmu_derivatives(Fmu *fmu, const unsigned *unknowns, size_t unknown_count,
+                          const unsigned *knowns, size_t known_count, const double *seed,
+                          double *out)
+{
+    int looks;
+    FmuStatus status = fmu_look_behind(fmu, &looks);
+
+    if (status == FMU_OK)
+        status = derivatives(fmu, unknowns, unknown_count, knowns, known_count, seed, out);
+    fmu_look_back(fmu, looks);
+    return status;
 }
 
 /* --- constraints --- */

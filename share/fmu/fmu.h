@@ -61,6 +61,7 @@ typedef struct FmuNumbers {
 
 typedef struct Fmu {
     FmuNumbers now;
+    FmuNumbers kept; /* of fmu_look_behind() */
     int is_cosimulation, is_logging;
     int may_return_early; /* from a step that an event ends, in version 3 */
     int has_no_state;     /* an error has left nothing to go on with */
@@ -84,6 +85,11 @@ FmuStatus fmu_initialise(Fmu *fmu);
 
 /* --- variables --- */
 
+/* What has been set between two steps of co-simulation may be an event, which happens when the next
+ * step begins: until fmu_look_back() all is as it will be behind that. *looks: whether it is; not
+ * where that fails. */
+FmuStatus fmu_look_behind(Fmu *fmu, int *looks);
+void fmu_look_back(Fmu *fmu, int looks);
 FmuStatus fmu_get(Fmu *fmu, unsigned reference, double *value);
 FmuStatus fmu_set(Fmu *fmu, unsigned reference, double value);
 void fmu_set_time(Fmu *fmu, double t);

@@ -404,24 +404,56 @@ FmuStatus fmu_do_step(Fmu *fmu, double from, double step)
     return fmu->now.is_stopped ? FMU_OK : fmu_advance(fmu, from + step);
 }
 
+/* --- behind what is set between steps --- */
+
+FmuStatus fmu_look_behind(Fmu *fmu, int *looks)
+{
+    const int is_logging = fmu->is_logging;
+    int moved = 0;
+    FmuStatus status;
+
+    *looks = fmu->now.mode == FMU_STEPPING && fmu->now.is_changed;
+    if (!*looks)
+        return FMU_OK;
+    fmu->kept = fmu->now;
+    fmu->is_logging = 0; /* the step tells it */
+    status = fmu_events(fmu, &moved);
+    fmu->is_logging = is_logging;
+    if (status == FMU_OK)
+        return FMU_OK;
+    fmu_look_back(fmu, 1);
+    *looks = 0;
+    return status == FMU_FATAL ? FMU_FATAL : FMU_DISCARD; /* that step will fail */
+}
+
+void fmu_look_back(Fmu *fmu, int looks)
+{
+    if (looks)
+        fmu->now = fmu->kept;
+}
+
 FmuStatus fmu_output_rates(Fmu *fmu, const unsigned *references, size_t count, const int *orders,
                            double *values)
 {
     double seed[FMU_STATES + 1];
     unsigned knowns[FMU_STATES + 1];
     FmuStatus status;
+    int looks;
     unsigned k;
     size_t i;
 
     for (i = 0; i < count; i++)
         if (orders[i] != 1)
             return fmu_fail(fmu, FMU_ERROR, "outputs have first derivatives alone", orders[i]);
-    status = fmu_rates(fmu, seed + 1);
+    status = fmu_look_behind(fmu, &looks);
+    if (status == FMU_OK)
+        status = fmu_rates(fmu, seed + 1);
     seed[0] = 1;
     knowns[0] = 0;
     for (k = 0; k < FMU_STATES; k++)
         knowns[k + 1] = FMU_FIRST_STATE + k;
-    return status != FMU_OK
-               ? status
-               : fmu_derivatives(fmu, references, count, knowns, FMU_STATES + 1, seed, values);
+    if (status == FMU_OK)
+        status = fmu_derivatives(fmu, references, count, knowns, FMU_STATES + 1, seed, values);
+    fmu_look_back(fmu, looks);
+    return status;
 }
