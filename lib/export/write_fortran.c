@@ -41,8 +41,11 @@ static const char head[] =
     "integer, parameter :: model_x = $X, model_a = $A, model_y = $Y, model_z = $Z, model_m = $M\n"
     "integer, parameter :: model_s = $S, model_outputs_n = $OUTPUTS, model_conditions_n = "
     "$CONDITIONS\n"
-    "integer, parameter :: model_ok = 0, model_singular = 1, model_no_solution = 2\n\n"
-    "abstract interface\n    subroutine model_rows(p, t, y, s, out)\n        import :: wp\n"
+    "integer, parameter :: model_ok = 0, model_singular = 1, model_no_solution = 2, model_left = "
+    "3\n";
+
+static const char interfaces[] =
+    "\nabstract interface\n    subroutine model_rows(p, t, y, s, out)\n        import :: wp\n"
     "        real(wp), intent(in) :: p(:), t, y(:), s(:)\n"
     "        real(wp), intent(out) :: out(:, :)\n    end subroutine\nend interface\n\ncontains\n";
 
@@ -152,7 +155,10 @@ static const char after[] =
     "    end if\n    if (model_a > 0) then\n        call model_angles(p, t, y, y, turned)\n"
     "        y(model_q + model_u + model_x + 1:) = turned\n    end if\nend subroutine\n"
     "\n! one step of the classical Runge-Kutta method, with projection\n"
-    "subroutine model_step(p, t, h, y, s, status)\n    real(wp), intent(in) :: p(:), t, h\n"
+    "subroutine model_";
+
+static const char step[] =
+    "(p, t, h, y, s, status)\n    real(wp), intent(in) :: p(:), t, h\n"
     "    real(wp), intent(inout) :: y(:), s(:)\n    integer, intent(out) :: status\n"
     "    real(wp), dimension(model_y) :: k1, k2, k3, k4\n\n"
     "    call model_rates(p, t, y, s, k1, status)\n    if (status /= model_ok) return\n"
@@ -162,7 +168,34 @@ static const char after[] =
     "    if (status /= model_ok) return\n"
     "    call model_rates(p, t + h, y + h*k3, s, k4, status)\n"
     "    if (status /= model_ok) return\n    y = y + h/6*(k1 + 2*k2 + 2*k3 + k4)\n"
-    "    call model_project(p, t + h, y, status)\nend subroutine\n"
+    "    call model_project(p, t + h, y, status)\nend subroutine\n";
+
+/* in the mode of ideal parts that p has, which code in this language doesn't leave by itself */
+static const char step_in_mode[] =
+    "\n! model_left where an ideal part is on the other side than p has it\n"
+    "subroutine model_hold_sides(p, t, y, s, status)\n"
+    "    real(wp), intent(in) :: p(:), t, y(:), s(:)\n    integer, intent(out) :: status\n"
+    "    real(wp) :: look(model_ideals, 4), edge(model_edges_n, 2), most(2)\n"
+    "    logical :: closed, wrong\n    integer :: k\n\n    status = model_ok\n"
+    "    call model_looks(p, t, y, s, look)\n    call model_edges(p, t, y, s, edge)\n"
+    "    most = 1e-9_wp*maxval(abs(edge), dim=1)\n    do k = 1, model_ideals\n"
+    "        closed = p(model_closed + k - 1) > 0.5_wp\n"
+    "        if (look(k, 3) >= 0) then\n            wrong = look(k, 3) > 0.5_wp .neqv. closed\n"
+    "        else if (closed) then\n            wrong = look(k, 1) < -most(1)\n"
+    "        else\n            wrong = look(k, 2) > most(2)\n        end if\n"
+    "        if (wrong) status = model_left\n    end do\nend subroutine\n"
+    "\n! model_smooth_step; where an ideal part goes over on the way it is model_left, and y "
+    "stays:\n"
+    "! p has the mode, which export c changes by itself\n"
+    "subroutine model_step(p, t, h, y, s, status)\n    real(wp), intent(in) :: p(:), t, h\n"
+    "    real(wp), intent(inout) :: y(:), s(:)\n    integer, intent(out) :: status\n"
+    "    real(wp) :: before(model_y)\n\n    before = y\n"
+    "    call model_smooth_step(p, t, h, y, s, status)\n"
+    "    if (status == model_ok) call model_solve(p, t + h, y, s, status)\n"
+    "    if (status == model_ok) call model_hold_sides(p, t + h, y, s, status)\n"
+    "    if (status /= model_ok) y = before\nend subroutine\n";
+
+static const char begin_check[] =
     "\nend module\n"
     "\n#ifdef MODEL_CHECK\nprogram check\nuse model\nimplicit none\n"
     "real(wp) :: p(model_p), y(model_y), s(model_s), right(model_s), t, worst\n"
@@ -282,9 +315,14 @@ static void add_check(const Code *code, const Language *language, Text *out)
         text_add_n(&half, after, (size_t)(at - after));
         text_add(&half, firsts.at != NULL ? firsts.at : "");
         text_add(&half, at + strlen("$FIRSTS"));
-        fill_words(code, half.at, "$FUNCTIONS", count.at, out);
+        code_fill(code, half.at, out);
         text_free(&half);
     }
+    text_add(out, code_has_modes(code) ? "smooth_step" : "step");
+    text_add(out, step);
+    if (code_has_modes(code))
+        text_add(out, step_in_mode);
+    fill_words(code, begin_check, "$FUNCTIONS", count.at, out);
     code_sizes(code, sizes);
     code_set_array(language, "sizes", sizes, CODE_PARTS, out);
     code_fill(code, check, out);
@@ -342,6 +380,17 @@ static void add_tables(const Code *code, const Language *language, Text *out)
              "        value = 0\n    end select\nend function\n");
 }
 
+/* ideal parts, in the order of model_looks() */
+static void add_ideals(const Code *code, Text *out)
+{
+    text_addf(out,
+              "integer, parameter :: model_ideals = %d, model_edges_n = %d\n"
+              "integer, parameter :: model_closed = %d ! where p has the sides of\n",
+              code->modes.ideals.count, code->modes.gives.count / 2, code->modes.first + 1);
+    for (int k = 0; k < code->modes.ideals.count; k++)
+        text_addf(out, "! %s\n", code->modes.ideals.at[k].ideal.name);
+}
+
 static void write_file(const Code *code, const Language *language, Text *out)
 {
     Text derived = {0};
@@ -349,6 +398,9 @@ static void write_file(const Code *code, const Language *language, Text *out)
 
     code_head(code, language, "! ", out);
     code_fill(code, head, out);
+    if (code_has_modes(code))
+        add_ideals(code, out);
+    text_add(out, interfaces);
     add_tables(code, language, out);
     text_add(out, "\n! what follows from parameters alone: after one has changed\n"
                   "subroutine model_prepare(p)\n    real(wp), intent(inout) :: p(:)\n");

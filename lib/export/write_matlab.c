@@ -28,7 +28,10 @@ static const char runtime[] =
     "        x = pinv(a(:, 1:n), 1e-10)*a(:, n + 1);\n        return\n    end\n"
     "    d = max(abs(a(:, 1:n)), [], 1);\n    if any(d == 0)\n"
     "        error('the equations are singular');\n    end\n"
-    "    x = (a(:, 1:n)./repmat(d, n, 1))\\a(:, n + 1)./d';\nend\n"
+    "    left = a(:, 1:n)./repmat(d, n, 1);\n    [~, pivots, ~] = lu(left);\n"
+    "    if any(abs(diag(pivots)) <= 1e-14)\n        error('the equations are singular');\n    "
+    "end\n"
+    "    x = left\\a(:, n + 1)./d';\nend\n"
     "\nfunction n = rows_of(a)\n    n = size(a, 1);\nend\n"
     "\n% Newton's method, its steps shortened where they lead away\n"
     "function s = model_newton(name, p, t, y, s, first, n)\n    near = 0;\n"
@@ -64,11 +67,30 @@ static const char after[] =
     "        y(u) = y(u) + model_nearest(p, t, y, lack);\n    end\n    if k.A > 0\n"
     "        y(k.Q + k.U + k.X + 1:end) = model_angles(p, t, y, []);\n    end\nend\n"
     "\n% one step of the classical Runge-Kutta method, with projection\n"
-    "function [y, s] = model_step(p, t, h, y, s)\n    [k1, s] = model_rates(p, t, y, s);\n"
+    "function [y, s] = model_";
+
+static const char step[] =
+    "(p, t, h, y, s)\n    [k1, s] = model_rates(p, t, y, s);\n"
     "    [k2, s] = model_rates(p, t + h/2, y + h/2*k1, s);\n"
     "    [k3, s] = model_rates(p, t + h/2, y + h/2*k2, s);\n"
     "    [k4, s] = model_rates(p, t + h, y + h*k3, s);\n"
     "    y = model_project(p, t + h, y + h/6*(k1 + 2*k2 + 2*k3 + k4));\nend\n";
+
+/* in the mode of ideal parts that p has, which code in this language doesn't leave by itself */
+static const char step_in_mode[] =
+    "    look = model_looks(p, t, y, s);\n    most = 1e-9*max(abs(model_edges(p, t, y, s)), [], "
+    "1);\n"
+    "    for k = 1:numel(names)\n        closed = p(first + k - 1) > 0.5;\n"
+    "        if look(k, 3) >= 0\n            wrong = (look(k, 3) > 0.5) ~= closed;\n"
+    "        elseif closed\n            wrong = look(k, 1) < -most(1);\n"
+    "        else\n            wrong = look(k, 2) > most(2);\n        end\n"
+    "        if wrong\n"
+    "            error('%s goes over before t = %g: p has the mode, which export c changes by "
+    "itself', ...\n                names{k}, t);\n        end\n    end\nend\n"
+    "\n% smooth_step; fails where an ideal part goes over on the way\n"
+    "function [y, s] = model_step(p, t, h, y, s)\n"
+    "    [y, s] = model_smooth_step(p, t, h, y, s);\n"
+    "    s = model_solve(p, t + h, y, s);\n    model_hold_sides(p, t + h, y, s);\nend\n";
 
 static const char check[] =
     "\nfunction bad = model_check()\n    k = model_sizes();\n    p = model_parameters();\n"
@@ -208,6 +230,19 @@ static void add_check(const Code *code, Text *out)
     text_free(&names);
 }
 
+static void add_modes(const Code *code, Text *out)
+{
+    text_addf(out,
+              "\n%% fails where an ideal part is on the other side than p has it\n"
+              "function model_hold_sides(p, t, y, s)\n    first = %d;\n    names = {",
+              code->modes.first + 1);
+    for (int k = 0; k < code->modes.ideals.count; k++)
+        text_addf(out, "%s'%s'", k > 0 ? ", ...\n        " : "",
+                  code->modes.ideals.at[k].ideal.name);
+    text_add(out, "};\n");
+    text_add(out, step_in_mode);
+}
+
 static void write_file(const Code *code, const Language *language, Text *out)
 {
     char *solver = replaced(runtime, "REDUNDANT", code->is_redundant ? "true" : "false");
@@ -237,6 +272,10 @@ static void write_file(const Code *code, const Language *language, Text *out)
     text_add(out, solver);
     add_solve(code, out);
     text_add(out, after);
+    text_add(out, code_has_modes(code) ? "smooth_step" : "step");
+    text_add(out, step);
+    if (code_has_modes(code))
+        add_modes(code, out);
     add_check(code, out);
     add_states(code, language, out);
     mem_free(solver);

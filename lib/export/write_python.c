@@ -30,6 +30,8 @@ static const char runtime[] =
     "    if REDUNDANT:  # the least of all solutions, of the unknowns as they are\n"
     "        x = (np.linalg.pinv(a[..., :n], 1e-10) @ right)[..., 0]\n"
     "        return np.moveaxis(x, -1, 0)\n"
+    "    if MODES and np.any(np.linalg.cond(left) > 1e13):\n"
+    "        raise ArithmeticError('the equations are singular in this mode')\n"
     "    x = np.linalg.solve(left, right)[..., 0]/size\n"
     "    return np.moveaxis(x, -1, 0)\n"
     "\n\ndef newton(rows, p, t, y, s, first, n):\n"
@@ -73,11 +75,37 @@ static const char after[] =
     "            jacobian(p, t, y, None), y[Q:Q + U])\n"
     "        y[Q:Q + U] += nearest(p, t, y, lack)\n"
     "    if A > 0:\n        y[Q + U + X:] = angles(p, t, y, None)\n    return y\n"
-    "\n\ndef step(p, t, h, y, s):\n"
+    "\n\ndef ";
+
+static const char step[] =
+    "(p, t, h, y, s):\n"
     "    \"\"\"y and s one step of the classical Runge-Kutta method on, with projection\"\"\"\n"
     "    k1, s = rates(p, t, y, s)\n    k2, s = rates(p, t + h/2, y + h/2*k1, s)\n"
     "    k3, s = rates(p, t + h/2, y + h/2*k2, s)\n    k4, s = rates(p, t + h, y + h*k3, s)\n"
     "    return project(p, t + h, y + h/6*(k1 + 2*k2 + 2*k3 + k4)), s\n";
+
+/* in the mode of ideal parts that p has, which code in this language doesn't leave by itself */
+static const char step_in_mode[] =
+    "\n\ndef hold_sides(p, t, y, s):\n"
+    "    \"\"\"fails where an ideal part is on the other side than p has it\"\"\"\n"
+    "    look, edge = looks(p, t, y, s), edges(p, t, y, s)\n"
+    "    through, across = 1e-9*np.abs(edge).max(axis=0)\n"
+    "    for k, name in enumerate(IDEAL):\n"
+    "        closed = np.asarray(p[CLOSED + k]) > 0.5\n"
+    "        condition = look[k, 2]\n"
+    "        wrong = np.where(condition >= 0, (condition > 0.5) != closed,\n"
+    "                         np.where(closed, look[k, 0] < -through, look[k, 1] > across))\n"
+    "        if np.any(wrong):\n"
+    "            raise ArithmeticError(\n"
+    "                '%s goes over before t = %s: p has the mode, which export c changes by "
+    "itself'\n"
+    "                % (name, t))\n"
+    "\n\ndef step(p, t, h, y, s):\n"
+    "    \"\"\"smooth_step(); fails where an ideal part goes over on the way\"\"\"\n"
+    "    y, s = smooth_step(p, t, h, y, s)\n"
+    "    s = solve(p, t + h, y, s)\n"
+    "    hold_sides(p, t + h, y, s)\n"
+    "    return y, s\n";
 
 /* The same functions with np standing for SymPy: what they compute with are symbols then. */
 static const char symbols[] =
@@ -269,6 +297,15 @@ static void add_tables(const Code *code, Text *out)
         "    return np.where((v < x[0]) | (v > x[-1]), end, inside)\n");
 }
 
+static void add_modes(const Code *code, Text *out)
+{
+    text_addf(out, "\n\nCLOSED = %d  # where p has the sides of\nIDEAL = [", code->modes.first);
+    for (int k = 0; k < code->modes.ideals.count; k++)
+        text_addf(out, "%s'%s'", k > 0 ? ",\n    " : "", code->modes.ideals.at[k].ideal.name);
+    text_add(out, "]\n");
+    text_add(out, step_in_mode);
+}
+
 static void write_file(const Code *code, const Language *language, Text *out)
 {
     text_add(out, "# ");
@@ -278,7 +315,8 @@ static void write_file(const Code *code, const Language *language, Text *out)
               "\nimport sys\n\nimport numpy as np\n\n"
               "P, Q, U, X, A, Y, Z, M, S = $NP, $Q, $U, $X, $A, $Y, $Z, $M, $S\nREDUNDANT = ",
               out);
-    text_addf(out, "%s\nQUATERNIONS = (", code->is_redundant ? "True" : "False");
+    text_addf(out, "%s\nMODES = %s  # of ideal parts\nQUATERNIONS = (",
+              code->is_redundant ? "True" : "False", code_has_modes(code) ? "True" : "False");
     for (int i = 0, first; (first = system_quaternion(code->layout->system, i)) >= 0; i++)
         text_addf(out, "%d, ", first);
     text_add(out, ")\n");
@@ -301,6 +339,10 @@ static void write_file(const Code *code, const Language *language, Text *out)
     text_add(out, runtime);
     add_solve(code, out);
     text_add(out, after);
+    text_add(out, code_has_modes(code) ? "smooth_step" : "step");
+    text_add(out, step);
+    if (code_has_modes(code))
+        add_modes(code, out);
     add_states(code, out);
     text_add(out, symbols);
     text_add(out, check);
