@@ -1,6 +1,7 @@
 /* linear.c: LU with partial pivoting, and Cholesky factors, in place */
 #include "algebra/linear.h"
 
+#include "base/four.h"
 #include "base/memory.h"
 
 #include <gsl/gsl_cblas.h>
@@ -250,15 +251,29 @@ double vector_largest(const double *v, int n)
     return largest;
 }
 
-bool vector_is_finite(const double *v, int n)
+AS_WIDE_AS_CAN_BE static bool are_many_finite(const double *v, int n)
 {
-    double none[4] = {0}; /* NAN once there is one that isn't; four chains, which go side by side */
+    Four none = {0}, other = {0}; /* NAN once there is one that isn't */
+    double rest = 0;
     int i = 0;
 
-    for (; i + 4 <= n; i += 4)
-        for (int k = 0; k < 4; k++)
-            none[k] += v[i + k] * 0;
+    for (; i + 8 <= n; i += 8) {
+        none += *(const Four *)(v + i) * 0;
+        other += *(const Four *)(v + i + 4) * 0;
+    }
     for (; i < n; i++)
-        none[0] += v[i] * 0;
-    return none[0] + none[1] + none[2] + none[3] == 0;
+        rest += v[i] * 0;
+    none += other;
+    return none[0] + none[1] + none[2] + none[3] + rest == 0;
+}
+
+bool vector_is_finite(const double *v, int n)
+{
+    double none = 0;
+
+    if (n >= 8)
+        return are_many_finite(v, n);
+    for (int i = 0; i < n; i++)
+        none += v[i] * 0;
+    return none == 0;
 }
