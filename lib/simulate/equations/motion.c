@@ -232,6 +232,16 @@ static double follow_trend(Trend *trend, double t, double h, double now, double 
     return part < 1 ? part * now : now;
 }
 
+/* Rows that are always independent need no look at how much so; how large they are is looked at
+ * where they are brought back. */
+static void begin_told(Motion *mo, double t, double h)
+{
+    mo->began = t;
+    mo->ends = t + h;
+    mo->is_far = true;
+    mo->is_projecting = false;
+}
+
 /* Off the manifold the constraints contradict each other a little, and near a singular position the
  * accelerations that obey them grow without bound: there they are those of the nearest state on it.
  * These are two fields that agree on the manifold alone; a step that took some stages from one and
@@ -242,6 +252,10 @@ static void begin(void *context, double t, const double *y, double h)
     Motion *mo = context;
     double by_groups, by_all = 0;
 
+    if (motion_rows_are_told(mo)) {
+        begin_told(mo, t, h);
+        return;
+    }
     if (t != mo->began) {
         close_trend(&mo->by_groups);
         close_trend(&mo->by_all);
@@ -281,9 +295,10 @@ static bool rate_outright(Motion *mo, double t, const double *y, double *out)
 {
     const Equations *eq = mo->eq;
 
-    if (eq->outright == NULL || mo->signs != NULL || mo->partitioning != NULL)
+    if (eq->outright == NULL || mo->signs != NULL || mo->partitioning != NULL ||
+        (mo->used > 0 && !motion_rows_are_told(mo)))
         return false;
-    mo->is_evaluated = false;
+    mo->is_evaluated = mo->is_evaluated && eq->is_outright_apart;
     if (!eq->outright(eq->context, motion_clock(mo, t), y, out))
         return false;
     mo->counts.factorisations++;
@@ -449,7 +464,7 @@ static bool project_position(Motion *mo, double t, double *y)
 
     equations_normalise(mo->eq, y);
     motion_at_position(mo, t, y);
-    if (!motion_is_in_step(mo))
+    if (!motion_is_in_step(mo) || motion_rows_are_told(mo))
         measure_rows(mo);
     left = distance(mo);
     if (left <= 1e-16 * size)

@@ -100,9 +100,11 @@ typedef struct Equations {
     /* Where each speed has a row of its own, so that Phi_u is a permutation but for signs: u', and
      * the multipliers of all rows; NULL: not so */
     void (*prescribed)(void *context, double *acceleration, double *multiplier);
-    /* Where no row, network or reference has to be seen to: q', u' and power of t, q and u, all at
-     * once; false: as without_mass. What is above is not up to date then. NULL: not so */
+    /* Where no row, network or reference has to be seen to, or rows in use are those of
+     * `eliminated` and always independent: q', u' and power of t, q and u, all at once; false: as
+     * without_mass. What is above is not up to date then, or stays as it is. NULL: not so */
     bool (*outright)(void *context, double t, const double *y, double *out);
+    bool is_outright_apart;             /* it stays */
     void (*bring_mass)(void *context);  /* M up to date; NULL: it is */
     const double *force;                /* nu; by equations_force() */
     void (*bring_force)(void *context); /* F up to date; NULL: it is */

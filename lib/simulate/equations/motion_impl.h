@@ -89,6 +89,8 @@ void motion_return_rows(Motion *motion, int *rows);
 /* Whether what the equations have eliminated themselves serves there: it is of the rows in use, and
  * as sound as factors that need no refinement. */
 bool motion_is_eliminated(Motion *motion);
+/* whether what has been eliminated is of the rows in use, and these are always independent */
+bool motion_rows_are_told(const Motion *motion);
 /* the network there; false: it can't be solved */
 bool motion_find_network(Motion *motion, double t, const double *y);
 /* Everything but the solution for u', with signs on surfaces as they are: false where the network

@@ -91,13 +91,25 @@ static bool are_rows_known(const Motion *mo)
     return (mo->is_far || mo->is_projecting) && motion_is_in_step(mo);
 }
 
+static bool is_of_rows_in_use(const Motion *mo, const Eliminated *own)
+{
+    return own != NULL && own->row_count == mo->used &&
+           memcmp(own->rows, mo->rows, (size_t)mo->used * sizeof(int)) == 0;
+}
+
+bool motion_rows_are_told(const Motion *mo)
+{
+    const Eliminated *own = mo->eq->eliminated;
+
+    return own != NULL && own->pivot == NULL && is_of_rows_in_use(mo, own);
+}
+
 bool motion_is_eliminated(Motion *mo)
 {
     const Equations *eq = mo->eq;
     const Eliminated *own = eq->eliminated;
 
-    if (own == NULL || own->row_count != mo->used ||
-        memcmp(own->rows, mo->rows, (size_t)mo->used * sizeof(int)) != 0)
+    if (!is_of_rows_in_use(mo, own))
         return false;
     if (!mo->is_alone) {
         mo->is_alone = own->has_pivots(eq->context) &&

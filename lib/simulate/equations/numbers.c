@@ -95,6 +95,24 @@ static bool outright(void *context, double t, const double *y, double *out)
     return tell_accelerations(nb, out + l->n);
 }
 
+/* the same by a program that tells accelerations, what tells their rounding, power, and q' where it
+ * isn't u */
+static bool outright_apart(void *context, double t, const double *y, double *out)
+{
+    const Numbers *nb = context;
+    const Layout *l = nb->layout;
+    double *inputs = probe_inputs(nb->rates);
+    const double *told = workspace_roots(nb->rates->workspace);
+
+    inputs[l->t] = t;
+    memcpy(inputs + l->q, y, (size_t)(l->n + l->nu) * sizeof(double));
+    workspace_run_joined(nb->rates->workspace);
+    memcpy(out, nb->has_rates_of_q ? told + l->nu + 1 : y + l->n, (size_t)l->n * sizeof(double));
+    memcpy(out + l->n, told, (size_t)l->nu * sizeof(double));
+    out[l->n + l->nu] = told[l->nu];
+    return has_pivots(told + nb->rates_excess, nb->rates_pivots);
+}
+
 /* M and F are brought from a program of their own when somebody asks for them */
 static bool needs_no_mass(const Numbers *nb)
 {
@@ -548,6 +566,48 @@ static double *units_of(const Layout *layout)
     return unit;
 }
 
+/* What a run asks for most of all, where nothing else has to be seen to. */
+static Status compile_rates(Numbers *nb, const Constrained *solved, Diag *diag)
+{
+    const Layout *l = nb->layout;
+    const Expr power = system_power(l->system);
+    Roots roots = {0};
+    Status status = OK;
+
+    nb->has_rates_of_q = !is_identity(l->system);
+    (void)block(&roots, solved->acceleration, l->nu);
+    (void)block_on(l, &roots, &power, 1);
+    if (nb->has_rates_of_q)
+        (void)block(&roots, system_run(l->system)->q_rate, l->n);
+    nb->rates_excess = roots.count;
+    for (int j = 0; j < l->nu; j++)
+        if (!expr_is_number(solved->excess[j])) /* of speeds that rows tell it is 1 */
+            LIST_PUSH(roots, solved->excess[j]);
+    nb->rates_pivots = roots.count - nb->rates_excess;
+    CHECK(numbers_compile(l, nb->parameters, &roots, &nb->rates, diag));
+    workspace_foresee(nb->rates->workspace, MOTION_FACTORS_PAID);
+    nb->eq.outright = outright_apart;
+    nb->eq.is_outright_apart = true;
+done:
+    LIST_FREE(roots);
+    return status;
+}
+
+static bool may_be_outright_apart(const Numbers *nb, const Constrained *solved)
+{
+    const Layout *l = nb->layout;
+
+    return solved->looked_at == 0 && l->nx + l->nz == 0 && l->multi_turns == 0 &&
+           l->surface_count == 0 && nb->eq.accelerated == NULL;
+}
+
+static void close_rates(Numbers *nb)
+{
+    probe_free(nb->rates);
+    nb->rates = NULL;
+    nb->eq.outright = NULL;
+}
+
 /* Where this fails the equations are as they were, but for what they may have eliminated before. */
 static Status compile_constrained(Numbers *nb, const Constrained *solved, const int *rows,
                                   int row_count, Diag *diag)
@@ -564,6 +624,7 @@ static Status compile_constrained(Numbers *nb, const Constrained *solved, const 
         .rows = nb->told_rows, .row_count = row_count, .left_count = solved->left_count};
     nb->told_places = solved->places;
     nb->eq.eliminated = NULL;
+    close_rates(nb);
     status = nb->massing == NULL ? compile_mass(nb, nb->parameters, diag) : OK;
     if (status == OK)
         status =
@@ -571,6 +632,8 @@ static Status compile_constrained(Numbers *nb, const Constrained *solved, const 
     if (status == OK) {
         probe_free(before);
         workspace_foresee(nb->main->workspace, MOTION_FACTORS_PAID);
+        if (may_be_outright_apart(nb, solved))
+            status = compile_rates(nb, solved, diag);
     } else {
         nb->told_by = told_before;
     }
@@ -674,6 +737,7 @@ void numbers_free(Numbers *nb)
     probe_free(nb->network);
     probe_free(nb->switching);
     probe_free(nb->massing);
+    probe_free(nb->rates);
     mass_matrix_free(nb->mass);
     articulated_free(nb->articulated);
     pattern_free(&nb->rows);
@@ -695,7 +759,8 @@ const Program *numbers_program(const Numbers *nb, NumbersPart part)
 
 void numbers_set(Numbers *nb, Expr parameter, double value)
 {
-    Probe *const probes[] = {nb->main, nb->switching, nb->network, nb->slip, nb->massing};
+    Probe *const probes[] = {nb->main, nb->switching, nb->network,
+                             nb->slip, nb->massing,   nb->rates};
 
     for (int i = 0; i < COUNT(probes); i++)
         if (probes[i] != NULL)

@@ -21,6 +21,7 @@ struct Numbers {
     MassMatrix *mass;
     Articulated *articulated;
     Probe *massing;
+    Probe *rates; /* rates of t, q and u alone, where rows are eliminated; NULL: not so */
     int mass_needs;
     Told told_by;                        /* whether the main program has eliminated M itself */
     bool is_articulated, is_mass_old;    /* factors are there; M is of another position */
@@ -30,6 +31,9 @@ struct Numbers {
     const double *told_excess, *told_step;
     int *told_rows; /* for these rows */
     ConstrainedPlaces told_places;
+    /* of what `rates` tells: whether q' is there; where what tells rounding begins, and how much */
+    bool has_rates_of_q;
+    int rates_excess, rates_pivots;
     Probe *slip;   /* of surfaces that are slid along: h', or what of it they reach, and h */
     Guard *guards; /* of the conditions, */
     Expr *told;    /* which are these for a user; NULL: margins */
