@@ -61,7 +61,7 @@ static int expect_members(const Model *model, const Instance *part)
         const bool is_effort = strcmp(member->name, "effort") == 0 &&
                                (part->row->family != FAMILY_JOINT || part->coord_count == 1);
         const bool is_turn = part->row->family == FAMILY_JOINT
-                                 ? part->coord_kind[0] == COORDINATE_ANGLE
+                                 ? part->coord_count > 0 && part->coord_kind[0] == COORDINATE_ANGLE
                                  : part->on_angle;
         const char *unit = is_effort ? (is_turn ? "N*m" : "N") : member->unit;
         char name[100];
