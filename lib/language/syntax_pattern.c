@@ -389,6 +389,19 @@ static Status refuse_equals(const Parser *parser)
     return E_SYNTAX;
 }
 
+/* expr; of what is evaluated at an instant, as items of print are, a sum */
+static Status parse_pair_value(Parser *parser, const char *pattern, Syntax **out)
+{
+    if (strchr(pattern, '@') == NULL)
+        return parse_expression(parser, out);
+    TRY(parse_sum(parser, out));
+    if (!parser_sees_comparison(parser) && !parser_sees(parser, "&&") && !parser_sees(parser, "||"))
+        return OK;
+    (void)parser_unexpected(parser);
+    diag_hint(parser->diag, "a comparison stands in brackets here: (a < b)");
+    return E_SYNTAX;
+}
+
 /* pair = var "=" expr ; */
 static Status parse_pair(Parser *parser, Statement *statement)
 {
@@ -402,7 +415,7 @@ static Status parse_pair(Parser *parser, Statement *statement)
         TRY(parser_expected(parser, "'='"));
     if (parser_sees(parser, "="))
         TRY(refuse_equals(parser));
-    TRY(parse_expression(parser, &pair.value));
+    TRY(parse_pair_value(parser, statement->row.pattern, &pair.value));
     LIST_PUSH(statement->pairs, pair);
     (void)parser_take(parser, ",");
     return OK;
