@@ -81,6 +81,43 @@ static void dop853_has_order_8_and_its_interpolant_7(void)
     EXPECT(fine < 1e-10 && fine_middle < 1e-9);
 }
 
+enum { SLOW = 8 };
+
+/* one that is pulled to sin 3 t, fast, and slow ones that are sines */
+static bool pulled_rate(void *context, double t, const double *y, double *rate)
+{
+    (void)context;
+    rate[0] = 3 * cos(3 * t) - 250 * (y[0] - sin(3 * t));
+    for (int i = 1; i <= SLOW; i++)
+        rate[i] = cos(t + i);
+    return true;
+}
+
+static void dop853_tells_what_decays_fast_in_between_as_well_as_at_the_end(void)
+{
+    for (double rtol = 1e-4; rtol > 1e-9; rtol /= 10) {
+        const Ode ode = {.n = 1 + SLOW, .rate = pulled_rate};
+        const Control control = {.rtol = rtol, .atol = rtol};
+        Stepper *s = method_dop853.create(&ode, &control);
+        double y[1 + SLOW] = {0}, middle = 0;
+
+        for (int i = 1; i <= SLOW; i++)
+            y[i] = sin(i);
+        EXPECT(method_dop853.start(s, 0, y, NULL) == OK);
+        while (s->t < 1) {
+            EXPECT(method_dop853.step(s, 1, NULL) == OK);
+            for (int k = 1; k < 20; k++) {
+                const double t = s->before + k * (s->t - s->before) / 20;
+
+                method_dop853.at(s, t, y);
+                middle = fmax(middle, fabs(y[0] - sin(3 * t)));
+            }
+        }
+        EXPECT(middle < 10 * rtol);
+        method_dop853.destroy(s);
+    }
+}
+
 static void rk4_has_order_4(void)
 {
     double coarse, fine, coarse_middle, fine_middle;
@@ -603,6 +640,7 @@ int main(void)
     RUN(condensed_equations_have_the_solutions_of_all);
     RUN(few_states_of_a_network_have_an_exact_jacobian_by_one_evaluation);
     RUN(dop853_has_order_8_and_its_interpolant_7);
+    RUN(dop853_tells_what_decays_fast_in_between_as_well_as_at_the_end);
     RUN(rk4_has_order_4);
     RUN(every_method_meets_its_tolerance_on_a_spring);
     RUN(a_start_forgets_the_steps_before_it);

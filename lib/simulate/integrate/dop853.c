@@ -2,10 +2,13 @@
  *
  * Dormand and Prince's pair as given by Hairer, Norsett and Wanner (1993), II.5 and II.10. A
  * projection after each accepted step comes before the first stage of the next, so it costs no
- * evaluation; the dense output ends at the projected point. The stiffness indicator is theirs
- * too (Solving ODE II, IV.2): h |f(a) - f(b)| / |a - b| over the two points at the end of a step
- * stays above 6.1 when stability, not accuracy, limits the steps. Whether what limits them decays
- * or swings is asked of the Jacobian: backward differentiation is no help against swinging. */
+ * evaluation; the dense output ends at the projected point. Where something decays fast, a step at
+ * the bound of stability may end well and have a dense output that is far off in between; whether
+ * it is so is asked of its slope, and then it is made of several shorter ones. The stiffness
+ * indicator is theirs too (Solving ODE II, IV.2): h |f(a) - f(b)| / |a - b| over the two points at
+ * the end of a step stays above 6.1 when stability, not accuracy, limits the steps. Whether what
+ * limits them decays or swings is asked of the Jacobian: backward differentiation is no help
+ * against swinging. */
 #include "simulate/integrate/dop853_table.h"
 #include "simulate/integrate/ode.h"
 
@@ -26,23 +29,37 @@
 #define STIFF_BOUNDARY 6.1
 #define STIFF_COUNT    15
 #define CALM_COUNT     6
-#define DIFFERENCE     1e-7 /* of y, for a derivative */
+#define DIFFERENCE     1e-7  /* of y, for a derivative */
+#define DENSE_NEAR     10.0  /* from a stage to the dense output, in errors that a step aims at, */
+#define DENSE_DEFECT   100.0 /* h times what its slope is off: its error is some 15 times less */
+#define DENSE_LOOK     0.71  /* where in a step that is */
 
 enum {
-    TOGETHER = 8,  /* entries that are summed together: two Fours; */
-    MOST_FOURS = 8 /* or so many where there are */
+    TOGETHER = 8,    /* entries that are summed together: two Fours; */
+    MOST_FOURS = 8,  /* or so many where there are */
+    DENSE_PARTS = 16 /* at most, of a step whose dense output is made of several */
 };
+
+/* y over a part of a step, along a polynomial */
+typedef struct DensePart {
+    double from, length; /* s */
+    double *old;
+    double *terms[7];
+} DensePart;
 
 typedef struct Dop853 {
     Stepper base;
     int n, all; /* in the error test; with quadratures */
-    int room;   /* of k, sums, old and dense: all, and what fills a multiple of TOGETHER, which is 0
-                 */
+    int room; /* of k, sums, old and dense output: all, and what fills a multiple of TOGETHER, which
+               * is 0
+               */
     double *k[STAGES], *sums[3];
     double *old, *new, *stage_point, *scale;
-    double *dense[7];
-    bool has_dense; /* dense[] belong to the last step */
-    double step;    /* of the last step */
+    DensePart dense[DENSE_PARTS]; /* room for each is taken when it is first needed */
+    double *spare[3];             /* where a part begins, its rate there and at its end */
+    int parts;                    /* of the last step; 0: dense output isn't there yet */
+    double step;                  /* of the last step, */
+    double blur;                  /* and what rounding makes of its tolerance */
     bool was_rejected;
     int stiff, calm; /* steps above and below the boundary */
 } Dop853;
@@ -213,7 +230,8 @@ static double step_error(Dop853 *d, double h)
     h = fabs(h);
     third_order =
         h * sqrt(sum3 / d->n * d->base.control.rtol) / (d->base.may_bend ? STEEP_LUCK : LUCK);
-    return fmax(h * sum5 / sqrt(under * d->n) / stepper_blur(&d->base), third_order * third_order);
+    d->blur = stepper_blur(&d->base);
+    return fmax(h * sum5 / sqrt(under * d->n) / d->blur, third_order * third_order);
 }
 
 /* J w by a difference along w, J the Jacobian at the new point */
@@ -248,7 +266,8 @@ static double scaled_product(const Dop853 *d, const double *v, const double *w)
  * from the imaginary one. */
 static bool swings(Dop853 *d)
 {
-    double *w[] = {d->dense[0], d->dense[1], d->dense[2], d->dense[3]}; /* free until asked for */
+    /* free until asked for */
+    double **terms = d->dense[0].terms, *w[] = {terms[0], terms[1], terms[2], terms[3]};
     double p[4][4], power[4] = {1};
     double rate, a, b, d11, d12, d22, r1, r2, det;
 
@@ -323,9 +342,18 @@ static bool settle(Dop853 *d, double t, double h)
         return false;
     d->base.t = t;
     d->step = h;
-    d->has_dense = false;
+    d->parts = 0;
     memcpy(d->base.y, d->new, (size_t)d->all * sizeof(double));
     return true;
+}
+
+static void take_room(Dop853 *d, DensePart *part)
+{
+    if (part->old != NULL)
+        return;
+    part->old = stepper_numbers(&d->base, d->room);
+    for (int i = 0; i < COUNT(part->terms); i++)
+        part->terms[i] = stepper_numbers(&d->base, d->room);
 }
 
 static Stepper *create(const Ode *ode, const Control *control)
@@ -340,8 +368,10 @@ static Stepper *create(const Ode *ode, const Control *control)
         d->k[i] = stepper_numbers(&d->base, d->room);
     for (int i = 0; i < COUNT(d->sums); i++)
         d->sums[i] = stepper_numbers(&d->base, d->room);
-    for (int i = 0; i < COUNT(d->dense); i++)
-        d->dense[i] = stepper_numbers(&d->base, d->room);
+    for (int i = 0; i < COUNT(d->spare); i++)
+        d->spare[i] = stepper_numbers(&d->base, d->room);
+    take_room(d, &d->dense[0]);
+    d->blur = 1;
     d->old = stepper_numbers(&d->base, d->room);
     d->new = stepper_numbers(&d->base, d->all);
     d->stage_point = stepper_numbers(&d->base, d->all);
@@ -354,7 +384,7 @@ static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
     Dop853 *d = (Dop853 *)stepper;
 
     d->was_rejected = false;
-    d->has_dense = false;
+    d->parts = 0;
     d->step = 0;
     return stepper_start(stepper, t, y, d->k[12], diag);
 }
@@ -418,55 +448,166 @@ static Status step(Stepper *stepper, double end, Diag *diag)
     }
 }
 
-/* the interpolant of the last step (II.6.20 and the appendix): three more stages, on demand */
-static void make_dense(Dop853 *d)
+/* The interpolant of a step of h from d->old, at base.before, to `new` (II.6.20 and the appendix),
+ * with rates in k[0] and k[12]: three more stages, of which stage_point keeps the last one's. */
+static void make_part(Dop853 *d, double h, const double *new, DensePart *out)
 {
-    double h = d->step;
-
+    take_room(d, out);
     for (int stage = 13; stage < STAGES; stage++)
         (void)take_stage(d, stage, h, d->stage_point); /* NaN there shows in what is read */
+    out->from = d->base.before;
+    out->length = h;
+    memcpy(out->old, d->old, (size_t)d->all * sizeof(double));
     for (int i = 0; i < d->all; i++) {
-        double dy = d->base.y[i] - d->old[i];
+        double dy = new[i] - d->old[i];
 
-        d->dense[0][i] = dy;
-        d->dense[1][i] = h * d->k[0][i] - dy;
-        d->dense[2][i] = dy - h * d->k[12][i] - d->dense[1][i];
+        out->terms[0][i] = dy;
+        out->terms[1][i] = h * d->k[0][i] - dy;
+        out->terms[2][i] = dy - h * d->k[12][i] - out->terms[1][i];
     }
     for (int j = 0; j < 4; j++) {
         const double *sum = weigh(d, &dense_rows[j], d->sums[0]);
 
         for (int i = 0; i < d->all; i++)
-            d->dense[3 + j][i] = h * sum[i];
+            out->terms[3 + j][i] = h * sum[i];
     }
-    d->has_dense = true;
 }
 
-/* at this part of the last step */
-AS_WIDE_AS_CAN_BE static void interpolate(const Dop853 *d, double s, double *out)
+/* at this part of a part of the last step */
+AS_WIDE_AS_CAN_BE static void interpolate(const DensePart *part, double s, int room, double *out)
 {
     const double left = 1 - s;
 
-    for (int first = 0; first < d->room; first += 4) {
-        Four sum = *(const Four *)(d->dense[6] + first) * s;
+    for (int first = 0; first < room; first += 4) {
+        Four sum = *(const Four *)(part->terms[6] + first) * s;
 
         for (int j = 5; j >= 0; j--)
-            sum = (sum + *(const Four *)(d->dense[j] + first)) * (j % 2 == 0 ? s : left);
-        *(Four *)(out + first) = *(const Four *)(d->old + first) + sum;
+            sum = (sum + *(const Four *)(part->terms[j] + first)) * (j % 2 == 0 ? s : left);
+        *(Four *)(out + first) = *(const Four *)(part->old + first) + sum;
+    }
+}
+
+/* length times the slope there, of one entry */
+static double interpolated_slope(const DensePart *part, double s, int i)
+{
+    double sum = part->terms[6][i] * s, slope = part->terms[6][i];
+
+    for (int j = 5; j >= 0; j--) {
+        sum += part->terms[j][i];
+        slope = j % 2 == 0 ? slope * s + sum : slope * (1 - s) - sum;
+        sum *= j % 2 == 0 ? s : 1 - s;
+    }
+    return slope;
+}
+
+/* How far from y' the slope of a part just made is, times its length, in errors that a step aims
+ * at; 0 where its last stage is near it already, which costs no evaluation to see. */
+static double part_defect(Dop853 *d, const DensePart *part)
+{
+    double *y = d->sums[0], *off = d->sums[1];
+
+    interpolate(part, nodes[STAGES - 1], d->room, y);
+    for (int i = 0; i < d->n; i++)
+        off[i] = y[i] - d->stage_point[i];
+    if (scaled_norm(d, off) <= DENSE_NEAR * d->blur)
+        return 0;
+    interpolate(part, DENSE_LOOK, d->room, y);
+    if (!stepper_rate(&d->base, part->from + DENSE_LOOK * part->length, y, off))
+        return NAN;
+    for (int i = 0; i < d->n; i++)
+        off[i] = interpolated_slope(part, DENSE_LOOK, i) - part->length * off[i];
+    return scaled_norm(d, off);
+}
+
+/* The last step's dense output from its beginning on, where old and k[0] tell of it, in so many
+ * parts; the largest defect among them, NaN where y' has no value on the way. */
+static double divide(Dop853 *d, int parts)
+{
+    const double before = d->base.before;
+    double *new = d->sums[2], worst = 0;
+
+    for (int p = 0; p < parts; p++) {
+        const double h = (p + 1) * d->step / parts - p * d->step / parts;
+        const bool is_last = p == parts - 1;
+        double defect;
+
+        d->base.before = before + p * d->step / parts;
+        for (int stage = 1; stage < 12; stage++)
+            if (!take_stage(d, stage, h, d->stage_point))
+                return NAN;
+        if (is_last) {
+            memcpy(new, d->base.y, (size_t)d->all * sizeof(double));
+            memcpy(d->k[12], d->spare[2], (size_t)d->all * sizeof(double));
+        } else {
+            move(d->old, h, weigh(d, &stages[12], d->sums[0]), d->all, new);
+            if (!stepper_rate(&d->base, d->base.before + h, new, d->k[12]))
+                return NAN;
+        }
+        make_part(d, h, new, &d->dense[p]);
+        defect = part_defect(d, &d->dense[p]);
+        if (!(defect <= worst))
+            worst = defect;
+        memcpy(d->old, new, (size_t)d->all * sizeof(double));
+        memcpy(d->k[0], d->k[12], (size_t)d->all * sizeof(double));
+    }
+    return worst;
+}
+
+/* The same, with all that tells of the step as it was before. */
+static double divide_step(Dop853 *d, int parts)
+{
+    const size_t size = (size_t)d->all * sizeof(double);
+    const double before = d->base.before;
+    double worst;
+
+    memcpy(d->spare[0], d->old, size);
+    memcpy(d->spare[1], d->k[0], size);
+    memcpy(d->spare[2], d->k[12], size);
+    worst = divide(d, parts);
+    memcpy(d->old, d->spare[0], size);
+    memcpy(d->k[0], d->spare[1], size);
+    memcpy(d->k[12], d->spare[2], size);
+    d->base.before = before;
+    return worst;
+}
+
+/* dense output of the last step, on demand */
+static void make_dense(Dop853 *d)
+{
+    double worst, last = HUGE_VAL;
+
+    d->parts = 1;
+    make_part(d, d->step, d->base.y, &d->dense[0]);
+    worst = part_defect(d, &d->dense[0]);
+    /* shorter parts are no better where rounding is what is seen */
+    while (worst > DENSE_DEFECT * d->blur && worst < 0.5 * last && d->parts < DENSE_PARTS) {
+        last = worst;
+        d->parts *= 2;
+        worst = divide_step(d, d->parts);
+    }
+    if (isnan(worst)) { /* what is left is the step as it was taken */
+        d->parts = 1;
+        for (int stage = 1; stage < 12; stage++)
+            (void)take_stage(d, stage, d->step, d->stage_point);
+        make_part(d, d->step, d->base.y, &d->dense[0]);
     }
 }
 
 static void at(Stepper *stepper, double t, double *y)
 {
     Dop853 *d = (Dop853 *)stepper;
-    double s = d->step != 0 ? (t - d->base.before) / d->step : 1;
+    const DensePart *part;
+    int p;
 
     if (d->step == 0 || t == d->base.t) {
         memcpy(y, d->base.y, (size_t)d->all * sizeof(double));
         return;
     }
-    if (!d->has_dense)
+    if (d->parts == 0)
         make_dense(d);
-    interpolate(d, s, d->sums[0]);
+    p = (int)((t - d->base.before) / d->step * d->parts);
+    part = &d->dense[p < 0 ? 0 : p >= d->parts ? d->parts - 1 : p];
+    interpolate(part, (t - part->from) / part->length, d->room, d->sums[0]);
     memcpy(y, d->sums[0], (size_t)d->all * sizeof(double));
 }
 
@@ -482,7 +623,7 @@ static Status shorten(Stepper *stepper, double t, Diag *diag)
         d->step = 0;
         return OK;
     }
-    if (d->step != 0 && !d->has_dense)
+    if (d->step != 0 && d->parts == 0)
         make_dense(d); /* while there are its stages */
     if (!try_step(d, h) || !settle(d, t, h))
         return solver_failure(diag, t, "the equations have no solution at a switch");
