@@ -178,3 +178,12 @@ family_machine_slopes_SOURCES = tests/family/family_machine_slopes.c tests/famil
 	tests/family/extrapolated.h tests/family/family.h tests/family/script.h \
 	tests/unit/session_kit.h tests/unit/test.h tests/random.h
 family_machine_slopes_LDADD = libcotree.la $(unit_ldadd)
+
+FAMILIES += family_machine_code
+family_machine_code_SOURCES = tests/family/family_machine_code.c tests/family/machine.h \
+	tests/family/machine_draw.h tests/family/machine_networks.h \
+	tests/family/machine_inputs.h tests/family/machine_slopes.h tests/family/machine_tableau.h \
+	tests/family/machine_whole.h \
+	tests/family/extrapolated.h tests/family/family.h tests/family/script.h \
+	tests/unit/session_kit.h tests/unit/test.h tests/random.h
+family_machine_code_LDADD = libcotree.la $(unit_ldadd) -ldl

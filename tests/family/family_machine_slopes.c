@@ -96,8 +96,8 @@ static void set_steps(Slopes *s)
         const StateName *n = &s->state[i];
 
         s->step[i] = n->kind == OF_STORE ? 1e-3 * (fabs(s->z[n->of]) + 1e-2)
-                     : n->is_speed       ? 1e-2
-                                         : 1e-3;
+                     : n->is_speed       ? 5e-3
+                                         : 5e-4;
     }
     for (int i = 0; i < s->inputs; i++)
         s->step[s->states + i] = s->input[i].step;
@@ -105,10 +105,12 @@ static void set_steps(Slopes *s)
 
 /* --- entries --- */
 
-static Verdict compare_entries(Member *member, Kit *kit, const Slopes *s)
+/* *smooth: differences are as good as slopes */
+static Verdict compare_entries(Member *member, Kit *kit, const Slopes *s, bool *smooth)
 {
     int counted = 0, all = 0;
 
+    *smooth = true;
     for (int r = 0; r < s->states + s->outputs; r++) {
         const bool is_output = r >= s->states;
         double most = 0;
@@ -118,12 +120,13 @@ static Verdict compare_entries(Member *member, Kit *kit, const Slopes *s)
         for (int c = 0; c < s->states + s->inputs; c++, all++) {
             const bool is_input = c >= s->states;
             const char letter = is_output ? (is_input ? 'D' : 'C') : is_input ? 'B' : 'A';
-            const double h = s->step[c], bound = 1e-5 * most + 0.1 * s->gap[r][c] * h +
+            const double h = s->step[c], bound = 1e-5 * most + 0.5 * s->gap[r][c] * h +
                                                  1e-9 * fabs(s->size[r]) + 1e-12;
             char text[60];
             double got;
 
-            if (s->gap[r][c] * h > 0.02 * most)
+            *smooth = *smooth && s->gap[r][c] * h <= 1e-4 * most + 1e-8 * fabs(s->size[r]) + 1e-11;
+            if (s->gap[r][c] * h > 0.005 * most)
                 continue; /* it bends too much beside the point, or has a corner there */
             counted++;
             (void)snprintf(text, sizeof text, "linear.%c(%d,%d)", letter,
@@ -351,11 +354,12 @@ static Verdict linear_at(Member *member, Kit *kit, Slopes *s, double t, const ch
         return REFUSED;
     }
     {
-        Verdict verdict = compare_entries(member, kit, s);
+        bool smooth;
+        Verdict verdict = compare_entries(member, kit, s, &smooth);
 
-        if (verdict == AGREES)
+        if (verdict == AGREES && smooth)
             verdict = compare_bode(member, kit, s);
-        return verdict == AGREES ? compare_transfers(member, kit, s) : verdict;
+        return verdict == AGREES && smooth ? compare_transfers(member, kit, s) : verdict;
     }
 }
 

@@ -12,13 +12,13 @@ typedef struct Numbers {
     int count;
 } Numbers;
 
-static void take_numbers(Numbers *n, double *first, const double *last)
+static inline void take_numbers(Numbers *n, double *first, const double *last)
 {
     for (; first <= last; first++)
         n->at[n->count++] = first;
 }
 
-static void find_numbers(Machine *m, Numbers *n)
+static inline void find_numbers(Machine *m, Numbers *n)
 {
     n->count = 0;
     take_numbers(n, m->mass, m->mass + m->bodies - 1);
@@ -38,7 +38,7 @@ static void find_numbers(Machine *m, Numbers *n)
 }
 
 /* where a number stands in a script, once; NULL: it doesn't */
-static char *place_of(char *text, const char *number)
+static inline char *place_of(char *text, const char *number)
 {
     char *found = strstr(text, number);
 
@@ -51,7 +51,7 @@ static char *place_of(char *text, const char *number)
 }
 
 /* a number becomes a parameter; false: it isn't written */
-static bool make_parameter(Script *script, double number, const char *name)
+static inline bool make_parameter(Script *script, double number, const char *name)
 {
     static char rest[sizeof script->text];
     char text[40];
@@ -71,7 +71,7 @@ static bool make_parameter(Script *script, double number, const char *name)
 }
 
 /* NOLINTNEXTLINE(readability-non-const-parameter): it is changed later */
-static void add_input(Slopes *s, double *number, double sign, const char *name)
+static inline void add_input(Slopes *s, double *number, double sign, const char *name)
 {
     SlopeInput *in = &s->input[s->inputs++];
 
@@ -79,7 +79,7 @@ static void add_input(Slopes *s, double *number, double sign, const char *name)
     (void)snprintf(in->name, sizeof in->name, "%s", name);
 }
 
-static void draw_inputs(Member *member, Slopes *s)
+static inline void draw_inputs(Member *member, Slopes *s)
 {
     Machine *m = &s->d->m;
     static Numbers numbers;
@@ -102,7 +102,7 @@ static void draw_inputs(Member *member, Slopes *s)
         (void)snprintf(name, sizeof name, "P%d", s->inputs);
         if (!taken && make_parameter(&s->d->script, *number, name)) {
             add_input(s, number, 1, name);
-            s->input[s->inputs - 1].step = 1e-3 * fabs(*number);
+            s->input[s->inputs - 1].step = 3e-4 * fabs(*number);
         }
     }
 }

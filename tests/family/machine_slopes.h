@@ -49,7 +49,7 @@ typedef struct Slopes {
 /* --- what a name says --- */
 
 /* the small turn that R is */
-static Vector turn_vector(const Turn *R)
+static inline Vector turn_vector(const Turn *R)
 {
     const Vector s = vec((R->at[2][1] - R->at[1][2]) / 2, (R->at[0][2] - R->at[2][0]) / 2,
                          (R->at[1][0] - R->at[0][1]) / 2);
@@ -58,7 +58,7 @@ static Vector turn_vector(const Turn *R)
     return sine < 1e-9 ? s : add(vec(0, 0, 0), asin(sine) / sine, s);
 }
 
-static Turn joint_attitude(const Machine *m, const Instant *now, int hinge)
+static inline Turn joint_attitude(const Machine *m, const Instant *now, int hinge)
 {
     const Stand t = stand(m, now, m->hinge[hinge].tail), h = stand(m, now, m->hinge[hinge].tip);
     const Turn back = transposed(&t.R);
@@ -66,14 +66,14 @@ static Turn joint_attitude(const Machine *m, const Instant *now, int hinge)
     return turns(&back, &h.R);
 }
 
-static Vector turned(const Turn *from, const Turn *to)
+static inline Vector turned(const Turn *from, const Turn *to)
 {
     const Turn back = transposed(from), R = turns(&back, to);
 
     return turn_vector(&R);
 }
 
-static double position_of(const Slopes *s, const StateName *n, const Instant *now)
+static inline double position_of(const Slopes *s, const StateName *n, const Instant *now)
 {
     const Machine *m = &s->d->m;
     Turn from, to;
@@ -95,7 +95,7 @@ static double position_of(const Slopes *s, const StateName *n, const Instant *no
 }
 
 /* order 1: the speed; 2: its rate, of an instant that is solved */
-static double rate_of(const Machine *m, const StateName *n, const Instant *now, int order)
+static inline double rate_of(const Machine *m, const StateName *n, const Instant *now, int order)
 {
     const bool second = order == 2;
 
@@ -122,7 +122,7 @@ static double rate_of(const Machine *m, const StateName *n, const Instant *now, 
 
 /* --- states by their names --- */
 
-static bool store_name(const Machine *m, int element, bool more, char name[32])
+static inline bool store_name(const Machine *m, int element, bool more, char name[32])
 {
     static const char *const effort[] = {"v", "w", "v", "p"};
     static const char *const flow[] = {"i", "torque", "force", "flow"};
@@ -146,7 +146,7 @@ static bool store_name(const Machine *m, int element, bool more, char name[32])
     return true;
 }
 
-static bool is_store(const Machine *m, StateName *n)
+static inline bool is_store(const Machine *m, StateName *n)
 {
     char name[32];
 
@@ -160,7 +160,7 @@ static bool is_store(const Machine *m, StateName *n)
     return false;
 }
 
-static bool is_mechanical(const Machine *m, StateName *n)
+static inline bool is_mechanical(const Machine *m, StateName *n)
 {
     char bare[32], what[32];
     size_t length;
@@ -201,7 +201,7 @@ static bool is_mechanical(const Machine *m, StateName *n)
 /* --- a point beside the base --- */
 
 /* solves n equations; the right sides in column n */
-static bool eliminate(int n, double a[MOVES][MOVES + 1])
+static inline bool eliminate(int n, double a[MOVES][MOVES + 1])
 {
     for (int c = 0; c < n; c++) {
         int best = c;
@@ -225,7 +225,7 @@ static bool eliminate(int n, double a[MOVES][MOVES + 1])
     return true;
 }
 
-static int all_moves(const Machine *m)
+static inline int all_moves(const Machine *m)
 {
     int count = 0;
 
@@ -234,7 +234,7 @@ static int all_moves(const Machine *m)
     return count;
 }
 
-static void move_joint(Drawn *d, int move, double by)
+static inline void move_joint(Drawn *d, int move, double by)
 {
     for (int j = 0; j < d->m.bodies; move -= rates_of(&d->m.hinge[j++])) {
         double *q = d->q[j];
@@ -256,7 +256,7 @@ static void move_joint(Drawn *d, int move, double by)
     }
 }
 
-static double *joint_rate(Drawn *d, int move)
+static inline double *joint_rate(Drawn *d, int move)
 {
     int j = 0;
 
@@ -265,7 +265,7 @@ static double *joint_rate(Drawn *d, int move)
     return &d->rate[j][move];
 }
 
-static void stand_there(Drawn *d, Instant *now)
+static inline void stand_there(Drawn *d, Instant *now)
 {
     const Machine *m = &d->m;
 
@@ -276,8 +276,8 @@ static void stand_there(Drawn *d, Instant *now)
 
 /* what is wanted of positions, less what there is, and how far loops are open; order 1: of speeds.
  * How many there are. */
-static int misses(const Slopes *s, const Instant *now, const double *wanted, int order,
-                  double *miss)
+static inline int misses(const Slopes *s, const Instant *now, const double *wanted, int order,
+                         double *miss)
 {
     const Machine *m = &s->d->m;
     int n = 0;
@@ -297,7 +297,7 @@ static int misses(const Slopes *s, const Instant *now, const double *wanted, int
 }
 
 /* joints so that states are as wanted; false: they don't determine where things are */
-static bool join(Slopes *s, const double *wanted, Instant *now)
+static inline bool join(Slopes *s, const double *wanted, Instant *now)
 {
     const int n = all_moves(&s->d->m);
     double miss[MOVES + STATES], moved[MOVES + STATES], a[MOVES][MOVES + 1];
@@ -346,7 +346,7 @@ static bool join(Slopes *s, const double *wanted, Instant *now)
 }
 
 /* how fast a position deviates: a turn phi about the axes of W goes by dW - W x phi */
-static double deviation_rate(const Slopes *s, int state, const Instant *now)
+static inline double deviation_rate(const Slopes *s, int state, const Instant *now)
 {
     const Machine *m = &s->d->m;
     const StateName *n = &s->state[state];
@@ -363,7 +363,7 @@ static double deviation_rate(const Slopes *s, int state, const Instant *now)
 }
 
 /* rates of the states and outputs where states and inputs deviate by x */
-static bool answers(Slopes *s, const double *x, double *out)
+static inline bool answers(Slopes *s, const double *x, double *out)
 {
     Machine *m = &s->d->m;
     static Instant now;
@@ -409,7 +409,7 @@ static bool answers(Slopes *s, const double *x, double *out)
 }
 
 /* all slopes about the base; false: the oracle doesn't tell */
-static bool slopes_find(Slopes *s)
+static inline bool slopes_find(Slopes *s)
 {
     static double out[5][STATES + OUTPUTS];
     double x[COLUMNS] = {0};
