@@ -22,7 +22,9 @@ enum {
 #define AGREE  1e-12 /* of the mean size: halves of a piece that differ by less agree */
 #define ROUGH  1e-6  /* of their size: a kink, a jump or a pole is in halves that differ by more; */
 #define LASTS  0.4   /* about a pole these add up to as much in the end, however short they are, */
-#define WEIGHS 1e-3  /* and to so much of the whole */
+#define WEIGHS 1e-3  /* and to so much of the whole, */
+#define NARROW 1e-2  /* within so little of the span; */
+#define NOISY  0.25  /* what is rough in so much of it, in short pieces, is rounding of what is 0 */
 #define EVEN   0.1   /* crossings that are further from even tell no period */
 
 static const double nodes[POINTS] = {
@@ -171,7 +173,7 @@ static Status mean_of(const Course *course, int power, double *out, Diag *diag)
 {
     const double span = course->ends.at[course->ends.count - 1] - course->ends.at[0];
     Pieces open = {0}, halves = {0};
-    double sum = 0, size = 0, least = INFINITY;
+    double sum = 0, size = 0, least = INFINITY, last_width = 0;
     Status status = OK;
 
     *out = power == 2 ? course->values.at[0] * course->values.at[0] : course->values.at[0];
@@ -185,7 +187,8 @@ static Status mean_of(const Course *course, int power, double *out, Diag *diag)
         LIST_PUSH(open, piece);
     }
     for (int k = 0; open.count > 0; k++) {
-        double rough = 0; /* what the rough pieces add up to */
+        const bool is_noise = k > SHORT && last_width > NOISY * span;
+        double rough = 0, width = 0; /* what the rough pieces add up to, of the course and of t */
         int left = 0;
 
         halves.count = 0;
@@ -196,9 +199,11 @@ static Status mean_of(const Course *course, int power, double *out, Diag *diag)
             const double bound = AGREE * size * fmax((open.at[i].b - open.at[i].a) / span, 1e-3);
 
             const double own = fabs(halves.at[2 * i].sum) + fabs(halves.at[2 * i + 1].sum);
+            const bool is_rough = fabs(both - open.at[i].sum) > ROUGH * own;
 
-            rough += fabs(both - open.at[i].sum) > ROUGH * own ? own : 0;
-            if (k < HALVINGS && fabs(both - open.at[i].sum) > bound) {
+            rough += is_rough ? own : 0;
+            width += is_rough ? open.at[i].b - open.at[i].a : 0;
+            if (k < HALVINGS && !is_noise && fabs(both - open.at[i].sum) > bound) {
                 halves.at[left++] = halves.at[2 * i];
                 halves.at[left++] = halves.at[2 * i + 1];
             } else {
@@ -207,9 +212,11 @@ static Status mean_of(const Course *course, int power, double *out, Diag *diag)
         }
         if (k <= SHORT)
             least = fmin(least, rough);
-        else if (k == HALVINGS && rough > fmax(LASTS * least, WEIGHS * size))
+        else if (k == HALVINGS && rough > fmax(LASTS * least, WEIGHS * size) &&
+                 width <= NARROW * span)
             CHECK(refuse_pole(course, &halves, diag));
         halves.count = left;
+        last_width = width;
 
         const Pieces swap = open;
 

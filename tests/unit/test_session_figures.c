@@ -302,6 +302,17 @@ static void a_spectrum_stands_where_it_can(void)
     kit_free(&kit);
 }
 
+/* 1 but for rounding, which no pieces of a run agree about */
+static void rounding_has_a_mean(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SWING "simulate 10 every=0.1");
+    EXPECT_NEAR(kit_value(&kit, "mean(sin(h)^2 + cos(h)^2 - 1)"), 0, 1e-15);
+    EXPECT_NEAR(kit_value(&kit, "rms(sin(h)^2 + cos(h)^2 - 1)"), 0, 1e-15);
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(a_tone_shows_its_amplitude);
@@ -314,6 +325,7 @@ int main(void)
     RUN(a_ball_jumps_between_rows);
     RUN(what_decays_settles);
     RUN(what_is_kept_is_a_number_with_its_unit);
+    RUN(rounding_has_a_mean);
     RUN(a_run_remembers_its_parameters);
     return test_end();
 }
