@@ -86,6 +86,34 @@ Names *names_borrowing(void)
     return names;
 }
 
+Names *names_borrowing_from(const Names *from, const char *const *texts)
+{
+    Names *names = NEW(Names);
+
+    names->borrows = true;
+    names->size = from->size;
+    names->slots = NEW_ARRAY(int, from->size);
+    memcpy(names->slots, from->slots, (size_t)from->size * sizeof *names->slots);
+    LIST_ROOM(names->list, from->list.count);
+    for (int i = 0; i < from->list.count; i++)
+        names->list.at[names->list.count++] =
+            (Named){.text = texts[i], .hash = from->list.at[i].hash};
+    return names;
+}
+
+void names_expect(Names *names, int more)
+{
+    const int count = names->list.count + more;
+    int size = names->size;
+
+    while (count * 4 > size * 3)
+        size *= 2;
+    mem_keep(names);
+    if (size > names->size)
+        resize(names, size);
+    LIST_ROOM(names->list, more);
+}
+
 void names_free(Names *names)
 {
     if (names == NULL)

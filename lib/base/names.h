@@ -10,6 +10,9 @@ typedef struct Names Names;
 
 Names *names_new(void);       /* new; names_free() */
 Names *names_borrowing(void); /* the same of texts that stay as long as it */
+/* the same names by the same numbers, borrowed from elsewhere: texts[number]; O(names) */
+Names *names_borrowing_from(const Names *from, const char *const *texts);
+void names_expect(Names *names, int more); /* room for so many is made at once */
 void names_free(Names *names);
 int names_find(const Names *names, const char *name);                     /* its number, or -1 */
 int names_find_part(const Names *names, const char *name, size_t length); /* of its beginning */

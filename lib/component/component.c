@@ -136,7 +136,8 @@ Value *values_copy(Pool *pool, const Value *values, int count)
 Expr instance_literal(const Instance *instance, Arena *arena, int param, int entry)
 {
     const char *const part = instance->name, *const value = instance->row->params[param].name;
-    char *name = mem_new(strlen(part) + strlen(value) + sizeof "#.[99]");
+    const size_t size = strlen(part) + strlen(value) + sizeof "#.[99]";
+    char usual[128], *const name = size <= sizeof usual ? usual : mem_new(size);
     char *at = name;
     Expr symbol;
 
@@ -149,9 +150,11 @@ Expr instance_literal(const Instance *instance, Arena *arena, int param, int ent
     if (entry >= 10)
         *at++ = (char)('0' + entry / 10);
     *at++ = (char)('0' + entry % 10);
-    *at = ']';
+    *at++ = ']';
+    *at = '\0';
     symbol = expr_symbol(arena, name, SYMBOL_PARAMETER);
-    mem_free(name);
+    if (name != usual)
+        mem_free(name);
     return symbol;
 }
 
@@ -506,13 +509,13 @@ const Member *component_find_member(const Component *row, bool planar, const cha
 
 void steps_none(Arena *arena, Steps *out)
 {
-    Expr zero = expr_int(arena, 0);
+    const Expr zero = expr_int(arena, 0), one = expr_int(arena, 1);
 
     *out = (Steps){0};
     for (int i = 0; i < 3; i++)
         out->constant[i] = zero;
     for (int i = 0; i < 9; i++)
-        out->rotation[i] = i % 4 == 0 ? expr_int(arena, 1) : zero;
+        out->rotation[i] = i % 4 == 0 ? one : zero;
 }
 
 static Step step(Arena *arena, const Expr axis[3], int coordinate)

@@ -175,6 +175,11 @@ int expr_symbols(const Expr *roots, int count, Expr **symbols)
     Walk walk = {0};
     LIST(Expr) found = {0};
 
+    if (count == 1 && roots[0]->kind == EXPR_SYMBOL && roots[0]->kinds != 0) {
+        LIST_PUSH(found, roots[0]);
+        *symbols = found.at;
+        return 1;
+    }
     for (int i = 0; i < count; i++)
         walk_below(&walk, roots[i], ~0U, NULL, NULL);
     for (int i = 0; i < walk.count; i++)

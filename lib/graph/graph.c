@@ -103,21 +103,10 @@ int graph_add_node(Graph *graph, const char *name, Domain domain, bool datum)
     return node;
 }
 
-/* its name and ends, not yet at these */
-static void enter_edge(Graph *graph, const Edge *edge)
-{
-    const int number = graph->edges.count;
-    Edge copy = *edge;
-
-    copy.name = pool_text(graph->texts, edge->name, strlen(edge->name));
-    if (names_add(graph->edge_names, copy.name) == graph->first_edge.count)
-        LIST_PUSH(graph->first_edge, number);
-    LIST_PUSH(graph->edges, copy);
-}
-
 int graph_add_edge(Graph *graph, const Edge *edge)
 {
     const int number = graph->edges.count;
+    Edge own = *edge;
 
     assert(edge->tail >= 0 && edge->tail < graph->nodes.count);
     assert(edge->head >= 0 && edge->head < graph->nodes.count);
@@ -125,7 +114,10 @@ int graph_add_edge(Graph *graph, const Edge *edge)
     assert(graph->nodes.at[edge->head].domain == edge->domain);
 
     mem_keep(graph);
-    enter_edge(graph, edge);
+    own.name = pool_text(graph->texts, edge->name, strlen(edge->name));
+    if (names_add(graph->edge_names, own.name) == graph->first_edge.count)
+        LIST_PUSH(graph->first_edge, number);
+    LIST_PUSH(graph->edges, own);
     keep_incident(graph, edge->tail);
     LIST_PUSH(graph->at.at[edge->tail].edges, number);
     keep_incident(graph, edge->head);
@@ -134,26 +126,61 @@ int graph_add_edge(Graph *graph, const Edge *edge)
     return number;
 }
 
-Graph *graph_copy(const Graph *from)
+/* what bears each name first, by the number of the name */
+static void copy_nodes(Graph *graph, const Graph *from)
 {
-    Graph *graph = graph_new();
+    const char **names = NEW_ARRAY(const char *, from->first_node.count);
 
     LIST_ROOM(graph->nodes, from->nodes.count);
     LIST_ROOM(graph->at, from->nodes.count);
-    LIST_ROOM(graph->edges, from->edges.count);
     for (int i = 0; i < from->nodes.count; i++) {
         const Incident *at = &from->at.at[i];
+        Node node = from->nodes.at[i];
         Incident own = {.edges = {0}};
 
-        (void)graph_add_node(graph, from->nodes.at[i].name, from->nodes.at[i].domain,
-                             from->nodes.at[i].datum);
+        node.name = pool_text(graph->texts, node.name, strlen(node.name));
         LIST_ROOM(own.edges, at->edges.count);
         for (int k = 0; k < at->edges.count; k++)
             own.edges.at[own.edges.count++] = at->edges.at[k];
-        graph->at.at[i] = own;
+        graph->nodes.at[graph->nodes.count++] = node;
+        graph->at.at[graph->at.count++] = own;
     }
-    for (int i = 0; i < from->edges.count; i++)
-        enter_edge(graph, &from->edges.at[i]);
+    LIST_ROOM(graph->first_node, from->first_node.count);
+    for (int i = 0; i < from->first_node.count; i++) {
+        graph->first_node.at[graph->first_node.count++] = from->first_node.at[i];
+        names[i] = graph->nodes.at[from->first_node.at[i]].name;
+    }
+    graph->node_names = names_borrowing_from(from->node_names, names);
+    mem_free(names);
+}
+
+static void copy_edges(Graph *graph, const Graph *from)
+{
+    const char **names = NEW_ARRAY(const char *, from->first_edge.count);
+
+    LIST_ROOM(graph->edges, from->edges.count);
+    for (int i = 0; i < from->edges.count; i++) {
+        Edge edge = from->edges.at[i];
+
+        edge.name = pool_text(graph->texts, edge.name, strlen(edge.name));
+        graph->edges.at[graph->edges.count++] = edge;
+    }
+    LIST_ROOM(graph->first_edge, from->first_edge.count);
+    for (int i = 0; i < from->first_edge.count; i++) {
+        graph->first_edge.at[graph->first_edge.count++] = from->first_edge.at[i];
+        names[i] = graph->edges.at[from->first_edge.at[i]].name;
+    }
+    graph->edge_names = names_borrowing_from(from->edge_names, names);
+    mem_free(names);
+}
+
+Graph *graph_copy(const Graph *from)
+{
+    Graph *graph = NEW(Graph);
+
+    graph->texts = pool_new(0);
+    copy_nodes(graph, from);
+    copy_edges(graph, from);
     return graph;
 }
 

@@ -9,6 +9,7 @@ static bool join(Draft *draft, int edge, Standing standing)
     if (!sets_join(draft->sets, e->tail, e->head))
         return false;
     draft->standing[edge] = (unsigned char)standing;
+    draft->joined++;
     return true;
 }
 
@@ -41,11 +42,24 @@ static Status join_chosen(Draft *draft, Diag *diag)
     return OK;
 }
 
+/* whether all nodes of the domain hang together, terminals on which nothing stands, too */
+static bool is_whole(const Draft *draft)
+{
+    const Domain domain = tree_kind_domain(draft->kind);
+    int nodes = 0;
+
+    for (int i = 0; i < graph_node_count(draft->graph); i++)
+        nodes += graph_node(draft->graph, i)->domain == domain;
+    return draft->joined + 1 >= nodes;
+}
+
 static void join_preferred(Draft *draft)
 {
-    int *edges;
-    int count = draft_candidates(draft, false, &edges);
+    int *edges, count;
 
+    if (is_whole(draft))
+        return;
+    count = draft_candidates(draft, false, &edges);
     for (int i = 0; i < count; i++)
         (void)join(draft, edges[i], STANDING_COMPLETED);
     mem_free(edges);

@@ -21,6 +21,7 @@ typedef struct Draft {
     int datum;                /* -1: the domain has none */
     unsigned char *standing;  /* a Standing for each edge of the graph */
     Sets *sets;               /* nodes that branches unite */
+    int joined;               /* branches so far */
 } Draft;
 
 int draft_preference(const Draft *draft, int edge);

@@ -267,10 +267,11 @@ typedef struct Inertia {
     Vec force, torque;
 } Inertia;
 
-static Inertia inertia_of(const System *system, const Mass *mass, Vec g, const Vec *alpha,
-                          const Vec *a)
+static Inertia inertia_of(const System *system, const Mass *mass, Outward *gravity,
+                          const Vec *alpha, const Vec *a)
 {
     Arena *arena = system->arena;
+    const Vec g = outward_at(system, gravity, node_axes(system, mass->node));
     const int chain = system->kinematics->frames[mass->node].chain;
     Inertia inertia = {vec_scale(arena, mass->mass, vec_sub(arena, g, a[mass->node])),
                        vec_zero(arena)};
@@ -289,7 +290,7 @@ static Inertia inertia_of(const System *system, const Mass *mass, Vec g, const V
 /* What a mass at rest accelerations does: of a follower's it is all on its node so far, as inertia
  * comes before other loads. */
 static Inertia find_inertia(const System *system, const Loads *loads, const Mass *mass,
-                            const Follower *follower, int first, const Vec *gravity)
+                            const Follower *follower, int first, Outward *gravity)
 {
     const Kinematics *kinematics = system->kinematics;
     const bool takes = follower != NULL && alike_moves(follower);
@@ -304,8 +305,7 @@ static Inertia find_inertia(const System *system, const Loads *loads, const Mass
     }
     if (derived_recall(system, told, DERIVED_INERTIA, &inertia, sizeof inertia))
         return inertia;
-    inertia = inertia_of(system, mass, gravity[node_axes(system, mass->node)], kinematics->alpha0,
-                         kinematics->a0);
+    inertia = inertia_of(system, mass, gravity, kinematics->alpha0, kinematics->a0);
     derived_keep(system, told, DERIVED_INERTIA, &inertia, sizeof inertia);
     return inertia;
 }
@@ -313,9 +313,8 @@ static Inertia find_inertia(const System *system, const Loads *loads, const Mass
 void loads_add_inertia(const System *system, Loads *loads, const Vec *alpha, const Vec *a,
                        const Expr *accelerations)
 {
-    Vec *gravity = NEW_ARRAY(Vec, system->kinematics->chains.count);
+    Outward gravity = outward_new(system, system->origin->gravity);
 
-    vec_express_outward(system, system->origin->gravity, gravity);
     /* what others take over comes before them */
     for (int level = 0, done = 0; done < system->dynamics->masses.count; level++)
         for (int i = 0; i < system->dynamics->masses.count; i++) {
@@ -327,10 +326,9 @@ void loads_add_inertia(const System *system, Loads *loads, const Vec *alpha, con
 
             if ((accelerations == NULL ? alike_level(system, mass->node) : 0) != level)
                 continue;
-            inertia =
-                accelerations == NULL
-                    ? find_inertia(system, loads, mass, follower, first, gravity)
-                    : inertia_of(system, mass, gravity[node_axes(system, mass->node)], alpha, a);
+            inertia = accelerations == NULL
+                          ? find_inertia(system, loads, mass, follower, first, &gravity)
+                          : inertia_of(system, mass, &gravity, alpha, a);
             loads->force[mass->node] =
                 vec_add(system->arena, loads->force[mass->node], inertia.force);
             loads->torque[mass->node] =
@@ -340,7 +338,7 @@ void loads_add_inertia(const System *system, Loads *loads, const Vec *alpha, con
     for (int i = 0; i < system->dynamics->elastics.count; i++)
         elastic_add_inertia(system, &system->dynamics->elastics.at[i], loads, alpha, a,
                             accelerations);
-    mem_free(gravity);
+    outward_free(&gravity);
 }
 
 static bool is_one_of(Expr symbol, const Expr *symbols, int count)

@@ -1,5 +1,6 @@
 /* frames.c: chains of turns along the rotation tree, steps along the translation tree */
 #include "formulate/kinematics/frames.h"
+#include "formulate/kinematics/identity.h"
 #include "formulate/kinematics/stations.h"
 #include "formulate/system/dynamics.h"
 #include "formulate/system/kinematics.h"
@@ -513,6 +514,40 @@ void vec_express_outward(const System *system, Vec v, Vec *out)
     }
 }
 
+Outward outward_new(const System *system, Vec v)
+{
+    const int chains = system->kinematics->chains.count;
+    Outward outward = {NEW_ARRAY(Vec, chains), NEW_ARRAY(bool, chains)};
+
+    outward.at[0] = v;
+    outward.is_known[0] = true;
+    return outward;
+}
+
+void outward_free(Outward *outward)
+{
+    MEM_FREE(outward->at, outward->is_known);
+}
+
+Vec outward_at(const System *system, Outward *outward, int chain)
+{
+    const Chain *chains = system->kinematics->chains.at;
+
+    /* from the last one that is known on: most who ask do so outward, too */
+    while (!outward->is_known[chain]) {
+        int next = chain;
+
+        while (!outward->is_known[chains[chains[next].run].parent])
+            next = chains[chains[next].run].parent;
+        outward->at[next] = chains[next].resolve == next
+                                ? vec_express(system, outward->at[chains[chains[next].run].parent],
+                                              chains[chains[next].run].parent, next)
+                                : outward->at[0];
+        outward->is_known[next] = true;
+    }
+    return outward->at[chain];
+}
+
 Vec vec_carry(const System *system, Vec v, int from, int to)
 {
     const Chain *chains = system->kinematics->chains.at;
@@ -536,10 +571,26 @@ int node_axes(const System *system, int node)
     return system->kinematics->chains.at[system->kinematics->frames[node].chain].resolve;
 }
 
+/* several who sum up ask for it, and other Systems of the arena */
 Vec speed_axis(const System *system, int speed, int axes)
 {
-    return vec_express(system, system->kinematics->speeds[speed].axis,
-                       system->kinematics->speeds[speed].axis_chain, axes);
+    const Chain *chains = system->kinematics->chains.at;
+    const int from = system->kinematics->speeds[speed].axis_chain;
+    Vec axis = system->kinematics->speeds[speed].axis;
+    Key key;
+    Expr told;
+
+    if (from < 0 || from == axes || vec_is_zero(axis) || stays(system, axis, from, axes))
+        return axis;
+    key = key_of(chains[from].identity);
+    key_add(&key, &chains[axes].identity, sizeof(Expr));
+    key_add(&key, &axis, sizeof axis);
+    told = key_end(system, &key);
+    if (derived_recall(system, told, DERIVED_AXIS, &axis, sizeof axis))
+        return axis;
+    axis = vec_express(system, axis, from, axes);
+    derived_keep(system, told, DERIVED_AXIS, &axis, sizeof axis);
+    return axis;
 }
 
 Vec speed_slide(const System *system, int speed, int axes)

@@ -24,6 +24,14 @@ Vec vec_carry(const System *system, Vec v, int from, int to);
 Vec vec_carry_held(const System *system, Vec v, int from, int to);
 /* what is fixed in the datum, in the axes of every chain whose vectors are computed there */
 void vec_express_outward(const System *system, Vec v, Vec *out);
+/* likewise, in those of the chains that are asked for */
+typedef struct Outward {
+    Vec *at;
+    bool *is_known;
+} Outward;
+Outward outward_new(const System *system, Vec v);
+Vec outward_at(const System *system, Outward *outward, int chain);
+void outward_free(Outward *outward);
 /* the chain in whose axes the recursive form has what belongs to a node */
 int node_axes(const System *system, int node);
 /* what a speed turns about, in the axes of a chain */

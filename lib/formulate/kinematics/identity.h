@@ -15,6 +15,7 @@
 typedef enum Derived {
     DERIVED_TURN,      /* ChainMotion of a chain's identity */
     DERIVED_TURN_REST, /* Vec: alpha0 */
+    DERIVED_AXIS,      /* Vec: of a speed, in the axes of a chain */
     DERIVED_STEP,      /* step, v and product of a frame's */
     DERIVED_STEP_REST, /* Vec: a0 */
     DERIVED_ROW_SHOWN,

@@ -34,15 +34,13 @@ void multi_turn_add_rows(System *system)
 {
     for (int k = 0; k < system->constraints->rows.count; k++) {
         const Row *row = &system->constraints->rows.at[k];
-        const char *name = system->origin->instances[row->told.instance].name;
-        const CountedChord chord = {
-            .told = {NULL, k, row->phi,
-                     whole_symbol(system, system_keep(system, "row %d, %s", k, name))},
-            .instance = -1,
-            .coordinate = -1};
+        const char *const name = system->origin->instances[row->told.instance].name;
+        CountedChord chord = {.instance = -1, .coordinate = -1};
 
         if (row->kind != ROW_ANGLE)
             continue;
+        chord.told = (WholeTurns){NULL, k, row->phi,
+                                  whole_symbol(system, system_keep(system, "row %d, %s", k, name))};
         LIST_PUSH(system->constraints->counted, chord);
         system->run.phi[k] = expr_add(system->arena, system->run.phi[k], chord.told.symbol);
         if (system->definitions.phi != system->run.phi)
@@ -82,7 +80,7 @@ void multi_turn_build(System *system)
         const Instance *joint = &system->origin->instances[i];
         Steps steps;
 
-        if (joint->row->steps == NULL || joint->edge < 0)
+        if (joint->row->steps == NULL || joint->edge < 0 || joint->coord_count == 0)
             continue;
         instance_steps(system, joint, &steps);
         /* three turns in a chord have no angles that could be told */

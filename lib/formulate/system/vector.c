@@ -130,10 +130,13 @@ Vec rotation_apply(Arena *arena, const Rotation *a, Vec b)
 
 bool rotation_is_one(const Rotation *a)
 {
-    for (int i = 0; i < 9; i++)
-        if (!expr_is(a->at[i], i % 4 == 0))
+    const Expr one = a->at[0], zero = a->at[1];
+
+    /* of one arena: each number is one node */
+    for (int i = 1; i < 9; i++)
+        if (a->at[i] != (i % 4 == 0 ? one : zero))
             return false;
-    return true;
+    return expr_is(one, 1) && expr_is_zero(zero);
 }
 
 Rotation inertia_turned(Arena *arena, const Rotation *z, const Expr tensor[6])

@@ -110,8 +110,14 @@ static void copy_instances(System *system, const Scene *scene)
 /* the first that bears a name is found by it */
 static void enter_names(System *system)
 {
+    int coordinates = 0;
+
+    for (int i = 0; i < system->origin->instance_count; i++)
+        coordinates += system->origin->instances[i].coord_count;
     system->origin->instance_names = names_borrowing();
     system->origin->coordinate_names = names_borrowing();
+    names_expect(system->origin->instance_names, system->origin->instance_count);
+    names_expect(system->origin->coordinate_names, coordinates);
     for (int i = 0; i < system->origin->instance_count; i++) {
         const Instance *instance = &system->origin->instances[i];
 
