@@ -168,16 +168,16 @@ static void release(void *residual)
     residual_free(residual);
 }
 
-static void keep(Residual *r, const ResidualOrder *order)
+static void keep(Residual *r, const ResidualOrder *order, uint64_t hash, uint32_t newest)
 {
-    Made made = {.object = r, .is = is_of, .release = release};
+    const Made made = {
+        .hash = hash, .newest = newest, .object = r, .is = is_of, .release = release};
     Expr *to = r->key =
         NEW_ARRAY(Expr, order->root_count + order->unknown_count + order->input_count);
 
     copy_part(&to, order->roots, order->root_count);
     copy_part(&to, order->unknowns, order->unknown_count);
     copy_part(&to, order->inputs, order->input_count);
-    made.hash = hash_order(order, &made.newest);
     r->uses++;
     arena_add_made(order->arena, &made);
 }
@@ -239,7 +239,8 @@ done:
 Status residual_new(const ResidualOrder *order, Residual **out, Diag *diag)
 {
     uint32_t newest = 0;
-    Residual *r = arena_find_made(order->arena, hash_order(order, &newest), is_of, order);
+    const uint64_t hash = hash_order(order, &newest);
+    Residual *r = arena_find_made(order->arena, hash, is_of, order);
     Status status = OK;
 
     if (r != NULL && is_plain(order)) {
@@ -250,7 +251,7 @@ Status residual_new(const ResidualOrder *order, Residual **out, Diag *diag)
     }
     CHECK(make(order, &r, diag));
     if (operations(r->program) >= WORTH_KEEPING && is_plain(order))
-        keep(r, order);
+        keep(r, order, hash, newest);
     *out = r;
 done:
     return status;

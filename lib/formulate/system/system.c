@@ -110,6 +110,15 @@ Expr system_state_rate(const System *system, int i)
     return system->network->rates.at[i];
 }
 
+int system_n_row(const System *system, int i, const int **speeds, const Expr **entries)
+{
+    const CoordinateRate *rate = &system->kinematics->coordinate_rates[i];
+
+    *speeds = rate->speed;
+    *entries = rate->entry;
+    return rate->count;
+}
+
 Expr system_q_rate(const System *system, int i)
 {
     return system->run.q_rate[i];

@@ -90,6 +90,8 @@ Expr system_state_rate(const System *system, int i);   /* symbol of x'[i] */
 Expr system_q_rate(const System *system, int i);       /* row i of N u */
 /* column j of Phi_u as a correction of q: dq_i = sum_j N_ij du_j; entry of N */
 Expr system_n_entry(const System *system, int i, int j);
+/* those of a row that may not be 0, by rising speeds, and how many; borrowed */
+int system_n_row(const System *system, int i, const int **speeds, const Expr **entries);
 /* first of four Euler parameters to be kept at unit length, or -1: call with 0, 1, ... */
 int system_quaternion(const System *system, int i);
 

@@ -109,7 +109,7 @@ static void choose_changed(Sides *sides, int j)
         const int link = sides->place[i] / POSE_COORDS;
 
         if (sides->place[i] >= 0 && !sides->is_changed[link] &&
-            (eq->map == NULL || eq->map[i * eq->nu + j] != 0)) {
+            (eq->map == NULL || pattern_at(eq->maps, eq->map, j, i) != 0)) {
             sides->changed[sides->count++] = link;
             sides->is_changed[link] = true;
         }
@@ -131,7 +131,8 @@ static void step_links(const Sides *sides, Side *side, int j, double by)
 
             side->c[at] = sides->here.c[at];
             if (q >= 0)
-                side->c[at] += by * (eq->map != NULL ? eq->map[q * eq->nu + j] : q == j);
+                side->c[at] +=
+                    by * (eq->map != NULL ? pattern_at(eq->maps, eq->map, j, q) : q == j);
         }
         link_pose(&s->links[link], side->c + place_of(link, 0), &side->steps[link]);
     }

@@ -135,7 +135,7 @@ static void put_slopes(const LevelRows *rows, const double *slopes, double *jaco
         if (rows->at[k] >= 0)
             jacobian[rows->at[k]] +=
                 slopes[rows->slope[k]] *
-                (by >= 0 ? eq->map[(ptrdiff_t)by * eq->nu + rows->speed[k]] : 1);
+                (by >= 0 ? pattern_at(eq->maps, eq->map, rows->speed[k], by) : 1);
     }
 }
 
@@ -182,11 +182,8 @@ static void move_position(void *context, double *v, const double *step)
 {
     const Equations *eq = ((const LevelRows *)context)->eq;
 
-    for (int i = 0; i < eq->n; i++) {
-        v[i] += eq->map == NULL ? step[i] : 0;
-        for (int j = 0; eq->map != NULL && j < eq->nu; j++)
-            v[i] += eq->map[i * eq->nu + j] * step[j];
-    }
+    for (int i = 0; i < eq->n; i++)
+        v[i] += eq->map == NULL ? step[i] : pattern_dot(eq->maps, eq->map, i, step);
     equations_normalise(eq, v);
 }
 

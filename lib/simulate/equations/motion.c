@@ -381,13 +381,8 @@ static void move(Motion *mo, const double *du, double *q)
 {
     const Equations *eq = mo->eq;
 
-    for (int i = 0; i < eq->n; i++) {
-        double sum = eq->map == NULL ? du[i] : 0;
-
-        for (int j = 0; eq->map != NULL && j < eq->nu; j++)
-            sum += eq->map[i * eq->nu + j] * du[j];
-        q[i] += sum;
-    }
+    for (int i = 0; i < eq->n; i++)
+        q[i] += eq->map == NULL ? du[i] : pattern_dot(eq->maps, eq->map, i, du);
     equations_normalise(eq, q);
 }
 

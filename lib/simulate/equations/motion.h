@@ -76,8 +76,9 @@ typedef struct Equations {
     const double *phi_u;      /* m x nu: the entries that may not be 0, */
     const double *mass;       /* nu x nu: likewise, both halves; by equations_mass(); */
     const Pattern *rows;      /* where those of Phi_u stand, a column each row of it, */
-    const Pattern *masses;    /* and those of M */
-    const double *map;        /* n x nu: N; NULL: identity, n == nu */
+    const Pattern *masses;    /* those of M, */
+    const Pattern *maps;      /* and those of N, a column each row of it */
+    const double *map;        /* n x nu: N; likewise; NULL: identity, n == nu */
     const double *q_rate;     /* n */
     const double *multi_turn; /* multi_turn_count: the angles near a, and their rates */
     const double *multi_turn_rate;

@@ -56,10 +56,8 @@ static void constrain(Motion *mo, const double *w, const double *w_rate, double 
         out[tail + eq->m + row] = pattern_dot(eq->rows, eq->phi_u, row, u) - eq->nu_rate[row];
     }
     for (int i = 0; i < eq->n; i++) { /* q' = N (u + Phi_u^T mu) */
-        double sum = eq->map == NULL ? mo->du[i] : 0;
+        const double sum = eq->map == NULL ? mo->du[i] : pattern_dot(eq->maps, eq->map, i, mo->du);
 
-        for (int j = 0; eq->map != NULL && j < eq->nu; j++)
-            sum += eq->map[i * eq->nu + j] * mo->du[j];
         out[i] = w_rate[i] - eq->q_rate[i] - sum;
     }
 }

@@ -391,6 +391,32 @@ static int stored_block(Roots *roots, const Expr *entries, int rows, int columns
     return first;
 }
 
+/* append the entries of N that may not be 0, row by row and by rising speeds, as they are placed */
+static void map_block(Numbers *nb, Roots *roots)
+{
+    const Layout *l = nb->layout;
+    LIST(int) rows = {0};
+    LIST(int) columns = {0};
+    int *place;
+
+    for (int i = 0; i < l->n; i++) {
+        const int *speed;
+        const Expr *entry;
+        const int count = system_n_row(l->system, i, &speed, &entry);
+
+        for (int k = 0; k < count; k++) {
+            LIST_PUSH(*roots, entry[k]);
+            LIST_PUSH(rows, speed[k]);
+            LIST_PUSH(columns, i);
+        }
+    }
+    place = NEW_ARRAY(int, rows.count);
+    nb->maps = pattern_of(l->nu, l->n, rows.count, rows.at, columns.at, place);
+    LIST_FREE(rows);
+    LIST_FREE(columns);
+    mem_free(place);
+}
+
 /* whether they are known in that stage */
 static bool are_known_by(Stage stage, const Expr *entries, int count)
 {
@@ -477,7 +503,6 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, const Expr 
     Expr power = system_power(l->system);
     Stage stage = network_shape(nb);
     bool iterates = r->network_nonlinear || stage > STAGE_VELOCITY;
-    bool mapped = !is_identity(l->system);
     Roots roots = {0};
     int phi = block(&roots, r->phi, l->m);
     int phi_u = stored_block(&roots, r->phi_u, l->m, l->nu, &nb->rows);
@@ -496,9 +521,8 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, const Expr 
     Status status = OK;
 
     CHECK(push_multi_turns(&roots, l->system, diag));
-    for (int i = 0; i < l->n && mapped; i++)
-        for (int j = 0; j < l->nu; j++)
-            LIST_PUSH(roots, system_n_entry(l->system, i, j));
+    if (!is_identity(l->system))
+        map_block(nb, &roots);
     CHECK(numbers_compile(l, parameters, &roots, &nb->main, diag));
     at = workspace_roots(nb->main->workspace);
     nb->eq.phi = at + phi;
@@ -533,6 +557,7 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, const Expr 
     nb->eq.multi_turn = at + angles;
     nb->eq.multi_turn_rate = at + angles + l->multi_turns;
     nb->eq.map = map < roots.count ? at + map : NULL;
+    nb->eq.maps = &nb->maps;
     nb->eq.accelerated = stage_of(power) == STAGE_ACCELERATION ? accelerated : NULL;
     if (may_be_outright(nb))
         nb->eq.outright = outright;
@@ -742,6 +767,7 @@ void numbers_free(Numbers *nb)
     articulated_free(nb->articulated);
     pattern_free(&nb->rows);
     pattern_free(&nb->masses);
+    pattern_free(&nb->maps);
     LIST_FREE(nb->margins);
     mem_free(nb->quaternions);
     mem_free(nb->network_places);

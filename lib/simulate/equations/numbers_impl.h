@@ -15,7 +15,7 @@ struct Numbers {
     const Layout *layout;
     Parameters *parameters;
     Probe *main, *switching, *network;
-    Pattern rows, masses; /* where entries of Phi_u and M stand */
+    Pattern rows, masses, maps; /* where entries of Phi_u, M and N stand */
     /* M: of the main program; or NULL. By a matrix, from what that holds from mass_needs on; where
      * elimination does without, from a program of its own, as far as that was asked for. */
     MassMatrix *mass;
