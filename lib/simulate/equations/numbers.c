@@ -411,6 +411,7 @@ static void map_block(Numbers *nb, Roots *roots)
         }
     }
     place = NEW_ARRAY(int, rows.count);
+    pattern_free(&nb->maps); /* of equations that were compiled before */
     nb->maps = pattern_of(l->nu, l->n, rows.count, rows.at, columns.at, place);
     LIST_FREE(rows);
     LIST_FREE(columns);
