@@ -312,6 +312,58 @@ static void a_position_can_be_set_and_the_rest_follows(void)
     kit_free(&kit);
 }
 
+enum { STAYS = 4 };
+
+/* what an event names not stays, in coordinates of joints and their rates */
+static void expect_joints_to_stay(const char *chain, const char *const *trees, int count)
+{
+    static const char *const stays[STAYS] = {"h2", "h1'", "h2'", "h1 - 0.2"};
+    double end[STAYS] = {0};
+
+    for (int i = 0; i < count; i++) {
+        Kit kit = kit_new();
+        double before[STAYS] = {0};
+
+        EXPECT_DONE(&kit, chain);
+        EXPECT_DONE(&kit, trees[i]);
+        EXPECT_DONE(&kit, "simulate 0.1 rtol=1e-11 atol=1e-12");
+        for (int k = 0; k < STAYS - 1; k++)
+            before[k] = kit_value(&kit, stays[k]);
+        EXPECT_DONE(&kit, "event kick when=t > 0.1 h1=0.2\n"
+                          "simulate 0.2 every=0.1 rtol=1e-11 atol=1e-12");
+        for (int k = 0; k < STAYS; k++) {
+            char at[40];
+
+            (void)snprintf(at, sizeof at, "%s at 0.1", stays[k]);
+            EXPECT_NEAR(kit_value(&kit, at), before[k], 1e-8);
+            if (i == 0)
+                end[k] = kit_value(&kit, stays[k]);
+            EXPECT_NEAR(kit_value(&kit, stays[k]), end[k], 1e-7);
+        }
+        kit_free(&kit);
+    }
+}
+
+static void joints_stay_when_another_is_set_in_whatever_tree(void)
+{
+    static const char *const planar[] = {"tree joint", "tree absolute",
+                                         "tree translation h1 h2; tree rotation a b",
+                                         "tree rotation h1 b"};
+    static const char *const spatial[] = {"tree joint", "tree absolute", "tree rotation h1 b"};
+
+    expect_joints_to_stay("scene planar\ngravity [0, -9.81]\nbody a mass=2 inertia=0.2\n"
+                          "body b mass=1 inertia=0.1\narm a1 a [0, 0.5]\narm a2 a [0, -0.5]\n"
+                          "arm b1 b [0, 0.4]\nrevolute h1 ground a1\nrevolute h2 a2 b1\n"
+                          "init h1 = 60 deg, h2 = -20 deg, h1' = 1\n",
+                          planar, 4);
+    expect_joints_to_stay("gravity [0, 0, -9.81]\nbody a mass=2 inertia=[0.2, 0.3, 0.4]\n"
+                          "body b mass=1 inertia=[0.1, 0.2, 0.15]\narm a1 a [0, 0.5, 0.1]\n"
+                          "arm a2 a [0, -0.5, 0.2]\narm b1 b [0.1, 0.4, 0]\n"
+                          "revolute h1 ground a1 axis=x\nrevolute h2 a2 b1 axis=[0, 1, 1]\n"
+                          "init h1 = 60 deg, h2 = -20 deg, h1' = 1\n",
+                          spatial, 3);
+}
+
 /* in Euler parameters the rates of coordinates are no speeds */
 static void a_spinning_body_is_stopped(void)
 {
@@ -591,6 +643,7 @@ int main(void)
     RUN(an_elastic_impact_keeps_momentum_and_energy);
     RUN(constraints_hold_after_new_values_in_whatever_tree);
     RUN(a_position_can_be_set_and_the_rest_follows);
+    RUN(joints_stay_when_another_is_set_in_whatever_tree);
     RUN(a_spinning_body_is_stopped);
     RUN(energy_that_events_take_is_no_drift);
     RUN(bounces_that_pile_up_end_with_a_message);

@@ -28,6 +28,7 @@ typedef struct Target {
 struct Reinit {
     ReinitPlan plan;
     LIST(Target) targets;
+    int given;         /* of them, the first; the others are of joints, which may stay */
     Storage *storages; /* whose charge or flux stays */
     int storage_count;
     Skeleton *skeleton; /* NULL: nothing is mechanical, or no positions were set yet */
@@ -36,7 +37,7 @@ struct Reinit {
     Probe *probe;    /* these, kinetic and potential energy, targets */
     /* of the call under way */
     double t;
-    const double *values;
+    double *values; /* of the targets */
     double *y;
 };
 
@@ -122,6 +123,31 @@ Status reinit_add(Reinit *reinit, const char *name, int primes, Diag *diag)
     return OK;
 }
 
+/* Where positions may be set, the coordinates of all joints that are there, and their rates: what
+ * isn't set of them stays where it can. Nobody may ask for one; then it follows from the rest. */
+static void add_joints(Reinit *reinit)
+{
+    System *system = reinit->plan.layout->system;
+    bool any = false;
+
+    reinit->given = reinit->targets.count;
+    for (int k = 0; k < reinit->given; k++)
+        any = any || reinit->targets.at[k].level == LEVEL_POSITION;
+    for (int i = 0; i < system_instance_count(system) && any; i++) {
+        const Instance *joint = system_instance(system, i);
+
+        if (joint->row->family != FAMILY_JOINT || joint->is_virtual)
+            continue;
+        for (int c = 0; c < joint->coord_count; c++) {
+            Diag diag = {0};
+
+            if (reinit_add(reinit, joint->coord[c], 0, &diag) != OK ||
+                reinit_add(reinit, joint->coord[c], 1, &diag) != OK)
+                continue;
+        }
+    }
+}
+
 /* what is set of one level */
 static Status compile_level(Reinit *reinit, StateLevel level, Diag *diag)
 {
@@ -147,6 +173,7 @@ Status reinit_compile(Reinit *reinit, Diag *diag)
     LIST(Expr) roots = {0};
     Status status = OK;
 
+    add_joints(reinit);
     for (int k = 0; k < count; k++)
         LIST_PUSH(roots, reinit->storages[k].content);
     LIST_PUSH(roots, system_kinetic(l->system));
@@ -313,7 +340,7 @@ static bool place_along_joints(Reinit *reinit)
 /* Positions in stages, from the present values of what is set to the new ones. */
 static bool go_by_stages(Reinit *reinit)
 {
-    const double *last = reinit->values;
+    double *last = reinit->values;
     double *values = NEW_ARRAY(double, reinit->targets.count);
     double *from = NEW_ARRAY(double, reinit->targets.count);
     bool met = true;
@@ -373,7 +400,7 @@ static void align(const Reinit *reinit, double *values)
 /* by least squares from where y is */
 static bool close_positions(Reinit *reinit, bool by_stages, Reversal *reversal)
 {
-    const double *given = reinit->values;
+    double *given = reinit->values;
     double *aligned = NEW_ARRAY(double, reinit->targets.count);
     bool met;
 
@@ -388,9 +415,45 @@ static bool close_positions(Reinit *reinit, bool by_stages, Reversal *reversal)
     return met;
 }
 
+/* Whether joints that aren't set stay, as far as anything but their constraints knows. */
+static void hold_joints(const Reinit *reinit, bool stay)
+{
+    const double *present = targets_here(reinit);
+    const Target *targets = reinit->targets.at;
+
+    for (int k = reinit->given; k < reinit->targets.count; k++) {
+        bool is_set = false;
+
+        for (int i = 0; i < reinit->given; i++)
+            is_set = is_set ||
+                     (is_chosen(reinit, i, LEVEL_POSITION) && targets[i].expr == targets[k].expr);
+        reinit->values[k] = stay && !is_set ? present[k] : NAN;
+    }
+}
+
 /* Positions at once; where that leads nowhere, or to an axis that lies the wrong way round, from
- * where the joints lead; then in stages. */
-static bool solve_positions(Reinit *reinit, Text *why)
+ * where the joints lead; then in stages, if that may take so long. */
+static bool try_positions(Reinit *reinit, bool by_stages, const double *begun, size_t bytes,
+                          Reversal *reversal)
+{
+    bool met;
+
+    met = close_positions(reinit, false, reversal);
+    if (!met) {
+        memcpy(reinit->y, begun, bytes);
+        begin_turns(reinit);
+        met = place_along_joints(reinit) && close_positions(reinit, false, reversal);
+    }
+    if (!met) {
+        memcpy(reinit->y, begun, bytes);
+        met = by_stages && close_positions(reinit, true, reversal);
+    }
+    return met;
+}
+
+/* With all joints as they were but for what is set, whatever the tree; where constraints, or what
+ * is set, ask others to move, by the least move of the tree's coordinates. */
+static bool solve_positions(Reinit *reinit, bool *stay, Text *why)
 {
     const Layout *l = reinit->plan.layout;
     const int length = layout_references(l) + l->multi_turns;
@@ -400,15 +463,13 @@ static bool solve_positions(Reinit *reinit, Text *why)
     bool met;
 
     memcpy(begun, reinit->y, bytes);
-    met = close_positions(reinit, false, &reversal);
+    hold_joints(reinit, true);
+    met = *stay = try_positions(reinit, false, begun, bytes, &reversal);
     if (!met) {
+        hold_joints(reinit, false);
         memcpy(reinit->y, begun, bytes);
-        begin_turns(reinit);
-        met = place_along_joints(reinit) && close_positions(reinit, false, &reversal);
-    }
-    if (!met) {
-        memcpy(reinit->y, begun, bytes);
-        met = close_positions(reinit, true, &reversal);
+        reversal.link = NULL;
+        met = try_positions(reinit, true, begun, bytes, &reversal);
     }
     if (!met && reversal.link != NULL) {
         text_addf(why, "%s would close with ", reversal.link->instance->name);
@@ -492,6 +553,30 @@ static bool solve_speeds(Reinit *reinit)
     return sound;
 }
 
+/* Where joints have stayed their rates do, too: speeds of bodies become those that go with them. */
+static void hold_rates(Reinit *reinit, const double *before)
+{
+    const Equations *eq = reinit->plan.equations;
+    double *u = NEW_ARRAY(double, eq->nu);
+    Rows rows;
+
+    memcpy(u, reinit->y + eq->n, (size_t)eq->nu * sizeof(double));
+    for (int k = 0; k < reinit->targets.count; k++)
+        reinit->values[k] =
+            k >= reinit->given && reinit->targets.at[k].level == LEVEL_VELOCITY ? before[k] : NAN;
+    eq->position(eq->context, reinit->t, reinit->y);
+    rows = rows_here(reinit, LEVEL_VELOCITY, true);
+    if (!meet(reinit, LEVEL_VELOCITY, &rows, NULL))
+        memcpy(reinit->y + eq->n, u, (size_t)eq->nu * sizeof(double));
+    mem_free(u);
+}
+
+static void choose_given(const Reinit *reinit, const double *values)
+{
+    for (int k = 0; k < reinit->targets.count; k++)
+        reinit->values[k] = k < reinit->given ? values[k] : NAN;
+}
+
 /* --- charges and fluxes --- */
 
 static bool is_set(const Reinit *reinit, int state)
@@ -534,19 +619,25 @@ bool reinit_apply(Reinit *reinit, double t, const double *values, double *y, Tex
     int references = layout_references(reinit->plan.layout);
     int length = references + eq->multi_turn_count + 1;
     double *stored = NEW_ARRAY(double, reinit->storage_count);
+    double *present = NEW_ARRAY(double, reinit->targets.count);
     double before;
     double after;
-    bool met = true;
+    bool met = true, stay = false;
 
     reinit->t = t;
-    reinit->values = values;
+    reinit->values = NEW_ARRAY(double, reinit->targets.count);
+    choose_given(reinit, values);
     reinit->y = NEW_ARRAY(double, length);
     memcpy(reinit->y, y, (size_t)length * sizeof(double));
     before = energy(reinit);
     if (reinit->storage_count > 0)
         memcpy(stored, probe_here(reinit), (size_t)reinit->storage_count * sizeof(double));
+    memcpy(present, targets_here(reinit), (size_t)reinit->targets.count * sizeof(double));
     if (any_chosen(reinit, LEVEL_POSITION))
-        met = solve_positions(reinit, why);
+        met = solve_positions(reinit, &stay, why);
+    if (stay)
+        hold_rates(reinit, present);
+    choose_given(reinit, values);
     if (met && any_chosen(reinit, LEVEL_STATES))
         met = solve_least_squares(reinit, LEVEL_STATES);
     met = met && keep_stored(reinit, stored);
@@ -559,7 +650,8 @@ bool reinit_apply(Reinit *reinit, double t, const double *values, double *y, Tex
             reinit->y[length - 1] += after - before;
         memcpy(y, reinit->y, (size_t)length * sizeof(double));
     }
-    MEM_FREE(stored, reinit->y);
+    MEM_FREE(stored, present, reinit->y, reinit->values);
     reinit->y = NULL;
+    reinit->values = NULL;
     return met;
 }
