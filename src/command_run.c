@@ -313,6 +313,28 @@ static ct_statement *asked_by_name(char *const *names)
     return statement;
 }
 
+/* `t` that was asked for is the first column, which stands there anyway. */
+static void drop_times(TableColumns *table, const ct_expression **items, int *count)
+{
+    for (int j = *count; j >= 1; j--) {
+        const int columns = table->columns;
+
+        if (strcmp(table->names[0], "t") != 0 || strcmp(table->names[j], "t") != 0)
+            continue;
+        ct_free(table->names[j]);
+        for (int k = j; k < columns; k++) /* and what ends the names */
+            table->names[k] = table->names[k + 1];
+        for (int k = j; k < *count; k++)
+            items[k - 1] = items[k];
+        for (int i = 0, from = 0, to = 0; i < table->rows; i++)
+            for (int k = 0; k < columns; k++, from++)
+                if (k != j)
+                    table->values[to++] = table->values[from];
+        table->columns--;
+        --*count;
+    }
+}
+
 static ct_status command_table(Call *call, ct_error *error)
 {
     const ct_statement *statement = call->statement;
@@ -343,6 +365,8 @@ static ct_status command_table(Call *call, ct_error *error)
         for (int i = 0; i < count; i++)
             items[i] = ct_operand(named, i);
     }
+    if (status == CT_OK)
+        drop_times(&table, items, &count);
     for (int j = 1; j <= count && status == CT_OK && table.names[0][0] == 't'; j++)
         status = round_column(call, items[j - 1], &table, j, error);
     if (status == CT_OK) {

@@ -447,6 +447,26 @@ static bool is_modes(const Statement *s)
     return s->operands.count == 2 && begins_with(s, "modes");
 }
 
+/* `t` that was asked for is the first column, which stands there anyway. */
+static void drop_times(Sheet *sheet)
+{
+    for (int c = sheet->columns - 1; c > 0 && !sheet->is_spectral; c--) {
+        const int columns = sheet->columns;
+        double *to = sheet->values;
+
+        if (strcmp(sheet->names.at[c], "t") != 0)
+            continue;
+        mem_free(sheet->names.at[c]);
+        for (int k = c + 1; k < sheet->names.count; k++)
+            sheet->names.at[k - 1] = sheet->names.at[k];
+        sheet->names.count--;
+        for (size_t i = 0; i < (size_t)sheet->rows * (size_t)columns; i++)
+            if ((int)(i % (size_t)columns) != c)
+                *to++ = sheet->values[i];
+        sheet->columns--;
+    }
+}
+
 /* numbers of the last run, or the modes; units beside the names, or in them */
 static Status read_numbers(ct_session *session, const Statement *s, bool splits_units, Sheet *sheet,
                            Exported *what, Diag *diag)
@@ -467,6 +487,7 @@ static Status read_numbers(ct_session *session, const Statement *s, bool splits_
         items[i] = s->operands.at[i + 1].value;
     CHECK(session_source(session, &source, diag));
     CHECK(make_sheet(session, items, count, source, 0, sheet, diag));
+    drop_times(sheet);
     for (int c = 0; c < sheet->columns && splits_units; c++)
         LIST_PUSH(sheet->units, split_unit(session, sheet->names.at[c]));
     what->names = (const char *const *)sheet->names.at;

@@ -3,7 +3,8 @@
  * Coordinates, speeds and network states are put in place as they are; any other variable that is
  * a function of them is one more equation. Then the constraints are met again while what was set is
  * held: positions with all other joints as they are, or, where they can't stay, by the least move;
- * speeds by the least change in the mass metric, as impulsive reactions would. The energy that this brings counts as work done on the system. */
+ * speeds by the least change in the mass metric, as impulsive reactions would. The energy that this
+ * brings counts as work done on the system. */
 #ifndef COTREE_SIMULATE_ASSEMBLE_REINITIALISE_H
 #define COTREE_SIMULATE_ASSEMBLE_REINITIALISE_H
 
