@@ -29,7 +29,7 @@ static Verdict told_at(Member *member, Kit *kit, const Drawn *d, double *from, d
     if (oracle_answers(d, *from, at, y, &asks) != AGREES)
         return REFUSED;
     *from = at;
-    return compare(member, kit, &asks, at, 1e-5);
+    return compare(member, kit, &asks, at, 1e-6);
 }
 
 /* A run, what goes on from it, and what is asked of it once the trees are others. */

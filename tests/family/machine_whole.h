@@ -103,30 +103,36 @@ __attribute__((format(printf, 4, 5))) static void ask(Asks *asks, double wanted,
 
 static inline void ask_bodies(const Machine *m, const Instant *now, Asks *asks)
 {
-    double most = 1;
+    double most = 1, speed = 1;
 
-    for (int b = 0; b < m->bodies; b++)
+    for (int b = 0; b < m->bodies; b++) {
         most = fmax(most,
                     fmax(sqrt(dot(now->a[b], now->a[b])), sqrt(dot(now->alpha[b], now->alpha[b]))));
+        speed = fmax(speed, fmax(sqrt(dot(now->v[b], now->v[b])), sqrt(dot(now->w[b], now->w[b]))));
+    }
+    for (int i = 0; i < m->coordinates; i++) {
+        most = fmax(most, fabs((double)now->second[i]));
+        speed = fmax(speed, fabs((double)now->rate[i]));
+    }
     for (int b = 0; b < m->bodies; b++)
         for (int k = 0; k < 3; k++) {
             const char axis = "xyz"[k];
 
             if (!m->planar || k < 2) {
                 ask(asks, now->p[b].at[k], 1, "b%d.%c", b, axis);
-                ask(asks, now->v[b].at[k], 1, "b%d.v%c", b, axis);
+                ask(asks, now->v[b].at[k], speed, "b%d.v%c", b, axis);
                 ask(asks, now->a[b].at[k], most, "b%d.a%c", b, axis);
             }
             if (!m->planar || k == 2) {
-                ask(asks, now->w[b].at[k], 1, "b%d.w%c", b, axis);
+                ask(asks, now->w[b].at[k], speed, "b%d.w%c", b, axis);
                 ask(asks, now->alpha[b].at[k], most, "b%d.alpha%c", b, axis);
             }
             if (!m->planar)
-                ask(asks, turn_back(&now->R[b], now->w[b]).at[k], 1, "b%d.W%c", b, axis);
+                ask(asks, turn_back(&now->R[b], now->w[b]).at[k], speed, "b%d.W%c", b, axis);
         }
     for (int i = 0; i < m->coordinates; i++) {
         ask(asks, now->q[i], 1, "%s", m->coordinate[i].name);
-        ask(asks, now->rate[i], 1, "%s'", m->coordinate[i].name);
+        ask(asks, now->rate[i], speed, "%s'", m->coordinate[i].name);
         ask(asks, now->second[i], most, "%s''", m->coordinate[i].name);
     }
 }
@@ -171,12 +177,14 @@ static inline void ask_networks(const Machine *m, const Instant *now, Asks *asks
         const Element *e = &m->element[i];
         const int domain = m->node_domain[e->p];
         const bool two = e->kind == WINDINGS || e->kind == GYRATOR;
-        const double power = now->current[i] * ((e->p > 0 ? now->potential[e->p] : 0) -
-                                                (e->m > 0 ? now->potential[e->m] : 0));
+        const double i_most = i_scale[domain] + fabs(now->current[i]),
+                     v = (e->p > 0 ? now->potential[e->p] : 0) -
+                         (e->m > 0 ? now->potential[e->m] : 0);
 
-        ask(asks, now->current[i], i_scale[domain] + fabs(now->current[i]), "%s%s.%s", e->name,
-            two ? ".p" : "", through[domain]);
-        ask(asks, power, 1 + fabs(power), "%s%s.power", e->name, two ? ".p" : "");
+        ask(asks, now->current[i], i_most, "%s%s.%s", e->name, two ? ".p" : "", through[domain]);
+        /* a product: as exact as its factors */
+        ask(asks, now->current[i] * v, i_most * (v_scale[domain] + fabs(v)), "%s%s.power", e->name,
+            two ? ".p" : "");
     }
 }
 
