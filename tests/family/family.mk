@@ -187,3 +187,11 @@ family_machine_code_SOURCES = tests/family/family_machine_code.c tests/family/ma
 	tests/family/extrapolated.h tests/family/family.h tests/family/script.h \
 	tests/unit/session_kit.h tests/unit/test.h tests/random.h
 family_machine_code_LDADD = libcotree.la $(unit_ldadd) -ldl
+
+FAMILIES += family_machine_figures
+family_machine_figures_SOURCES = tests/family/family_machine_figures.c tests/family/machine.h \
+	tests/family/machine_draw.h tests/family/machine_networks.h \
+	tests/family/machine_tableau.h tests/family/machine_whole.h \
+	tests/family/extrapolated.h tests/family/family.h tests/family/script.h \
+	tests/unit/session_kit.h tests/unit/test.h tests/random.h
+family_machine_figures_LDADD = libcotree.la $(unit_ldadd)
