@@ -9,6 +9,7 @@ terminal_tests = \
     tests/terminal/history.exp \
     tests/terminal/interrupt_line.exp \
     tests/terminal/interrupt_run.exp \
+    tests/terminal/interrupt_work.exp \
     tests/terminal/student.exp \
     tests/terminal/table_blocks.exp \
     tests/terminal/paste.exp \
