@@ -205,6 +205,7 @@ static void lowering_end(Lowering *low)
 
 static void release(void *lowering)
 {
+    mem_keep(lowering);
     lowering_end(lowering);
     mem_free(lowering);
 }
