@@ -14,7 +14,7 @@
 #define AHEAD 0.1  /* of the time that the fastest swing takes for a radian */
 #define SAME  1e-5 /* over that time, of the largest coefficient of its row */
 
-#define BESIDE 0x1p-50 /* relative: by which coefficients are others beside the point */
+#define BESIDE 0x1p-52 /* relative: by which coefficients are others beside the point */
 
 enum { MOST_STEPS = 8 }; /* of Newton's method; equations that are linear in it take two */
 
