@@ -33,6 +33,7 @@
 #define DENSE_NEAR     10.0  /* from a stage to the dense output, in errors that a step aims at, */
 #define DENSE_DEFECT   100.0 /* h times what its slope is off: its error is some 15 times less */
 #define DENSE_LOOK     0.71  /* where in a step that is */
+#define PARTS_AGREE    30.0  /* errors that a step aims at, from its end to that of its parts */
 
 enum {
     TOGETHER = 8,    /* entries that are summed together: two Fours; */
@@ -58,6 +59,7 @@ typedef struct Dop853 {
     DensePart dense[DENSE_PARTS]; /* room for each is taken when it is first needed */
     double *spare[3];             /* where a part begins, its rate there and at its end */
     int parts;                    /* of the last step; 0: dense output isn't there yet */
+    double parted;                /* errors that it aims at, from its end to that of its parts */
     double step;                  /* of the last step, */
     double blur;                  /* and what rounding makes of its tolerance */
     bool was_rejected;
@@ -400,54 +402,6 @@ static double trim(const Dop853 *d, double h, double end)
     return h > 0.5 * left ? 0.5 * left : h;
 }
 
-static Status step(Stepper *stepper, double end, Diag *diag)
-{
-    Dop853 *d = (Dop853 *)stepper;
-    int failures = 0;
-    double h;
-
-    memcpy(d->old, d->base.y, (size_t)d->all * sizeof(double));
-    memcpy(d->k[0], d->k[12], (size_t)d->all * sizeof(double));
-    d->base.before = d->base.t;
-    h = d->base.next > 0 ? d->base.next : first_step(d, d->base.t, end - d->base.t);
-    for (;;) {
-        double tried = trim(d, h, end);
-        double t = tried == end - d->base.before ? end : d->base.before + tried;
-        bool sound, accepted = false;
-        double error = NAN;
-
-        if (!(tried > 4e-16 * fabs(t)))
-            return solver_failure(diag, d->base.before, "the step became too small");
-        sound = try_step(d, tried);
-        if (sound)
-            error = step_error(d, tried);
-        sound = sound && isfinite(error);
-        if (sound && error <= 1) {
-            accepted = settle(d, t, tried);
-            sound = accepted;
-        }
-        if (accepted) {
-            double factor = error > 0 ? SAFETY / eighth_root(error) : GROW;
-
-            factor = fmin(d->was_rejected ? 1 : GROW, fmax(SHRINK, factor));
-            /* a step cut to meet `end` says nothing against the longer one */
-            d->base.next =
-                fmax(tried * factor, tried < h && error <= 1 ? fmin(h, tried * GROW) : 0);
-            d->was_rejected = false;
-            d->base.counts.steps++;
-            watch_stiffness(d, tried);
-            return OK;
-        }
-        d->base.counts.rejected++;
-        d->was_rejected = true;
-        if (!sound && ++failures >= MAX_REJECTIONS)
-            return solver_failure(diag, d->base.before,
-                                  "the equations have no solution just behind this instant (ten "
-                                  "ever shorter steps failed)");
-        h = sound ? tried * fmax(SHRINK, SAFETY / eighth_root(error)) : RETREAT * tried;
-    }
-}
-
 /* The interpolant of a step of h from d->old, at base.before, to `new` (II.6.20 and the appendix),
  * with rates in k[0] and k[12]: three more stages, of which stage_point keeps the last one's. */
 static void make_part(Dop853 *d, double h, const double *new, DensePart *out)
@@ -519,6 +473,17 @@ static double part_defect(Dop853 *d, const DensePart *part)
     return scaled_norm(d, off);
 }
 
+/* how far from the last step's end its last part ends, of h and with its stages as they are */
+static double end_of_part(Dop853 *d, double h)
+{
+    double *off = d->sums[1];
+
+    move(d->old, h, weigh(d, &stages[12], d->sums[0]), d->n, off);
+    for (int i = 0; i < d->n; i++)
+        off[i] -= d->base.y[i];
+    return scaled_norm(d, off);
+}
+
 /* The last step's dense output from its beginning on, where old and k[0] tell of it, in so many
  * parts; the largest defect among them, NaN where y' has no value on the way. */
 static double divide(Dop853 *d, int parts)
@@ -538,6 +503,7 @@ static double divide(Dop853 *d, int parts)
         if (is_last) {
             memcpy(new, d->base.y, (size_t)d->all * sizeof(double));
             memcpy(d->k[12], d->spare[2], (size_t)d->all * sizeof(double));
+            d->parted = end_of_part(d, h);
         } else {
             move(d->old, h, weigh(d, &stages[12], d->sums[0]), d->all, new);
             if (!stepper_rate(&d->base, d->base.before + h, new, d->k[12]))
@@ -577,6 +543,7 @@ static void make_dense(Dop853 *d)
     double worst, last = HUGE_VAL;
 
     d->parts = 1;
+    d->parted = 0;
     make_part(d, d->step, d->base.y, &d->dense[0]);
     worst = part_defect(d, &d->dense[0]);
     /* shorter parts are no better where rounding is what is seen */
@@ -587,9 +554,91 @@ static void make_dense(Dop853 *d)
     }
     if (isnan(worst)) { /* what is left is the step as it was taken */
         d->parts = 1;
+        d->parted = 0;
         for (int stage = 1; stage < 12; stage++)
             (void)take_stage(d, stage, d->step, d->stage_point);
         make_part(d, d->step, d->base.y, &d->dense[0]);
+    }
+}
+
+/* back to where the last step began */
+static void take_back(Dop853 *d)
+{
+    d->base.t = d->base.before;
+    memcpy(d->base.y, d->old, (size_t)d->all * sizeof(double));
+    memcpy(d->k[12], d->k[0], (size_t)d->all * sizeof(double));
+    d->step = 0;
+}
+
+/* Whether the step just taken is what its parts are, where it is read anyway. One that passes over
+ * a corner, as a wall that is met and left within it, has an estimate of its error that means
+ * nothing and may be small by chance: taken in parts it ends elsewhere. */
+static bool parts_agree(Dop853 *d)
+{
+    const int stiff = d->stiff, calm = d->calm;
+    const bool is_stiff = d->base.is_stiff;
+
+    watch_stiffness(d, d->step);
+    if (!d->base.is_read)
+        return true;
+    make_dense(d);
+    if (!(d->parted > PARTS_AGREE * d->blur))
+        return true;
+    d->stiff = stiff;
+    d->calm = calm;
+    d->base.is_stiff = is_stiff;
+    take_back(d);
+    return false;
+}
+
+static Status step(Stepper *stepper, double end, Diag *diag)
+{
+    Dop853 *d = (Dop853 *)stepper;
+    int failures = 0;
+    double h;
+
+    memcpy(d->old, d->base.y, (size_t)d->all * sizeof(double));
+    memcpy(d->k[0], d->k[12], (size_t)d->all * sizeof(double));
+    d->base.before = d->base.t;
+    h = d->base.next > 0 ? d->base.next : first_step(d, d->base.t, end - d->base.t);
+    for (;;) {
+        double tried = trim(d, h, end);
+        double t = tried == end - d->base.before ? end : d->base.before + tried;
+        bool sound, accepted = false;
+        double error = NAN;
+
+        if (!(tried > 4e-16 * fabs(t)))
+            return solver_failure(diag, d->base.before, "the step became too small");
+        sound = try_step(d, tried);
+        if (sound)
+            error = step_error(d, tried);
+        sound = sound && isfinite(error);
+        if (sound && error <= 1) {
+            accepted = settle(d, t, tried);
+            sound = accepted;
+        }
+        if (accepted && !parts_agree(d)) {
+            accepted = false;
+            error = HUGE_VAL;
+        }
+        if (accepted) {
+            double factor = error > 0 ? SAFETY / eighth_root(error) : GROW;
+
+            factor = fmin(d->was_rejected ? 1 : GROW, fmax(SHRINK, factor));
+            /* a step cut to meet `end` says nothing against the longer one */
+            d->base.next =
+                fmax(tried * factor, tried < h && error <= 1 ? fmin(h, tried * GROW) : 0);
+            d->was_rejected = false;
+            d->base.counts.steps++;
+            return OK;
+        }
+        d->base.counts.rejected++;
+        d->was_rejected = true;
+        if (!sound && ++failures >= MAX_REJECTIONS)
+            return solver_failure(diag, d->base.before,
+                                  "the equations have no solution just behind this instant (ten "
+                                  "ever shorter steps failed)");
+        h = sound ? tried * fmax(SHRINK, SAFETY / eighth_root(error)) : RETREAT * tried;
     }
 }
 
@@ -616,11 +665,8 @@ static Status shorten(Stepper *stepper, double t, Diag *diag)
     Dop853 *d = (Dop853 *)stepper;
     double h = t - d->base.before;
 
-    if (h <= 0) { /* back to where the step began */
-        d->base.t = d->base.before;
-        memcpy(d->base.y, d->old, (size_t)d->all * sizeof(double));
-        memcpy(d->k[12], d->k[0], (size_t)d->all * sizeof(double));
-        d->step = 0;
+    if (h <= 0) {
+        take_back(d);
         return OK;
     }
     if (d->step != 0 && d->parts == 0)

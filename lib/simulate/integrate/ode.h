@@ -185,6 +185,7 @@ struct Stepper {
     Waning waning; /* headway.h */
     double bound;  /* by whoever drives it: no longer step now, s; 0: free */
     bool may_bend; /* likewise: something steep acts that may end within the step */
+    bool is_read;  /* likewise: between its ends each step is read for conditions of the state */
     bool has_pulses;  /* likewise: it takes many short steps, for what acts for a short time or
                        * behind jumps */
     double missed;    /* fixed steps: largest estimated error of one, in tolerances, */
