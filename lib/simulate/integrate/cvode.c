@@ -8,6 +8,8 @@
 
 #define AT_ONCE 1e-2 /* of what Newton's method may leave: a first correction that is the last */
 #define SLOWEST 0.9  /* from correction to correction: else it doesn't converge */
+#define FAILED  0.1  /* of what it was to be: a shorter step doesn't know its error */
+#define BEGIN   0.01 /* with so much of one it begins anew */
 
 static const SundialsCalls calls = {
     .free = CVodeFree,
@@ -276,17 +278,46 @@ static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
     return code == 0 ? OK : solver_failure(diag, t, c->reason);
 }
 
+/* one step of CVODE's own, to `end` at most */
+static int advance(Sundials *c, double end, double *reached)
+{
+    int code = sundials_bound(c, end);
+
+    stepper_begin(&c->base, c->base.t, c->base.y, c->base.next);
+    if (code == 0)
+        code = CVode(c->memory, end, c->w, reached, CV_ONE_STEP);
+    sundials_count(c);
+    return code;
+}
+
+/* Whether the step to `reached`, taken after one of length `last`, knows its error. CVODE tells
+ * that by how far the step ends from where the history leads, and takes it for the less, the
+ * further that reaches back. Where tries that failed have left a step far shorter than those
+ * before, a slope that bends in this one alone, as in a wall, seems to do so slowly. */
+static bool knows_its_error(const Sundials *c, double end, double reached, double last)
+{
+    const double meant = fmin(fmin(last, c->base.next), stepper_stop(&c->base, end) - c->base.t);
+
+    return !(reached - c->base.t < FAILED * meant);
+}
+
 static Status step(Stepper *stepper, double end, Diag *diag)
 {
     Sundials *c = (Sundials *)stepper;
+    const double last = c->base.t - c->base.before;
+    const int stuck = stepper->stuck;
     double reached = c->base.t;
-    int code = sundials_bound(c, end);
+    int code = advance(c, end, &reached);
 
+    if (code >= 0 && !knows_its_error(c, end, reached, last)) {
+        const double h = reached - c->base.t;
+
+        TRY(start(stepper, c->base.t, c->base.y, diag));
+        stepper->stuck = stuck;
+        stepper->next = BEGIN * h;
+        code = advance(c, end, &reached);
+    }
     c->base.before = c->base.t;
-    stepper_begin(stepper, c->base.t, c->base.y, c->base.next);
-    if (code == 0)
-        code = CVode(c->memory, end, c->w, &reached, CV_ONE_STEP);
-    sundials_count(c);
     if (code == CV_MEM_FAIL)
         transaction_fail();
     if (code < 0)
