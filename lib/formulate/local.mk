@@ -47,6 +47,7 @@ libcore_la_SOURCES += \
 	lib/formulate/written/expanded.c lib/formulate/written/expanded.h \
 	lib/formulate/written/expanded_shapes.c lib/formulate/written/partial.c \
 	lib/formulate/written/reading.c lib/formulate/written/reading.h \
+	lib/formulate/whole/continuity.c lib/formulate/whole/continuity.h \
 	lib/formulate/whole/ideal.c lib/formulate/whole/ideal.h lib/formulate/whole/literals.c \
 	lib/formulate/whole/literals.h lib/formulate/whole/switches.c lib/formulate/whole/system_build.c \
 	lib/formulate/whole/system_end.c lib/formulate/whole/tree_search.c \

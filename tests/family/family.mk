@@ -45,6 +45,10 @@ family_pieces_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_sliding
 family_sliding_SOURCES = tests/family/family_sliding.c
 family_sliding_LDADD = libcotree.la $(unit_ldadd)
+FAMILIES += family_odd_laws
+family_odd_laws_SOURCES = tests/family/family_odd_laws.c tests/family/family.h tests/family/script.h \
+	tests/random.h tests/unit/session_kit.h tests/unit/test.h
+family_odd_laws_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_pulses
 family_pulses_SOURCES = tests/family/family_pulses.c tests/family/family.h tests/family/one_node.h tests/random.h \
 	tests/unit/session_kit.h tests/unit/test.h

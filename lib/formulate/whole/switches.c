@@ -9,8 +9,8 @@
 #include "formulate/system/shown.h"
 #include "formulate/system/surfaces.h"
 #include "formulate/system/system_impl.h"
+#include "formulate/whole/continuity.h"
 
-#include <math.h>
 #include <string.h>
 
 typedef LIST(Expr) Exprs;
@@ -148,58 +148,6 @@ Expr surfaces_put(Arena *arena, Expr e, const Surface *surfaces, int count)
 
 /* --- all of a system --- */
 
-typedef struct Spot { /* a point at which symbols have values, one of them chosen */
-    Expr moved;
-    double at;
-} Spot;
-
-static double value_on(void *context, Expr symbol)
-{
-    const Spot *spot = context;
-
-    return symbol == spot->moved ? spot->at : 0.7 + 0.1 * (expr_symbol_number(symbol) % 7);
-}
-
-/* Newton's method along a symbol of the condition; false: no zero was found */
-static bool find_spot(Arena *arena, Expr condition, Spot *spot)
-{
-    Expr *symbols;
-    int count = expr_symbols(&condition, 1, &symbols);
-    double move = INFINITY;
-    Expr slope;
-
-    spot->moved = NULL;
-    for (int i = 0; i < count; i++)
-        if (expr_symbol_kind(symbols[i]) != SYMBOL_PARAMETER)
-            spot->moved = symbols[i];
-    mem_free(symbols);
-    if (spot->moved == NULL)
-        return false;
-    slope = expr_diff(arena, condition, spot->moved);
-    spot->at = 1;
-    for (int i = 0; i < 50 && fabs(move) > 1e-14; i++) {
-        move = expr_evaluate(condition, value_on, spot) / expr_evaluate(slope, value_on, spot);
-        if (!isfinite(move))
-            return false;
-        spot->at -= move;
-    }
-    return fabs(move) <= 1e-12;
-}
-
-/* what an if chooses from is the same where its condition changes: it bends there, and no more */
-static bool is_continuous(Arena *arena, Expr choice)
-{
-    Expr condition = switch_condition(arena, expr_arg(choice, 0));
-    Spot spot;
-    double yes, no;
-
-    if (condition == NULL || !find_spot(arena, condition, &spot))
-        return false;
-    yes = expr_evaluate(expr_arg(choice, 1), value_on, &spot);
-    no = expr_evaluate(expr_arg(choice, 2), value_on, &spot);
-    return fabs(yes - no) <= 1e-9 * (fabs(yes) + fabs(no));
-}
-
 typedef struct Gathering {
     System *system;
     Exprs stack;
@@ -229,13 +177,12 @@ static inline char *mark_of(Gathering *g, Expr e)
 static void visit_call(Gathering *g, Expr e)
 {
     Expr condition = switch_condition(g->system->arena, e);
-    bool bends = expr_op(e) == OP_IF && is_continuous(g->system->arena, e);
 
     if (condition != NULL && !expr_is_number(condition))
         LIST_PUSH(g->system->shown->switches, ((Switch){condition, .call = e, .surface = -1}));
     for (int i = 0; i < expr_arg_count(e); i++) {
         LIST_PUSH(g->stack, expr_arg(e, i));
-        if (switch_jumps(expr_arg(e, i)) && !(bends && i == 0))
+        if (switch_jumps(expr_arg(e, i)) && !jump_only_bends(g->system->arena, e, i))
             *mark_of(g, expr_arg(e, i)) |= 2;
     }
 }
@@ -257,7 +204,7 @@ static void visit(Gathering *g, Expr e)
         if (kind <= EXPR_SYMBOL)
             continue;
         mark = mark_of(g, arg);
-        if (kind == EXPR_CALL && switch_jumps(arg))
+        if (kind == EXPR_CALL && switch_jumps(arg) && !jump_only_bends(g->system->arena, e, i))
             *mark |= 2;
         if ((*mark & 1) == 0)
             LIST_PUSH(g->stack, arg);

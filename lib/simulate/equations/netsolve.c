@@ -25,6 +25,7 @@
 #define SHORTEST   1e-14 /* the same on the way down over kinks */
 #define NEARBY     12    /* steps to a solution near the last one, */
 #define CLOSE      1e-3  /* as close as that needs be */
+#define BESIDE     1e-6  /* of an unknown: off where a slope has no end */
 /* sources come up from so small a share of theirs, times so much at once, or a little at least */
 #define LEAST_SHARE  1e-16
 #define FACTOR       4.0
@@ -316,6 +317,28 @@ static bool take_step(NetSolve *s, Way way, int turn)
     return true;
 }
 
+static bool has_endless_slope(const NetSolve *s)
+{
+    return !vector_is_finite(s->eq->network, s->eq->network_entries);
+}
+
+/* Unknowns in which a slope has no end move on a little, each by a share of its own so that
+ * differences move, too: a law such as sign(v)*sqrt(abs(v)) is solved from beside its 0. */
+static void step_beside(NetSolve *s)
+{
+    const Equations *eq = s->eq;
+
+    memset(s->step, 0, (size_t)s->n * sizeof(double));
+    for (int k = 0; k < eq->network_entries; k++) {
+        const int column = eq->network_column[k];
+
+        if (!isfinite(eq->network[k]))
+            s->step[column] = BESIDE * s->size[column] * (1 + fmod(column * 0.618033989, 1));
+    }
+    for (int i = 0; i < s->n; i++)
+        s->w[i] += s->step[i];
+}
+
 static bool solve_newton(NetSolve *s, Way way)
 {
     const Equations *eq = s->eq;
@@ -325,6 +348,12 @@ static bool solve_newton(NetSolve *s, Way way)
         s->size[i] = fmax(fabs(s->w[i]), LEAST_SIZE);
     for (int k = 0; k < ITERATIONS; k++) {
         eq->network_at(eq->context, s->w);
+        if (has_endless_slope(s)) {
+            if (vector_largest(eq->network_residual, s->n) == 0)
+                return true; /* no slope is needed to tell */
+            step_beside(s);
+            continue;
+        }
         if (!sparse_factor(s->matrix, eq->network) || !correction(s, s->step))
             return false;
         for (int i = 0; i < s->n; i++)
