@@ -223,12 +223,23 @@ static Verdict known(Member *m)
     return compare(m, &n);
 }
 
+/* told on the far side of their jump once */
+static Verdict far_off(Member *m)
+{
+    static const Network networks[] = {
+        {LOGARITHM, VOLTAGE, false, 1.1, 3.6, 4.3, 6.65, 3.06, 0.834, 0.555, 0.0186},
+        {ROOT, VOLTAGE, true, 1.37, 9.2, 2.85, 16.4, 8.77, 1.18, 1.04, 0.0109}};
+
+    return compare(m, &networks[m->number % 2]);
+}
+
 int main(int argc, char **argv)
 {
     static const Family families[] = {
         {"odd_laws_that_bend_follow_the_balance", 40, 0.02, 0, bend},
         {"odd_laws_that_failed_once_follow_it", 12, 0, 0, known},
         {"odd_laws_that_jump_follow_it_or_are_refused", 40, 1, 0, jump},
+        {"odd_laws_that_jumped_far_off_do_so_no_more", 2, 1, 0, far_off},
     };
 
     return family_main(families, (int)(sizeof families / sizeof families[0]), argc, argv);

@@ -11,6 +11,7 @@
 #define SHORT       1e-3  /* of a step: a move of its end that needn't take it again, */
 #define NEXT_TO     1e-12 /* or of the run */
 #define WIDER       5     /* times a step that ended where a longer one had erred */
+#define CONTRADICTS 1e-3  /* of a condition's largest size: so far off no error leads */
 #define ZENO_EVENTS 100
 #define ZENO_EACH   10   /* of every condition, which all may go over at one instant */
 #define ZENO_SPAN   1e-9 /* of the run */
@@ -102,14 +103,19 @@ static bool cross(Integration *m, int i, double value, double slope)
     return false;
 }
 
+static void tell_condition(const Integration *m, int i, Text *out)
+{
+    if (m->plan->tell != NULL)
+        m->plan->tell(m->plan->context, &m->segment, i, out);
+    if (out->at == NULL)
+        text_add(out, "a condition in the equations");
+}
+
 static Status switches_endlessly(const Integration *m, int i, Diag *diag)
 {
     Text what = {0};
 
-    if (m->plan->tell == NULL)
-        text_add(&what, "a condition in the equations");
-    else
-        m->plan->tell(m->plan->context, &m->segment, i, &what);
+    tell_condition(m, i, &what);
     (void)diag_set(diag, E_SOLVER, "at t = %.9g s: %s switches to and fro without end",
                    m->stepper->t, what.at);
     if (integration_is_margin(m, i))
@@ -124,6 +130,28 @@ static Status switches_endlessly(const Integration *m, int i, Diag *diag)
             "a hysteresis, or a steep but continuous law such as tanh(x/0.001) in the place of "
             "sign(x), has a motion there; a smaller rtol=%s may follow swings that fade",
             m->stepper->method->has_history ? ", or method=radau," : "");
+    text_free(&what);
+    return E_SOLVER;
+}
+
+/* A surface whose side the equations are on while what they are solved for lies far on the other,
+ * by condition i as evaluated last: a solution of no meaning, as of a law that is steep behind what
+ * jumps. E_SOLVER. */
+static Status check_side(const Integration *m, int i, Diag *diag)
+{
+    const Guard guard = equations_guard(m->eq, i);
+    Text what = {0};
+
+    if (!guard.solved || guard.side == 0 ||
+        guard.side * m->conditions[i] >= -CONTRADICTS * m->largest[i])
+        return OK;
+    tell_condition(m, i, &what);
+    (void)diag_set(diag, E_SOLVER,
+                   "at t = %.9g s: %s contradicts the side that the equations are solved on: "
+                   "they have no solution that leads on near there",
+                   m->stepper->t, what.at);
+    diag_hint(diag, "a steep but continuous law, such as tanh(x/0.001) in the place of sign(x), "
+                    "has a solution there");
     text_free(&what);
     return E_SOLVER;
 }
@@ -195,6 +223,7 @@ Status integration_meet_switch(Integration *m, int i, double when, bool *again, 
             crossed = cross(m, i, value, slope);
     }
     integration_conditions_at(m, m->stepper->t);
+    TRY(check_side(m, i, diag));
     m->band[i] = fmax(10 * fabs(m->conditions[i]), fmax(1e-10 * m->largest[i], m->noise[i]));
     m->mode[i] = is_told ? 1 : -m->mode[i];
     TRY(check_pace(m, i, diag));
