@@ -65,6 +65,8 @@ typedef struct CodeLive {
     int first; /* of the signs, in p */
     LIST(CodeEvent) events;
     LIST(CodeLevel) targets;
+    int given;         /* of them, the first; the others are of joints, which may stay */
+    LIST(int) alike;   /* by target: the first one that is the same */
     LIST(int) places;  /* of targets that are states themselves, in y; else -1 */
     LIST(int) samples; /* states that are sampled */
     LIST(int) held;    /* states that an importer holds: inputs */

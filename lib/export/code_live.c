@@ -5,6 +5,7 @@
  * direction (dt, dy, ds) that stands behind s: one pass each, whatever the number of variables. */
 #include "export/code.h"
 
+#include "formulate/kinematics/edges.h"
 #include "model/model.h"
 
 #include <stdio.h>
@@ -115,6 +116,53 @@ static int place_of(const Layout *l, Expr target)
 
 typedef LIST(Expr) Exprs;
 
+static void add_target(Code *code, Exprs *targets, Expr e)
+{
+    int alike = 0;
+
+    while (alike < targets->count && targets->at[alike] != e)
+        alike++;
+    LIST_PUSH(*targets, e);
+    LIST_PUSH(code->live.targets, level_of(e));
+    LIST_PUSH(code->live.places, place_of(code->layout, e));
+    LIST_PUSH(code->live.alike, alike);
+}
+
+static bool may_stay(Expr e)
+{
+    const unsigned known = 1U << SYMBOL_TIME | 1U << SYMBOL_PARAMETER | 1U << SYMBOL_COORDINATE |
+                           1U << SYMBOL_SPEED | 1U << SYMBOL_TURN;
+    const unsigned kinds = expr_kinds(e);
+
+    return (kinds & ~known) == 0 && (kinds & (1U << SYMBOL_COORDINATE | 1U << SYMBOL_SPEED)) != 0;
+}
+
+/* Behind what events set, where they set positions: coordinates of joints and their rates, which
+ * stay where they can, as in a run (assemble/reinitialise.c). */
+static void add_joints(Code *code, Exprs *targets)
+{
+    System *system = code->layout->system;
+    bool any = false;
+
+    code->live.given = targets->count;
+    for (int k = 0; k < code->live.given; k++)
+        any = any || code->live.targets.at[k] == CODE_COORDINATE;
+    for (int i = 0; i < system_instance_count(system) && any; i++) {
+        const Instance *joint = system_instance(system, i);
+
+        if (joint->row->family != FAMILY_JOINT || joint->is_virtual)
+            continue;
+        for (int c = 0; c < 2 * joint->coord_count; c++) {
+            Diag unasked = {0};
+            Expr e;
+
+            if (system_variable(system, joint->coord[c / 2], c % 2, &e, &unasked) == OK &&
+                may_stay(e))
+                add_target(code, targets, e);
+        }
+    }
+}
+
 static Status add_event(Code *code, const Event *event, Exprs *truths, Exprs *values,
                         Exprs *targets, Diag *diag)
 {
@@ -130,9 +178,7 @@ static Status add_event(Code *code, const Event *event, Exprs *truths, Exprs *va
         CHECK(code_resolve(code, value->value, &e, event->name, diag));
         LIST_PUSH(*values, e);
         CHECK(system_variable(code->layout->system, value->name, value->primes, &e, diag));
-        LIST_PUSH(*targets, e);
-        LIST_PUSH(code->live.targets, level_of(e));
-        LIST_PUSH(code->live.places, place_of(code->layout, e));
+        add_target(code, targets, e);
     }
 done:
     return status;
@@ -216,6 +262,7 @@ Status code_live_events(Code *code, Diag *diag)
             add_side(code, switches[i].condition, switches[i].call);
     for (int i = 0; i < model_event_count(model); i++)
         CHECK(add_event(code, model_event(model, i), &truths, &values, &targets, diag));
+    add_joints(code, &targets);
     CHECK(add_samples(code, diag));
     add_sides_of(code, truths.at, truths.count);
     order_sides(code);
@@ -412,6 +459,7 @@ void code_live_free(CodeLive *live)
     LIST_FREE(live->events);
     LIST_FREE(live->targets);
     LIST_FREE(live->places);
+    LIST_FREE(live->alike);
     LIST_FREE(live->samples);
     LIST_FREE(live->held);
     MEM_FREE(live->seeds, live->depends);

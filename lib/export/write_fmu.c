@@ -40,6 +40,7 @@ static void add_events(const Code *code, Text *out)
     add_numbers(out, "int", "fmu_event_count", count, events);
     add_numbers(out, "int", "fmu_action", action, events);
     add_numbers(out, "int", "fmu_level", level, live->targets.count);
+    add_numbers(out, "int", "fmu_alike", live->alike.at, live->alike.count);
     add_numbers(out, "int", "fmu_place", live->places.at, live->places.count);
     MEM_FREE(first, count, action, level);
 }
@@ -136,25 +137,27 @@ static void write_header(const Code *code, const Exported *what, const char *tok
 
     while (system_quaternion(l->system, quaternions) >= 0)
         quaternions++;
-    text_addf(out,
-              "/* model_fmu.h: what the instance (fmu.c) is told of the model (model.c) */\n"
-              "#ifndef MODEL_FMU_H\n#define MODEL_FMU_H\n\n#define MODEL_DECLARED\n"
-              "#include \"model.c\"\n\n#define FMU_TOKEN \"%s\"\n"
-              "#define FMU_TOLERANCE %s\n\n"
-              "enum {\n    FMU_MODEL_EXCHANGE = %d,\n    FMU_CO_SIMULATION = %d,\n"
-              "    FMU_PARAMETERS = %d, /* the first ones, that have names */\n"
-              "    FMU_FIRST_SIDE = %d, /* in p: signs of what is jumped at */\n"
-              "    FMU_SIDES = %d,\n    FMU_SWITCHES = %d, /* ideal ones */\n    FMU_TIMED = %d, "
-              "/* of those, that are of time alone */\n"
-              "    FMU_EVENTS_COUNT = %d,\n    FMU_TARGETS = %d, /* that events give values to */\n"
-              "    FMU_FOLLOWS_TIME = %d,\n    FMU_SAMPLES = %d,\n    FMU_INPUTS = %d,\n    "
-              "FMU_QUATERNIONS = %d,\n    "
-              "FMU_ROWS = %d,\n    FMU_MAY_SHARE = %d, /* what nothing determines */\n",
-              token, FMU_TOLERANCE, !what->only_simulation, !what->only_exchange,
-              model_parameter_count(code->view->model), live->first, live->sides.count,
-              code->modes.ideals.count, live->timed, live->events.count, live->targets.count,
-              follows_time(code), live->samples.count, live->held.count, quaternions, rows,
-              code->is_redundant || code_has_modes(code));
+    text_addf(
+        out,
+        "/* model_fmu.h: what the instance (fmu.c) is told of the model (model.c) */\n"
+        "#ifndef MODEL_FMU_H\n#define MODEL_FMU_H\n\n#define MODEL_DECLARED\n"
+        "#include \"model.c\"\n\n#define FMU_TOKEN \"%s\"\n"
+        "#define FMU_TOLERANCE %s\n\n"
+        "enum {\n    FMU_MODEL_EXCHANGE = %d,\n    FMU_CO_SIMULATION = %d,\n"
+        "    FMU_PARAMETERS = %d, /* the first ones, that have names */\n"
+        "    FMU_FIRST_SIDE = %d, /* in p: signs of what is jumped at */\n"
+        "    FMU_SIDES = %d,\n    FMU_SWITCHES = %d, /* ideal ones */\n    FMU_TIMED = %d, "
+        "/* of those, that are of time alone */\n"
+        "    FMU_EVENTS_COUNT = %d,\n    FMU_TARGETS = %d, /* that have new values or stay; */\n"
+        "    FMU_GIVEN = %d, /* of them, the first: what events give values to */\n"
+        "    FMU_FOLLOWS_TIME = %d,\n    FMU_SAMPLES = %d,\n    FMU_INPUTS = %d,\n    "
+        "FMU_QUATERNIONS = %d,\n    "
+        "FMU_ROWS = %d,\n    FMU_MAY_SHARE = %d, /* what nothing determines */\n",
+        token, FMU_TOLERANCE, !what->only_simulation, !what->only_exchange,
+        model_parameter_count(code->view->model), live->first, live->sides.count,
+        code->modes.ideals.count, live->timed, live->events.count, live->targets.count, live->given,
+        follows_time(code), live->samples.count, live->held.count, quaternions, rows,
+        code->is_redundant || code_has_modes(code));
     text_addf(out,
               "    FMU_SPACE = 2 * (FMU_ROWS + 2) * (FMU_ROWS + 2) + %d\n};\n"
               "enum { FMU_MARKS, FMU_STOPS, FMU_SETS };          /* what events do */\n"

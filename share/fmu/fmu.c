@@ -5,8 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { ROUNDS = 100 };  /* in which one event may set off others */
-#define INSTANT   1e-12 /* of time, in units of 1 + |t|: instants that can't be told apart */
+enum { ROUNDS = 100 };      /* in which one event may set off others */
+enum { MOST_STAGES = 500 }; /* to new positions */
+#define INSTANT   1e-12     /* of time, in units of 1 + |t|: instants that can't be told apart */
 #define LATE      10.0  /* times what an importer found an event late: so much can't be told, too */
 #define LATEST    1e-3  /* s: later than that nothing was found there */
 #define SAME      1e-9  /* of a period: sampling instants that can't be told apart */
@@ -14,6 +15,10 @@ enum { ROUNDS = 100 };  /* in which one event may set off others */
 #define PROJECTED 1e-12 /* how near it is put */
 #define NEAR      1e-9  /* of 1 + |t|: how far ahead sides of ideal switches are looked for, */
 #define FURTHEST  1e-5  /* and where they don't change, though a margin has ended */
+#define STILL     1e-9  /* what counts no more of a Newton step to new values */
+#define MET       1e-9  /* how near new values and constraints are, of what they compare */
+#define DEPENDENT 1e-8  /* of a row: what is left where it follows from others */
+#define STAGE     0.2   /* m or rad: so far positions go at a time */
 #define OPEN      1e-7  /* of what an output moves by: less of it follows what nothing determines */
 #define ROUNDING  1e-11 /* of the largest current or voltage: margins that can't be told from 0 */
 
@@ -467,10 +472,48 @@ FmuStatus fmu_put_back(Fmu *fmu)
 
 /* --- new values of events --- */
 
-/* Rows [W C^T; C 0 | 0; c] of the least change dv with C dv = c: those of the constraints, with
- * what they lack, and of the `count` targets of that level. */
-static void least_change(Fmu *fmu, int level, const int *target, const double *lack, int count,
-                         double *a)
+/* What targets of a level lack, and constraints, which come first; the largest, of 1 and what is
+ * compared. */
+static double find_lacks(Fmu *fmu, int level, const int *target, const double *values, int count,
+                         double *lack)
+{
+    FmuNumbers *now = &fmu->now;
+    const int held = level == FMU_STATE ? 0 : MODEL_M;
+    double is[FMU_TARGETS + 1], most = 0, size = 1;
+    double *entries = fmu->work + MODEL_WORK;
+    int i, j, k;
+
+    if (level == FMU_COORDINATE && held > 0) {
+        model_constraints(now->p, now->t, now->y, now->s, lack);
+        for (i = 0; i < held; i++)
+            lack[i] = -lack[i];
+    } else if (held > 0) {
+        model_velocity(now->p, now->t, now->y, now->s, lack);
+        model_jacobian(now->p, now->t, now->y, now->s, entries);
+        for (i = 0; i < held; i++)
+            for (j = 0; j < MODEL_U; j++)
+                lack[i] -= entries[i * MODEL_U + j] * now->y[MODEL_Q + j];
+    }
+    for (j = 0; level == FMU_SPEED && j < MODEL_U; j++)
+        size = larger(size, fabs(now->y[MODEL_Q + j]));
+    for (i = 0; i < held; i++)
+        most = larger(most, fabs(lack[i]) / size);
+    model_targets(now->p, now->t, now->y, now->s, is);
+    for (k = 0; k < count; k++) {
+        const double v = values[target[k]] - is[target[k]];
+
+        lack[held + k] = v;
+        most = larger(most, fabs(v) / larger(size, fabs(is[target[k]])));
+        if (!(fabs(v) < HUGE_VAL))
+            most = HUGE_VAL;
+    }
+    return most;
+}
+
+/* Rows [W C^T; C 0 | 0; c] of the least change dv with C dv = c: those of the constraints, then of
+ * the `count` targets of that level. `by_mass`: least in the mass metric. */
+static void least_change(Fmu *fmu, int level, int by_mass, const int *target, const double *lack,
+                         int count, double *a)
 {
     FmuNumbers *now = &fmu->now;
     const int is_state = level == FMU_STATE, unknowns = is_state ? MODEL_X : MODEL_U;
@@ -483,7 +526,7 @@ static void least_change(Fmu *fmu, int level, const int *target, const double *l
         a[i] = 0;
     for (i = 0; i < unknowns; i++)
         a[i * w + i] = 1;
-    if (level == FMU_SPEED) {
+    if (by_mass) {
         model_mass(now->p, now->t, now->y, now->s, entries);
         for (i = 0; i < unknowns; i++)
             for (j = 0; j < unknowns; j++)
@@ -494,16 +537,6 @@ static void least_change(Fmu *fmu, int level, const int *target, const double *l
         for (i = 0; i < held; i++)
             for (j = 0; j < unknowns; j++)
                 a[j * w + unknowns + i] = a[(unknowns + i) * w + j] = entries[i * unknowns + j];
-        if (level == FMU_COORDINATE)
-            model_constraints(now->p, now->t, now->y, now->s, entries);
-        else {
-            model_velocity(now->p, now->t, now->y, now->s, entries);
-            for (i = 0; i < held; i++)
-                for (j = 0; j < unknowns; j++)
-                    entries[i] -= a[(unknowns + i) * w + j] * now->y[MODEL_Q + j];
-        }
-        for (i = 0; i < held; i++)
-            a[(unknowns + i) * w + n] = level == FMU_COORDINATE ? -entries[i] : entries[i];
     }
     for (j = 0; j < unknowns; j++) {
         memset(dy, 0, sizeof dy);
@@ -519,17 +552,73 @@ static void least_change(Fmu *fmu, int level, const int *target, const double *l
         for (k = 0; k < count; k++)
             a[j * w + unknowns + held + k] = a[(unknowns + held + k) * w + j] = tangents[target[k]];
     }
-    for (k = 0; k < count; k++)
-        a[(unknowns + held + k) * w + n] = lack[k];
+    for (k = 0; k < held + count; k++)
+        a[(unknowns + k) * w + n] = lack[k];
 }
 
-/* Give targets of a level their values: states as they are, then whatever else has to change.
- * Speeds change together, by the least in the mass metric: as a blow along the targets does. */
-static FmuStatus put_level(Fmu *fmu, int level, const int *chosen, const double *values)
+/* Leave out rows of C, and their columns, that follow from those before them. How many rows are
+ * left in all. `base`: unknowns^2 numbers. */
+static int keep_independent(double *a, int n, int unknowns, double *base)
+{
+    const int w = n + 1;
+    int keep[FMU_ROWS + 2], count = 0, found = 0;
+    int i, j, k, again;
+
+    for (i = 0; i < n; i++) {
+        double *row = base + found * unknowns, before = 0, after = 0;
+
+        for (j = 0; i >= unknowns && found < unknowns && j < unknowns; j++) {
+            row[j] = a[i * w + j];
+            before += row[j] * row[j];
+        }
+        for (again = 0; before > 0 && again < 2; again++)
+            for (k = 0; k < found; k++) {
+                double dot = 0;
+
+                for (j = 0; j < unknowns; j++)
+                    dot += base[k * unknowns + j] * row[j];
+                for (j = 0; j < unknowns; j++)
+                    row[j] -= dot * base[k * unknowns + j];
+            }
+        for (j = 0; before > 0 && j < unknowns; j++)
+            after += row[j] * row[j];
+        if (i >= unknowns && !(after > DEPENDENT * DEPENDENT * before))
+            continue;
+        for (j = 0; i >= unknowns && j < unknowns; j++)
+            row[j] /= sqrt(after);
+        found += i >= unknowns;
+        keep[count++] = i;
+    }
+    keep[count] = n;
+    for (i = 0; i < count; i++)
+        for (j = 0; j <= count; j++)
+            a[i * (count + 1) + j] = a[keep[i] * w + keep[j]];
+    return count;
+}
+
+static void normalise(Fmu *fmu)
+{
+    int i, k;
+
+    for (k = 0; k < FMU_QUATERNIONS; k++) {
+        double *at = fmu->now.y + fmu_quaternion[k], sum = 0;
+
+        for (i = 0; i < 4; i++)
+            sum += at[i] * at[i];
+        for (i = 0; sum > 0 && i < 4; i++)
+            at[i] /= sqrt(sum);
+    }
+}
+
+/* Give targets of a level their values: states as they are, then whatever else has to change, by
+ * the least. Speeds change together; `by_mass`: as a blow along the targets does. Whether all is
+ * met. */
+static int put_level(Fmu *fmu, int level, int by_mass, const int *chosen, const double *values)
 {
     FmuNumbers *now = &fmu->now;
+    const int unknowns = level == FMU_STATE ? MODEL_X : MODEL_U;
     double *a = fmu->space, *x = a + FMU_ROWS * (FMU_ROWS + 1), *rest = x + FMU_ROWS + 1;
-    double is[FMU_TARGETS + 1], lack[FMU_TARGETS + 1];
+    double lack[FMU_TARGETS + MODEL_M + 1], furthest = HUGE_VAL;
     int target[FMU_TARGETS + 1];
     int i, j, k, sweep, count = 0;
 
@@ -539,26 +628,107 @@ static FmuStatus put_level(Fmu *fmu, int level, const int *chosen, const double 
             if (fmu_place[k] >= 0 && level != FMU_SPEED)
                 now->y[fmu_place[k]] = values[k];
         }
-    for (sweep = 0; count > 0 && sweep < (level == FMU_COORDINATE ? 20 : 2); sweep++) {
-        const int is_state = level == FMU_STATE;
-        const int n = (is_state ? MODEL_X : MODEL_U + MODEL_M) + count;
+    for (sweep = 0; furthest > STILL && sweep < (level == FMU_COORDINATE ? 20 : 2); sweep++) {
+        const int n = unknowns + (level == FMU_STATE ? 0 : MODEL_M) + count;
 
-        model_targets(now->p, now->t, now->y, now->s, is);
-        for (k = 0; k < count; k++)
-            lack[k] = values[target[k]] - is[target[k]];
-        least_change(fmu, level, target, lack, count, a);
-        if (model_solve_rows(a, n, x, rest) != MODEL_OK)
-            return fmu_fail(fmu, FMU_ERROR, "an event's new values contradict the constraints",
-                            values[target[0]]);
+        if (level == FMU_COORDINATE)
+            normalise(fmu);
+        (void)find_lacks(fmu, level, target, values, count, lack);
+        least_change(fmu, level, by_mass, target, lack, count, a);
+        if (model_solve_rows(a, keep_independent(a, n, unknowns, x), x, rest) != MODEL_OK)
+            return 0;
+        furthest = 0;
+        for (i = 0; i < unknowns; i++)
+            furthest = larger(furthest, fabs(x[i]));
         if (level == FMU_COORDINATE) {
             model_map(now->p, now->t, now->y, now->s, fmu->work);
             for (i = 0; i < MODEL_Q; i++)
                 for (j = 0; j < MODEL_U; j++)
                     now->y[i] += fmu->work[i * MODEL_U + j] * x[j];
+            normalise(fmu);
         } else
-            for (i = 0; i < (is_state ? MODEL_X : MODEL_U); i++)
-                now->y[(is_state ? MODEL_Q + MODEL_U : MODEL_Q) + i] += x[i];
+            for (i = 0; i < unknowns; i++)
+                now->y[(level == FMU_STATE ? MODEL_Q + MODEL_U : MODEL_Q) + i] += x[i];
     }
+    return find_lacks(fmu, level, target, values, count, lack) <= MET;
+}
+
+/* positions, by a way on which each is near the one before */
+static int go_by_stages(Fmu *fmu, const int *chosen, const double *from, const double *values)
+{
+    double stage[FMU_TARGETS + 1], far = 0;
+    int i, k, met = 0, count;
+
+    for (k = 0; k < FMU_TARGETS; k++)
+        if (chosen[k] && fmu_level[k] == FMU_COORDINATE)
+            far = larger(far, fabs(values[k] - from[k]));
+    count = far < STAGE * MOST_STAGES ? 1 + (int)(far / STAGE) : MOST_STAGES;
+    for (i = 1; i <= count; i++) {
+        for (k = 0; k < FMU_TARGETS; k++)
+            stage[k] = i == count ? values[k] : from[k] + (values[k] - from[k]) * i / count;
+        met = put_level(fmu, FMU_COORDINATE, 0, chosen, stage);
+        take_references(fmu);
+    }
+    return met;
+}
+
+static int is_set(const int *chosen, int k)
+{
+    int i;
+
+    for (i = 0; i < FMU_GIVEN; i++)
+        if (chosen[i] && fmu_alike[i] == fmu_alike[k])
+            return 1;
+    return 0;
+}
+
+/* All joints stay as they were, with their rates, but for what is set, whatever the coordinates;
+ * where that can't be, these move least. */
+static FmuStatus put_positions(Fmu *fmu, const int *chosen, const double *values)
+{
+    FmuNumbers *now = &fmu->now;
+    double begun[MODEL_Y + 1], from[FMU_TARGETS + 1], to[FMU_TARGETS + 1];
+    int stay[FMU_TARGETS + 1], k;
+
+    memcpy(begun, now->y, MODEL_Y * sizeof(double));
+    model_targets(now->p, now->t, now->y, now->s, from);
+    for (k = 0; k < FMU_TARGETS; k++) {
+        stay[k] = k < FMU_GIVEN ? chosen[k] : fmu_level[k] == FMU_COORDINATE && !is_set(chosen, k);
+        to[k] = k < FMU_GIVEN ? values[k] : from[k];
+    }
+    if (go_by_stages(fmu, stay, from, to)) {
+        memcpy(begun, now->y, MODEL_Y * sizeof(double));
+        for (k = 0; k < FMU_TARGETS; k++)
+            stay[k] = k >= FMU_GIVEN && fmu_level[k] == FMU_SPEED;
+        if (!put_level(fmu, FMU_SPEED, 0, stay, from))
+            memcpy(now->y, begun, MODEL_Y * sizeof(double));
+        return FMU_OK;
+    }
+    memcpy(now->y, begun, MODEL_Y * sizeof(double));
+    if (put_level(fmu, FMU_COORDINATE, 0, chosen, values))
+        return FMU_OK;
+    memcpy(now->y, begun, MODEL_Y * sizeof(double));
+    return go_by_stages(fmu, chosen, from, values) ? FMU_OK : FMU_ERROR;
+}
+
+/* New values, positions first, which ask speeds to meet the constraints, too. */
+static FmuStatus put_values(Fmu *fmu, const int *chosen, const double *values)
+{
+    int k, any[FMU_STATE + 1] = {0}, met = 1;
+
+    for (k = 0; k < FMU_GIVEN; k++)
+        any[fmu_level[k]] |= chosen[k];
+    if (any[FMU_COORDINATE])
+        met = put_positions(fmu, chosen, values) == FMU_OK;
+    take_references(fmu);
+    if (met && (any[FMU_SPEED] || (any[FMU_COORDINATE] && MODEL_M > 0)))
+        met = put_level(fmu, FMU_SPEED, 1, chosen, values);
+    if (met && any[FMU_STATE])
+        met = put_level(fmu, FMU_STATE, 0, chosen, values);
+    fmu->now.is_solved = 0;
+    if (!met)
+        return fmu_fail(fmu, FMU_ERROR, "an event's new values contradict the constraints",
+                        fmu->now.y[0]);
     return FMU_OK;
 }
 
@@ -568,8 +738,7 @@ static FmuStatus happen(Fmu *fmu, const int *happens, int *moved)
     FmuNumbers *now = &fmu->now;
     double values[FMU_TARGETS + 1];
     int chosen[FMU_TARGETS + 1] = {0};
-    int i, k, any = 0, level;
-    FmuStatus status;
+    int i, k, any = 0;
 
     model_values(now->p, now->t, now->y, now->s, values);
     for (i = 0; i < FMU_EVENTS_COUNT; i++) {
@@ -589,14 +758,7 @@ static FmuStatus happen(Fmu *fmu, const int *happens, int *moved)
     if (!any)
         return FMU_OK;
     *moved = 1;
-    for (level = FMU_COORDINATE; level <= FMU_STATE; level++) {
-        status = put_level(fmu, level, chosen, values);
-        if (status != FMU_OK)
-            return status;
-        take_references(fmu);
-    }
-    now->is_solved = 0;
-    return FMU_OK;
+    return put_values(fmu, chosen, values);
 }
 
 /* --- events --- */
