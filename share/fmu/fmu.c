@@ -888,6 +888,19 @@ static FmuStatus meet(Fmu *fmu, double beyond, int *moved)
     return fmu_fail(fmu, FMU_ERROR, line, far);
 }
 
+/* whether a switch that has a condition is to be on its other side */
+static int switch_goes_over(Fmu *fmu)
+{
+    const FmuNumbers *now = &fmu->now;
+    int k, any = 0;
+
+    model_looks(now->p, now->t, now->y, now->s, fmu->work);
+    for (k = 0; k < FMU_SWITCHES; k++)
+        any |= fmu->work[4 * k + 2] >= 0 &&
+               (now->p[MODEL_CLOSED + k] > 0.5 ? 1 : -1) != now->side[FMU_SIDES + k];
+    return any;
+}
+
 /* Which are closed from here on, and states as these ask. */
 static FmuStatus exchange(Fmu *fmu, int *changes, int *moved)
 {
@@ -905,6 +918,8 @@ static FmuStatus exchange(Fmu *fmu, int *changes, int *moved)
         for (k = 0; k < FMU_SWITCHES; k++)
             if ((now->p[MODEL_CLOSED + k] > 0.5 ? 1 : -1) != now->side[FMU_SIDES + k])
                 any |= h <= NEAR * unit || margin[k] < 0;
+        if (h > NEAR * unit && switch_goes_over(fmu))
+            any = 0; /* with diodes that it turns */
         if (!any)
             put_sides(fmu); /* what changes later is another event */
         if (!ended || h > FURTHEST * unit)
