@@ -506,6 +506,7 @@ static void what_rounding_decides_is_marked(void)
 static void what_cancels_within_rounding_is_no_number(void)
 {
     Kit kit = kit_new();
+    Bode table;
 
     EXPECT_DONE(&kit, "vsource E a 0 0\nresistor R1 a b 3\nresistor R2 b 0 7\nresistor R3 a c 0.3\n"
                       "resistor R4 c 0 0.7\ncapacitor C b c 1 uF\n"
@@ -519,6 +520,17 @@ static void what_cancels_within_rounding_is_no_number(void)
                       "linearize inputs=[E] outputs=[(a2.v - b2.v)]\nshow transfer\n");
     EXPECT_HOLDS(kit.text, " = 0?\n");
     EXPECT_HOLDS(kit.text, "rounding leaves open whether anything gets through\n");
+    EXPECT_DONE(&kit, "linearize inputs=[E] outputs=[(a2.v - b2.v), x0.v]\n");
+    table = bode(&kit, "bode from=1 to=100 points=3");
+    EXPECT_HOLDS(ct_remarks(kit.session), "(a2.v - b2.v)/E is 0 within ");
+    EXPECT_LACKS(ct_remarks(kit.session), "x0.v/E is 0");
+    for (int row = 0; row < 3; row++) {
+        const double omega = 2 * M_PI * pow(10, row);
+
+        EXPECT(isnan(bode_at(&table, 5 * row + 1)) && isnan(bode_at(&table, 5 * row + 2)));
+        EXPECT_NEAR(bode_at(&table, 5 * row + 3), -20 * log10(omega), 1e-9);
+    }
+    bode_free(&table);
     kit_free(&kit);
 }
 
