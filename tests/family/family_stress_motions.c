@@ -433,7 +433,8 @@ static Verdict drivers_lead_through_flat_positions(Member *member)
     end.count = 0;
     place_cranks(&c, jet(trial.phi), &end);
     if (do_script(member, &kit, &trial.script) == CT_OK &&
-        keeps(member, "frames", largest_miss(&kit, &trial, &end), 1e-6))
+        keeps(member, "frames", largest_miss(&kit, &trial, &end), 1e-6) &&
+        keeps(member, "rows", kit_value(&kit, "max(abs(h1 - h0))"), 1e-6))
         verdict = AGREES;
     kit_free(&kit);
     return verdict;

@@ -728,6 +728,28 @@ static void a_step_given_up_leaves_nothing_behind(void)
     kit_free(&kit);
 }
 
+/* A parallelogram that a driver leads through its flat positions moves evenly, in few long steps.
+ * In shorter ones their dense output comes near such a position and is far worse. */
+static void rows_of_long_steps_past_singular_positions_are_found(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\ngravity [0, -9.81]\n"
+                      "body c0 mass=1.4 inertia=0.12\n"
+                      "arm c0a c0 [-0.5, 0]; arm c0b c0 [0.5, 0]\nrevolute h0 ground c0a\n"
+                      "body c1 mass=1.2 inertia=0.1\n"
+                      "arm c1a c1 [-0.5, 0]; arm c1b c1 [0.5, 0]\n"
+                      "arm g1 ground [1.8, 0]\nrevolute h1 g1 c1a\n"
+                      "body k0 mass=2 inertia=0.6\n"
+                      "arm k0a k0 [-0.9, 0]; arm k0b k0 [0.9, 0]\n"
+                      "revolute l0 c0b k0a\nrevolute r0 k0b c1b\ncotree l0\n"
+                      "guess h1=1, l0=-1, r0=1\ninit h0 = 1\ndriver D h0 = 1 - 4*t\n"
+                      "simulate 3 every=0.01\n");
+    EXPECT_NEAR(kit_value(&kit, "max(abs(h1 - h0))"), 0, 1e-9);
+    EXPECT_NEAR(kit_value(&kit, "max(abs(h1' - h0'))"), 0, 1e-6);
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(a_run_keeps_energy_and_meets_the_start);
@@ -757,5 +779,6 @@ int main(void)
     RUN(a_run_keeps_up_with_the_clock);
     RUN(figures_are_those_of_the_run_that_is_asked_for);
     RUN(a_step_given_up_leaves_nothing_behind);
+    RUN(rows_of_long_steps_past_singular_positions_are_found);
     return test_end();
 }

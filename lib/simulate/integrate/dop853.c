@@ -537,7 +537,19 @@ static double divide_step(Dop853 *d, int parts)
     return worst;
 }
 
-/* dense output of the last step, on demand */
+/* the last step's in one part, from the stages as it was taken */
+static void take_whole(Dop853 *d)
+{
+    d->parts = 1;
+    d->parted = 0;
+    for (int stage = 1; stage < 12; stage++)
+        (void)take_stage(d, stage, d->step, d->stage_point);
+    make_part(d, d->step, d->base.y, &d->dense[0]);
+}
+
+/* Dense output of the last step, on demand. Shorter parts may be worse: their ends are on no
+ * constraint, and where one comes near a singular position, y' there is of no use. Then it is made
+ * of as many as did best. */
 static void make_dense(Dop853 *d)
 {
     double worst, last = HUGE_VAL;
@@ -552,13 +564,11 @@ static void make_dense(Dop853 *d)
         d->parts *= 2;
         worst = divide_step(d, d->parts);
     }
-    if (isnan(worst)) { /* what is left is the step as it was taken */
-        d->parts = 1;
-        d->parted = 0;
-        for (int stage = 1; stage < 12; stage++)
-            (void)take_stage(d, stage, d->step, d->stage_point);
-        make_part(d, d->step, d->base.y, &d->dense[0]);
-    }
+    if (worst <= last || d->parts == 1)
+        return;
+    d->parts /= 2;
+    if (d->parts == 1 || isnan(divide_step(d, d->parts)))
+        take_whole(d);
 }
 
 /* back to where the last step began */
