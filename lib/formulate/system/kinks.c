@@ -1,6 +1,8 @@
 /* kinks.c: functions that jump or bend, and where */
 #include "formulate/system/surfaces.h"
 
+#include "base/memory.h"
+
 Expr switch_condition(Arena *arena, Expr e)
 {
     if (expr_kind(e) != EXPR_CALL)
@@ -21,6 +23,32 @@ Expr switch_condition(Arena *arena, Expr e)
     default:
         return NULL;
     }
+}
+
+/* the first number among the factors of the first term */
+static Expr leading(Arena *arena, Expr e)
+{
+    if (expr_kind(e) == EXPR_SUM)
+        e = expr_is_number(expr_arg(e, 0)) ? expr_arg(e, 1) : expr_arg(e, 0);
+    return expr_kind(e) == EXPR_PRODUCT && expr_is_number(expr_arg(e, 0)) ? expr_arg(e, 0)
+                                                                          : expr_int(arena, 1);
+}
+
+Expr surface_of(Arena *arena, Expr condition, int *way)
+{
+    Expr open = expr_open(arena, condition);
+    Expr scale = leading(arena, open);
+    LIST(Expr) terms = {0};
+    Expr sum;
+
+    *way = expr_value(scale) < 0 ? -1 : 1;
+    if (expr_kind(open) != EXPR_SUM)
+        return expr_div(arena, open, scale);
+    for (int i = 0; i < expr_arg_count(open); i++)
+        LIST_PUSH(terms, expr_div(arena, expr_arg(open, i), scale));
+    sum = expr_sum(arena, terms.at, terms.count);
+    LIST_FREE(terms);
+    return sum;
 }
 
 bool switch_jumps(Expr e)

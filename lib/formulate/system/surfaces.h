@@ -15,7 +15,7 @@ typedef struct Surface {
     Expr measure;   /* h, the other surfaces' signs put in */
 } Surface;
 
-/* what changes sign where a function jumps or kinks; NULL: it does neither (switches.c) */
+/* what changes sign where a function jumps or kinks; NULL: it does neither (kinks.c) */
 Expr switch_condition(Arena *arena, Expr e);
 /* h of a condition, whatever its scale; *way -1: with the opposite sign */
 Expr surface_of(Arena *arena, Expr condition, int *way);
