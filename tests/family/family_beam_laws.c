@@ -515,7 +515,10 @@ static State state_at_end(Kit *kit, const Bar *bar)
     return out;
 }
 
-/* A few shapes, nothing that acts: a run of sharp tolerances shows the equations, not itself. */
+/* A few shapes, nothing that acts: a run of sharp tolerances shows the equations, not itself. What
+ * the fastest shapes store takes up the rounding of thousands of steps, of either sign: over 0.3 s
+ * energy wanders by up to some 7e-12, and by 3e-12 in steps of 1e-5 s, which leave no error of the
+ * method. Symplectic steps of 5e-5 s keep it to 1e-12, by the same equations. */
 static Verdict flight(Member *m, bool planar)
 {
     static Script script;
@@ -545,7 +548,7 @@ static Verdict flight(Member *m, bool planar)
                            k < 3   ? "momentum"
                            : k < 6 ? "its moment"
                                    : "energy",
-                           fabs(after[k] - before[k]) / size, 1e-12) &&
+                           fabs(after[k] - before[k]) / size, k < 6 ? 1e-12 : 2e-11) &&
                      agrees;
     } else {
         tell(m, "%s\n", kit.error.message);
