@@ -1,12 +1,8 @@
 /* numbers.c: the recursive form, compiled in stages */
 #include "simulate/equations/numbers_impl.h"
 
-#include "base/four.h"
-
 #include <math.h>
 #include <string.h>
-
-#define MOST_EXCESS 1e12 /* of what a pivot of M is the rest of: it would be rounding */
 
 static void take_references(void *context, const double *references)
 {
@@ -42,39 +38,12 @@ static bool articulate(void *context, double *acceleration)
     return nb->is_articulated;
 }
 
-static bool has_few_pivots(const double *excess, int count)
-{
-    bool has = true;
-
-    for (int j = 0; j < count; j++)
-        has &= (excess[j] > 0) & (excess[j] < MOST_EXCESS);
-    return has;
-}
-
-AS_WIDE_AS_CAN_BE static bool has_many_pivots(const double *excess, int count)
-{
-    FourTruths all = {-1, -1, -1, -1};
-    int j = 0;
-
-    for (; j + 4 <= count; j += 4) {
-        const Four four = *(const Four *)(excess + j);
-
-        all &= (four > 0) & (four < MOST_EXCESS);
-    }
-    return all[0] && all[1] && all[2] && all[3] && has_few_pivots(excess + j, count - j);
-}
-
-static bool has_pivots(const double *excess, int count)
-{
-    return count < 4 ? has_few_pivots(excess, count) : has_many_pivots(excess, count);
-}
-
 /* what the program has eliminated itself */
 static bool tell_accelerations(void *context, double *acceleration)
 {
     const Numbers *nb = context;
 
-    if (!has_pivots(nb->told_accelerations + nb->layout->nu, nb->layout->nu))
+    if (!numbers_have_pivots(nb->told_accelerations + nb->layout->nu, nb->layout->nu))
         return false;
     memcpy(acceleration, nb->told_accelerations, (size_t)nb->layout->nu * sizeof(double));
     return true;
@@ -93,24 +62,6 @@ static bool outright(void *context, double t, const double *y, double *out)
     memcpy(out, nb->eq.q_rate, (size_t)l->n * sizeof(double));
     out[l->n + l->nu] = *nb->eq.power;
     return tell_accelerations(nb, out + l->n);
-}
-
-/* the same by a program that tells accelerations, what tells their rounding, power, and q' where it
- * isn't u */
-static bool outright_apart(void *context, double t, const double *y, double *out)
-{
-    const Numbers *nb = context;
-    const Layout *l = nb->layout;
-    double *inputs = probe_inputs(nb->rates);
-    const double *told = workspace_roots(nb->rates->workspace);
-
-    inputs[l->t] = t;
-    memcpy(inputs + l->q, y, (size_t)(l->n + l->nu) * sizeof(double));
-    workspace_run_joined(nb->rates->workspace);
-    memcpy(out, nb->has_rates_of_q ? told + l->nu + 1 : y + l->n, (size_t)l->n * sizeof(double));
-    memcpy(out + l->n, told, (size_t)l->nu * sizeof(double));
-    out[l->n + l->nu] = told[l->nu];
-    return has_pivots(told + nb->rates_excess, nb->rates_pivots);
 }
 
 /* M and F are brought from a program of their own when somebody asks for them */
@@ -143,7 +94,7 @@ static bool constrained_has_pivots(void *context)
 {
     const Numbers *nb = context;
 
-    return has_pivots(nb->told_excess, nb->layout->nu);
+    return numbers_have_pivots(nb->told_excess, nb->layout->nu);
 }
 
 static void constrained_step(void *context, const double *bottom, double *du)
@@ -298,17 +249,6 @@ static int block_on(const Layout *l, Roots *roots, const Expr *entries, int coun
     for (int i = 0; i < count; i++)
         LIST_PUSH(*roots, layout_on_surfaces(l, entries[i]));
     return first;
-}
-
-/* q' = u */
-static bool is_identity(const System *system)
-{
-    const int n = system_n(system);
-
-    for (int i = 0; i < n && n == system_nu(system); i++)
-        if (system_q_rate(system, i) != system_u(system, i)->symbol)
-            return false;
-    return n == system_nu(system);
 }
 
 /* places of the entries of A, and the latest stage of what the network's equations hold */
@@ -522,7 +462,7 @@ static Status compile_equations(Numbers *nb, Parameters *parameters, const Expr 
     Status status = OK;
 
     CHECK(push_multi_turns(&roots, l->system, diag));
-    if (!is_identity(l->system))
+    if (!numbers_speeds_are_rates(l->system))
         map_block(nb, &roots);
     CHECK(numbers_compile(l, parameters, &roots, &nb->main, diag));
     at = workspace_roots(nb->main->workspace);
@@ -592,48 +532,6 @@ static double *units_of(const Layout *layout)
     return unit;
 }
 
-/* What a run asks for most of all, where nothing else has to be seen to. */
-static Status compile_rates(Numbers *nb, const Constrained *solved, Diag *diag)
-{
-    const Layout *l = nb->layout;
-    const Expr power = system_power(l->system);
-    Roots roots = {0};
-    Status status = OK;
-
-    nb->has_rates_of_q = !is_identity(l->system);
-    (void)block(&roots, solved->acceleration, l->nu);
-    (void)block_on(l, &roots, &power, 1);
-    if (nb->has_rates_of_q)
-        (void)block(&roots, system_run(l->system)->q_rate, l->n);
-    nb->rates_excess = roots.count;
-    for (int j = 0; j < l->nu; j++)
-        if (!expr_is_number(solved->excess[j])) /* of speeds that rows tell it is 1 */
-            LIST_PUSH(roots, solved->excess[j]);
-    nb->rates_pivots = roots.count - nb->rates_excess;
-    CHECK(numbers_compile(l, nb->parameters, &roots, &nb->rates, diag));
-    workspace_foresee(nb->rates->workspace, MOTION_FACTORS_PAID);
-    nb->eq.outright = outright_apart;
-    nb->eq.is_outright_apart = true;
-done:
-    LIST_FREE(roots);
-    return status;
-}
-
-static bool may_be_outright_apart(const Numbers *nb, const Constrained *solved)
-{
-    const Layout *l = nb->layout;
-
-    return solved->looked_at == 0 && l->nx + l->nz == 0 && l->multi_turns == 0 &&
-           l->surface_count == 0 && nb->eq.accelerated == NULL;
-}
-
-static void close_rates(Numbers *nb)
-{
-    probe_free(nb->rates);
-    nb->rates = NULL;
-    nb->eq.outright = NULL;
-}
-
 /* Where this fails the equations are as they were, but for what they may have eliminated before. */
 static Status compile_constrained(Numbers *nb, const Constrained *solved, const int *rows,
                                   int row_count, Diag *diag)
@@ -650,7 +548,7 @@ static Status compile_constrained(Numbers *nb, const Constrained *solved, const 
         .rows = nb->told_rows, .row_count = row_count, .left_count = solved->left_count};
     nb->told_places = solved->places;
     nb->eq.eliminated = NULL;
-    close_rates(nb);
+    numbers_end_rates(nb);
     status = nb->massing == NULL ? compile_mass(nb, nb->parameters, diag) : OK;
     if (status == OK)
         status =
@@ -658,8 +556,7 @@ static Status compile_constrained(Numbers *nb, const Constrained *solved, const 
     if (status == OK) {
         probe_free(before);
         workspace_foresee(nb->main->workspace, MOTION_FACTORS_PAID);
-        if (may_be_outright_apart(nb, solved))
-            status = compile_rates(nb, solved, diag);
+        status = numbers_rates(nb, solved, diag);
     } else {
         nb->told_by = told_before;
     }

@@ -53,6 +53,14 @@ MUST_USE static inline Status numbers_compile(const Layout *layout, Parameters *
     return probe_make(layout, parameters, &order, out, diag);
 }
 
+/* --- numbers_rates.c --- */
+
+bool numbers_have_pivots(const double *excess, int count); /* none is what rounding left */
+bool numbers_speeds_are_rates(const System *system);       /* q' = u */
+/* A program of rates alone where constraints are eliminated, if it may be. */
+MUST_USE Status numbers_rates(Numbers *numbers, const Constrained *solved, Diag *diag);
+void numbers_end_rates(Numbers *numbers);
+
 /* --- numbers_watch.c --- */
 
 /* conditions of jumps and bends, and of switches that stay on their sides; with their program */
