@@ -405,7 +405,8 @@ static void add_open(const Code *code, Text *out)
 {
     const int first = code->ns + 1 + code->ny;
 
-    add_lines(out, shared_text_open_c);
+    if (code->group_count > 0)
+        add_lines(out, shared_text_open_c);
     text_addf(out,
               "\nint model_open(const real *p, real t, const real *y, real *s, real *work)\n{\n"
               "    int i, status = MODEL_OK;\n\n    (void)p, (void)t, (void)y, (void)work;\n"
