@@ -10,6 +10,7 @@ extern const char *const shared_text_fmu_h[],
                                             *const shared_text_fmi2_c[],
                                                 *const shared_text_fmi3_c[],
                                                     *const shared_text_modes_c[],
-                                                        *const shared_text_modes_step_c[], *const shared_text_open_c[];
+                                                        *const shared_text_modes_step_c[],
+                                                            *const shared_text_open_c[];
 
 #endif

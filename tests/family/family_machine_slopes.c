@@ -150,7 +150,7 @@ static Verdict compare_entries(Member *member, Kit *kit, const Slopes *s, bool *
 static void respond(const Slopes *s, Complex at, int input, Complex *out, double *scale)
 {
     static Complex a[STATES][STATES + 1];
-    Complex x[STATES];
+    Complex x[STATES] = {0};
     const int n = s->states;
 
     for (int r = 0; r < n; r++) {

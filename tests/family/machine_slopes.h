@@ -368,7 +368,7 @@ static inline bool answers(Slopes *s, const double *x, double *out)
     Machine *m = &s->d->m;
     static Instant now;
     static Asks asks;
-    double wanted[STATES], held[INPUTS];
+    double wanted[STATES], held[INPUTS] = {0};
     const Drawn *d = s->d;
     double q[HINGES][4], rate[HINGES][3];
     bool is_solved;

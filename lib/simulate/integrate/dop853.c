@@ -153,8 +153,8 @@ AS_WIDE_AS_CAN_BE static int choose_many_scales(Dop853 *d, const double *a, cons
     int i = 0;
 
     for (; i + 4 <= d->n; i += 4) {
-        const FourTruths one = *(const FourTruths *)(a + i) & size;
-        const FourTruths other = *(const FourTruths *)(b + i) & size;
+        const FourTruths one = (FourTruths)(*(const Four *)(a + i)) & size;
+        const FourTruths other = (FourTruths)(*(const Four *)(b + i)) & size;
         const Four most = *(const Four *)(cap + i);
         const FourTruths second = (Four)other > (Four)one;
         const Four larger = (Four)((other & second) | (one & ~second));
