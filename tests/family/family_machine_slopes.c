@@ -42,7 +42,7 @@ static bool take_states(Member *member, Slopes *s, const char *text)
         if (comma != NULL)
             *comma = '\0';
         *n = (StateName){.axis = 0};
-        (void)snprintf(n->name, sizeof n->name, "%s", next);
+        (void)snprintf(n->name, sizeof n->name, "%.31s", next);
         if (!is_store(&s->d->m, n) && !is_mechanical(&s->d->m, n)) {
             tell(member, "unknown state %s\n", n->name);
             return false;
