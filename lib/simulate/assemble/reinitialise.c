@@ -138,13 +138,10 @@ static void add_joints(Reinit *reinit)
 
         if (joint->row->family != FAMILY_JOINT || joint->is_virtual)
             continue;
-        for (int c = 0; c < joint->coord_count; c++) {
-            Diag diag = {0};
-
-            if (reinit_add(reinit, joint->coord[c], 0, &diag) != OK ||
-                reinit_add(reinit, joint->coord[c], 1, &diag) != OK)
-                continue;
-        }
+        for (int c = 0; c < joint->coord_count; c++)
+            for (int primes = 0; primes <= 1; primes++)
+                if (reinit_add(reinit, joint->coord[c], primes, NULL) != OK)
+                    break;
     }
 }
 

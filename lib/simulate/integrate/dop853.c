@@ -179,14 +179,14 @@ static void choose_scale(Dop853 *d, const double *a, const double *b)
     }
 }
 
-/* A first step: the one whose explicit Euler result, compared with f there, promises an error
- * of a hundredth (Hairer, Norsett, Wanner 1993, II.4). */
 /* the same on every machine, as roots are and powers are not */
 static double eighth_root(double x)
 {
     return sqrt(sqrt(sqrt(x)));
 }
 
+/* A first step: the one whose explicit Euler result, compared with f there, promises an error
+ * of a hundredth (Hairer, Norsett, Wanner 1993, II.4). */
 static double first_step(Dop853 *d, double t, double span)
 {
     double size, slope, bend, h, h2;
