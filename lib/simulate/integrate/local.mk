@@ -3,7 +3,12 @@ libcore_la_SOURCES += \
   lib/simulate/integrate/condensed.h \
   lib/simulate/integrate/cvode.c \
   lib/simulate/integrate/dop853.c \
-  lib/simulate/integrate/dop853_table.h \
+  lib/simulate/integrate/dop853_dense.c \
+  lib/simulate/integrate/dop853_impl.h \
+  lib/simulate/integrate/dop853_scale.c \
+  lib/simulate/integrate/dop853_stages.c \
+  lib/simulate/integrate/dop853_stiff.c \
+  lib/simulate/integrate/dop853_table.c \
   lib/simulate/integrate/fixed.c \
   lib/simulate/integrate/fixed.h \
   lib/simulate/integrate/gauss.c \

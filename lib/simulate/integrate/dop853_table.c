@@ -1,18 +1,14 @@
-/* dop853_table.h: coefficients of the Dormand-Prince pair 8(5,3) with dense output of order 7
+/* dop853_table.c: coefficients of the Dormand-Prince pair 8(5,3) with dense output of order 7
  *
  * Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, 2nd edition (1993), II.5,
- * II.6 and appendix. Stage i is f at t + nodes[i] h and y + h sum weight k[stage] over its terms;
- * stage 12 is the new point, 13 to 15 serve dense output alone. Zeros are left out. */
-#ifndef COTREE_SIMULATE_INTEGRATE_DOP853_TABLE_H
-#define COTREE_SIMULATE_INTEGRATE_DOP853_TABLE_H
+ * II.6 and appendix. Stage i is f at t + dop853_nodes[i] h and y + h sum weight k[stage] over its
+ * terms; stage 12 is the new point, 13 to 15 serve dense output alone. Zeros are left out. */
+#include "simulate/integrate/dop853_impl.h"
 
-typedef struct TableauEntry {
-    int stage;
-    double weight;
-} TableauEntry;
+#include "base/memory.h"
 
 /* clang-format off */
-static const double nodes[16] = {
+const double dop853_nodes[STAGES] = {
     0,
     0.0526001519587677318785587544488,
     0.0789002279381515978178381316732,
@@ -238,6 +234,15 @@ static const TableauEntry dense6[] = {
     {15, -0.14972683625798562581422125276e3},
 };
 
+const Terms dop853_rows[ROWS] = {
+#define TERMS(name) {name, COUNT(name)}
+    {NULL, 0},
+    TERMS(stage1), TERMS(stage2), TERMS(stage3), TERMS(stage4), TERMS(stage5),
+    TERMS(stage6), TERMS(stage7), TERMS(stage8), TERMS(stage9), TERMS(stage10),
+    TERMS(stage11), TERMS(stage12), TERMS(stage13), TERMS(stage14), TERMS(stage15),
+    [ROW_ERROR_FIVE] = TERMS(error5),
+    [ROW_THIRD] = TERMS(third),
+    [ROW_DENSE] = TERMS(dense3), TERMS(dense4), TERMS(dense5), TERMS(dense6),
+#undef TERMS
+};
 /* clang-format on */
-
-#endif
