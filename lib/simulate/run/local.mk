@@ -37,6 +37,10 @@ libcore_la_SOURCES += \
   lib/simulate/run/integration_switches.c \
   lib/simulate/run/onset.c \
   lib/simulate/run/onset.h \
+  lib/simulate/run/onset_elements.c \
+  lib/simulate/run/onset_impl.h \
+  lib/simulate/run/onset_search.c \
+  lib/simulate/run/onset_sources.c \
   lib/simulate/run/pace.c \
   lib/simulate/run/pace.h \
   lib/simulate/run/phase.c \

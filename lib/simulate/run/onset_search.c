@@ -1,0 +1,81 @@
+/* onset_search.c: the first place where a quantity passes a level, by interval arithmetic
+ *
+ * Between two times the range of a source bounds what elements and sources can do there; halving
+ * finds the first place. What passes one level and falls below another is a pulse. */
+#include "simulate/run/onset_impl.h"
+
+#include <math.h>
+
+#define FINEST 1e-12 /* of the way: no search goes on below it */
+
+/* whether it may have passed somewhere between: at first as terms are, then closer */
+static bool may_pass(OnsetSearch *s, Range over)
+{
+    Steep *steep = s->o->steep;
+
+    return s->excess(s, over, steep_sources_over(steep, over)) > 0 &&
+           s->excess(s, over, steep_sources_close(steep, over)) > 0;
+}
+
+double onset_first_place(OnsetSearch *s, double from, double to)
+{
+    Steep *steep = s->o->steep;
+    double finest = FINEST * (to - from) + 4e-16 * fabs(to);
+    double low = from, high = to;
+
+    if (!(to > from))
+        return INFINITY;
+    for (;;) {
+        double middle = low + (high - low) / 2;
+
+        if (!may_pass(s, (Range){low, high})) {
+            /* nothing here: on to the next piece, twice as long where halves were cleared */
+            if (high >= to)
+                return INFINITY;
+            middle = 2 * (high - low);
+            low = high;
+            high = fmin(to, low + middle);
+            if (to - high < 0.25 * (high - low))
+                high = to;
+        } else if (high - low <= finest) {
+            return high;
+        } else {
+            high = middle;
+        }
+        if (s->excess(s, (Range){low, low}, steep_sources_over(steep, (Range){low, low})) >
+            -s->slack)
+            return low;
+        if (--s->left <= 0)
+            return high;
+    }
+}
+
+Pulse onset_pulse(OnsetSearch *rise, OnsetSearch *fall, double t, double end, double steps)
+{
+    double top = onset_first_place(rise, t, end);
+    double until = onset_first_place(fall, top < end ? top : t, end);
+
+    top = fmin(top, end);
+    until = fmin(until, end);
+    return (Pulse){
+        .is_on = true, .from = t, .first = top - t, .until = until, .bound = (until - t) / steps};
+}
+
+void onset_pulse_prolong(Pulse *pulse, double t, double steps)
+{
+    pulse->bound *= 2;
+    pulse->until = t + steps * pulse->bound;
+}
+
+double onset_pulse_bound(const Pulse *pulses, int count, double t)
+{
+    double bound = INFINITY;
+
+    for (int i = 0; i < count; i++)
+        if (pulses[i].is_on && t < pulses[i].until) {
+            bound = fmin(bound, pulses[i].bound);
+            if (t == pulses[i].from)
+                bound = fmin(bound, pulses[i].first);
+        }
+    return bound;
+}
