@@ -3,7 +3,8 @@
 
 #include "base/memory.h"
 #include "simulate/equations/causes.h"
-#include "simulate/run/mode_switch.h"
+#include "simulate/run/mode_phases.h"
+#include "simulate/run/mode_start.h"
 #include "simulate/run/result_reader_impl.h"
 
 #include <math.h>
@@ -99,7 +100,7 @@ Status run_begin(ActiveRun *r, const Setting *setting, Diag *diag)
     Phase *whole = phases_whole(r->phases);
 
     if (r->mode_search != NULL)
-        return mode_switch_begin(r, setting, diag);
+        return mode_start(r, setting, diag);
     if (whole->motion == NULL)
         TRY(active_run_open_phase(r, whole, setting, diag));
     r->phase = whole;
@@ -145,10 +146,10 @@ static Status copy_phases(ActiveRun *r, const Result *old, const Setting *settin
         const PhaseKey *like = &old->phases.at[i];
 
         if (like->on_count > 0)
-            TRY(mode_switch_phase_on(r, setting, like->system, like->closed, like->on,
-                                     like->on_count, &phase, diag));
+            TRY(mode_phases_get_on(r, setting, like->system, like->closed, like->on, like->on_count,
+                                   &phase, diag));
         else
-            TRY(mode_switch_phase(r, setting, like->closed, &phase, diag));
+            TRY(mode_phases_get(r, setting, like->closed, &phase, diag));
     }
     return OK;
 }

@@ -4,6 +4,12 @@ libcore_la_SOURCES += \
   lib/simulate/run/dense_output.c \
   lib/simulate/run/mode_margins.c \
   lib/simulate/run/mode_margins.h \
+  lib/simulate/run/mode_entry.c \
+  lib/simulate/run/mode_entry.h \
+  lib/simulate/run/mode_phases.c \
+  lib/simulate/run/mode_phases.h \
+  lib/simulate/run/mode_start.c \
+  lib/simulate/run/mode_start.h \
   lib/simulate/run/mode_switch.c \
   lib/simulate/run/mode_switch.h \
   lib/simulate/run/ends.c \

@@ -9,6 +9,7 @@
 #include "algebra/linear.h"
 #include "base/memory.h"
 #include "simulate/equations/signs.h"
+#include "simulate/run/mode_phases.h"
 
 #include <math.h>
 #include <string.h>
@@ -272,7 +273,7 @@ static Status phase_on(const ModeSwitching *c, const Phase *now, const Meeting *
             on[length++] = (OnSurface){all[i].surface, side != NULL ? side[k] : 0};
     }
     status =
-        mode_switch_phase_on(c->run, c->setting, now->system, now->closed, on, length, out, diag);
+        mode_phases_get_on(c->run, c->setting, now->system, now->closed, on, length, out, diag);
     mem_free(on);
     return status;
 }
@@ -339,7 +340,7 @@ Status slide_choose(void *context, double t, double low, double high, const doub
     CHECK(phase_on(c, now, all, count, s.side, s.loose, &next, diag));
     if (next == now)
         goto done;
-    CHECK(mode_switch_events(c->run, now, next, c->setting, &events, diag));
+    CHECK(mode_phases_events(c->run, now, next, c->setting, &events, diag));
     *segment = phases_segment(next, events);
     *entered = true;
 done:

@@ -1,0 +1,160 @@
+/* mode_phases.c: the phase of each mode and of each side of surfaces that a run stays on
+ *
+ * One of the same System shares its equations with the one that was made first. */
+#include "simulate/run/mode_phases.h"
+
+#include "base/memory.h"
+
+#include <string.h>
+
+/* which states of the whole the phase's own are, by name */
+static Status find_states(const ActiveRun *r, Phase *phase, Diag *diag)
+{
+    const Layout *l = phase->layout, *whole = phases_whole(r->phases)->layout;
+
+    phase->among_whole = NEW_ARRAY(int, l->nx);
+    /* both are in the order of the parts: where one is, the next is not far */
+    for (int i = 0, k = 0; i < l->nx; i++) {
+        const char *name = system_x(l->system, i)->name;
+        int looked = 0;
+
+        while (looked < whole->nx && strcmp(system_x(whole->system, k)->name, name) != 0) {
+            k = (k + 1) % whole->nx;
+            looked++;
+        }
+        if (looked == whole->nx)
+            return diag_set(diag, E_MODEL, "%s is no state on the other side of an ideal switch",
+                            name);
+        phase->among_whole[i] = k;
+    }
+    return OK;
+}
+
+static Status compile_states(ActiveRun *r, Phase *phase, Diag *diag)
+{
+    const Layout *whole = phases_whole(r->phases)->layout;
+    LIST(Expr) roots = {0};
+    Status status = OK;
+
+    for (int i = 0; i < whole->nx; i++) {
+        Expr state;
+
+        CHECK(system_variable(phase->system, system_x(whole->system, i)->name, 0, &state, diag));
+        LIST_PUSH(roots, state);
+    }
+    for (int i = 0; system_invariant(phase->system, i) != NULL; i++)
+        LIST_PUSH(roots, system_invariant(phase->system, i));
+    CHECK(probe_new(phase->layout, &r->phases->parameters, roots.at, roots.count, &phase->states,
+                    diag));
+done:
+    LIST_FREE(roots);
+    return status;
+}
+
+/* Takes a new phase, opened and with its states found among those of the whole; freed where that
+ * fails. */
+static Status add_phase(ActiveRun *r, const Setting *setting, Phase *phase, Phase **out, Diag *diag)
+{
+    Status status = OK;
+
+    CHECK(active_run_open_phase(r, phase, setting, diag));
+    if (phase->closed != NULL) {
+        CHECK(find_states(r, phase, diag));
+        CHECK(compile_states(r, phase, diag));
+    }
+    phases_add(r->phases, phase);
+    *out = phase;
+    phase = NULL;
+done:
+    phase_free(phase);
+    return status;
+}
+
+Status mode_phases_get(ActiveRun *r, const Setting *setting, const bool *closed, Phase **out,
+                       Diag *diag)
+{
+    mem_keep(r);
+    int count = system_ideal_count(r->system);
+    Phase *phase = NULL;
+    System *system;
+
+    *out = phases_find(r->phases, closed, count);
+    if (*out != NULL)
+        return OK;
+    TRY(system_mode(r->system, setting->scene, closed, setting->watch, &system, diag));
+    for (int i = 1; i < r->phases->count; i++)
+        if (r->phases->at[i]->system == system && r->phases->at[i]->on_count == 0) {
+            *out = phase_new_like(r->phases->at[i], closed, count);
+            phases_add(r->phases, *out);
+            return OK;
+        }
+    TRY(phase_new(system, &r->phases->parameters, closed, count, &phase, diag));
+    return add_phase(r, setting, phase, out, diag);
+}
+
+/* whether a phase stays on these sides of surfaces */
+static bool is_on(const Phase *phase, const OnSurface *on, int count)
+{
+    if (phase->on_count != count)
+        return false;
+    for (int i = 0; i < count; i++)
+        if (phase->on[i].surface != on[i].surface || phase->on[i].side != on[i].side)
+            return false;
+    return true;
+}
+
+/* The phase of the same system on these sides of surfaces: with switches on the same sides, or
+ * NULL; *shared: any, or NULL. */
+static Phase *find_on(const ActiveRun *r, const System *system, const bool *closed,
+                      const OnSurface *on, int count, Phase **shared)
+{
+    size_t bytes = (size_t)system_ideal_count(r->system) * sizeof(bool);
+
+    *shared = NULL;
+    for (int i = 0; i < r->phases->count; i++) {
+        Phase *phase = r->phases->at[i];
+
+        if (phase->motion == NULL || phase->system != system || !is_on(phase, on, count) ||
+            (phase->closed == NULL) != (closed == NULL))
+            continue;
+        *shared = phase;
+        if (closed == NULL || memcmp(phase->closed, closed, bytes) == 0)
+            return phase;
+    }
+    return NULL;
+}
+
+Status mode_phases_get_on(ActiveRun *r, const Setting *setting, System *system, const bool *closed,
+                          const OnSurface *on, int count, Phase **out, Diag *diag)
+{
+    mem_keep(r);
+    int ideals = system_ideal_count(r->system);
+    Phase *shared, *phase = NULL;
+
+    *out = find_on(r, system, closed, on, count, &shared);
+    if (*out != NULL)
+        return OK;
+    if (shared != NULL) {
+        *out = phase_new_like(shared, closed, ideals);
+        phases_add(r->phases, *out);
+        return OK;
+    }
+    TRY(phase_new_on(system, &r->phases->parameters, closed, ideals, on, count, &phase, diag));
+    return add_phase(r, setting, phase, out, diag);
+}
+
+Status mode_phases_events(ActiveRun *r, const Phase *now, const Phase *next, const Setting *setting,
+                          Events **events, Diag *diag)
+{
+    mem_keep(r);
+    Events **theirs = &next->like->events;
+
+    if (*events == NULL || next->like == now->like)
+        return OK;
+    if (*theirs == NULL)
+        TRY(active_run_events(r, next, NULL, 0, setting, theirs, diag));
+    if (*theirs != *events)
+        events_hand_over(*theirs, *events);
+    *events = *theirs;
+    return OK;
+}
