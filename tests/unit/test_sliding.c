@@ -43,6 +43,26 @@ static void friction_holds_a_load_up_to_its_limit(void)
     kit_free(&kit);
 }
 
+/* What an if chooses from meets where another variable, or another zero, is above 0 alone: friction
+ * by |y| against y < 0, from 2 m/s; and one that holds s' = -2 but not s' = 2. */
+static void what_meets_for_one_sign_alone_jumps(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDE "body b mass=1\nprismatic y ground b axis=y\ninit y = -1, y' = 0\n"
+                            "actuator f s force=-if(s' > 0, abs(y), y)\ninit s = 0, s' = 2\n"
+                            "simulate 4 every=0.1\n");
+    EXPECT(is_near(kit_value(&kit, "s"), 2, 1e-9));
+    EXPECT(is_near(kit_value(&kit, "s'"), 0, 1e-12));
+    kit_free(&kit);
+    kit = kit_new();
+    EXPECT_DONE(&kit, SLIDE "actuator f s force=if(s'*s' > 4, -s', -2)\ninit s = 0, s' = -3\n"
+                            "simulate 1 every=0.1\n");
+    EXPECT(is_near(kit_value(&kit, "s'"), -2, 1e-9));
+    EXPECT(is_near(kit_value(&kit, "s"), -1 - 2 * (1 - log(1.5)), 1e-7));
+    kit_free(&kit);
+}
+
 /* nothing tells which of them holds how much */
 static void two_that_hold_the_same_share(void)
 {
@@ -279,6 +299,7 @@ int main(void)
 {
     RUN(a_mass_that_rubs_comes_to_rest);
     RUN(friction_holds_a_load_up_to_its_limit);
+    RUN(what_meets_for_one_sign_alone_jumps);
     RUN(two_that_hold_the_same_share);
     RUN(a_relay_leads_along_its_surface);
     RUN(a_two_point_control_without_hysteresis_holds);

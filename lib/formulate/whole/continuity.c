@@ -1,6 +1,8 @@
 /* continuity.c: where a function jumps and what holds it doesn't
  *
- * Found in numbers: at a point where the condition is 0, other symbols at values of no meaning. */
+ * Found in numbers: at points where the condition is 0, other symbols at values of no meaning.
+ * Variables are of either sign there, as what meets at y may not at -y. Parameters are above 0, as
+ * limits and sizes are, and so is t. */
 #include "formulate/whole/continuity.h"
 
 #include "base/memory.h"
@@ -11,18 +13,35 @@
 #define AWAY   1.0 /* of the point: how large what is 0 there is elsewhere */
 #define CLOSED 1e-9
 
+enum { SPOTS = 6 };
+
 typedef struct Spot { /* a point at which symbols have values, one of them chosen */
+    int which;        /* of SPOTS: at the first all are above 0, at the second below */
     Expr moved;
     double at;
 } Spot;
 
-/* no two symbols have the same value */
+typedef enum { HOLDS, FAILS, NO_VALUE } Finding; /* at a point where the condition is 0 */
+typedef Finding (*Look)(Arena *arena, Expr e, int k, Spot *spot);
+
+static double sign_on(const Spot *spot, Expr symbol)
+{
+    const uint32_t mixed = (uint32_t)expr_symbol_number(symbol) * 2654435761U;
+
+    if (expr_symbol_kind(symbol) == SYMBOL_PARAMETER || expr_symbol_kind(symbol) == SYMBOL_TIME)
+        return 1;
+    if (spot->which < 2)
+        return spot->which == 0 ? 1 : -1;
+    return (mixed >> (15 + spot->which) & 1) != 0 ? 1 : -1;
+}
+
+/* no two symbols have the same size */
 static double value_on(void *context, Expr symbol)
 {
     const Spot *spot = context;
+    const double size = 0.7 + fmod(0.618033988749895 * expr_symbol_number(symbol), 1);
 
-    return symbol == spot->moved ? spot->at
-                                 : 0.7 + fmod(0.618033988749895 * expr_symbol_number(symbol), 1);
+    return symbol == spot->moved ? spot->at : sign_on(spot, symbol) * size;
 }
 
 /* Newton's method along a symbol of the condition; false: no zero was found */
@@ -41,7 +60,7 @@ static bool find_spot(Arena *arena, Expr condition, Spot *spot)
     if (spot->moved == NULL)
         return false;
     slope = expr_diff(arena, condition, spot->moved);
-    spot->at = 1;
+    spot->at = sign_on(spot, spot->moved);
     for (int i = 0; i < 50 && fabs(move) > 1e-14; i++) {
         move = expr_evaluate(condition, value_on, spot) / expr_evaluate(slope, value_on, spot);
         if (!isfinite(move))
@@ -51,18 +70,34 @@ static bool find_spot(Arena *arena, Expr condition, Spot *spot)
     return fabs(move) <= 1e-12;
 }
 
-/* what an if chooses from is the same where its condition changes */
-static bool choice_meets(Arena *arena, Expr choice)
+/* at all points that have values, and at one at least */
+static bool holds_at_spots(Arena *arena, Expr condition, Look look, Expr e, int k)
 {
-    Expr condition = switch_condition(arena, expr_arg(choice, 0));
-    Spot spot;
-    double yes, no;
+    bool found = false;
 
-    if (condition == NULL || !find_spot(arena, condition, &spot))
-        return false;
-    yes = expr_evaluate(expr_arg(choice, 1), value_on, &spot);
-    no = expr_evaluate(expr_arg(choice, 2), value_on, &spot);
-    return fabs(yes - no) <= CLOSED * (fabs(yes) + fabs(no));
+    for (int i = 0; i < SPOTS; i++) {
+        Spot spot = {.which = i};
+        const Finding here =
+            find_spot(arena, condition, &spot) ? look(arena, e, k, &spot) : NO_VALUE;
+
+        if (here == FAILS)
+            return false;
+        found = found || here == HOLDS;
+    }
+    return found;
+}
+
+/* what an if chooses from is the same there */
+static Finding choice_meets(Arena *arena, Expr choice, int k, Spot *spot)
+{
+    const double yes = expr_evaluate(expr_arg(choice, 1), value_on, spot);
+    const double no = expr_evaluate(expr_arg(choice, 2), value_on, spot);
+
+    (void)arena;
+    (void)k;
+    if (!isfinite(yes) || !isfinite(no))
+        return NO_VALUE;
+    return fabs(yes - no) <= CLOSED * (fabs(yes) + fabs(no)) ? HOLDS : FAILS;
 }
 
 /* What kinks on a surface, as it is there. Rounding leaves a condition beside 0, which roots make
@@ -86,33 +121,38 @@ static bool is_solved_for(Expr condition)
 }
 
 /* the other factors of a product are 0 where the k-th jumps */
-static bool factors_vanish(Arena *arena, Expr product, int k)
+static Finding factors_vanish(Arena *arena, Expr product, int k, Spot *spot)
 {
     const int count = expr_arg_count(product);
     Expr condition = switch_condition(arena, expr_arg(product, k));
-    Expr *others;
+    Expr *others = NEW_ARRAY(Expr, count);
+    double size, away;
     Expr rest, there;
-    double size;
-    Spot spot;
     int way;
 
-    if (condition == NULL || !is_solved_for(condition) || !find_spot(arena, condition, &spot))
-        return false;
-    others = NEW_ARRAY(Expr, count);
     for (int i = 0, n = 0; i < count; i++)
         if (i != k)
             others[n++] = expr_arg(product, i);
     rest = expr_product(arena, others, count - 1);
     mem_free(others);
     there = expr_change(arena, rest, put_kink, (void *)surface_of(arena, condition, &way));
-    size = fabs(expr_evaluate(there, value_on, &spot));
-    spot.at += AWAY;
-    return size <= CLOSED * fabs(expr_evaluate(rest, value_on, &spot));
+    size = fabs(expr_evaluate(there, value_on, spot));
+    spot->at += AWAY;
+    away = fabs(expr_evaluate(rest, value_on, spot));
+    if (!isfinite(size) || !isfinite(away))
+        return NO_VALUE;
+    return size <= CLOSED * away ? HOLDS : FAILS;
 }
 
 bool jump_only_bends(Arena *arena, Expr e, int k)
 {
-    if (expr_kind(e) == EXPR_PRODUCT)
-        return factors_vanish(arena, e, k);
-    return expr_kind(e) == EXPR_CALL && expr_op(e) == OP_IF && k == 0 && choice_meets(arena, e);
+    const bool is_product = expr_kind(e) == EXPR_PRODUCT;
+    Expr condition;
+
+    if (!is_product && !(expr_kind(e) == EXPR_CALL && expr_op(e) == OP_IF && k == 0))
+        return false;
+    condition = switch_condition(arena, expr_arg(e, k));
+    if (condition == NULL || (is_product && !is_solved_for(condition)))
+        return false;
+    return holds_at_spots(arena, condition, is_product ? factors_vanish : choice_meets, e, k);
 }
