@@ -12,14 +12,16 @@ typedef struct Incident {
     LIST(int) edges;
 } Incident;
 
+typedef struct Register { /* of nodes, or of edges, by name */
+    Names *names;
+    LIST(int) first; /* by number of the name: the first that bears it */
+} Register;
+
 struct Graph {
     LIST(Node) nodes;
     LIST(Incident) at; /* one a node */
     LIST(Edge) edges;
-    Names *node_names;
-    Names *edge_names;
-    LIST(int) first_node; /* by number of the name: the first that bears it */
-    LIST(int) first_edge;
+    Register node_names, edge_names;
     Pool *texts;
 };
 
@@ -56,12 +58,60 @@ Domain tree_kind_domain(TreeKind kind)
     return tree_kinds[kind].domain;
 }
 
+/* --- names --- */
+
+static void enter(Register *out, const char *name, int bearer)
+{
+    if (names_add(out->names, name) == out->first.count)
+        LIST_PUSH(out->first, bearer);
+}
+
+/* the first of that name, or -1 */
+static int look_up(const Register *in, const char *name)
+{
+    const int number = names_find(in->names, name);
+
+    return number < 0 ? -1 : in->first.at[number];
+}
+
+/* Forget bearers from that one on. A name is found by its first: it goes with its last, or stays.
+ */
+static void forget(Register *out, int bearers)
+{
+    while (out->first.count > 0 && out->first.at[out->first.count - 1] >= bearers)
+        out->first.count--;
+    names_trim(out->names, out->first.count);
+}
+
+/* the same names, as texts of the copy's own bearers */
+static void copy_register(const Register *from, const Graph *graph,
+                          const char *(*name_of)(const Graph *graph, int bearer), Register *out)
+{
+    const char **names = NEW_ARRAY(const char *, from->first.count);
+
+    LIST_ROOM(out->first, from->first.count);
+    for (int i = 0; i < from->first.count; i++) {
+        out->first.at[out->first.count++] = from->first.at[i];
+        names[i] = name_of(graph, from->first.at[i]);
+    }
+    out->names = names_borrowing_from(from->names, names);
+    mem_free(names);
+}
+
+static void register_free(Register *out)
+{
+    LIST_FREE(out->first);
+    names_free(out->names);
+}
+
+/* --- nodes and edges --- */
+
 Graph *graph_new(void)
 {
     Graph *graph = NEW(Graph);
 
-    graph->node_names = names_borrowing();
-    graph->edge_names = names_borrowing();
+    graph->node_names.names = names_borrowing();
+    graph->edge_names.names = names_borrowing();
     graph->texts = pool_new(0);
     return graph;
 }
@@ -75,12 +125,15 @@ void graph_free(Graph *graph)
     LIST_FREE(graph->nodes);
     LIST_FREE(graph->at);
     LIST_FREE(graph->edges);
-    LIST_FREE(graph->first_node);
-    LIST_FREE(graph->first_edge);
-    names_free(graph->node_names);
-    names_free(graph->edge_names);
+    register_free(&graph->node_names);
+    register_free(&graph->edge_names);
     pool_free(graph->texts);
     mem_free(graph);
+}
+
+static const char *copied_text(Graph *graph, const char *text)
+{
+    return pool_text(graph->texts, text, strlen(text));
 }
 
 /* before the edges at a node change */
@@ -94,10 +147,9 @@ int graph_add_node(Graph *graph, const char *name, Domain domain, bool datum)
     mem_keep(graph);
 
     int node = graph->nodes.count;
-    Node new_node = {pool_text(graph->texts, name, strlen(name)), domain, datum};
+    Node new_node = {copied_text(graph, name), domain, datum};
 
-    if (names_add(graph->node_names, new_node.name) == graph->first_node.count)
-        LIST_PUSH(graph->first_node, node);
+    enter(&graph->node_names, new_node.name, node);
     LIST_PUSH(graph->nodes, new_node);
     LIST_PUSH(graph->at, (Incident){.edges = {0}});
     return node;
@@ -114,9 +166,8 @@ int graph_add_edge(Graph *graph, const Edge *edge)
     assert(graph->nodes.at[edge->head].domain == edge->domain);
 
     mem_keep(graph);
-    own.name = pool_text(graph->texts, edge->name, strlen(edge->name));
-    if (names_add(graph->edge_names, own.name) == graph->first_edge.count)
-        LIST_PUSH(graph->first_edge, number);
+    own.name = copied_text(graph, edge->name);
+    enter(&graph->edge_names, own.name, number);
     LIST_PUSH(graph->edges, own);
     keep_incident(graph, edge->tail);
     LIST_PUSH(graph->at.at[edge->tail].edges, number);
@@ -126,11 +177,18 @@ int graph_add_edge(Graph *graph, const Edge *edge)
     return number;
 }
 
-/* what bears each name first, by the number of the name */
+static const char *node_name(const Graph *graph, int node)
+{
+    return graph->nodes.at[node].name;
+}
+
+static const char *edge_name(const Graph *graph, int edge)
+{
+    return graph->edges.at[edge].name;
+}
+
 static void copy_nodes(Graph *graph, const Graph *from)
 {
-    const char **names = NEW_ARRAY(const char *, from->first_node.count);
-
     LIST_ROOM(graph->nodes, from->nodes.count);
     LIST_ROOM(graph->at, from->nodes.count);
     for (int i = 0; i < from->nodes.count; i++) {
@@ -138,40 +196,26 @@ static void copy_nodes(Graph *graph, const Graph *from)
         Node node = from->nodes.at[i];
         Incident own = {.edges = {0}};
 
-        node.name = pool_text(graph->texts, node.name, strlen(node.name));
+        node.name = copied_text(graph, node.name);
         LIST_ROOM(own.edges, at->edges.count);
         for (int k = 0; k < at->edges.count; k++)
             own.edges.at[own.edges.count++] = at->edges.at[k];
         graph->nodes.at[graph->nodes.count++] = node;
         graph->at.at[graph->at.count++] = own;
     }
-    LIST_ROOM(graph->first_node, from->first_node.count);
-    for (int i = 0; i < from->first_node.count; i++) {
-        graph->first_node.at[graph->first_node.count++] = from->first_node.at[i];
-        names[i] = graph->nodes.at[from->first_node.at[i]].name;
-    }
-    graph->node_names = names_borrowing_from(from->node_names, names);
-    mem_free(names);
+    copy_register(&from->node_names, graph, node_name, &graph->node_names);
 }
 
 static void copy_edges(Graph *graph, const Graph *from)
 {
-    const char **names = NEW_ARRAY(const char *, from->first_edge.count);
-
     LIST_ROOM(graph->edges, from->edges.count);
     for (int i = 0; i < from->edges.count; i++) {
         Edge edge = from->edges.at[i];
 
-        edge.name = pool_text(graph->texts, edge.name, strlen(edge.name));
+        edge.name = copied_text(graph, edge.name);
         graph->edges.at[graph->edges.count++] = edge;
     }
-    LIST_ROOM(graph->first_edge, from->first_edge.count);
-    for (int i = 0; i < from->first_edge.count; i++) {
-        graph->first_edge.at[graph->first_edge.count++] = from->first_edge.at[i];
-        names[i] = graph->edges.at[from->first_edge.at[i]].name;
-    }
-    graph->edge_names = names_borrowing_from(from->edge_names, names);
-    mem_free(names);
+    copy_register(&from->edge_names, graph, edge_name, &graph->edge_names);
 }
 
 Graph *graph_copy(const Graph *from)
@@ -187,14 +231,6 @@ Graph *graph_copy(const Graph *from)
 GraphMark graph_mark(const Graph *graph)
 {
     return (GraphMark){graph->nodes.count, graph->edges.count, pool_mark(graph->texts)};
-}
-
-/* names are found by their first bearer: it goes with its name's last bearer, or stays */
-static int names_left(const int *first, int count, int bearers)
-{
-    while (count > 0 && first[count - 1] >= bearers)
-        count--;
-    return count;
 }
 
 void graph_trim(Graph *graph, const GraphMark *mark)
@@ -215,12 +251,8 @@ void graph_trim(Graph *graph, const GraphMark *mark)
         LIST_FREE(graph->at.at[graph->nodes.count].edges);
     }
     graph->at.count = graph->nodes.count;
-    graph->first_node.count =
-        names_left(graph->first_node.at, graph->first_node.count, mark->nodes);
-    graph->first_edge.count =
-        names_left(graph->first_edge.at, graph->first_edge.count, mark->edges);
-    names_trim(graph->node_names, graph->first_node.count);
-    names_trim(graph->edge_names, graph->first_edge.count);
+    forget(&graph->node_names, mark->nodes);
+    forget(&graph->edge_names, mark->edges);
     pool_release(graph->texts, mark->texts);
 }
 
@@ -246,16 +278,12 @@ const Edge *graph_edge(const Graph *graph, int edge)
 
 int graph_find_node(const Graph *graph, const char *name)
 {
-    int number = names_find(graph->node_names, name);
-
-    return number < 0 ? -1 : graph->first_node.at[number];
+    return look_up(&graph->node_names, name);
 }
 
 int graph_find_edge(const Graph *graph, const char *name)
 {
-    int number = names_find(graph->edge_names, name);
-
-    return number < 0 ? -1 : graph->first_edge.at[number];
+    return look_up(&graph->edge_names, name);
 }
 
 bool graph_edge_in(const Graph *graph, int edge, TreeKind kind)
