@@ -17,6 +17,13 @@
 #define SHRINK      (1 / 3.0)
 #define GROW        6.0
 #define PARTS_AGREE 30.0 /* errors that a step aims at, from its end to that of its parts */
+#define LEAP        1.2 /* times a step that failed near a singular position, to pass it, at most; */
+#define LEAP_PAST   0.93 /* and where in a step it is at the latest, between the last two stages */
+
+enum {
+    LEAPS = 4,        /* on end, before steps become shorter */
+    LEAP_CHOICES = 50 /* lengths that are compared */
+};
 
 /* the same on every machine, as roots are and powers are not */
 static double eighth_root(double x)
@@ -71,7 +78,7 @@ static double step_error(Dop853 *d, double h)
     h = fabs(h);
     third_order =
         h * sqrt(sum3 / d->n * d->base.control.rtol) / (d->base.may_bend ? STEEP_LUCK : LUCK);
-    d->blur = stepper_blur(&d->base);
+    d->blur = fmax(1, d->rounded / d->base.control.rtol);
     return fmax(h * sum5 / sqrt(under * d->n) / d->blur, third_order * third_order);
 }
 
@@ -175,6 +182,42 @@ static bool parts_agree(Dop853 *d)
     return false;
 }
 
+/* Where in the step just tried, of h, a singular position lies, as stages near it tell, s behind
+ * its beginning; 0: none is. */
+static double singular_place(const Dop853 *d, double h)
+{
+    double sum = 0, moment = 0;
+
+    for (int stage = 1; stage < ROW_END; stage++) {
+        sum += d->rounding[stage];
+        moment += d->rounding[stage] * dop853_nodes[stage];
+    }
+    return sum > 0 ? h * moment / sum : 0;
+}
+
+/* The step that passes a singular position `place` behind its beginning with its stages, those of
+ * the dense output too, furthest from it, up to `most` long; 0: none does. There y' off the
+ * constraints says little, so that errors grow the nearer a stage comes; shorter steps would end
+ * before it, each nearer than the one before. */
+static double leap_over(double place, double most)
+{
+    const double least = place / LEAP_PAST;
+    double best = 0, furthest = 0;
+
+    for (int i = 0; i <= LEAP_CHOICES && least < most; i++) {
+        const double h = most + (least - most) * i / LEAP_CHOICES;
+        double nearest = HUGE_VAL;
+
+        for (int stage = 0; stage < STAGES; stage++)
+            nearest = fmin(nearest, fabs(dop853_nodes[stage] * h - place));
+        if (nearest > furthest) {
+            furthest = nearest;
+            best = h;
+        }
+    }
+    return best;
+}
+
 /* Whether a step of h, to t, is taken. `error`: in units of the tolerance; HUGE_VAL where its parts
  * end elsewhere, NAN where it has no value. */
 static bool take_step(Dop853 *d, double h, double t, double *error)
@@ -205,7 +248,7 @@ static double next_step(const Dop853 *d, double taken, double h, double error)
 static Status step(Stepper *stepper, double end, Diag *diag)
 {
     Dop853 *d = (Dop853 *)stepper;
-    int failures = 0;
+    int failures = 0, leaps = 0;
     double h;
 
     memcpy(d->old, d->base.y, (size_t)d->all * sizeof(double));
@@ -215,7 +258,7 @@ static Status step(Stepper *stepper, double end, Diag *diag)
     for (;;) {
         const double tried = trim(d, h, end);
         const double t = tried == end - d->base.before ? end : d->base.before + tried;
-        double error;
+        double error, leap;
 
         if (!(tried > 4e-16 * fabs(t)))
             return solver_failure(diag, d->base.before, "the step became too small");
@@ -231,7 +274,11 @@ static Status step(Stepper *stepper, double end, Diag *diag)
             return solver_failure(diag, d->base.before,
                                   "the equations have no solution just behind this instant (ten "
                                   "ever shorter steps failed)");
-        h = tried * (isnan(error) ? RETREAT : fmax(SHRINK, SAFETY / eighth_root(error)));
+        leap = leaps++ < LEAPS ? leap_over(singular_place(d, tried), LEAP * tried) : 0;
+        if (leap > 0)
+            h = leap;
+        else
+            h = tried * (isnan(error) ? RETREAT : fmax(SHRINK, SAFETY / eighth_root(error)));
     }
 }
 

@@ -49,6 +49,8 @@ typedef struct Dop853 {
     double parted;                /* errors that it aims at, from its end to that of its parts */
     double step;                  /* of the last step, s; */
     double blur;                  /* and what rounding makes of its tolerance */
+    double rounding[ROW_END];     /* of rates at each stage, not 0 near a singular position; */
+    double rounded;               /* the largest of them */
     bool was_rejected;
     int stiff, calm; /* steps above and below the boundary */
 } Dop853;

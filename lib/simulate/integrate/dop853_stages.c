@@ -5,6 +5,9 @@
 
 #include "base/four.h"
 
+#include <math.h>
+#include <string.h>
+
 enum { MOST_FOURS = 8 }; /* that are summed together, where there are so many entries */
 
 /* Of `fours` Fours from `first` on: the weighted sums of stages, in the order of their terms
@@ -58,8 +61,15 @@ bool dop853_take_stage(Dop853 *d, int stage, double h, double *point)
 
 bool dop853_take_stages(Dop853 *d, double h)
 {
-    for (int stage = 1; stage < ROW_END; stage++)
-        if (!dop853_take_stage(d, stage, h, d->stage_point))
+    d->rounded = stepper_rounding(&d->base);
+    memset(d->rounding, 0, sizeof d->rounding);
+    for (int stage = 1; stage < ROW_END; stage++) {
+        const bool is_defined = dop853_take_stage(d, stage, h, d->stage_point);
+
+        d->rounding[stage] = stepper_rounding(&d->base);
+        d->rounded = fmax(d->rounded, d->rounding[stage]);
+        if (!is_defined)
             return false;
+    }
     return true;
 }

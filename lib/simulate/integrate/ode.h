@@ -257,13 +257,17 @@ static inline void stepper_begin(const Stepper *s, double t, const double *y, do
         s->ode->begin(s->ode->context, t, y, h);
 }
 
+/* Largest relative error that rounding may have left of rates since it was last asked for. */
+static inline double stepper_rounding(const Stepper *s)
+{
+    return s->ode->blur != NULL ? s->ode->blur(s->ode->context) : 0;
+}
+
 /* How many times the tolerance an error may be, since rounding leaves no less. Asked once a step.
  */
 static inline double stepper_blur(const Stepper *s)
 {
-    const double blur = s->ode->blur != NULL ? s->ode->blur(s->ode->context) : 0;
-
-    return fmax(1, blur / s->control.rtol);
+    return fmax(1, stepper_rounding(s) / s->control.rtol);
 }
 
 /* The row of that name, or NULL; row i, or NULL at the end. */
