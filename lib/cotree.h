@@ -326,8 +326,8 @@ typedef struct ct_chart {
  * `unicode`, a letter on each where there are several. new */
 char *ct_chart_text(const ct_chart *charts, int count, int columns, int rows, bool unicode);
 /* bode: the whole statement, of the last linearisation. First column the frequency, Hz, then gain,
- * dB, and phase, degrees, of each output against each input; `values` and `names` as of ct_table().
- */
+ * dB, and phase, degrees, of each output against each input, NaN where nothing gets through or
+ * rounding leaves it open, which is remarked; `values` and `names` as of ct_table(). */
 ct_status ct_bode(ct_session *session, const ct_statement *statement, double **values, int *rows,
                   int *columns, char ***names, ct_error *error);
 ct_status ct_bode_csv(ct_session *session, const ct_statement *statement, bool with_header,

@@ -211,6 +211,15 @@ static ct_status write_table(const Call *call, const char *path, bool append, ct
     return status;
 }
 
+static bool has_curve(const Response *response)
+{
+    for (int i = 0; i < response->rows; i++)
+        for (int j = 1; j < response->columns; j++)
+            if (isfinite(response->values[i * response->columns + j]))
+                return true;
+    return false;
+}
+
 static ct_status command_bode(Call *call, ct_error *error)
 {
     Response response = {0};
@@ -226,6 +235,9 @@ static ct_status command_bode(Call *call, ct_error *error)
     if (status == CT_OK)
         status = ct_bode(call->session, call->statement, &response.values, &response.rows,
                          &response.columns, &response.names, error);
+    if (status == CT_OK && !has_curve(&response))
+        status = ct_error_at(call->statement, NULL, error,
+                             "no curve to draw: what was asked for answers to no input");
     if (status == CT_OK)
         status = drawing_make(call, &drawing, path, error);
     ct_free(response.values);

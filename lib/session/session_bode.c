@@ -187,26 +187,30 @@ static Status find_transfers(Bode *bode, const Watch *watch, Diag *diag)
     return OK;
 }
 
-/* whether rounding leaves open that anything gets through: no digit of the response is known */
-static bool is_open(const Transfer *t)
+/* whether anything is known to get through; else no digit of the response is */
+static bool has_curve(const Transfer *t)
 {
-    return t->gain == 0 && t->within > 0;
+    return t->gain != 0;
 }
 
-static void remark_open(ct_session *session, const Bode *bode)
+static void remark_without_curve(ct_session *session, const Bode *bode)
 {
     for (int k = 0; k < bode->transfers.count; k++) {
-        const int output = bode->outputs.at[k / bode->linear->inputs];
+        const Transfer *t = bode->transfers.at[k];
         Text text = {0};
 
-        if (!is_open(bode->transfers.at[k]))
+        if (has_curve(t))
             continue;
-        text_addf(
-            &text,
-            "%s/%s is 0 within %.2g: rounding leaves open whether anything gets through, so it "
-            "has no curve",
-            bode->linear->output_names[output], bode->linear->input_names[k % bode->linear->inputs],
-            bode->transfers.at[k]->within);
+        text_addf(&text, "%s/%s is 0",
+                  bode->linear->output_names[bode->outputs.at[k / bode->linear->inputs]],
+                  bode->linear->input_names[k % bode->linear->inputs]);
+        if (t->within > 0)
+            text_addf(&text,
+                      " within %.2g: rounding leaves open whether anything gets through, so "
+                      "it has no curve",
+                      t->within);
+        else
+            text_add(&text, ": it has no curve");
         session_remark(session, text.at);
         text_free(&text);
     }
@@ -252,7 +256,7 @@ static Status fill_sheet(const Bode *bode, const Watch *watch, BodeSheet *sheet,
         LIST_PUSH(sheet->names, name_of(bode->linear, "gain", output, input, "dB"));
         LIST_PUSH(sheet->names, name_of(bode->linear, "phase", output, input, "deg"));
         for (int r = 0; r < rows; r++) {
-            const bool is_known = !is_open(bode->transfers.at[k]);
+            const bool is_known = has_curve(bode->transfers.at[k]);
 
             sheet->values[r * sheet->columns + 1 + 2 * k] = is_known ? gain[r] : NAN;
             sheet->values[r * sheet->columns + 2 + 2 * k] = is_known ? phase[r] : NAN;
@@ -277,7 +281,7 @@ static Status make_sheet(ct_session *session, const Statement *s, BodeSheet *out
     CHECK(read_keys(session->model, s, &bode, diag));
     CHECK(find_transfers(&bode, &session->watch, diag));
     suggest_range(&bode);
-    remark_open(session, &bode);
+    remark_without_curve(session, &bode);
     CHECK(fill_sheet(&bode, &session->watch, &sheet, diag));
     *out = sheet;
     sheet = (BodeSheet){0};

@@ -12,3 +12,14 @@ END
 cotree model.ct && cut -d, -f1-3 bode.csv
 sed '/^linearize/d' model.ct >early.ct
 cotree early.ct 2>errors; echo "$?"; cat errors
+# what nothing reaches has no curve, neither in a picture
+cat >apart.ct <<'APART'
+vsource E1 a 0 0
+resistor R1 a 0 1
+isource I1 0 c 1
+capacitor C1 c 0 1 uF
+linearize inputs=[E1] outputs=[C1.v] > "linear.txt"
+bode C1.v > "apart.png"
+APART
+cotree apart.ct 2>errors; echo "$?"; cat errors
+test ! -e apart.png || echo "a picture all the same"

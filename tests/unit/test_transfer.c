@@ -534,6 +534,25 @@ static void what_cancels_within_rounding_is_no_number(void)
     kit_free(&kit);
 }
 
+/* a mass beside a filter, and the filter */
+static void what_nothing_reaches_has_no_curve(void)
+{
+    Kit kit = kit_new();
+    Bode table;
+
+    EXPECT_DONE(&kit, "scene planar\nbody b mass=1\nprismatic s ground b axis=x\nspring k s k=100\n"
+                      "vsource E a 0 0\nresistor R a c 1 kohm\ncapacitor C c 0 1 uF\n"
+                      "linearize inputs=[E] outputs=[s, C.v]\n");
+    table = bode(&kit, "bode from=1 to=100 points=3");
+    EXPECT_TEXT(ct_remarks(kit.session), "s/E is 0: it has no curve\n");
+    for (int row = 0; row < 3; row++) {
+        EXPECT(isnan(bode_at(&table, 5 * row + 1)) && isnan(bode_at(&table, 5 * row + 2)));
+        EXPECT(isfinite(bode_at(&table, 5 * row + 3)) && isfinite(bode_at(&table, 5 * row + 4)));
+    }
+    bode_free(&table);
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(a_low_pass_falls_by_20_decibels_a_decade);
@@ -550,6 +569,7 @@ int main(void)
     RUN(a_slow_pole_is_seen_beside_fast_ones);
     RUN(what_rounding_decides_is_marked);
     RUN(what_cancels_within_rounding_is_no_number);
+    RUN(what_nothing_reaches_has_no_curve);
     RUN(coefficients_that_no_number_holds_are_not_printed);
     RUN(coefficients_go_to_other_programs);
     RUN(a_response_needs_something_linear_and_a_range);
