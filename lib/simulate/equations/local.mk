@@ -29,7 +29,8 @@ libcore_la_SOURCES += \
   lib/simulate/equations/netdae.h \
   lib/simulate/equations/netsolve.c \
   lib/simulate/equations/netsolve.h \
-  lib/simulate/equations/numbers.c lib/simulate/equations/numbers_rates.c lib/simulate/equations/numbers_watch.c lib/simulate/equations/numbers_impl.h \
+  lib/simulate/equations/numbers.c lib/simulate/equations/numbers_calls.c lib/simulate/equations/numbers_compile.c \
+  lib/simulate/equations/numbers_rates.c lib/simulate/equations/numbers_watch.c lib/simulate/equations/numbers_impl.h \
   lib/simulate/equations/numbers.h \
   lib/simulate/equations/parameters.c \
   lib/simulate/equations/parameters.h \

@@ -53,6 +53,26 @@ MUST_USE static inline Status numbers_compile(const Layout *layout, Parameters *
     return probe_make(layout, parameters, &order, out, diag);
 }
 
+/* --- numbers_calls.c --- */
+
+/* M and F are brought from a program of their own when somebody asks for them */
+bool numbers_need_no_mass(const Numbers *numbers);
+/* The calls of the equations: those that are there anyway; behind the main program, where the
+ * network and the power are known in these stages; behind the network's; behind that of M. */
+void numbers_connect(Numbers *numbers);
+void numbers_connect_equations(Numbers *numbers, Stage network, Stage power);
+void numbers_connect_network(Numbers *numbers);
+void numbers_connect_mass(Numbers *numbers);
+
+/* --- numbers_compile.c --- */
+
+/* The main program, and the network's where it is solved by iteration. `told` is what they tell of
+ * accelerations themselves, if they do. */
+MUST_USE Status numbers_compile_equations(Numbers *numbers, const Expr *told, int told_count,
+                                          Diag *diag);
+/* M and F, where elimination does without them */
+MUST_USE Status numbers_compile_mass(Numbers *numbers, Diag *diag);
+
 /* --- numbers_rates.c --- */
 
 bool numbers_have_pivots(const double *excess, int count); /* none is what rounding left */
