@@ -8,6 +8,8 @@ libcore_la_SOURCES += \
   lib/algebra/elementary_kernel.def \
   lib/algebra/enclosure.c \
   lib/algebra/enclosure.h \
+  lib/algebra/follow.c \
+  lib/algebra/follow.h \
   lib/algebra/gram.c \
   lib/algebra/gram.h \
   lib/algebra/hessenberg_form.c \

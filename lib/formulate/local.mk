@@ -49,7 +49,8 @@ libcore_la_SOURCES += \
 	lib/formulate/written/reading.c lib/formulate/written/reading.h \
 	lib/formulate/whole/continuity.c lib/formulate/whole/continuity.h \
 	lib/formulate/whole/ideal.c lib/formulate/whole/ideal.h lib/formulate/whole/literals.c \
-	lib/formulate/whole/literals.h lib/formulate/whole/switches.c lib/formulate/whole/system_build.c \
+	lib/formulate/whole/literals.h lib/formulate/whole/stays.c lib/formulate/whole/stays.h \
+	lib/formulate/whole/switches.c lib/formulate/whole/system_build.c \
 	lib/formulate/whole/system_end.c lib/formulate/whole/tree_search.c \
 	lib/formulate/whole/tree_search.h lib/formulate/whole/variables.c \
 	lib/formulate/solved/accelerations.c lib/formulate/solved/accelerations.h \

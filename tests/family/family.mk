@@ -74,9 +74,14 @@ family_events_SOURCES = tests/family/family_events.c tests/family/family.h tests
 family_events_LDADD = libcotree.la $(unit_ldadd)
 
 FAMILIES += family_moved
-family_moved_SOURCES = tests/family/family_moved.c tests/family/standing.h tests/family/scenes.h \
+family_moved_SOURCES = tests/family/family_moved.c tests/family/moving.h tests/family/standing.h tests/family/scenes.h \
 	tests/family/jointed.h tests/family/family.h tests/random.h
 family_moved_LDADD = libcotree.la $(unit_ldadd)
+
+FAMILIES += family_stays
+family_stays_SOURCES = tests/family/family_stays.c tests/family/moving.h tests/family/standing.h tests/family/scenes.h \
+	tests/family/jointed.h tests/family/family.h tests/random.h
+family_stays_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_sections
 family_sections_SOURCES = tests/family/family_sections.c tests/family/family.h tests/family/script.h \
 	tests/unit/session_kit.h tests/unit/test.h tests/random.h

@@ -364,6 +364,55 @@ static void joints_stay_when_another_is_set_in_whatever_tree(void)
                           spatial, 3);
 }
 
+/* where neither what is set nor what stays decides, whatever the tree */
+static void an_event_that_leaves_joints_open_is_refused(void)
+{
+    static const char *const trees[] = {"tree joint", "tree absolute", "tree rotation h1 b"};
+
+    for (int i = 0; i < 3; i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, "scene planar\nbody a mass=2 inertia=0.2\nbody b mass=1 inertia=0.1\n"
+                          "arm a2 a [1, 0]\narm b1 b [-1, 0]\nrevolute h1 ground a\n"
+                          "revolute h2 a2 b1\ninit h1 = 0.3, h2 = 0.5, h1' = 1");
+        EXPECT_DONE(&kit, trees[i]);
+        EXPECT_DONE(&kit, "event e when=t > 0.1 b.y=0.5");
+        EXPECT(kit_do(&kit, "simulate 0.2") == CT_FAILED);
+        EXPECT_HOLDS(kit.error.message, "at t = 0.1 s: event e doesn't tell where h1 goes");
+        EXPECT_HOLDS(kit.error.hint, "h1=h1 stays");
+        EXPECT_DONE(&kit, "event e when=t > 0.1 b.y=0.5 h2=h2\nsimulate 0.1001");
+        EXPECT_NEAR(kit_value(&kit, "b.y"), 0.5, 1e-3);
+        EXPECT_DONE(&kit, "event e when=t > 0.1 b.y=0.5 b.x=1\nsimulate 0.1001");
+        EXPECT_NEAR(kit_value(&kit, "b.x"), 1, 1e-3);
+        kit_free(&kit);
+    }
+}
+
+/* A slider at the end of its way has no speed, and tells none of the crank. */
+static void an_event_that_leaves_rates_open_is_refused(void)
+{
+    static const char *const trees[] = {"tree joint", "tree absolute"};
+
+    for (int i = 0; i < 2; i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, "scene planar\nbody a mass=2 inertia=0.2\nbody b mass=1 inertia=0.1\n"
+                          "body c mass=1\narm a2 a [1, 0]\narm b1 b [-1, 0]\narm b2 b [1, 0]\n"
+                          "revolute h1 ground a\nrevolute h2 a2 b1\nrevolute h3 b2 c\n"
+                          "prismatic s ground c axis=x\ninit h1 = 0.3, h1' = 1");
+        EXPECT_DONE(&kit, trees[i]);
+        EXPECT_DONE(&kit, "event e when=t > 0.1 s=3");
+        EXPECT(kit_do(&kit, "simulate 0.2") == CT_FAILED);
+        EXPECT_HOLDS(kit.error.message, "at t = 0.1 s: event e sets a singular position");
+        EXPECT_HOLDS(kit.error.hint, "rates that the event gives, too");
+        EXPECT_DONE(&kit, "event e when=t > 0.1 s=3 h1'=0.5\nsimulate 0.1001");
+        EXPECT_NEAR(kit_value(&kit, "h1'"), 0.5, 1e-3);
+        EXPECT_DONE(&kit, "event e when=t > 0.1 h1=0 h2=0\nsimulate 0.1001");
+        EXPECT_NEAR(kit_value(&kit, "s"), 3, 1e-4);
+        kit_free(&kit);
+    }
+}
+
 /* in Euler parameters the rates of coordinates are no speeds */
 static void a_spinning_body_is_stopped(void)
 {
@@ -644,6 +693,8 @@ int main(void)
     RUN(constraints_hold_after_new_values_in_whatever_tree);
     RUN(a_position_can_be_set_and_the_rest_follows);
     RUN(joints_stay_when_another_is_set_in_whatever_tree);
+    RUN(an_event_that_leaves_joints_open_is_refused);
+    RUN(an_event_that_leaves_rates_open_is_refused);
     RUN(a_spinning_body_is_stopped);
     RUN(energy_that_events_take_is_no_drift);
     RUN(bounces_that_pile_up_end_with_a_message);

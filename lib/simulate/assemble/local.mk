@@ -1,6 +1,9 @@
 libcore_la_SOURCES += \
   lib/simulate/assemble/reinitialise.c \
   lib/simulate/assemble/reinitialise.h \
+  lib/simulate/assemble/reinitialise_impl.h \
+  lib/simulate/assemble/reinitialise_stay.c \
+  lib/simulate/assemble/reinitialise_targets.c \
   lib/simulate/assemble/level_rows.c \
   lib/simulate/assemble/level_rows.h \
   lib/simulate/assemble/mode_search.c \

@@ -1,45 +1,17 @@
 /* reinitialise.c: new values for some variables, then the constraints again */
-#include "simulate/assemble/reinitialise.h"
+#include "simulate/assemble/reinitialise_impl.h"
 
 #include "algebra/kkt.h"
 #include "algebra/rank.h"
-#include "base/memory.h"
 #include "simulate/assemble/initial.h"
-#include "simulate/assemble/level_rows.h"
-#include "simulate/assemble/skeleton.h"
 
 #include <math.h>
 #include <string.h>
 
 #define TOLERANCE 1e-11 /* of what is set and of the constraints, as assembly has it */
 #define SWEEPS    3     /* of a problem that is linear but for rounding */
-#define STAGES    16    /* of a way from the present values to those that are set */
-
-typedef struct Target {
-    Expr expr;
-    StateLevel level;
-    int place;      /* unknown that it is, alone; -1 */
-    int column;     /* unknown that is held with it; -1: it is an equation */
-    int multi_turn; /* angle of turns that it is; -1 */
-    int row;        /* among the expressions of its level */
-    Stand stand;    /* what it says of frames, if it does */
-} Target;
-
-struct Reinit {
-    ReinitPlan plan;
-    LIST(Target) targets;
-    int given;         /* of them, the first; the others are of joints, which may stay */
-    Storage *storages; /* whose charge or flux stays */
-    int storage_count;
-    Skeleton *skeleton; /* NULL: nothing is mechanical, or no positions were set yet */
-    LevelRows *levels[LEVEL_COUNT];
-    LevelRows *kept; /* charges and fluxes */
-    Probe *probe;    /* these, kinetic and potential energy, targets */
-    /* of the call under way */
-    double t;
-    double *values; /* of the targets */
-    double *y;
-};
+#define STAGE     0.2   /* m or rad: so far positions go at a time, */
+#define STAGES    500   /* in so many stages at most */
 
 Reinit *reinit_new(const ReinitPlan *plan)
 {
@@ -54,6 +26,8 @@ void reinit_free(Reinit *reinit)
     if (reinit == NULL)
         return;
     LIST_FREE(reinit->targets);
+    LIST_FREE(reinit->named);
+    stays_free(reinit->stays, reinit->stay_count);
     mem_free(reinit->storages);
     skeleton_free(reinit->skeleton);
     for (int level = 0; level < LEVEL_COUNT; level++)
@@ -65,28 +39,12 @@ void reinit_free(Reinit *reinit)
 
 /* --- what can be set --- */
 
-/* Positions are corrected in speeds: by that of a coordinate which has one of its own. */
-static int column_of(const Reinit *reinit, const Target *target)
-{
-    const Layout *l = reinit->plan.layout;
-    Expr rate;
-
-    if (target->place < 0 || target->level != LEVEL_POSITION || reinit->plan.equations->map == NULL)
-        return target->place;
-    rate = system_q_rate(l->system, target->place);
-    for (int j = 0; j < l->nu; j++)
-        if (l->symbols[l->u + j] == rate)
-            return j;
-    return -1;
-}
-
 static Status classify(const Reinit *reinit, Target *target, const char *name, int primes,
                        Diag *diag)
 {
     const unsigned known = 1U << SYMBOL_TIME | 1U << SYMBOL_PARAMETER | 1U << SYMBOL_COORDINATE |
                            1U << SYMBOL_SPEED | 1U << SYMBOL_STATE | 1U << SYMBOL_TURN;
     const unsigned kinds = expr_kinds(target->expr);
-    const Layout *l = reinit->plan.layout;
 
     if ((kinds & ~known) != 0 ||
         (kinds & (1U << SYMBOL_COORDINATE | 1U << SYMBOL_SPEED | 1U << SYMBOL_STATE)) == 0) {
@@ -99,50 +57,24 @@ static Status classify(const Reinit *reinit, Target *target, const char *name, i
     target->level = (kinds & 1U << SYMBOL_STATE) != 0   ? LEVEL_STATES
                     : (kinds & 1U << SYMBOL_SPEED) != 0 ? LEVEL_VELOCITY
                                                         : LEVEL_POSITION;
-    target->place = -1;
-    for (int i = 0; i < level_count(l, target->level); i++)
-        if (l->symbols[l->q + level_first(l, target->level) + i] == target->expr)
-            target->place = i;
-    target->column = column_of(reinit, target);
-    target->multi_turn = -1;
-    for (int k = 0; k < l->multi_turns; k++)
-        if (system_multi_turn(l->system, k)->angle == target->expr)
-            target->multi_turn = k;
+    reinit_locate(reinit, target);
     return OK;
 }
 
 Status reinit_add(Reinit *reinit, const char *name, int primes, Diag *diag)
 {
-    Target target = {0};
+    System *system = reinit->plan.layout->system;
+    Target target = {.node = -1, .rate = -1, .stay = -1};
 
-    TRY(system_variable(reinit->plan.layout->system, name, primes, &target.expr, diag));
+    TRY(system_variable(system, name, primes, &target.expr, diag));
     TRY(classify(reinit, &target, name, primes, diag));
-    if (target.level == LEVEL_POSITION && primes == 0)
-        target.stand = system_stand(reinit->plan.layout->system, name);
+    if (target.level == LEVEL_POSITION) {
+        target.stand = system_stand(system, name);
+        target.node = system_frame_named(system, name);
+        LIST_PUSH(reinit->named, name);
+    }
     LIST_PUSH(reinit->targets, target);
     return OK;
-}
-
-/* Where positions may be set, the coordinates of all joints that are there, and their rates: what
- * isn't set of them stays where it can. Nobody may ask for one; then it follows from the rest. */
-static void add_joints(Reinit *reinit)
-{
-    System *system = reinit->plan.layout->system;
-    bool any = false;
-
-    reinit->given = reinit->targets.count;
-    for (int k = 0; k < reinit->given; k++)
-        any = any || reinit->targets.at[k].level == LEVEL_POSITION;
-    for (int i = 0; i < system_instance_count(system) && any; i++) {
-        const Instance *joint = system_instance(system, i);
-
-        if (joint->row->family != FAMILY_JOINT || joint->is_virtual)
-            continue;
-        for (int c = 0; c < joint->coord_count; c++)
-            for (int primes = 0; primes <= 1; primes++)
-                if (reinit_add(reinit, joint->coord[c], primes, NULL) != OK)
-                    break;
-    }
 }
 
 /* what is set of one level */
@@ -170,7 +102,7 @@ Status reinit_compile(Reinit *reinit, Diag *diag)
     LIST(Expr) roots = {0};
     Status status = OK;
 
-    add_joints(reinit);
+    reinit_add_stays(reinit);
     for (int k = 0; k < count; k++)
         LIST_PUSH(roots, reinit->storages[k].content);
     LIST_PUSH(roots, system_kinetic(l->system));
@@ -210,11 +142,6 @@ static const double *targets_here(const Reinit *reinit)
     return probe_here(reinit) + reinit->storage_count + 2;
 }
 
-static bool is_chosen(const Reinit *reinit, int k, StateLevel level)
-{
-    return reinit->targets.at[k].level == level && !isnan(reinit->values[k]);
-}
-
 /* Put the unknowns in place that are set by themselves, and hold them. */
 static void put_direct(Reinit *reinit, StateLevel level, bool *held)
 {
@@ -223,7 +150,7 @@ static void put_direct(Reinit *reinit, StateLevel level, bool *held)
     for (int k = 0; k < reinit->targets.count; k++) {
         const Target *target = &reinit->targets.at[k];
 
-        if (!is_chosen(reinit, k, level))
+        if (!reinit_is_chosen(reinit, k, level))
             continue;
         if (target->place >= 0)
             first[target->place] = reinit->values[k];
@@ -232,29 +159,12 @@ static void put_direct(Reinit *reinit, StateLevel level, bool *held)
     }
 }
 
-/* What is chosen of a level, here; `direct`: with what is set by itself. */
-static Rows rows_here(const Reinit *reinit, StateLevel level, bool direct)
-{
-    LevelRows *rows = reinit->levels[level];
-
-    rows->t = reinit->t;
-    rows->y = reinit->y;
-    for (int k = 0; k < reinit->targets.count; k++) {
-        const Target *target = &reinit->targets.at[k];
-        const bool is_row = is_chosen(reinit, k, level) && (direct || target->column < 0);
-
-        if (target->level == level)
-            rows->target[target->row] = is_row ? reinit->values[k] : NAN;
-    }
-    return level_rows(rows, NULL);
-}
-
 /* --- positions and states: least squares --- */
 
 static bool any_chosen(const Reinit *reinit, StateLevel level)
 {
     for (int k = 0; k < reinit->targets.count; k++)
-        if (is_chosen(reinit, k, level))
+        if (reinit_is_chosen(reinit, k, level))
             return true;
     return false;
 }
@@ -277,7 +187,7 @@ static bool meet(const Reinit *reinit, StateLevel level, const Rows *rows, const
 
 static bool solve_least_squares(Reinit *reinit, StateLevel level)
 {
-    const Rows rows = rows_here(reinit, level, false);
+    const Rows rows = reinit_rows(reinit, level, false);
     bool *held = NEW_ARRAY(bool, rows.columns);
     bool met;
 
@@ -302,7 +212,7 @@ static void begin_turns(const Reinit *reinit)
     double *near = reinit->y + layout_references(reinit->plan.layout);
 
     for (int k = 0; k < reinit->targets.count; k++)
-        if (reinit->targets.at[k].multi_turn >= 0 && is_chosen(reinit, k, LEVEL_POSITION))
+        if (reinit->targets.at[k].multi_turn >= 0 && reinit_is_chosen(reinit, k, LEVEL_POSITION))
             near[reinit->targets.at[k].multi_turn] = reinit->values[k];
 }
 
@@ -325,7 +235,7 @@ static bool place_along_joints(Reinit *reinit)
     places.stands = stands = NEW_ARRAY(Stand, reinit->targets.count);
     places.values = values = NEW_ARRAY(double, reinit->targets.count);
     for (int k = 0; k < reinit->targets.count; k++)
-        if (is_chosen(reinit, k, LEVEL_POSITION)) {
+        if (reinit_is_chosen(reinit, k, LEVEL_POSITION)) {
             stands[places.count] = reinit->targets.at[k].stand;
             values[places.count++] = reinit->values[k];
         }
@@ -334,24 +244,80 @@ static bool place_along_joints(Reinit *reinit)
     return sound;
 }
 
+static bool is_parameter(const Stand *stand)
+{
+    return stand->kind == STANDS_PARAMETER ||
+           (stand->kind == STANDS_COORDINATE &&
+            stand->instance->coord_kind[stand->which] == COORDINATE_PARAMETER);
+}
+
+/* of two that are chosen, whether they are Euler parameters of one attitude */
+static bool is_same_attitude(const Reinit *reinit, int i, int k)
+{
+    const Stand *a = &reinit->targets.at[i].stand, *b = &reinit->targets.at[k].stand;
+
+    return reinit_is_chosen(reinit, i, LEVEL_POSITION) &&
+           reinit_is_chosen(reinit, k, LEVEL_POSITION) && is_parameter(a) && is_parameter(b) &&
+           a->kind == b->kind && a->instance == b->instance && a->node == b->node;
+}
+
+/* Either sign of Euler parameters is the same attitude: the new values get that of the present
+ * ones. */
+static void align(const Reinit *reinit, double *values)
+{
+    const double *present = targets_here(reinit);
+
+    for (int k = 0; k < reinit->targets.count; k++) {
+        double along = 0;
+
+        for (int i = 0; i < reinit->targets.count && is_parameter(&reinit->targets.at[k].stand);
+             i++)
+            along += is_same_attitude(reinit, i, k) ? present[i] * reinit->values[i] : 0;
+        values[k] = along < 0 ? -reinit->values[k] : reinit->values[k];
+    }
+}
+
+/* Between two attitudes lie others: all four parameters that are chosen of one are brought to size
+ * 1 together. */
+static void normalise(const Reinit *reinit, const double *values, double *out)
+{
+    for (int k = 0; k < reinit->targets.count; k++) {
+        double square = 0;
+        int count = 0;
+
+        for (int i = 0; i < reinit->targets.count && is_parameter(&reinit->targets.at[k].stand);
+             i++)
+            if (is_same_attitude(reinit, i, k)) {
+                square += values[i] * values[i];
+                count++;
+            }
+        out[k] = count == 4 ? values[k] / sqrt(square) : values[k];
+    }
+}
+
 /* Positions in stages, from the present values of what is set to the new ones. */
 static bool go_by_stages(Reinit *reinit)
 {
-    double *last = reinit->values;
-    double *values = NEW_ARRAY(double, reinit->targets.count);
-    double *from = NEW_ARRAY(double, reinit->targets.count);
+    const int count = reinit->targets.count;
+    double *last = reinit->values, *from = NEW_ARRAY(double, count);
+    double *way = NEW_ARRAY(double, count), *values = NEW_ARRAY(double, count), far = 0;
     bool met = true;
+    int stages;
 
-    memcpy(from, targets_here(reinit), (size_t)reinit->targets.count * sizeof(double));
-    reinit->values = values;
-    for (int stage = 1; stage <= STAGES && met; stage++) {
-        for (int k = 0; k < reinit->targets.count; k++)
-            values[k] = from[k] + (last[k] - from[k]) * stage / STAGES;
+    memcpy(from, targets_here(reinit), (size_t)count * sizeof(double));
+    for (int k = 0; k < count; k++)
+        far = fmax(far, reinit_is_chosen(reinit, k, LEVEL_POSITION) ? fabs(last[k] - from[k]) : 0);
+    stages = far < STAGE * STAGES ? 1 + (int)(far / STAGE) : STAGES;
+    for (int stage = 1; stage <= stages && met; stage++) {
+        for (int k = 0; k < count; k++)
+            way[k] = from[k] + (last[k] - from[k]) * stage / stages;
+        normalise(reinit, way, values);
+        reinit->values = stage < stages ? values : last;
         begin_turns(reinit);
         met = solve_least_squares(reinit, LEVEL_POSITION);
+        reinit->values = last;
     }
-    reinit->values = last;
-    MEM_FREE(values, from);
+    MEM_FREE(values, way, from);
     return met;
 }
 
@@ -362,36 +328,6 @@ static bool is_closed(Reinit *reinit, bool met, Reversal *reversal)
     if (met)
         *reversal = skeleton_reversal(skeleton_of(reinit), reinit->y);
     return met && reversal->link == NULL;
-}
-
-static bool is_parameter(const Stand *stand)
-{
-    return stand->kind == STANDS_PARAMETER ||
-           (stand->kind == STANDS_COORDINATE &&
-            stand->instance->coord_kind[stand->which] == COORDINATE_PARAMETER);
-}
-
-/* Either sign of Euler parameters is the same attitude: the new values get that of the present
- * ones.
- */
-static void align(const Reinit *reinit, double *values)
-{
-    const double *present = targets_here(reinit);
-    const Target *targets = reinit->targets.at;
-
-    for (int k = 0; k < reinit->targets.count; k++) {
-        double along = 0;
-
-        if (!is_chosen(reinit, k, LEVEL_POSITION) || !is_parameter(&targets[k].stand))
-            continue;
-        for (int i = 0; i < reinit->targets.count; i++)
-            if (is_chosen(reinit, i, LEVEL_POSITION) && is_parameter(&targets[i].stand) &&
-                targets[i].stand.kind == targets[k].stand.kind &&
-                targets[i].stand.instance == targets[k].stand.instance &&
-                targets[i].stand.node == targets[k].stand.node)
-                along += present[i] * reinit->values[i];
-        values[k] = along < 0 ? -reinit->values[k] : reinit->values[k];
-    }
 }
 
 /* by least squares from where y is */
@@ -412,45 +348,20 @@ static bool close_positions(Reinit *reinit, bool by_stages, Reversal *reversal)
     return met;
 }
 
-/* Whether joints that aren't set stay, as far as anything but their constraints knows. */
-static void hold_joints(const Reinit *reinit, bool stay)
+/* What isn't given stays, as was decided; the rest follows. */
+static void hold_stays(const Reinit *reinit, const Decision *decision)
 {
     const double *present = targets_here(reinit);
-    const Target *targets = reinit->targets.at;
 
-    for (int k = reinit->given; k < reinit->targets.count; k++) {
-        bool is_set = false;
-
-        for (int i = 0; i < reinit->given; i++)
-            is_set = is_set ||
-                     (is_chosen(reinit, i, LEVEL_POSITION) && targets[i].expr == targets[k].expr);
-        reinit->values[k] = stay && !is_set ? present[k] : NAN;
-    }
+    for (int k = reinit->given; k < reinit->targets.count; k++)
+        reinit->values[k] =
+            decision->keeps[k] && reinit->targets.at[k].level == LEVEL_POSITION ? present[k] : NAN;
 }
 
-/* Positions at once; where that leads nowhere, or to an axis that lies the wrong way round, from
- * where the joints lead; then in stages, if that may take so long. */
-static bool try_positions(Reinit *reinit, bool by_stages, const double *begun, size_t bytes,
-                          Reversal *reversal)
-{
-    bool met;
-
-    met = close_positions(reinit, false, reversal);
-    if (!met) {
-        memcpy(reinit->y, begun, bytes);
-        begin_turns(reinit);
-        met = place_along_joints(reinit) && close_positions(reinit, false, reversal);
-    }
-    if (!met) {
-        memcpy(reinit->y, begun, bytes);
-        met = by_stages && close_positions(reinit, true, reversal);
-    }
-    return met;
-}
-
-/* With all joints as they were but for what is set, whatever the tree; where constraints, or what
- * is set, ask others to move, by the least move of the tree's coordinates. */
-static bool solve_positions(Reinit *reinit, bool *stay, Text *why)
+/* In stages, on which positions near those before are found, the same in any tree; where these lead
+ * nowhere, or to an axis that lies the wrong way round, from where the joints lead; then at once.
+ */
+static bool solve_positions(Reinit *reinit, const Decision *decision, Text *why)
 {
     const Layout *l = reinit->plan.layout;
     const int length = layout_references(l) + l->multi_turns;
@@ -460,13 +371,16 @@ static bool solve_positions(Reinit *reinit, bool *stay, Text *why)
     bool met;
 
     memcpy(begun, reinit->y, bytes);
-    hold_joints(reinit, true);
-    met = *stay = try_positions(reinit, false, begun, bytes, &reversal);
+    hold_stays(reinit, decision);
+    met = close_positions(reinit, true, &reversal);
     if (!met) {
-        hold_joints(reinit, false);
         memcpy(reinit->y, begun, bytes);
-        reversal.link = NULL;
-        met = try_positions(reinit, true, begun, bytes, &reversal);
+        begin_turns(reinit);
+        met = place_along_joints(reinit) && close_positions(reinit, false, &reversal);
+    }
+    if (!met) {
+        memcpy(reinit->y, begun, bytes);
+        met = close_positions(reinit, false, &reversal);
     }
     if (!met && reversal.link != NULL) {
         text_addf(why, "%s would close with ", reversal.link->instance->name);
@@ -520,7 +434,7 @@ static bool solve_speeds(Reinit *reinit)
     int count = reinit->plan.row_count;
     int all = eq->m;
     bool sound = true;
-    const Rows velocity = rows_here(reinit, LEVEL_VELOCITY, true);
+    const Rows velocity = reinit_rows(reinit, LEVEL_VELOCITY, true);
     Kkt *kkt;
 
     matrix = NEW_ARRAY(double, velocity.pattern->count);
@@ -535,7 +449,7 @@ static bool solve_speeds(Reinit *reinit)
         memcpy(rows, reinit->plan.rows, (size_t)count * sizeof(int));
     }
     for (int k = 0; k < reinit->targets.count; k++)
-        if (is_chosen(reinit, k, LEVEL_VELOCITY))
+        if (reinit_is_chosen(reinit, k, LEVEL_VELOCITY))
             rows[count++] = all++;
     kkt = kkt_new(eq->masses, velocity.pattern, rows, count);
     for (int sweep = 0; sweep <= SWEEPS && sound; sweep++) {
@@ -550,22 +464,16 @@ static bool solve_speeds(Reinit *reinit)
     return sound;
 }
 
-/* Where joints have stayed their rates do, too: speeds of bodies become those that go with them. */
-static void hold_rates(Reinit *reinit, const double *before)
+/* Speeds become those that go with the rates that stay. */
+static bool keep_rates(Reinit *reinit, const Decision *decision, const double *values,
+                       const double *before)
 {
-    const Equations *eq = reinit->plan.equations;
-    double *u = NEW_ARRAY(double, eq->nu);
     Rows rows;
 
-    memcpy(u, reinit->y + eq->n, (size_t)eq->nu * sizeof(double));
-    for (int k = 0; k < reinit->targets.count; k++)
-        reinit->values[k] =
-            k >= reinit->given && reinit->targets.at[k].level == LEVEL_VELOCITY ? before[k] : NAN;
-    eq->position(eq->context, reinit->t, reinit->y);
-    rows = rows_here(reinit, LEVEL_VELOCITY, true);
-    if (!meet(reinit, LEVEL_VELOCITY, &rows, NULL))
-        memcpy(reinit->y + eq->n, u, (size_t)eq->nu * sizeof(double));
-    mem_free(u);
+    if (!reinit_choose_rates(reinit, decision, values, before))
+        return false;
+    rows = reinit_rows(reinit, LEVEL_VELOCITY, true);
+    return meet(reinit, LEVEL_VELOCITY, &rows, NULL);
 }
 
 static void choose_given(const Reinit *reinit, const double *values)
@@ -579,7 +487,7 @@ static void choose_given(const Reinit *reinit, const double *values)
 static bool is_set(const Reinit *reinit, int state)
 {
     for (int k = 0; k < reinit->targets.count; k++)
-        if (is_chosen(reinit, k, LEVEL_STATES) && reinit->targets.at[k].place == state)
+        if (reinit_is_chosen(reinit, k, LEVEL_STATES) && reinit->targets.at[k].place == state)
             return true;
     return false;
 }
@@ -610,7 +518,83 @@ static bool keep_stored(const Reinit *reinit, const double *before)
     return met;
 }
 
-bool reinit_apply(Reinit *reinit, double t, const double *values, double *y, Text *why)
+/* --- all of it --- */
+
+static Status refuse(const Reinit *reinit, const char *events, const char *why, Diag *diag)
+{
+    (void)diag_set(diag, E_SOLVER, "at t = %.9g s: the new values of event %s can't be met%s%s",
+                   reinit->t, events, why != NULL ? ": " : "", why != NULL ? why : "");
+    diag_hint(diag, "what the constraints tie together can't be set apart");
+    return E_SOLVER;
+}
+
+static Status refuse_open(const Reinit *reinit, const char *events, const Decision *decision,
+                          Diag *diag)
+{
+    (void)diag_set(
+        diag, E_SOLVER,
+        "at t = %.9g s: event %s doesn't tell where %s go%s: what it sets moves more than "
+        "follows from it",
+        reinit->t, events, decision->names.at, decision->open == 1 ? "es" : "");
+    if (decision->example != NULL)
+        diag_hint(diag,
+                  "give the event so many values more, of these or of others that move with them; "
+                  "%s=%s stays",
+                  decision->example, decision->example);
+    return E_SOLVER;
+}
+
+static Status refuse_rates(const Reinit *reinit, const char *events, Diag *diag)
+{
+    (void)diag_set(
+        diag, E_SOLVER,
+        "at t = %.9g s: event %s sets a singular position, where the rates of before don't "
+        "tell all rates",
+        reinit->t, events);
+    diag_hint(diag, "a position beside it will do, or rates that the event gives, too: h1'=0");
+    return E_SOLVER;
+}
+
+static Status put_positions(Reinit *reinit, const char *events, const double *values,
+                            const double *present, Diag *diag)
+{
+    Decision decision;
+    Text why = {0};
+    Status status = OK;
+
+    reinit_decide(reinit, &decision);
+    if (decision.open > 0)
+        status = refuse_open(reinit, events, &decision, diag);
+    else if (!solve_positions(reinit, &decision, &why))
+        status = refuse(reinit, events, why.at, diag);
+    else if (!keep_rates(reinit, &decision, values, present))
+        status = refuse_rates(reinit, events, diag);
+    decision_free(&decision);
+    text_free(&why);
+    choose_given(reinit, values);
+    return status;
+}
+
+/* all levels, in place */
+static Status put_values(Reinit *reinit, const char *events, const double *values,
+                         const double *present, const double *stored, Diag *diag)
+{
+    const bool has_positions = any_chosen(reinit, LEVEL_POSITION);
+    const bool has_speeds = any_chosen(reinit, LEVEL_VELOCITY);
+    bool met = true;
+
+    if (has_positions)
+        TRY(put_positions(reinit, events, values, present, diag));
+    if (any_chosen(reinit, LEVEL_STATES))
+        met = solve_least_squares(reinit, LEVEL_STATES);
+    met = met && keep_stored(reinit, stored);
+    if (met && (has_positions || has_speeds))
+        met = solve_speeds(reinit);
+    return met ? OK : refuse(reinit, events, NULL, diag);
+}
+
+Status reinit_apply(Reinit *reinit, double t, const double *values, const char *events, double *y,
+                    Diag *diag)
 {
     const Equations *eq = reinit->plan.equations;
     int references = layout_references(reinit->plan.layout);
@@ -618,8 +602,7 @@ bool reinit_apply(Reinit *reinit, double t, const double *values, double *y, Tex
     double *stored = NEW_ARRAY(double, reinit->storage_count);
     double *present = NEW_ARRAY(double, reinit->targets.count);
     double before;
-    double after;
-    bool met = true, stay = false;
+    Status status;
 
     reinit->t = t;
     reinit->values = NEW_ARRAY(double, reinit->targets.count);
@@ -630,17 +613,10 @@ bool reinit_apply(Reinit *reinit, double t, const double *values, double *y, Tex
     if (reinit->storage_count > 0)
         memcpy(stored, probe_here(reinit), (size_t)reinit->storage_count * sizeof(double));
     memcpy(present, targets_here(reinit), (size_t)reinit->targets.count * sizeof(double));
-    if (any_chosen(reinit, LEVEL_POSITION))
-        met = solve_positions(reinit, &stay, why);
-    if (stay)
-        hold_rates(reinit, present);
-    choose_given(reinit, values);
-    if (met && any_chosen(reinit, LEVEL_STATES))
-        met = solve_least_squares(reinit, LEVEL_STATES);
-    met = met && keep_stored(reinit, stored);
-    if (met && (any_chosen(reinit, LEVEL_POSITION) || any_chosen(reinit, LEVEL_VELOCITY)))
-        met = solve_speeds(reinit);
-    if (met) {
+    status = put_values(reinit, events, values, present, stored, diag);
+    if (status == OK) {
+        double after;
+
         equations_turn(eq, t, reinit->y, reinit->y + references);
         after = energy(reinit);
         if (isfinite(after - before))
@@ -650,5 +626,5 @@ bool reinit_apply(Reinit *reinit, double t, const double *values, double *y, Tex
     MEM_FREE(stored, present, reinit->y, reinit->values);
     reinit->y = NULL;
     reinit->values = NULL;
-    return met;
+    return status;
 }

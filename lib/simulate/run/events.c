@@ -506,7 +506,8 @@ static Status apply_values(Events *events, double t, const bool *due, double *y,
                            Diag *diag)
 {
     const double *values;
-    Text names = {0}, why = {0};
+    Text names = {0};
+    Status status;
 
     for (int k = 0; k < events->values.count; k++)
         events->targets[k] = NAN;
@@ -528,17 +529,14 @@ static Status apply_values(Events *events, double t, const bool *due, double *y,
     }
     if (names.length == 0)
         return OK;
-    if (values != NULL && reinit_apply(events->reinit, t, events->targets, y, &why)) {
-        *changed = true;
-        text_free(&names);
-        return OK;
-    }
-    (void)diag_set(diag, E_SOLVER, "at t = %.9g s: the new values of event %s can't be met%s%s", t,
-                   names.at, why.length > 0 ? ": " : "", why.length > 0 ? why.at : "");
-    diag_hint(diag, "what the constraints tie together can't be set apart");
+    if (values == NULL)
+        status = diag_set(diag, E_SOLVER, "at t = %.9g s: event %s: the equations have no solution",
+                          t, names.at);
+    else
+        status = reinit_apply(events->reinit, t, events->targets, names.at, y, diag);
+    *changed = *changed || status == OK;
     text_free(&names);
-    text_free(&why);
-    return E_SOLVER;
+    return status;
 }
 
 /* one round: who is due, and what comes of it */

@@ -1,0 +1,196 @@
+/* stays.c: what stays where an event sets positions */
+#include "formulate/whole/stays.h"
+
+#include "base/text.h"
+#include "formulate/kinematics/coordinate.h"
+#include "formulate/kinematics/edges.h"
+#include "formulate/system/resolve.h"
+#include "formulate/system/system_impl.h"
+
+#include <string.h>
+
+typedef struct Stays {
+    LIST(Stay) all;
+    int attitudes;
+} Stays;
+
+/* functions of positions, and of their rates */
+static bool is_motion(Expr value, Expr rate)
+{
+    const unsigned of_position =
+        1U << SYMBOL_TIME | 1U << SYMBOL_PARAMETER | 1U << SYMBOL_COORDINATE | 1U << SYMBOL_TURN;
+
+    return (expr_kinds(value) & ~of_position) == 0 &&
+           (expr_kinds(value) & 1U << SYMBOL_COORDINATE) != 0 &&
+           (expr_kinds(rate) & ~(of_position | 1U << SYMBOL_SPEED)) == 0;
+}
+
+/* Nobody may ask for one; whoever needs it takes what tells the same. False: there is none. */
+static bool add_named(System *system, const char *name, Stay stay, Stays *out)
+{
+    Diag unasked = {0};
+
+    if (system_variable(system, name, 0, &stay.value, &unasked) != OK ||
+        system_variable(system, name, 1, &stay.rate, &unasked) != OK ||
+        !is_motion(stay.value, stay.rate))
+        return false;
+    stay.name = mem_text(name, strlen(name));
+    LIST_PUSH(out->all, stay);
+    return true;
+}
+
+/* three angles of a chord have no names: Euler parameters of the head against the tail tell them */
+static void add_attitude(System *system, const Instance *joint, Stays *out)
+{
+    Expr p[4];
+
+    relative_parameters(system, joint->tail, joint->head, p);
+    for (int i = 0; i < 4; i++) {
+        Stay stay = {.part = joint->name, .value = p[i], .node = -1, .attitude = out->attitudes};
+        Diag unasked = {0};
+
+        if (system_rate_of(system, p[i], &stay.rate, &unasked) == OK &&
+            is_motion(stay.value, stay.rate))
+            LIST_PUSH(out->all, stay);
+    }
+    out->attitudes++;
+}
+
+static void add_joints(System *system, Stays *out)
+{
+    for (int i = 0; i < system_instance_count(system); i++) {
+        const Instance *part = system_instance(system, i);
+        const bool is_joint = part->row->family == FAMILY_JOINT;
+        bool has_all = true;
+
+        if (part->is_virtual)
+            continue;
+        for (int c = is_joint ? 0 : part->pose_count; c < part->coord_count; c++) {
+            const bool is_parameter = part->coord_kind[c] == COORDINATE_PARAMETER;
+            const Stay stay = {
+                .part = part->name, .node = -1, .attitude = is_parameter ? out->attitudes : -1};
+
+            if (!add_named(system, part->coord[c], stay, out))
+                has_all = has_all && system_coordinate(system, part, c) >= 0;
+        }
+        out->attitudes++;
+        if (is_joint && !has_all && !system_is_planar(system))
+            add_attitude(system, part, out);
+    }
+}
+
+static int root_of(int *above, int node)
+{
+    while (above[node] != node)
+        node = above[node] = above[above[node]];
+    return node;
+}
+
+/* By node, whether neither joints nor arms lead from ground to it; new. */
+static bool *find_floating(const System *system)
+{
+    const Graph *graph = system_graph(system);
+    const int count = graph_node_count(graph);
+    int *above = NEW_ARRAY(int, count);
+    bool *floats = NEW_ARRAY(bool, count);
+    int datum = -1;
+
+    for (int i = 0; i < count; i++) {
+        above[i] = i;
+        if (graph_node(graph, i)->domain == DOMAIN_MECHANICAL && graph_node(graph, i)->datum)
+            datum = i;
+    }
+    for (int i = 0; i < system_instance_count(system); i++) {
+        const Instance *part = system_instance(system, i);
+        const bool holds = part->row->family == FAMILY_ARM ||
+                           (part->row->family == FAMILY_JOINT && !part->is_virtual);
+
+        if (holds && part->tail >= 0 && part->head >= 0)
+            above[root_of(above, part->tail)] = root_of(above, part->head);
+    }
+    for (int i = 0; i < count; i++)
+        floats[i] = datum >= 0 && graph_node(graph, i)->domain == DOMAIN_MECHANICAL &&
+                    root_of(above, i) != root_of(above, datum);
+    mem_free(above);
+    return floats;
+}
+
+static void add_frame(System *system, int node, bool is_body, Stays *out)
+{
+    static const char *const planar[] = {"x", "y", "theta", NULL};
+    static const char *const spatial[] = {"x", "y", "z", "q0", "q1", "q2", "q3", NULL};
+    const char *const *members = system_is_planar(system) ? planar : spatial;
+    const char *frame = graph_node(system_graph(system), node)->name;
+
+    for (int i = 0; members[i] != NULL; i++) {
+        Text name = {0};
+
+        text_addf(&name, "%s.%s", frame, members[i]);
+        (void)add_named(system, name.at,
+                        (Stay){.part = frame,
+                               .node = node,
+                               .is_body = is_body,
+                               .attitude = members[i][0] == 'q' ? out->attitudes : -1},
+                        out);
+        text_free(&name);
+    }
+    out->attitudes++;
+}
+
+int system_frame_named(const System *system, const char *name)
+{
+    const Stand stand = system_stand(system, name);
+
+    switch (stand.kind) {
+    case STANDS_POSITION:
+    case STANDS_ANGLE:
+    case STANDS_PARAMETER:
+        return stand.node;
+    case STANDS_COORDINATE:
+        return stand.instance->row->family == FAMILY_BODY ? stand.instance->head : -1;
+    case STANDS_NOT:
+    case STANDS_SHIFT:
+        break;
+    }
+    return -1;
+}
+
+static void add_frames(System *system, const char *const *named, int count, Stays *out)
+{
+    bool *floats = find_floating(system);
+
+    for (int i = 0; i < system_instance_count(system); i++) {
+        const Instance *part = system_instance(system, i);
+
+        if (part->row->family != FAMILY_BODY || part->head < 0 || !floats[part->head])
+            continue;
+        floats[part->head] = false;
+        add_frame(system, part->head, true, out);
+    }
+    for (int i = 0; i < count; i++) {
+        const int node = system_frame_named(system, named[i]);
+
+        if (node < 0 || !floats[node])
+            continue;
+        floats[node] = false;
+        add_frame(system, node, false, out);
+    }
+    mem_free(floats);
+}
+
+int system_stays(System *system, const char *const *named, int count, Stay **out)
+{
+    Stays stays = {0};
+
+    add_joints(system, &stays);
+    add_frames(system, named, count, &stays);
+    *out = stays.all.at;
+    return stays.all.count;
+}
+
+void stays_free(Stay *stays, int count)
+{
+    for (int i = 0; i < count; i++)
+        mem_free(stays[i].name);
+    mem_free(stays);
+}

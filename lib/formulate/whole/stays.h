@@ -1,0 +1,27 @@
+/* stays.h: what stays where an event sets positions, as far as that leaves it a choice
+ *
+ * In any tree the same: coordinates of the joints that are there and of what deforms, and where
+ * chains float, joined to ground by no joint, those of their bodies and of frames that the event
+ * names. */
+#ifndef COTREE_FORMULATE_WHOLE_STAYS_H
+#define COTREE_FORMULATE_WHOLE_STAYS_H
+
+#include "formulate/system/system.h"
+
+typedef struct Stay {
+    char *name;       /* as a user asks for it; NULL: by no name of its own */
+    const char *part; /* whose it is; borrowed */
+    Expr value, rate; /* a position, and its derivative */
+    int node;         /* of a frame of a floating chain; -1: of a joint, or a shape */
+    bool is_body;     /* that frame is a body's; else the event names it alone */
+    int attitude;     /* that it is an Euler parameter of, 0, 1 ...; -1 */
+} Stay;
+
+/* In order of making, joints first; *out is new, stays_free(). `named` (count): variables that
+ * events set. Returns how many. */
+int system_stays(System *system, const char *const *named, int count, Stay **out);
+void stays_free(Stay *stays, int count);
+/* the node of the frame whose position or attitude a variable of that name is; -1: of none */
+int system_frame_named(const System *system, const char *name);
+
+#endif

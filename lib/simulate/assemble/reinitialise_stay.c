@@ -1,0 +1,336 @@
+/* reinitialise_stay.c: what an event that sets positions leaves as it is
+ *
+ * A rule that knows no trees (algebra/follow.h): of the motions that constraints allow at the
+ * event's instant, joints stay that what is given doesn't need; then, where chains float, the other
+ * coordinates of frames that are named, then bodies. What is given, and what stays, keeps its rate.
+ */
+#include "algebra/follow.h"
+#include "simulate/assemble/reinitialise_impl.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { OF_JOINTS = FOLLOW_FIRST, OF_NAMED, OF_BODIES };
+
+/* --- targets --- */
+
+static int add_hidden(Reinit *reinit, Expr expr, StateLevel level, int stay)
+{
+    const Layout *l = reinit->plan.layout;
+    Target target = {.expr = expr, .level = level, .node = -1, .rate = -1, .stay = stay};
+
+    if (stay >= 0 && level == LEVEL_POSITION && reinit->stays[stay].name != NULL)
+        target.stand = system_stand(l->system, reinit->stays[stay].name);
+    if (stay >= 0)
+        target.node = reinit->stays[stay].node;
+    reinit_locate(reinit, &target);
+    LIST_PUSH(reinit->targets, target);
+    return reinit->targets.count - 1;
+}
+
+/* the rate of a position that is given; -1: it has none that is told by speeds */
+static int add_rate(Reinit *reinit, const char *name)
+{
+    const unsigned unknown = ~(1U << SYMBOL_TIME | 1U << SYMBOL_PARAMETER |
+                               1U << SYMBOL_COORDINATE | 1U << SYMBOL_SPEED | 1U << SYMBOL_TURN);
+    Diag unasked = {0};
+    Expr rate;
+
+    if (system_variable(reinit->plan.layout->system, name, 1, &rate, &unasked) != OK ||
+        (expr_kinds(rate) & unknown) != 0)
+        return -1;
+    return add_hidden(reinit, rate, LEVEL_VELOCITY, -1);
+}
+
+void reinit_add_stays(Reinit *reinit)
+{
+    reinit->given = reinit->targets.count;
+    if (reinit->named.count == 0)
+        return;
+    for (int k = 0, next = 0; k < reinit->given; k++)
+        if (reinit->targets.at[k].level == LEVEL_POSITION) {
+            const int rate = add_rate(reinit, reinit->named.at[next++]);
+
+            reinit->targets.at[k].rate = rate;
+        }
+    reinit->stay_count = system_stays(reinit->plan.layout->system, reinit->named.at,
+                                      reinit->named.count, &reinit->stays);
+    for (int i = 0; i < reinit->stay_count; i++) {
+        const int k = add_hidden(reinit, reinit->stays[i].value, LEVEL_POSITION, i);
+        const int rate = add_hidden(reinit, reinit->stays[i].rate, LEVEL_VELOCITY, i);
+
+        reinit->targets.at[k].rate = rate;
+    }
+}
+
+/* --- rows --- */
+
+typedef struct Gathered { /* rows of constraints and of some targets, by unknowns that are near */
+    int unknowns, count;
+    int *target; /* of a row; -1: a constraint */
+    int *of, *fate, *place, *set;
+    double *a; /* unknowns x count */
+} Gathered;
+
+static void gathered_free(Gathered *g)
+{
+    MEM_FREE(g->target, g->of, g->fate, g->place, g->set, g->a);
+}
+
+static int root_of(int *above, int i)
+{
+    while (above[i] != i)
+        i = above[i] = above[above[i]];
+    return i;
+}
+
+/* Unknowns that no row ties to what is given can't be moved by it; new. given: by row */
+static bool *find_near(const Rows *rows, const bool *given)
+{
+    const Pattern *p = rows->pattern;
+    int *above = NEW_ARRAY(int, rows->columns);
+    bool *is_root = NEW_ARRAY(bool, rows->columns), *near = NEW_ARRAY(bool, rows->columns);
+
+    for (int i = 0; i < rows->columns; i++)
+        above[i] = i;
+    for (int r = 0; r < rows->rows; r++)
+        for (int k = p->start[r] + 1; k < p->start[r + 1]; k++)
+            above[root_of(above, p->row[k])] = root_of(above, p->row[p->start[r]]);
+    for (int r = 0; r < rows->rows; r++)
+        if (given[r] && p->start[r] < p->start[r + 1])
+            is_root[root_of(above, p->row[p->start[r]])] = true;
+    for (int i = 0; i < rows->columns; i++)
+        near[i] = is_root[root_of(above, i)];
+    MEM_FREE(above, is_root);
+    return near;
+}
+
+/* Rows that move with what is near, as they are here; of_target: class of each. */
+static void gather(const Rows *rows, const double *v, const int *target, const int *of_target,
+                   const bool *near, Gathered *out)
+{
+    const Pattern *p = rows->pattern;
+    double *residual = NEW_ARRAY(double, rows->rows), *entries = NEW_ARRAY(double, p->count);
+    int *number = NEW_ARRAY(int, rows->columns), *taken = NEW_ARRAY(int, rows->rows);
+
+    *out = (Gathered){.target = NEW_ARRAY(int, rows->rows), .of = NEW_ARRAY(int, rows->rows)};
+    for (int i = 0; i < rows->columns; i++)
+        number[i] = near[i] ? out->unknowns++ : -1;
+    for (int r = 0; r < rows->rows; r++) {
+        bool is_near = false;
+
+        for (int k = p->start[r]; k < p->start[r + 1]; k++)
+            is_near = is_near || near[p->row[k]];
+        if (!is_near || (target[r] >= 0 && of_target[target[r]] == FOLLOW_UNASKED))
+            continue;
+        out->target[out->count] = target[r];
+        out->of[out->count] = target[r] < 0 ? FOLLOW_CONSTRAINT : of_target[target[r]];
+        taken[out->count++] = r;
+    }
+    rows->evaluate(rows->context, v, residual, entries);
+    out->a = mem_array((size_t)out->unknowns * (size_t)out->count + 1, sizeof(double));
+    for (int c = 0; c < out->count; c++)
+        for (int k = p->start[taken[c]]; k < p->start[taken[c] + 1]; k++)
+            if (number[p->row[k]] >= 0)
+                out->a[(size_t)number[p->row[k]] * (size_t)out->count + (size_t)c] = entries[k];
+    out->fate = NEW_ARRAY(int, out->count);
+    out->place = NEW_ARRAY(int, out->count);
+    out->set = NEW_ARRAY(int, out->count);
+    MEM_FREE(residual, entries, number, taken);
+}
+
+/* by how much unknowns move a row */
+static double size_of(const Gathered *g, int row)
+{
+    double sum = 0;
+
+    for (int i = 0; i < g->unknowns; i++)
+        sum += g->a[(size_t)i * (size_t)g->count + (size_t)row] *
+               g->a[(size_t)i * (size_t)g->count + (size_t)row];
+    return sqrt(sum);
+}
+
+/* by row of a level: the target that it is of those chosen; -1: a constraint. New */
+static int *targets_of(const Reinit *reinit, StateLevel level, int rows)
+{
+    int *target = NEW_ARRAY(int, rows);
+    int next = reinit->levels[level]->system_rows;
+
+    for (int r = 0; r < rows; r++)
+        target[r] = -1;
+    for (int k = 0; k < reinit->targets.count; k++) /* rows of a level are in the same order */
+        if (reinit_is_chosen(reinit, k, level))
+            target[next++] = k;
+    return target;
+}
+
+/* --- positions --- */
+
+/* the class of each target; new */
+static int *classes_of(const Reinit *reinit)
+{
+    const Target *targets = reinit->targets.at;
+    int *of = NEW_ARRAY(int, reinit->targets.count);
+
+    for (int k = 0; k < reinit->targets.count; k++) {
+        const Target *target = &targets[k];
+        bool is_named = false;
+
+        of[k] = k < reinit->given && reinit_is_chosen(reinit, k, LEVEL_POSITION) ? FOLLOW_GIVEN
+                                                                                 : FOLLOW_UNASKED;
+        if (target->level != LEVEL_POSITION || target->stay < 0)
+            continue;
+        for (int i = 0; i < reinit->given && target->node >= 0; i++)
+            is_named = is_named || (reinit_is_chosen(reinit, i, LEVEL_POSITION) &&
+                                    targets[i].node == target->node);
+        of[k] = target->node < 0                      ? OF_JOINTS
+                : is_named                            ? OF_NAMED
+                : reinit->stays[target->stay].is_body ? OF_BODIES
+                                                      : FOLLOW_UNASKED;
+    }
+    return of;
+}
+
+/* "h2 and h3" */
+static void tell_open(const Reinit *reinit, const Gathered *g, Decision *out)
+{
+    int left = 0;
+
+    for (int r = 0; r < g->count; r++)
+        left += g->fate[r] == IS_OPEN;
+    for (int r = 0; r < g->count; r++)
+        if (g->fate[r] == IS_OPEN) {
+            const Stay *stay = &reinit->stays[reinit->targets.at[g->target[r]].stay];
+
+            text_addf(&out->names, "%s%s", stay->name != NULL ? "" : "the attitude of ",
+                      stay->name != NULL ? stay->name : stay->part);
+            text_add(&out->names, --left > 1 ? ", " : left == 1 ? " and " : "");
+            out->example = out->example != NULL ? out->example : stay->name;
+        }
+}
+
+/* Where three Euler parameters stay the fourth does, which follows from them but for its sign. */
+static void keep_attitudes(const Reinit *reinit, const int *of, bool *keeps)
+{
+    const Target *targets = reinit->targets.at;
+
+    for (int k = reinit->given; k < reinit->targets.count; k++) {
+        const int stay = targets[k].level == LEVEL_POSITION ? targets[k].stay : -1;
+        int others = 0;
+
+        if (stay < 0 || of[k] == FOLLOW_UNASKED || reinit->stays[stay].attitude < 0)
+            continue;
+        for (int i = reinit->given; i < reinit->targets.count; i++)
+            others += i != k && keeps[i] && targets[i].stay >= 0 &&
+                      reinit->stays[targets[i].stay].attitude == reinit->stays[stay].attitude;
+        keeps[k] = keeps[k] || others >= 3;
+    }
+}
+
+void reinit_decide(Reinit *reinit, Decision *out)
+{
+    const int count = reinit->targets.count;
+    int *of = classes_of(reinit), *target;
+    bool *given;
+    double *own = reinit->values;
+    Gathered g;
+    Rows rows;
+
+    reinit->values = NEW_ARRAY(double, count);
+    for (int k = 0; k < count; k++)
+        reinit->values[k] = of[k] == FOLLOW_UNASKED ? NAN : 0;
+    rows = reinit_rows(reinit, LEVEL_POSITION, true);
+    target = targets_of(reinit, LEVEL_POSITION, rows.rows);
+    given = NEW_ARRAY(bool, rows.rows);
+    for (int r = 0; r < rows.rows; r++)
+        given[r] = target[r] >= 0 && of[target[r]] == FOLLOW_GIVEN;
+    *out = (Decision){.is_near = find_near(&rows, given),
+                      .keeps = NEW_ARRAY(bool, count),
+                      .size = NEW_ARRAY(double, count)};
+    gather(&rows, reinit->y, target, of, out->is_near, &g);
+    for (int r = 0; r < g.count; r++)
+        if (g.target[r] >= 0)
+            out->size[g.target[r]] = size_of(&g, r);
+    out->open = follow_find(g.a, g.unknowns, g.count, g.of, FOLLOW_LEAST, g.fate, g.place, g.set);
+    out->rank = follow_rank(g.fate, g.count);
+    for (int r = 0; r < g.count; r++)
+        if (g.target[r] >= 0)
+            out->keeps[g.target[r]] = g.fate[r] == TELLS || g.fate[r] == STAYS;
+    keep_attitudes(reinit, of, out->keeps);
+    tell_open(reinit, &g, out);
+    gathered_free(&g);
+    MEM_FREE(of, target, given, reinit->values);
+    reinit->values = own;
+}
+
+void decision_free(Decision *decision)
+{
+    MEM_FREE(decision->is_near, decision->keeps, decision->size);
+    text_free(&decision->names);
+}
+
+/* --- rates --- */
+
+/* whether a target that may stay is of Euler parameters, or their rates */
+static bool is_attitude(const Reinit *reinit, int target)
+{
+    const int stay = reinit->targets.at[target].stay;
+
+    return stay >= 0 && reinit->stays[stay].attitude >= 0;
+}
+
+/* What hardly moves any more, against what it did, is at the end of its way. */
+static void forget_still(const Reinit *reinit, const Decision *decision, Gathered *g)
+{
+    for (int k = 0; k < reinit->targets.count; k++)
+        for (int r = 0; r < g->count && decision->size[k] > 0; r++)
+            if (g->target[r] >= 0 && g->target[r] == reinit->targets.at[k].rate &&
+                size_of(g, r) < FOLLOW_LEAST_SOLVED * decision->size[k])
+                g->of[r] = FOLLOW_UNASKED;
+}
+
+bool reinit_choose_rates(Reinit *reinit, const Decision *decision, const double *values,
+                         const double *before)
+{
+    const Equations *eq = reinit->plan.equations;
+    const int count = reinit->targets.count;
+    int *of = NEW_ARRAY(int, count), *target, rank;
+    Gathered g;
+    Rows rows;
+
+    for (int k = 0; k < count; k++) {
+        const bool is_set =
+            k < reinit->given && reinit->targets.at[k].level == LEVEL_VELOCITY && !isnan(values[k]);
+
+        of[k] = is_set ? FOLLOW_FIRST : FOLLOW_UNASKED;
+        reinit->values[k] = is_set ? values[k] : NAN;
+    }
+    for (int k = 0; k < count; k++) {
+        const int rate = reinit->targets.at[k].rate;
+
+        if (!decision->keeps[k] || rate < 0)
+            continue;
+        of[rate] = FOLLOW_GIVEN;
+        reinit->values[rate] = before[rate];
+    }
+    eq->position(eq->context, reinit->t, reinit->y);
+    rows = reinit_rows(reinit, LEVEL_VELOCITY, true);
+    target = targets_of(reinit, LEVEL_VELOCITY, rows.rows);
+    gather(&rows, reinit->y + eq->n, target, of, decision->is_near, &g);
+    forget_still(reinit, decision, &g);
+    (void)follow_find(g.a, g.unknowns, g.count, g.of, FOLLOW_LEAST_SOLVED, g.fate, g.place, g.set);
+    rank = follow_rank(g.fate, g.count);
+    for (int k = 0; k < count; k++)
+        reinit->values[k] = k < reinit->given ? NAN : reinit->values[k];
+    for (int r = 0; r < g.count; r++) {
+        const int k = g.target[r];
+
+        if (k >= 0 && g.fate[r] != FOLLOWS)
+            reinit->values[k] = k < reinit->given ? values[k] : before[k];
+        else if (k >= 0 && !is_attitude(reinit, k))
+            reinit->values[k] = NAN;
+    }
+    gathered_free(&g);
+    MEM_FREE(of, target);
+    return rank >= decision->rank;
+}
