@@ -57,6 +57,18 @@ typedef struct CodeEvent {
 
 /* what an event gives a value to */
 typedef enum CodeLevel { CODE_COORDINATE, CODE_SPEED, CODE_STATE } CodeLevel;
+/* what may stay of positions, where events set others (formulate/whole/stays.h) */
+typedef enum CodeStays { CODE_GIVEN, CODE_JOINT, CODE_BODY, CODE_FRAME } CodeStays;
+typedef struct CodeTarget {
+    CodeLevel level;
+    int place; /* of a state that it is itself, in y; -1 */
+    CodeStays stays;
+    int node;     /* of a position: the frame whose it is; -1 */
+    int attitude; /* that it is an Euler parameter of; -1 */
+    int rate;     /* of a position: the target that is its rate; -1 */
+    int turning;  /* of an attitude that is given: a component of its angular velocity; -1 */
+    const char *name;
+} CodeTarget;
 
 typedef struct CodeLive {
     bool is_wanted;
@@ -64,10 +76,8 @@ typedef struct CodeLive {
     int timed;
     int first; /* of the signs, in p */
     LIST(CodeEvent) events;
-    LIST(CodeLevel) targets;
-    int given;         /* of them, the first; the others are of joints, which may stay */
-    LIST(int) alike;   /* by target: the first one that is the same */
-    LIST(int) places;  /* of targets that are states themselves, in y; else -1 */
+    LIST(CodeTarget) targets;
+    int given;         /* of them, the first; the others may stay, or are rates */
     LIST(int) samples; /* states that are sampled */
     LIST(int) held;    /* states that an importer holds: inputs */
     Expr *seeds;       /* the direction: 1 + ny + ns symbols, then one a model parameter */

@@ -6,6 +6,7 @@
 #include "export/code.h"
 
 #include "formulate/kinematics/edges.h"
+#include "formulate/whole/stays.h"
 #include "model/model.h"
 
 #include <stdio.h>
@@ -116,51 +117,90 @@ static int place_of(const Layout *l, Expr target)
 
 typedef LIST(Expr) Exprs;
 
-static void add_target(Code *code, Exprs *targets, Expr e)
+static int add_target(Code *code, Exprs *targets, Expr e, CodeTarget target)
 {
-    int alike = 0;
-
-    while (alike < targets->count && targets->at[alike] != e)
-        alike++;
+    target.place = place_of(code->layout, e);
+    target.name = pool_text(code->texts, target.name, strlen(target.name));
     LIST_PUSH(*targets, e);
-    LIST_PUSH(code->live.targets, level_of(e));
-    LIST_PUSH(code->live.places, place_of(code->layout, e));
-    LIST_PUSH(code->live.alike, alike);
+    LIST_PUSH(code->live.targets, target);
+    return targets->count - 1;
 }
 
-static bool may_stay(Expr e)
-{
-    const unsigned known = 1U << SYMBOL_TIME | 1U << SYMBOL_PARAMETER | 1U << SYMBOL_COORDINATE |
-                           1U << SYMBOL_SPEED | 1U << SYMBOL_TURN;
-    const unsigned kinds = expr_kinds(e);
-
-    return (kinds & ~known) == 0 && (kinds & (1U << SYMBOL_COORDINATE | 1U << SYMBOL_SPEED)) != 0;
-}
-
-/* Behind what events set, where they set positions: coordinates of joints and their rates, which
- * stay where they can, as in a run (assemble/reinitialise.c). */
-static void add_joints(Code *code, Exprs *targets)
+static Status add_given(Code *code, const NewValue *value, Exprs *targets, Diag *diag)
 {
     System *system = code->layout->system;
-    bool any = false;
+    CodeTarget target = {
+        .node = -1, .attitude = -1, .rate = -1, .turning = -1, .name = value->name};
+    Expr e;
+
+    TRY(system_variable(system, value->name, value->primes, &e, diag));
+    target.level = level_of(e);
+    (void)add_target(code, targets, e, target);
+    return OK;
+}
+
+/* behind positions that are given: their rates, if speeds tell them */
+static int add_rate(Code *code, Exprs *targets, Expr rate, const char *name)
+{
+    const CodeTarget target = {
+        .level = CODE_SPEED, .node = -1, .attitude = -1, .rate = -1, .turning = -1, .name = name};
+
+    return rate != NULL ? add_target(code, targets, rate, target) : -1;
+}
+
+static void add_given_rates(Code *code, Exprs *targets)
+{
+    for (int k = 0; k < code->live.given; k++) {
+        const char *name = code->live.targets.at[k].name;
+        Named named;
+        int rate, turning;
+
+        if (code->live.targets.at[k].level != CODE_COORDINATE)
+            continue;
+        system_named(code->layout->system, name, &named);
+        rate = add_rate(code, targets, named.rate, name);
+        turning = add_rate(code, targets, named.turning, name);
+        code->live.targets.at[k].node = named.node;
+        code->live.targets.at[k].attitude = named.attitude;
+        code->live.targets.at[k].rate = rate;
+        code->live.targets.at[k].turning = turning;
+    }
+}
+
+/* Behind what events set, where they set positions: what stays where it can, and rates, as in a run
+ * (assemble/reinitialise_stay.c). */
+static void add_stays(Code *code, Exprs *targets)
+{
+    typedef LIST(const char *) Names;
+    Names named = {0};
+    Stay *stays = NULL;
+    int count = 0;
 
     code->live.given = targets->count;
     for (int k = 0; k < code->live.given; k++)
-        any = any || code->live.targets.at[k] == CODE_COORDINATE;
-    for (int i = 0; i < system_instance_count(system) && any; i++) {
-        const Instance *joint = system_instance(system, i);
+        if (code->live.targets.at[k].level == CODE_COORDINATE)
+            LIST_PUSH(named, code->live.targets.at[k].name);
+    if (named.count > 0)
+        count = system_stays(code->layout->system, named.at, named.count, &stays);
+    add_given_rates(code, targets);
+    for (int i = 0; i < count; i++) {
+        const Stay *stay = &stays[i];
+        const CodeTarget target = {.stays = stay->node < 0  ? CODE_JOINT
+                                            : stay->is_body ? CODE_BODY
+                                                            : CODE_FRAME,
+                                   .node = stay->node,
+                                   .attitude = stay->attitude,
+                                   .turning = -1,
+                                   .name = stay->name != NULL ? stay->name : stay->part};
+        const int position = add_target(code, targets, stay->value, target);
+        const int rate = add_target(code, targets, stay->rate, target);
 
-        if (joint->row->family != FAMILY_JOINT || joint->is_virtual)
-            continue;
-        for (int c = 0; c < 2 * joint->coord_count; c++) {
-            Diag unasked = {0};
-            Expr e;
-
-            if (system_variable(system, joint->coord[c / 2], c % 2, &e, &unasked) == OK &&
-                may_stay(e))
-                add_target(code, targets, e);
-        }
+        code->live.targets.at[position].rate = rate;
+        code->live.targets.at[rate].level = CODE_SPEED;
+        code->live.targets.at[rate].rate = -1;
     }
+    stays_free(stays, count);
+    LIST_FREE(named);
 }
 
 static Status add_event(Code *code, const Event *event, Exprs *truths, Exprs *values,
@@ -177,8 +217,7 @@ static Status add_event(Code *code, const Event *event, Exprs *truths, Exprs *va
 
         CHECK(code_resolve(code, value->value, &e, event->name, diag));
         LIST_PUSH(*values, e);
-        CHECK(system_variable(code->layout->system, value->name, value->primes, &e, diag));
-        add_target(code, targets, e);
+        CHECK(add_given(code, value, targets, diag));
     }
 done:
     return status;
@@ -262,7 +301,7 @@ Status code_live_events(Code *code, Diag *diag)
             add_side(code, switches[i].condition, switches[i].call);
     for (int i = 0; i < model_event_count(model); i++)
         CHECK(add_event(code, model_event(model, i), &truths, &values, &targets, diag));
-    add_joints(code, &targets);
+    add_stays(code, &targets);
     CHECK(add_samples(code, diag));
     add_sides_of(code, truths.at, truths.count);
     order_sides(code);
@@ -458,8 +497,6 @@ void code_live_free(CodeLive *live)
     LIST_FREE(live->sides);
     LIST_FREE(live->events);
     LIST_FREE(live->targets);
-    LIST_FREE(live->places);
-    LIST_FREE(live->alike);
     LIST_FREE(live->samples);
     LIST_FREE(live->held);
     MEM_FREE(live->seeds, live->depends);

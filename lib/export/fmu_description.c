@@ -372,6 +372,9 @@ static void put_sources(const Description *d)
         text_add(d->out, ">\n    <SourceFiles>\n      <File name=\"model.c\"/>\n"
                          "      <File name=\"fmu.c\"/>\n      <File name=\"fmu_step.c\"/>\n"
                          "      <File name=\"fmu_ahead.c\"/>\n"
+                         "      <File name=\"fmu_open.c\"/>\n"
+                         "      <File name=\"fmu_values.c\"/>\n"
+                         "      <File name=\"follow.c\"/>\n"
                          "      <File name=\"fmi2.c\"/>\n    </SourceFiles>\n");
 }
 

@@ -43,6 +43,7 @@ libcore_la_SOURCES += \
 
 # what is the same for all models in code and FMUs, as strings, a line each
 shared_parts = share/fmu/fmu.h share/fmu/fmu.c share/fmu/fmu_step.c share/fmu/fmu_ahead.c \
+	share/fmu/fmu_open.c share/fmu/fmu_values.c lib/algebra/follow.h lib/algebra/follow.c \
 	share/fmu/fmi.h share/fmu/fmi2.c share/fmu/fmi3.c \
 	share/code/modes.c share/code/modes_step.c share/code/open.c
 EXTRA_DIST += $(shared_parts)
@@ -52,5 +53,5 @@ lib/export/shared_text.c: $(shared_parts) lib/export/local.mk
 	$(AM_V_GEN)$(MKDIR_P) lib/export && { echo '#include "export/shared_text.h"'; \
 	for part in $(shared_parts); do \
 	  echo "const char *const shared_text_`basename $$part | tr . _`[] = {"; \
-	  sed -e 's/\\/\\\\/g' -e 's/"/\\"/g' -e 's/^/"/' -e 's/$$/\\n",/' $(srcdir)/$$part; \
+	  sed -e 's/\\/\\\\/g' -e 's/include "algebra\//include "/' -e 's/"/\\"/g' -e 's/^/"/' -e 's/$$/\\n",/' $(srcdir)/$$part; \
 	  echo '0};'; done; } >$@.new && mv $@.new $@

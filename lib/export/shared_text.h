@@ -4,13 +4,18 @@
 #define COTREE_EXPORT_SHARED_TEXT_H
 
 extern const char *const shared_text_fmu_h[],
-    *const shared_text_fmu_c[], *const shared_text_fmu_step_c[],
-                                    *const shared_text_fmu_ahead_c[],
-                                        *const shared_text_fmi_h[],
-                                            *const shared_text_fmi2_c[],
-                                                *const shared_text_fmi3_c[],
-                                                    *const shared_text_modes_c[],
-                                                        *const shared_text_modes_step_c[],
-                                                            *const shared_text_open_c[];
+    *const shared_text_fmu_c[],
+        *const shared_text_fmu_step_c[],
+            *const shared_text_fmu_ahead_c[],
+                *const shared_text_fmu_open_c[],
+                    *const shared_text_fmu_values_c[],
+                        *const shared_text_follow_h[],
+                            *const shared_text_follow_c[],
+                                *const shared_text_fmi_h[],
+                                    *const shared_text_fmi2_c[],
+                                        *const shared_text_fmi3_c[],
+                                            *const shared_text_modes_c[],
+                                                *const shared_text_modes_step_c[],
+                                                    *const shared_text_open_c[];
 
 #endif

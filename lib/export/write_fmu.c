@@ -22,7 +22,7 @@ static void add_events(const Code *code, Text *out)
     const CodeLive *live = &code->live;
     const int events = live->events.count;
     int *first = NEW_ARRAY(int, events), *count = NEW_ARRAY(int, events);
-    int *action = NEW_ARRAY(int, events), *level = NEW_ARRAY(int, live->targets.count);
+    int *action = NEW_ARRAY(int, events);
 
     text_add(out, "static const char *const fmu_event_name[] = {");
     for (int i = 0; i < events; i++) {
@@ -34,15 +34,34 @@ static void add_events(const Code *code, Text *out)
         text_addf(out, "\"%s\", ", event->name);
     }
     text_add(out, "0};\n");
-    for (int i = 0; i < live->targets.count; i++)
-        level[i] = (int)live->targets.at[i];
     add_numbers(out, "int", "fmu_event_first", first, events);
     add_numbers(out, "int", "fmu_event_count", count, events);
     add_numbers(out, "int", "fmu_action", action, events);
-    add_numbers(out, "int", "fmu_level", level, live->targets.count);
-    add_numbers(out, "int", "fmu_alike", live->alike.at, live->alike.count);
-    add_numbers(out, "int", "fmu_place", live->places.at, live->places.count);
-    MEM_FREE(first, count, action, level);
+    MEM_FREE(first, count, action);
+}
+
+/* what events give values to, and what may stay */
+static void add_targets(const CodeLive *live, Text *out)
+{
+    static const char *const names[] = {"fmu_level",    "fmu_place", "fmu_stays",  "fmu_node",
+                                        "fmu_attitude", "fmu_rate",  "fmu_turning"};
+    int *column = NEW_ARRAY(int, live->targets.count);
+
+    for (int c = 0; c < COUNT(names); c++) {
+        for (int i = 0; i < live->targets.count; i++) {
+            const CodeTarget *t = &live->targets.at[i];
+            const int values[] = {(int)t->level, t->place, (int)t->stays, t->node,
+                                  t->attitude,   t->rate,  t->turning};
+
+            column[i] = values[c];
+        }
+        add_numbers(out, "int", names[c], column, live->targets.count);
+    }
+    text_add(out, "static const char *const fmu_target_name[] = {");
+    for (int i = 0; i < live->targets.count; i++)
+        text_addf(out, "\"%s\", ", live->targets.at[i].name);
+    text_add(out, "0};\n");
+    mem_free(column);
 }
 
 /* what was asked for, in words, which may hold strings */
@@ -101,6 +120,7 @@ static void add_tables(const Code *code, Text *out)
     text_add(out, "0};\n");
     add_output_names(code, out);
     add_events(code, out);
+    add_targets(live, out);
     text_add(out, "#endif\n\n#endif\n");
 }
 
@@ -161,7 +181,8 @@ static void write_header(const Code *code, const Exported *what, const char *tok
     text_addf(out,
               "    FMU_SPACE = 2 * (FMU_ROWS + 2) * (FMU_ROWS + 2) + %d\n};\n"
               "enum { FMU_MARKS, FMU_STOPS, FMU_SETS };          /* what events do */\n"
-              "enum { FMU_COORDINATE, FMU_SPEED, FMU_STATE };    /* what they give values to */\n",
+              "enum { FMU_COORDINATE, FMU_SPEED, FMU_STATE };    /* what they give values to */\n"
+              "enum { FMU_JOINT = 1, FMU_BODY, FMU_FRAME };      /* what may stay, 0: nothing */\n",
               2 * states * states + 16 * states + 1);
     add_tables(code, out);
 }
@@ -210,7 +231,9 @@ static void write_build(Text *out)
                   "    <SourceFileSet language=\"C99\">\n"
                   "      <SourceFile name=\"model.c\"/>\n      <SourceFile name=\"fmu.c\"/>\n"
                   "      <SourceFile name=\"fmu_step.c\"/>\n      <SourceFile "
-                  "name=\"fmu_ahead.c\"/>\n      <SourceFile name=\"fmi3.c\"/>\n"
+                  "name=\"fmu_ahead.c\"/>\n      <SourceFile name=\"fmu_open.c\"/>\n"
+                  "      <SourceFile name=\"fmu_values.c\"/>\n"
+                  "      <SourceFile name=\"follow.c\"/>\n      <SourceFile name=\"fmi3.c\"/>\n"
                   "    </SourceFileSet>\n    <Library name=\"m\"/>\n"
                   "  </BuildConfiguration>\n</fmiBuildDescription>\n");
 }
@@ -252,6 +275,10 @@ static Status pack(const Exported *what, Archive **out, Diag *diag)
     take_lines(archive, "sources/fmu.c", shared_text_fmu_c);
     take_lines(archive, "sources/fmu_step.c", shared_text_fmu_step_c);
     take_lines(archive, "sources/fmu_ahead.c", shared_text_fmu_ahead_c);
+    take_lines(archive, "sources/fmu_open.c", shared_text_fmu_open_c);
+    take_lines(archive, "sources/fmu_values.c", shared_text_fmu_values_c);
+    take_lines(archive, "sources/follow.h", shared_text_follow_h);
+    take_lines(archive, "sources/follow.c", shared_text_follow_c);
     take_lines(archive, "sources/fmi.h", shared_text_fmi_h);
     if (what->version == 2)
         take_lines(archive, "sources/fmi2.c", shared_text_fmi2_c);

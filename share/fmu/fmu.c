@@ -5,9 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { ROUNDS = 100 };      /* in which one event may set off others */
-enum { MOST_STAGES = 500 }; /* to new positions */
-#define INSTANT   1e-12     /* of time, in units of 1 + |t|: instants that can't be told apart */
+enum { ROUNDS = 100 };  /* in which one event may set off others */
+#define INSTANT   1e-12 /* of time, in units of 1 + |t|: instants that can't be told apart */
 #define LATE      10.0  /* times what an importer found an event late: so much can't be told, too */
 #define LATEST    1e-3  /* s: later than that nothing was found there */
 #define SAME      1e-9  /* of a period: sampling instants that can't be told apart */
@@ -15,11 +14,6 @@ enum { MOST_STAGES = 500 }; /* to new positions */
 #define PROJECTED 1e-12 /* how near it is put */
 #define NEAR      1e-9  /* of 1 + |t|: how far ahead sides of ideal switches are looked for, */
 #define FURTHEST  1e-5  /* and where they don't change, though a margin has ended */
-#define STILL     1e-9  /* what counts no more of a Newton step to new values */
-#define MET       1e-9  /* how near new values and constraints are, of what they compare */
-#define DEPENDENT 1e-8  /* of a row: what is left where it follows from others */
-#define STAGE     0.2   /* m or rad: so far positions go at a time */
-#define OPEN      1e-7  /* of what an output moves by: less of it follows what nothing determines */
 #define ROUNDING  1e-11 /* of the largest current or voltage: margins that can't be told from 0 */
 
 FmuStatus fmu_fail(Fmu *fmu, FmuStatus status, const char *text, double value)
@@ -271,43 +265,6 @@ FmuStatus fmu_direction(Fmu *fmu, double dt, const double *dy)
     return direction(fmu, dt, dy, NULL);
 }
 
-/* What the equations leave open is shared by a rule: where that is least, or alike. Outputs that
- * move with it have no derivatives: NAN, and a warning. */
-static FmuStatus mark_open(Fmu *fmu, const unsigned *unknowns, size_t count, double *outputs)
-{
-    FmuNumbers *now = &fmu->now;
-    double along[MODEL_OUTPUTS + 1], uneven[MODEL_OUTPUTS + 1];
-    double *seed = now->s + MODEL_S, *ds = seed + 1 + MODEL_Y;
-    FmuStatus status = FMU_OK;
-    size_t i;
-    int k, any = 0;
-
-    for (i = 0; i < count; i++)
-        any |= unknowns[i] >= FMU_FIRST_OUTPUT && unknowns[i] < FMU_FIRST_INDICATOR;
-    if (!any)
-        return FMU_OK;
-    memset(seed, 0, FMU_SEEDS * sizeof(double));
-    if (model_open(now->p, now->t, now->y, now->s, fmu->work) != MODEL_OK)
-        return fmu_fail(fmu, FMU_DISCARD, "the equations are singular", now->y[0]);
-    model_tangent_outputs(now->p, now->t, now->y, now->s, along);
-    for (k = 0; k < MODEL_S; k++)
-        ds[k] *= 1 + fmod(k * 0.6180339887498949, 1); /* no two alike: nothing cancels */
-    model_tangent_outputs(now->p, now->t, now->y, now->s, uneven);
-    for (i = 0; i < count; i++) {
-        char line[160];
-
-        k = (int)unknowns[i] - FMU_FIRST_OUTPUT;
-        if (k < 0 || k >= MODEL_OUTPUTS || !(fabs(along[k]) > OPEN * fabs(uneven[k])))
-            continue;
-        outputs[k] = NAN;
-        (void)snprintf(line, sizeof line,
-                       "%.80s is shared by what nothing determines: NaN is its derivative",
-                       fmu_output_name[k]);
-        status = fmu_fail(fmu, FMU_WARNING, line, now->y[0]);
-    }
-    return status;
-}
-
 static FmuStatus derivatives(Fmu *fmu, const unsigned *unknowns, size_t unknown_count,
                              const unsigned *knowns, size_t known_count, const double *seed,
                              double *out)
@@ -349,7 +306,7 @@ static FmuStatus derivatives(Fmu *fmu, const unsigned *unknowns, size_t unknown_
             outputs[k] += fmu->work[k];
     }
     if (FMU_MAY_SHARE)
-        status = mark_open(fmu, unknowns, unknown_count, outputs);
+        status = fmu_mark_open(fmu, unknowns, unknown_count, outputs);
     for (i = 0; i < unknown_count; i++) {
         if (unknowns[i] >= FMU_FIRST_RATE && unknowns[i] < FMU_FIRST_OUTPUT)
             out[i] = rates[unknowns[i] - FMU_FIRST_RATE];
@@ -378,7 +335,7 @@ FmuStatus fmu_derivatives(Fmu *fmu, const unsigned *unknowns, size_t unknown_cou
 
 /* --- constraints --- */
 
-static double larger(double a, double b)
+double fmu_larger(double a, double b)
 {
     return a > b ? a : b;
 }
@@ -396,7 +353,7 @@ static double drift(Fmu *fmu)
 
         for (i = 0; i < 4; i++)
             sum += now->y[fmu_quaternion[k] + i] * now->y[fmu_quaternion[k] + i];
-        most = larger(most, fabs(sum - 1));
+        most = fmu_larger(most, fabs(sum - 1));
     }
 #ifdef MODEL_HAS_MODES
     {
@@ -404,14 +361,14 @@ static double drift(Fmu *fmu)
 
         memcpy(y, now->y, MODEL_Y * sizeof(double));
         (void)model_meet(now->p, now->t, y, fmu->work, &far);
-        most = larger(most, far);
+        most = fmu_larger(most, far);
     }
 #endif
     if (MODEL_M == 0)
         return most;
     model_constraints(now->p, now->t, now->y, now->s, rows);
     for (i = 0; i < MODEL_M; i++)
-        most = larger(most, fabs(rows[i]));
+        most = fmu_larger(most, fabs(rows[i]));
     model_velocity(now->p, now->t, now->y, now->s, rows);
     model_jacobian(now->p, now->t, now->y, now->s, jacobian);
     for (i = 0; i < MODEL_M; i++) {
@@ -423,12 +380,12 @@ static double drift(Fmu *fmu)
             rows[i] -= term;
             size += fabs(term);
         }
-        most = larger(most, fabs(rows[i]) / size);
+        most = fmu_larger(most, fabs(rows[i]) / size);
     }
     return most;
 }
 
-static void take_references(Fmu *fmu)
+void fmu_take_references(Fmu *fmu)
 {
     FmuNumbers *now = &fmu->now;
 
@@ -458,7 +415,7 @@ static FmuStatus project(Fmu *fmu, int *moved)
 
 int fmu_has_drifted(Fmu *fmu)
 {
-    take_references(fmu);
+    fmu_take_references(fmu);
     return drift(fmu) > DRIFT * fmu->now.tolerance;
 }
 
@@ -466,270 +423,8 @@ FmuStatus fmu_put_back(Fmu *fmu)
 {
     int moved = 0;
 
-    take_references(fmu);
+    fmu_take_references(fmu);
     return project(fmu, &moved);
-}
-
-/* --- new values of events --- */
-
-/* What targets of a level lack, and constraints, which come first; the largest, of 1 and what is
- * compared. */
-static double find_lacks(Fmu *fmu, int level, const int *target, const double *values, int count,
-                         double *lack)
-{
-    FmuNumbers *now = &fmu->now;
-    const int held = level == FMU_STATE ? 0 : MODEL_M;
-    double is[FMU_TARGETS + 1], most = 0, size = 1;
-    double *entries = fmu->work + MODEL_WORK;
-    int i, j, k;
-
-    if (level == FMU_COORDINATE && held > 0) {
-        model_constraints(now->p, now->t, now->y, now->s, lack);
-        for (i = 0; i < held; i++)
-            lack[i] = -lack[i];
-    } else if (held > 0) {
-        model_velocity(now->p, now->t, now->y, now->s, lack);
-        model_jacobian(now->p, now->t, now->y, now->s, entries);
-        for (i = 0; i < held; i++)
-            for (j = 0; j < MODEL_U; j++)
-                lack[i] -= entries[i * MODEL_U + j] * now->y[MODEL_Q + j];
-    }
-    for (j = 0; level == FMU_SPEED && j < MODEL_U; j++)
-        size = larger(size, fabs(now->y[MODEL_Q + j]));
-    for (i = 0; i < held; i++)
-        most = larger(most, fabs(lack[i]) / size);
-    model_targets(now->p, now->t, now->y, now->s, is);
-    for (k = 0; k < count; k++) {
-        const double v = values[target[k]] - is[target[k]];
-
-        lack[held + k] = v;
-        most = larger(most, fabs(v) / larger(size, fabs(is[target[k]])));
-        if (!(fabs(v) < HUGE_VAL))
-            most = HUGE_VAL;
-    }
-    return most;
-}
-
-/* Rows [W C^T; C 0 | 0; c] of the least change dv with C dv = c: those of the constraints, then of
- * the `count` targets of that level. `by_mass`: least in the mass metric. */
-static void least_change(Fmu *fmu, int level, int by_mass, const int *target, const double *lack,
-                         int count, double *a)
-{
-    FmuNumbers *now = &fmu->now;
-    const int is_state = level == FMU_STATE, unknowns = is_state ? MODEL_X : MODEL_U;
-    const int held = is_state ? 0 : MODEL_M, n = unknowns + held + count, w = n + 1;
-    double dy[FMU_STATES + 1], tangents[FMU_TARGETS + 1];
-    double *entries = fmu->work + MODEL_WORK;
-    int i, j, k;
-
-    for (i = 0; i < n * w; i++)
-        a[i] = 0;
-    for (i = 0; i < unknowns; i++)
-        a[i * w + i] = 1;
-    if (by_mass) {
-        model_mass(now->p, now->t, now->y, now->s, entries);
-        for (i = 0; i < unknowns; i++)
-            for (j = 0; j < unknowns; j++)
-                a[i * w + j] = entries[i * unknowns + j];
-    }
-    if (held > 0) {
-        model_jacobian(now->p, now->t, now->y, now->s, entries);
-        for (i = 0; i < held; i++)
-            for (j = 0; j < unknowns; j++)
-                a[j * w + unknowns + i] = a[(unknowns + i) * w + j] = entries[i * unknowns + j];
-    }
-    for (j = 0; j < unknowns; j++) {
-        memset(dy, 0, sizeof dy);
-        if (level == FMU_COORDINATE) {
-            model_map(now->p, now->t, now->y, now->s, entries);
-            for (i = 0; i < MODEL_Q; i++)
-                dy[i] = entries[i * MODEL_U + j];
-        } else
-            dy[(is_state ? MODEL_Q + MODEL_U : MODEL_Q) + j] = 1;
-        memset(now->s + MODEL_S, 0, FMU_SEEDS * sizeof(double));
-        memcpy(now->s + MODEL_S + 1, dy, FMU_STATES * sizeof(double));
-        model_tangent_targets(now->p, now->t, now->y, now->s, tangents);
-        for (k = 0; k < count; k++)
-            a[j * w + unknowns + held + k] = a[(unknowns + held + k) * w + j] = tangents[target[k]];
-    }
-    for (k = 0; k < held + count; k++)
-        a[(unknowns + k) * w + n] = lack[k];
-}
-
-/* Leave out rows of C, and their columns, that follow from those before them. How many rows are
- * left in all. `base`: unknowns^2 numbers. */
-static int keep_independent(double *a, int n, int unknowns, double *base)
-{
-    const int w = n + 1;
-    int keep[FMU_ROWS + 2], count = 0, found = 0;
-    int i, j, k, again;
-
-    for (i = 0; i < n; i++) {
-        double *row = base + found * unknowns, before = 0, after = 0;
-
-        for (j = 0; i >= unknowns && found < unknowns && j < unknowns; j++) {
-            row[j] = a[i * w + j];
-            before += row[j] * row[j];
-        }
-        for (again = 0; before > 0 && again < 2; again++)
-            for (k = 0; k < found; k++) {
-                double dot = 0;
-
-                for (j = 0; j < unknowns; j++)
-                    dot += base[k * unknowns + j] * row[j];
-                for (j = 0; j < unknowns; j++)
-                    row[j] -= dot * base[k * unknowns + j];
-            }
-        for (j = 0; before > 0 && j < unknowns; j++)
-            after += row[j] * row[j];
-        if (i >= unknowns && !(after > DEPENDENT * DEPENDENT * before))
-            continue;
-        for (j = 0; i >= unknowns && j < unknowns; j++)
-            row[j] /= sqrt(after);
-        found += i >= unknowns;
-        keep[count++] = i;
-    }
-    keep[count] = n;
-    for (i = 0; i < count; i++)
-        for (j = 0; j <= count; j++)
-            a[i * (count + 1) + j] = a[keep[i] * w + keep[j]];
-    return count;
-}
-
-static void normalise(Fmu *fmu)
-{
-    int i, k;
-
-    for (k = 0; k < FMU_QUATERNIONS; k++) {
-        double *at = fmu->now.y + fmu_quaternion[k], sum = 0;
-
-        for (i = 0; i < 4; i++)
-            sum += at[i] * at[i];
-        for (i = 0; sum > 0 && i < 4; i++)
-            at[i] /= sqrt(sum);
-    }
-}
-
-/* Give targets of a level their values: states as they are, then whatever else has to change, by
- * the least. Speeds change together; `by_mass`: as a blow along the targets does. Whether all is
- * met. */
-static int put_level(Fmu *fmu, int level, int by_mass, const int *chosen, const double *values)
-{
-    FmuNumbers *now = &fmu->now;
-    const int unknowns = level == FMU_STATE ? MODEL_X : MODEL_U;
-    double *a = fmu->space, *x = a + FMU_ROWS * (FMU_ROWS + 1), *rest = x + FMU_ROWS + 1;
-    double lack[FMU_TARGETS + MODEL_M + 1], furthest = HUGE_VAL;
-    int target[FMU_TARGETS + 1];
-    int i, j, k, sweep, count = 0;
-
-    for (k = 0; k < FMU_TARGETS; k++)
-        if (chosen[k] && fmu_level[k] == level) {
-            target[count++] = k;
-            if (fmu_place[k] >= 0 && level != FMU_SPEED)
-                now->y[fmu_place[k]] = values[k];
-        }
-    for (sweep = 0; furthest > STILL && sweep < (level == FMU_COORDINATE ? 20 : 2); sweep++) {
-        const int n = unknowns + (level == FMU_STATE ? 0 : MODEL_M) + count;
-
-        if (level == FMU_COORDINATE)
-            normalise(fmu);
-        (void)find_lacks(fmu, level, target, values, count, lack);
-        least_change(fmu, level, by_mass, target, lack, count, a);
-        if (model_solve_rows(a, keep_independent(a, n, unknowns, x), x, rest) != MODEL_OK)
-            return 0;
-        furthest = 0;
-        for (i = 0; i < unknowns; i++)
-            furthest = larger(furthest, fabs(x[i]));
-        if (level == FMU_COORDINATE) {
-            model_map(now->p, now->t, now->y, now->s, fmu->work);
-            for (i = 0; i < MODEL_Q; i++)
-                for (j = 0; j < MODEL_U; j++)
-                    now->y[i] += fmu->work[i * MODEL_U + j] * x[j];
-            normalise(fmu);
-        } else
-            for (i = 0; i < unknowns; i++)
-                now->y[(level == FMU_STATE ? MODEL_Q + MODEL_U : MODEL_Q) + i] += x[i];
-    }
-    return find_lacks(fmu, level, target, values, count, lack) <= MET;
-}
-
-/* positions, by a way on which each is near the one before */
-static int go_by_stages(Fmu *fmu, const int *chosen, const double *from, const double *values)
-{
-    double stage[FMU_TARGETS + 1], far = 0;
-    int i, k, met = 0, count;
-
-    for (k = 0; k < FMU_TARGETS; k++)
-        if (chosen[k] && fmu_level[k] == FMU_COORDINATE)
-            far = larger(far, fabs(values[k] - from[k]));
-    count = far < STAGE * MOST_STAGES ? 1 + (int)(far / STAGE) : MOST_STAGES;
-    for (i = 1; i <= count; i++) {
-        for (k = 0; k < FMU_TARGETS; k++)
-            stage[k] = i == count ? values[k] : from[k] + (values[k] - from[k]) * i / count;
-        met = put_level(fmu, FMU_COORDINATE, 0, chosen, stage);
-        take_references(fmu);
-    }
-    return met;
-}
-
-static int is_set(const int *chosen, int k)
-{
-    int i;
-
-    for (i = 0; i < FMU_GIVEN; i++)
-        if (chosen[i] && fmu_alike[i] == fmu_alike[k])
-            return 1;
-    return 0;
-}
-
-/* All joints stay as they were, with their rates, but for what is set, whatever the coordinates;
- * where that can't be, these move least. */
-static FmuStatus put_positions(Fmu *fmu, const int *chosen, const double *values)
-{
-    FmuNumbers *now = &fmu->now;
-    double begun[MODEL_Y + 1], from[FMU_TARGETS + 1], to[FMU_TARGETS + 1];
-    int stay[FMU_TARGETS + 1], k;
-
-    memcpy(begun, now->y, MODEL_Y * sizeof(double));
-    model_targets(now->p, now->t, now->y, now->s, from);
-    for (k = 0; k < FMU_TARGETS; k++) {
-        stay[k] = k < FMU_GIVEN ? chosen[k] : fmu_level[k] == FMU_COORDINATE && !is_set(chosen, k);
-        to[k] = k < FMU_GIVEN ? values[k] : from[k];
-    }
-    if (go_by_stages(fmu, stay, from, to)) {
-        memcpy(begun, now->y, MODEL_Y * sizeof(double));
-        for (k = 0; k < FMU_TARGETS; k++)
-            stay[k] = k >= FMU_GIVEN && fmu_level[k] == FMU_SPEED;
-        if (!put_level(fmu, FMU_SPEED, 0, stay, from))
-            memcpy(now->y, begun, MODEL_Y * sizeof(double));
-        return FMU_OK;
-    }
-    memcpy(now->y, begun, MODEL_Y * sizeof(double));
-    if (put_level(fmu, FMU_COORDINATE, 0, chosen, values))
-        return FMU_OK;
-    memcpy(now->y, begun, MODEL_Y * sizeof(double));
-    return go_by_stages(fmu, chosen, from, values) ? FMU_OK : FMU_ERROR;
-}
-
-/* New values, positions first, which ask speeds to meet the constraints, too. */
-static FmuStatus put_values(Fmu *fmu, const int *chosen, const double *values)
-{
-    int k, any[FMU_STATE + 1] = {0}, met = 1;
-
-    for (k = 0; k < FMU_GIVEN; k++)
-        any[fmu_level[k]] |= chosen[k];
-    if (any[FMU_COORDINATE])
-        met = put_positions(fmu, chosen, values) == FMU_OK;
-    take_references(fmu);
-    if (met && (any[FMU_SPEED] || (any[FMU_COORDINATE] && MODEL_M > 0)))
-        met = put_level(fmu, FMU_SPEED, 1, chosen, values);
-    if (met && any[FMU_STATE])
-        met = put_level(fmu, FMU_STATE, 0, chosen, values);
-    fmu->now.is_solved = 0;
-    if (!met)
-        return fmu_fail(fmu, FMU_ERROR, "an event's new values contradict the constraints",
-                        fmu->now.y[0]);
-    return FMU_OK;
 }
 
 /* those that became true, in the order of their making */
@@ -758,7 +453,7 @@ static FmuStatus happen(Fmu *fmu, const int *happens, int *moved)
     if (!any)
         return FMU_OK;
     *moved = 1;
-    return put_values(fmu, chosen, values);
+    return fmu_put_values(fmu, chosen, values);
 }
 
 /* --- events --- */
@@ -782,7 +477,7 @@ static FmuStatus find_sides(Fmu *fmu, double *late, int *changes)
 {
     FmuNumbers *now = &fmu->now;
     double at[FMU_MEASURES + 1], rate[FMU_MEASURES + 1];
-    const double close = larger(INSTANT * (1 + fabs(now->t)), LATE * *late);
+    const double close = fmu_larger(INSTANT * (1 + fabs(now->t)), LATE * *late);
     FmuStatus status;
     int i;
 
@@ -797,14 +492,14 @@ static FmuStatus find_sides(Fmu *fmu, double *late, int *changes)
         const int is = at[i] > 0 ? 1 : at[i] < 0 ? -1 : now->side[i];
         const int goes = rate[i] > 0 ? 1 : rate[i] < 0 ? -1 : is;
         const int side = fabs(at[i]) <= close * fabs(rate[i]) ? goes : is;
-        const double ago = fabs(at[i]) / larger(fabs(rate[i]), 1e-300);
+        const double ago = fabs(at[i]) / fmu_larger(fabs(rate[i]), 1e-300);
 
         if (side == now->side[i])
             continue;
         now->side[i] = side;
         *changes = 1;
         if (now->has_start && is == goes && ago < LATEST)
-            *late = larger(*late, ago);
+            *late = fmu_larger(*late, ago);
     }
     if (*changes)
         prepare(fmu);
@@ -828,7 +523,7 @@ static FmuStatus margins(Fmu *fmu, double *margin, int *ended)
         return status;
     model_edges(now->p, now->t, now->y, now->s, fmu->work);
     for (i = 0; i < 2 * MODEL_EDGES; i++)
-        largest[i % 2] = larger(largest[i % 2], fabs(fmu->work[i]));
+        largest[i % 2] = fmu_larger(largest[i % 2], fabs(fmu->work[i]));
     for (k = 0; k < FMU_SWITCHES; k++) {
         const int side = now->side[FMU_SIDES + k];
 
@@ -912,7 +607,7 @@ static FmuStatus exchange(Fmu *fmu, int *changes, int *moved)
     if (now->has_start && !*changes && margins(fmu, margin, &ended) != FMU_OK)
         return FMU_DISCARD;
     for (k = 0; k < FMU_SWITCHES; k++)
-        beyond = larger(beyond, -margin[k]);
+        beyond = fmu_larger(beyond, -margin[k]);
     for (h = NEAR * unit; status == MODEL_OK && !any; h *= 10) {
         status = model_exchange(now->p, now->t, now->y, now->s, h, fmu->work);
         for (k = 0; k < FMU_SWITCHES; k++)
@@ -1058,6 +753,6 @@ FmuStatus fmu_initialise(Fmu *fmu)
 
     fmu->now.t = fmu->now.start;
     fmu->now.is_solved = 0;
-    take_references(fmu);
+    fmu_take_references(fmu);
     return fmu_events(fmu, &moved);
 }

@@ -107,10 +107,22 @@ FmuStatus fmu_derivatives(Fmu *fmu, const unsigned *unknowns, size_t unknown_cou
                           const unsigned *knowns, size_t known_count, const double *seed,
                           double *out);
 
+/* What the equations leave open is shared by a rule: where that is least, or alike. Outputs that
+ * move with it have no derivatives: NAN in `outputs`, by their numbers, and a warning (fmu_open.c).
+ */
+FmuStatus fmu_mark_open(Fmu *fmu, const unsigned *unknowns, size_t count, double *outputs);
+
 /* --- events --- */
 
 /* Lets happen what happens here; *moved: states have changed. Sets the time of the next event. */
 FmuStatus fmu_events(Fmu *fmu, int *moved);
+/* New values, of targets that are chosen, positions first, which ask speeds to meet the
+ * constraints, too. Fails where they aren't met, and where they leave others open (fmu_values.c).
+ */
+FmuStatus fmu_put_values(Fmu *fmu, const int *chosen, const double *values);
+/* angles in the turn that is nearest to where they were */
+void fmu_take_references(Fmu *fmu);
+double fmu_larger(double a, double b);
 /* Behind a step of the importer's: whether states have left the constraints by more than the
  * tolerance. */
 int fmu_has_drifted(Fmu *fmu);

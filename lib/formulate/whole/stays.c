@@ -137,22 +137,60 @@ static void add_frame(System *system, int node, bool is_body, Stays *out)
     out->attitudes++;
 }
 
-int system_frame_named(const System *system, const char *name)
+static int node_of(const Stand *stand)
 {
-    const Stand stand = system_stand(system, name);
-
-    switch (stand.kind) {
+    switch (stand->kind) {
     case STANDS_POSITION:
     case STANDS_ANGLE:
     case STANDS_PARAMETER:
-        return stand.node;
+        return stand->node;
     case STANDS_COORDINATE:
-        return stand.instance->row->family == FAMILY_BODY ? stand.instance->head : -1;
+        return stand->instance->row->family == FAMILY_BODY ? stand->instance->head : -1;
     case STANDS_NOT:
     case STANDS_SHIFT:
         break;
     }
     return -1;
+}
+
+/* a function of positions and speeds; NULL: what is named is none, or there is nothing of the kind
+ */
+static Expr find_rate(System *system, const char *name, int primes)
+{
+    const unsigned unknown = ~(1U << SYMBOL_TIME | 1U << SYMBOL_PARAMETER |
+                               1U << SYMBOL_COORDINATE | 1U << SYMBOL_SPEED | 1U << SYMBOL_TURN);
+    Diag unasked = {0};
+    Expr rate;
+
+    if (system_variable(system, name, primes, &rate, &unasked) != OK ||
+        (expr_kinds(rate) & unknown) != 0)
+        return NULL;
+    return rate;
+}
+
+void system_named(System *system, const char *name, Named *out)
+{
+    const Stand stand = system_stand(system, name);
+    const bool of_joint = stand.kind == STANDS_COORDINATE &&
+                          stand.instance->coord_kind[stand.which] == COORDINATE_PARAMETER;
+    int first = 0;
+
+    *out = (Named){.node = node_of(&stand), .attitude = -1, .rate = find_rate(system, name, 1)};
+    if (of_joint)
+        while (stand.instance->coord_kind[first] != COORDINATE_PARAMETER)
+            first++;
+    if (of_joint || stand.kind == STANDS_PARAMETER) {
+        const char *owner =
+            of_joint ? stand.instance->name : graph_node(system_graph(system), stand.node)->name;
+        const int axis = stand.which - first;
+        Text turning = {0};
+
+        out->attitude = of_joint ? 2 * stand.instance->number + 1 : 2 * stand.node;
+        text_addf(&turning, "%s.W%c", owner, 'x' + axis);
+        if (axis < 3)
+            out->turning = find_rate(system, turning.at, 0);
+        text_free(&turning);
+    }
 }
 
 static void add_frames(System *system, const char *const *named, int count, Stays *out)
@@ -168,7 +206,8 @@ static void add_frames(System *system, const char *const *named, int count, Stay
         add_frame(system, part->head, true, out);
     }
     for (int i = 0; i < count; i++) {
-        const int node = system_frame_named(system, named[i]);
+        const Stand stand = system_stand(system, named[i]);
+        const int node = node_of(&stand);
 
         if (node < 0 || !floats[node])
             continue;

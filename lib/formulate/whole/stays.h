@@ -21,7 +21,14 @@ typedef struct Stay {
  * events set. Returns how many. */
 int system_stays(System *system, const char *const *named, int count, Stay **out);
 void stays_free(Stay *stays, int count);
-/* the node of the frame whose position or attitude a variable of that name is; -1: of none */
-int system_frame_named(const System *system, const char *name);
+
+/* of a variable that an event gives */
+typedef struct Named {
+    int node;     /* of the frame whose position or attitude it is; -1 */
+    int attitude; /* that it is an Euler parameter of, other numbers than of stays; -1 */
+    Expr rate;    /* of a position, where speeds tell it; NULL */
+    Expr turning; /* of the first three of an attitude: a component of its angular velocity; NULL */
+} Named;
+void system_named(System *system, const char *name, Named *out);
 
 #endif

@@ -64,13 +64,12 @@ static Status classify(const Reinit *reinit, Target *target, const char *name, i
 Status reinit_add(Reinit *reinit, const char *name, int primes, Diag *diag)
 {
     System *system = reinit->plan.layout->system;
-    Target target = {.node = -1, .rate = -1, .stay = -1};
+    Target target = {.node = -1, .rate = -1, .attitude = -1, .turning = -1, .stay = -1};
 
     TRY(system_variable(system, name, primes, &target.expr, diag));
     TRY(classify(reinit, &target, name, primes, diag));
     if (target.level == LEVEL_POSITION) {
         target.stand = system_stand(system, name);
-        target.node = system_frame_named(system, name);
         LIST_PUSH(reinit->named, name);
     }
     LIST_PUSH(reinit->targets, target);

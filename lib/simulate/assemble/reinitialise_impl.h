@@ -19,6 +19,8 @@ typedef struct Target {
     Stand stand;    /* what it says of frames, if it does */
     int node;       /* of a position: the frame whose it is; -1 */
     int rate;       /* the target that is its rate; -1 */
+    int attitude;   /* of what is given: that it is an Euler parameter of; -1 */
+    int turning;    /* then a component of its angular velocity; -1 */
     int stay;       /* of those that may stay, or their rates; -1 */
 } Target;
 

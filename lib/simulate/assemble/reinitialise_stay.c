@@ -17,7 +17,13 @@ enum { OF_JOINTS = FOLLOW_FIRST, OF_NAMED, OF_BODIES };
 static int add_hidden(Reinit *reinit, Expr expr, StateLevel level, int stay)
 {
     const Layout *l = reinit->plan.layout;
-    Target target = {.expr = expr, .level = level, .node = -1, .rate = -1, .stay = stay};
+    Target target = {.expr = expr,
+                     .level = level,
+                     .node = -1,
+                     .rate = -1,
+                     .attitude = -1,
+                     .turning = -1,
+                     .stay = stay};
 
     if (stay >= 0 && level == LEVEL_POSITION && reinit->stays[stay].name != NULL)
         target.stand = system_stand(l->system, reinit->stays[stay].name);
@@ -28,31 +34,26 @@ static int add_hidden(Reinit *reinit, Expr expr, StateLevel level, int stay)
     return reinit->targets.count - 1;
 }
 
-/* the rate of a position that is given; -1: it has none that is told by speeds */
-static int add_rate(Reinit *reinit, const char *name)
-{
-    const unsigned unknown = ~(1U << SYMBOL_TIME | 1U << SYMBOL_PARAMETER |
-                               1U << SYMBOL_COORDINATE | 1U << SYMBOL_SPEED | 1U << SYMBOL_TURN);
-    Diag unasked = {0};
-    Expr rate;
-
-    if (system_variable(reinit->plan.layout->system, name, 1, &rate, &unasked) != OK ||
-        (expr_kinds(rate) & unknown) != 0)
-        return -1;
-    return add_hidden(reinit, rate, LEVEL_VELOCITY, -1);
-}
-
 void reinit_add_stays(Reinit *reinit)
 {
     reinit->given = reinit->targets.count;
     if (reinit->named.count == 0)
         return;
-    for (int k = 0, next = 0; k < reinit->given; k++)
-        if (reinit->targets.at[k].level == LEVEL_POSITION) {
-            const int rate = add_rate(reinit, reinit->named.at[next++]);
+    for (int k = 0, next = 0; k < reinit->given; k++) {
+        Named named;
+        int rate, turning;
 
-            reinit->targets.at[k].rate = rate;
-        }
+        if (reinit->targets.at[k].level != LEVEL_POSITION)
+            continue;
+        system_named(reinit->plan.layout->system, reinit->named.at[next++], &named);
+        rate = named.rate != NULL ? add_hidden(reinit, named.rate, LEVEL_VELOCITY, -1) : -1;
+        turning =
+            named.turning != NULL ? add_hidden(reinit, named.turning, LEVEL_VELOCITY, -1) : -1;
+        reinit->targets.at[k].node = named.node;
+        reinit->targets.at[k].attitude = named.attitude;
+        reinit->targets.at[k].rate = rate;
+        reinit->targets.at[k].turning = turning;
+    }
     reinit->stay_count = system_stays(reinit->plan.layout->system, reinit->named.at,
                                       reinit->named.count, &reinit->stays);
     for (int i = 0; i < reinit->stay_count; i++) {
@@ -279,6 +280,18 @@ static bool is_attitude(const Reinit *reinit, int target)
     return stay >= 0 && reinit->stays[stay].attitude >= 0;
 }
 
+/* The target that is the rate which target k keeps: of an attitude that is given as a whole its
+ * angular velocity, in its own axes. */
+static int rate_of(const Reinit *reinit, int k, const double *values)
+{
+    const Target *targets = reinit->targets.at;
+    int count = 0;
+
+    for (int i = 0; i < reinit->given && k < reinit->given && targets[k].attitude >= 0; i++)
+        count += !isnan(values[i]) && targets[i].attitude == targets[k].attitude;
+    return count == 4 ? targets[k].turning : targets[k].rate;
+}
+
 /* What hardly moves any more, against what it did, is at the end of its way. */
 static void forget_still(const Reinit *reinit, const Decision *decision, Gathered *g)
 {
@@ -302,15 +315,16 @@ bool reinit_choose_rates(Reinit *reinit, const Decision *decision, const double 
         const bool is_set =
             k < reinit->given && reinit->targets.at[k].level == LEVEL_VELOCITY && !isnan(values[k]);
 
-        of[k] = is_set ? FOLLOW_FIRST : FOLLOW_UNASKED;
+        of[k] = is_set ? FOLLOW_FIRST + 1 : FOLLOW_UNASKED;
         reinit->values[k] = is_set ? values[k] : NAN;
     }
     for (int k = 0; k < count; k++) {
-        const int rate = reinit->targets.at[k].rate;
+        const int rate = rate_of(reinit, k, values);
+        const bool is_given = k < reinit->given && !isnan(values[k]);
 
-        if (!decision->keeps[k] || rate < 0)
+        if (rate < 0 || !(is_given || decision->keeps[k]))
             continue;
-        of[rate] = FOLLOW_GIVEN;
+        of[rate] = is_given ? FOLLOW_GIVEN : FOLLOW_FIRST;
         reinit->values[rate] = before[rate];
     }
     eq->position(eq->context, reinit->t, reinit->y);
