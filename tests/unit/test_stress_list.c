@@ -265,6 +265,49 @@ static void energy_that_comes_or_goes_by_itself_is_told(void)
         }
 }
 
+/* Work doesn't hide it: the same swings with what takes energy or brings it, each of which is off
+ * by a quarter of what it stores or more, as a run at 1e-11 tells. A light part that is pushed
+ * through oil, and a small capacitor at a source, store next to nothing of what passes; there the
+ * balance is off by 10^4 times what they store, and speed and voltage are right. */
+static void work_does_not_hide_energy_that_comes_by_itself(void)
+{
+    static const struct {
+        const char *script;
+        bool is_right;
+    } runs[] = {
+        {"scene planar\ngravity [0, 0]\nbody a mass=1 inertia=1\nprismatic s ground a axis=x\n"
+         "spring k ground a k=600\ndamper d ground a d=0.2\ninit s = 1\n"
+         "simulate 60 rtol=6e-4 method=bdf",
+         false},
+        {"scene planar\ngravity [0, 0]\nbody a mass=1 inertia=1\nprismatic s ground a axis=x\n"
+         "spring k ground a k=150\nactuator f s force=sin(2*t)\ninit s = 1\n"
+         "simulate 100 rtol=7e-5 method=adams",
+         false},
+        {"capacitor A n 0 0.025\ninductor L n m 1\ncapacitor B m 0 0.025\nresistor R n 0 7700\n"
+         "init A.v = 1\nsimulate 150 rtol=2e-4 method=adams",
+         false},
+        {"scene planar\ngravity [0, 0]\nbody a mass=2e-5 inertia=1\nprismatic s ground a axis=x\n"
+         "actuator f s force=10*sin(43*t)-160*s'\nsimulate 1 rtol=1e-4 method=bdf",
+         true},
+        {"vsource V n 0 value=54*sin(110*t)\nresistor R n m 1700\ncapacitor C m 0 1.7e-8\n"
+         "resistor Q m 0 500\nsimulate 1 rtol=2e-3 method=bdf",
+         true},
+    };
+
+    for (int i = 0; i < (int)(sizeof runs / sizeof runs[0]); i++) {
+        Kit kit = kit_new();
+        char script[500];
+
+        (void)snprintf(script, sizeof script, "%s\nshow run", runs[i].script);
+        EXPECT_DONE(&kit, script);
+        if (runs[i].is_right)
+            EXPECT_LACKS(kit.text, "by themselves");
+        else
+            EXPECT_HOLDS(kit.text, "J come or go by themselves");
+        kit_free(&kit);
+    }
+}
+
 static void the_way_out_leads_out(void)
 {
     Kit kit = kit_new();
@@ -454,6 +497,7 @@ int main(void)
     RUN(a_wall_ahead_is_not_felt);
     RUN(a_wall_is_entered_as_exactly_as_it_is_left);
     RUN(energy_that_comes_or_goes_by_itself_is_told);
+    RUN(work_does_not_hide_energy_that_comes_by_itself);
     RUN(the_way_out_leads_out);
     RUN(a_light_crank_passes_its_dead_centre);
     RUN(a_flat_position_costs_no_accuracy);
