@@ -12,6 +12,7 @@
 #define NEXT_TO     1e-12 /* or of the run */
 #define WIDER       5     /* times a step that ended where a longer one had erred */
 #define CONTRADICTS 1e-3  /* of a condition's largest size: so far off no error leads */
+#define PLACES      8     /* of a step, at which a margin is looked at */
 #define ZENO_EVENTS 100
 #define ZENO_EACH   10   /* of every condition, which all may go over at one instant */
 #define ZENO_SPAN   1e-9 /* of the run */
@@ -45,6 +46,32 @@ static bool move_end(Integration *m, double t)
     return true;
 }
 
+/* whether condition i never came clear of its noise on the side it is to be on, in the last step
+ * until `when` */
+static bool has_no_zero(Integration *m, int i, double when)
+{
+    const double before = m->stepper->before;
+
+    for (int k = 0; k < PLACES; k++) {
+        integration_conditions_at(m, before + (when - before) * k / PLACES);
+        if (m->conditions[i] > m->noise[i])
+            return false;
+    }
+    return true;
+}
+
+/* How far beyond 0 condition i is met, at about `when`. A margin that began beyond is met where it
+ * leaves its band; one that began at 0, as near as noise tells, and turned away from there, where
+ * it comes clear of noise: there is no other zero in the step. */
+static double met_beyond(Integration *m, int i, double when)
+{
+    if (!integration_is_margin(m, i))
+        return 0;
+    if (m->band[i] > m->noise[i])
+        return m->band[i];
+    return has_no_zero(m, i, when) ? m->noise[i] : 0;
+}
+
 /* Take the last step again until it ends just before the switch, so that none of its stages has
  * seen what is behind: Newton's method on the length of the step. Behind a margin the equations are
  * the same, and last moves so short that Euler's rule is exact will do; by more than those the step
@@ -53,8 +80,7 @@ static bool move_end(Integration *m, double t)
 static Status approach(Integration *m, int i, double when, double *value, double *slope, Diag *diag)
 {
     double enough = fmax(1e-11 * m->largest[i], integration_is_margin(m, i) ? m->noise[i] : 0);
-    /* what began beyond 0 is met where it leaves its band */
-    double band = integration_is_margin(m, i) && m->band[i] > m->noise[i] ? m->band[i] : 0;
+    const double band = met_beyond(m, i, when);
     double before = m->stepper->before, end = m->stepper->t;
     Diag ignored = {0};
 
