@@ -8,6 +8,8 @@
 
 #define NOISE      1e-12 /* of the largest current or voltage: too small to tell a side from, */
 #define MOST_NOISE 1e-8  /* or where that leads in circles, up to this */
+#define LARGER     30    /* times the leak of closed switches that rounding swallows, */
+#define LARGEST    1e4   /* up to so many */
 #define ROUNDING   1e-15 /* of the largest voltage, in that of a closed one with a resistance */
 #define FORGET     0.5   /* of the largest current or voltage from instant to instant: surges end */
 #define PIECES     8     /* of a jump, along which laws are integrated */
@@ -386,6 +388,12 @@ static bool settle_with(ModeSearch *s, int together, int most)
     return false;
 }
 
+void mode_search_leak(ModeSearch *s, double closed, double open)
+{
+    (void)probe_turn(s->equations, s->closed_leak, closed * CLOSED_LEAK);
+    (void)probe_turn(s->equations, s->open_leak, open * OPEN_LEAK);
+}
+
 /* Where circles are so small that rounding may be what makes them, that is taken for nothing. */
 static bool settle_diodes(ModeSearch *s)
 {
@@ -396,6 +404,20 @@ static bool settle_diodes(ModeSearch *s)
         if (settle_with(s, together, 2 * together))
             return true;
     return settle_with(s, together, together + most);
+}
+
+/* What closed switches in parallel share is told by their leaks alone. Beside large resistances
+ * rounding swallows these, and larger ones tell it. */
+static bool settle_shares(ModeSearch *s)
+{
+    bool settled = settle_diodes(s);
+
+    for (double leak = LARGER; !settled && leak <= LARGEST; leak *= LARGER) {
+        mode_search_leak(s, leak, 1);
+        settled = settle_diodes(s);
+    }
+    mode_search_leak(s, 1, 1);
+    return settled;
 }
 
 /* Sides of switches with a condition, from states as they go on and what else is known. True:
@@ -451,7 +473,7 @@ Status mode_search_find(ModeSearch *s, const ModeSearchAt *at, bool *closed, Dia
     memcpy(before, closed, bytes);
     memset(netsolve_values(s->solve), 0, (size_t)s->l->nx * sizeof(double));
     for (int round = 0;; round++) {
-        if (!settle_diodes(s)) {
+        if (!settle_shares(s)) {
             status = tell_none(s, diag);
             goto done;
         }

@@ -56,6 +56,8 @@ struct ModeSearch {
 
 /* x behind a step from `from` with the sides as they are, [x'; z] the solver's; false: none */
 bool mode_search_solve(ModeSearch *s);
+/* Leaks of closed and open switches from now on, in CLOSED_LEAK and OPEN_LEAK. */
+void mode_search_leak(ModeSearch *s, double closed, double open);
 /* what is known behind that step, for probes */
 RowValues mode_search_row(const ModeSearch *s, const double *w);
 

@@ -20,12 +20,6 @@ void mode_search_calm(ModeSearch *s)
     memset(s->known, 0, sizeof s->known);
 }
 
-static void set_leaks(ModeSearch *s, double scale)
-{
-    (void)probe_turn(s->equations, s->closed_leak, scale * CLOSED_LEAK);
-    (void)probe_turn(s->equations, s->open_leak, scale * OPEN_LEAK);
-}
-
 static bool land(ModeSearch *s, double step)
 {
     const double share = step / s->at->step;
@@ -33,10 +27,10 @@ static bool land(ModeSearch *s, double step)
 
     s->step = step;
     s->averages = !s->is_linear;
-    set_leaks(s, share * share);
+    mode_search_leak(s, share * share, share * share);
     memset(netsolve_values(s->solve), 0, (size_t)s->l->nx * sizeof(double));
     sound = mode_search_solve(s);
-    set_leaks(s, 1);
+    mode_search_leak(s, 1, 1);
     s->averages = false;
     return sound;
 }
