@@ -144,8 +144,7 @@ static Status look_ahead(const ModeSwitching *c, Looking *look, bool *changed, D
     return OK;
 }
 
-/* Whether the sides that were found may hold at the instant itself. Where states jump, what they
- * jump to is for others to tell. */
+/* Whether the sides that were found may hold at the instant itself, without a state that jumps. */
 static bool holds_at_once(const ModeSwitching *c, const Looking *look, bool changed)
 {
     ActiveRun *r = c->run;
@@ -158,8 +157,8 @@ static bool holds_at_once(const ModeSwitching *c, const Looking *look, bool chan
     entered = NEW_ARRAY(double, next->length);
     mode_entry(next, look->y, look->x, look->y + layout_references(look->now->layout),
                look->y[look->now->length - 1], entered);
-    holds = mode_margins_off(next, look->t, look->at.t, look->at.step, entered, &c->control) <= 1 ||
-            mode_entry_jumps(r, next, look->t, entered, look->x);
+    holds = mode_margins_off(next, look->t, look->at.t, look->at.step, entered, &c->control) <= 1 &&
+            !mode_entry_jumps(r, next, look->t, entered, look->x);
     mem_free(entered);
     return holds;
 }
@@ -167,7 +166,8 @@ static bool holds_at_once(const ModeSwitching *c, const Looking *look, bool chan
 /* Diodes that are seen to go over a step ahead may still be on their sides at the instant itself:
  * from nearer to it they are. What is meant is a step that vanishes, but that tells no side from
  * the other where one begins at 0, least where it was seen before that margins end although none
- * goes over. Where no step shows what holds, the first one is believed. */
+ * goes over. Where no step shows what holds, the first one is believed: then states jump, and what
+ * to is for others to tell. */
 static Status look_nearer(const ModeSwitching *c, Looking *look, double nearest, bool *changed,
                           Diag *diag)
 {
