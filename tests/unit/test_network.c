@@ -341,6 +341,19 @@ static void a_tree_that_needs_a_jump_differentiated_is_refused(void)
     kit_free(&kit);
 }
 
+/* D.i follows from D.v, and that from the law of D alone */
+static void a_derivative_that_is_refused_is_the_one_asked_for(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "vsource V a 0 5*sin(t)\nresistor R a b 1\ndiode D b 0 Is=1e-12\n"
+                      "resistor Q b 0 5\nsimulate 1\n");
+    EXPECT_FAILS(&kit, "print D.i'\n",
+                 "the derivative of D.i is not among the network's equations");
+    EXPECT_FAILS(&kit, "print 2*R.i + Q.v'\n", "the derivative of Q.v is not among");
+    kit_free(&kit);
+}
+
 static void sources_against_each_other_are_refused(void)
 {
     Kit kit = kit_new();
@@ -452,6 +465,7 @@ int main(void)
     RUN(a_switch_at_the_end_keeps_the_last_row);
     RUN(a_step_across_capacitors_is_refused);
     RUN(a_tree_that_needs_a_jump_differentiated_is_refused);
+    RUN(a_derivative_that_is_refused_is_the_one_asked_for);
     RUN(sources_against_each_other_are_refused);
     RUN(an_inverse_run_wants_a_smooth_driver);
     RUN(steps_are_cut_at_kinks_of_diodes);

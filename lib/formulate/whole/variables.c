@@ -695,6 +695,10 @@ Status system_variable(System *system, const char *path, int primes, Expr *out, 
         status = system_rate_of(system, *out, out, diag);
         if (k == 0 && status == E_MISSING && !system->network->is_open)
             status = storage_rate(system, path, out, diag);
+        if (status == E_MISSING) /* said of an unknown that it follows from, of any other part */
+            (void)diag_set(diag, status,
+                           "the derivative of %s%.*s is not among the network's equations", path, k,
+                           "''''''''");
         CHECK(status);
     }
 done:
