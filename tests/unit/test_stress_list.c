@@ -485,6 +485,43 @@ static void frames_that_come_together_are_named(void)
     }
 }
 
+typedef struct Patience {
+    int left;
+} Patience;
+
+static bool is_over(void *context)
+{
+    return --((Patience *)context)->left < 0;
+}
+
+/* A force that ends at s = 1, where v^2/2 = 1/2 + 2/3, and a swing that somebody stops: rows that
+ * were asked for are all further on, and what is kept ends where the run did. */
+static void what_ends_before_its_first_row_keeps_its_end(void)
+{
+    static const char swing[] =
+        "scene planar\ngravity [0, 0]\nbody a mass=1 inertia=1\nprismatic s ground a axis=x\n"
+        "spring k ground a k=4\ninit s = 1\n";
+    Patience patience = {.left = 200};
+    const ct_hooks hooks = {.context = &patience, .stop = is_over, .columns = 80};
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\nbody a mass=1 inertia=1\nprismatic s ground a axis=x\n"
+                      "actuator f s force=sqrt(1 - s)\ninit s' = 1\n");
+    EXPECT_FAILS(&kit, "simulate 5 every=5", "f has no value from there on");
+    EXPECT_NEAR(kit_value(&kit, "s"), 1, 1e-6);
+    EXPECT_NEAR(kit_value(&kit, "s'"), sqrt(7. / 3), 1e-6);
+    EXPECT_NEAR(kit_value(&kit, "s at 0"), 0, 0);
+    kit_free(&kit);
+    kit = kit_new();
+    EXPECT_DONE(&kit, swing);
+    ct_session_hooks(kit.session, &hooks);
+    EXPECT(kit_do(&kit, "simulate 1e6 every=1e6") == CT_STOPPED);
+    ct_session_hooks(kit.session, NULL);
+    EXPECT(kit_value(&kit, "t") > 0);
+    EXPECT_NEAR(kit_value(&kit, "s"), cos(2 * kit_value(&kit, "t")), 1e-5);
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(steps_that_sway_are_no_end);
@@ -504,5 +541,6 @@ int main(void)
     RUN(the_way_out_leads_out);
     RUN(a_light_crank_passes_its_dead_centre);
     RUN(a_flat_position_costs_no_accuracy);
+    RUN(what_ends_before_its_first_row_keeps_its_end);
     return test_end();
 }

@@ -240,6 +240,19 @@ static Status run(Integration *m, const double *start, Diag *diag)
     return OK;
 }
 
+/* What ends before its first row behind the start keeps where it has got to. */
+static void keep_reached(Integration *m, int rows_before)
+{
+    const Stepper *s = m->stepper;
+    const int rows = m->grid->count - rows_before;
+
+    if (rows > (m->plan->skip_first ? 0 : 1) || m->plan->times != NULL || m->is_stopped ||
+        !(s->t > m->plan->from) || integration_has_row(m, s->t))
+        return;
+    memcpy(m->y, s->y, (size_t)m->length * sizeof(double));
+    (void)integration_add_row(m, s->t);
+}
+
 Status integrate(const IntegrationPlan *plan, const double *start, Grid *grid,
                  IntegrationReport *out, Diag *diag)
 {
@@ -256,6 +269,7 @@ Status integrate(const IntegrationPlan *plan, const double *start, Grid *grid,
                                                  : grid_rows(plan->from, plan->to, plan->every),
                      .root = ROOT_ANY,
                      .switched_since = -INFINITY};
+    const int rows_before = grid->count;
     Status status = OK;
 
     if (plan->first != NULL)
@@ -270,6 +284,8 @@ Status integrate(const IntegrationPlan *plan, const double *start, Grid *grid,
     m.control.span = plan->span > 0 ? plan->span : plan->to - plan->from;
     integration_open_segment(&m, &plan->segment);
     status = run(&m, start, diag);
+    if (status == E_STOPPED || status == E_SOLVER)
+        keep_reached(&m, rows_before);
     integration_close_segment(&m);
     if (m.missed > (plan->asks ? 1 : MANY))
         remarks_add(&out->remarks, (Remark){.kind = REMARK_STEP_TOO_LONG,
