@@ -9,6 +9,7 @@ typedef struct Work {
     int hoisted;                    /* of parameters alone */
     int position, velocity, solved; /* with t and q; u and x; what is solved for */
     int asked;                      /* of M and F, where they are asked for alone */
+    int rates;                      /* of rates alone, which then take the place of the others */
 } Work;
 
 static Work work_of(const Numbers *numbers)
@@ -21,6 +22,11 @@ static Work work_of(const Numbers *numbers)
 
         if (p == NULL)
             continue;
+        if (part == NUMBERS_RATES) {
+            for (int stage = STAGE_TIME; stage < STAGE_COUNT; stage++)
+                work.rates += program_operations(p, (Stage)stage);
+            continue;
+        }
         work.hoisted += program_operations(p, STAGE_PARAMETER);
         for (int stage = STAGE_TIME; stage < STAGE_COUNT; stage++)
             *(is_asked                  ? &work.asked
@@ -106,7 +112,7 @@ static Status eliminate(const View *view, const Equations *eq, Diag *diag)
     return status;
 }
 
-static void add_eliminated(const View *view, Text *out, const Equations *eq)
+static void add_eliminated(const View *view, Text *out, const Equations *eq, const Work *work)
 {
     Text line = {0};
 
@@ -118,6 +124,10 @@ static void add_eliminated(const View *view, Text *out, const Equations *eq)
               ", which these operations eliminate in a run that needs it more than %d times, "
               "wherever no singular position is near",
               MOTION_FACTORS_PAID);
+    if (work->rates > 0) {
+        text_add(&line, "; rates alone then take ");
+        layout_count(&line, work->rates, "operation", "operations");
+    }
     add_line(view, out, "skipped  ", &line);
 }
 
@@ -130,7 +140,7 @@ static void add_skipped(const View *view, Text *out, const Equations *eq, const 
     Text line = {0};
 
     add_zeros(view, out, "Phi_u", r->phi_u, m * nu);
-    add_eliminated(view, out, eq);
+    add_eliminated(view, out, eq, work);
     if (eq->bring_mass == NULL) {
         add_zeros(view, out, "M", r->mass, nu * nu);
     } else {
@@ -158,7 +168,7 @@ static void add_apart(const View *view, Text *out, const Numbers *numbers)
     int most = 1, all = 0;
     Text line = {0};
 
-    for (int part = 0; part < NUMBERS_PARTS; part++) {
+    for (int part = 0; part < NUMBERS_RATES; part++) { /* they are in the others, too */
         const Program *p = numbers_program(numbers, (NumbersPart)part);
         int own = 0;
         const int parts = p != NULL ? program_parts(p, &own) : 1;
@@ -181,9 +191,12 @@ static void add_apart(const View *view, Text *out, const Numbers *numbers)
 
 static void print_programs(const Numbers *numbers, Text *out)
 {
-    static const char *const names[NUMBERS_PARTS] = {"equations", "network", "conditions",
+    static const char *const names[NUMBERS_PARTS] = {"equations",
+                                                     "network",
+                                                     "conditions",
                                                      "slip on surfaces",
-                                                     "M and F, where they are asked for"};
+                                                     "M and F, where they are asked for",
+                                                     "rates, where constraints are eliminated"};
 
     for (int part = 0; part < NUMBERS_PARTS; part++) {
         const Program *p = numbers_program(numbers, (NumbersPart)part);

@@ -180,7 +180,8 @@ void numbers_free(Numbers *nb)
 
 const Program *numbers_program(const Numbers *nb, NumbersPart part)
 {
-    const Probe *const parts[] = {nb->main, nb->network, nb->switching, nb->slip, nb->massing};
+    const Probe *const parts[] = {nb->main, nb->network, nb->switching,
+                                  nb->slip, nb->massing, nb->rates};
 
     return parts[part] != NULL ? residual_program(probe_residual(parts[part])) : NULL;
 }

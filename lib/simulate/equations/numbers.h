@@ -21,6 +21,7 @@ typedef enum NumbersPart {
     NUMBERS_CONDITIONS,
     NUMBERS_SLIP,
     NUMBERS_MASS,
+    NUMBERS_RATES, /* once constraints are eliminated: what a run asks for most of all */
     NUMBERS_PARTS
 } NumbersPart;
 /* NULL: there is none; borrowed */
