@@ -19,6 +19,12 @@ claim() { # name command...
     fi
 }
 
+# Whether this is a build with the sanitizers. There the program runs to show how it uses memory: what
+# other programs make of files that it writes in any build alike is told in the others.
+is_sanitized() {
+    case ${SAN_CFLAGS:-} in *-fsanitize=*) ;; *) false ;; esac
+}
+
 skip() { # name reason
     skipped=$((skipped + 1))
     echo "skipped $1: $2"
