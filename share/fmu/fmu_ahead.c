@@ -9,6 +9,7 @@ enum { LOOKS = 60, LOOKED = 64, PIECES = 16 }; /* of a look ahead: halvings, nea
 #define UNSEEN   1e-9 /* of the largest of them: what of an indicator rounding may be */
 #define BENT     0.05 /* of what changes: how far it may bend between places */
 #define SHORTEST 1e-9 /* of 1 + |t| */
+#define LONGEST  1e3  /* likewise: where nothing follows time, a step could double for ever */
 
 /* indicators later on, states as they are */
 static int indicators_ahead(Fmu *fmu, double t, double ahead, double *out)
@@ -62,14 +63,15 @@ void fmu_look_ahead(Fmu *fmu, int is_new)
 {
     FmuNumbers *now = &fmu->now;
     const double t = now->t;
-    const double shortest = SHORTEST * (1 + fabs(t));
+    const double shortest = SHORTEST * (1 + fabs(t)), longest = LONGEST * (1 + fabs(t));
     double step = !is_new && now->rhythm > 0 ? now->rhythm / LOOKED : shortest;
     double low, least = HUGE_VAL;
     int i, k, best = 0;
 
     while (step >= shortest && !is_shown(fmu, t, step))
         step /= 2;
-    for (k = 0; k < LOOKS && step >= shortest && is_shown(fmu, t, 2 * step); k++)
+    for (k = 0; k < LOOKS && step >= shortest && 2 * step <= longest && is_shown(fmu, t, 2 * step);
+         k++)
         step *= 2;
     now->rhythm = step;
     if (step < shortest) /* nothing is to be told of it */
