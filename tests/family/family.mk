@@ -204,3 +204,28 @@ family_machine_figures_SOURCES = tests/family/family_machine_figures.c tests/fam
 	tests/family/extrapolated.h tests/family/family.h tests/family/script.h \
 	tests/unit/session_kit.h tests/unit/test.h tests/random.h
 family_machine_figures_LDADD = libcotree.la $(unit_ldadd)
+
+FAMILIES += family_machine_jumps
+family_machine_jumps_SOURCES = tests/family/family_machine_jumps.c tests/family/machine.h \
+	tests/family/machine_draw.h tests/family/machine_hybrid.h tests/family/machine_hybrid_draw.h \
+	tests/family/machine_networks.h tests/family/machine_tableau.h tests/family/machine_whole.h \
+	tests/family/extrapolated.h tests/family/family.h tests/family/script.h \
+	tests/unit/session_kit.h tests/unit/test.h tests/random.h
+family_machine_jumps_LDADD = libcotree.la $(unit_ldadd)
+
+FAMILIES += family_machine_fmu
+family_machine_fmu_SOURCES = tests/family/family_machine_fmu.c tests/family/machine.h \
+	tests/family/machine_draw.h tests/family/machine_hybrid.h tests/family/machine_hybrid_draw.h \
+	tests/family/machine_networks.h tests/family/machine_tableau.h tests/family/machine_whole.h \
+	tests/family/extrapolated.h tests/family/family.h tests/family/script.h \
+	tests/unit/session_kit.h tests/unit/test.h tests/random.h
+family_machine_fmu_LDADD = libcotree.la $(unit_ldadd)
+
+FAMILIES += family_machine_uses
+family_machine_uses_SOURCES = tests/family/family_machine_uses.c tests/family/machine.h \
+	tests/family/machine_draw.h tests/family/machine_hybrid.h tests/family/machine_hybrid_draw.h \
+	tests/family/machine_inputs.h tests/family/machine_slopes.h \
+	tests/family/machine_networks.h tests/family/machine_tableau.h tests/family/machine_whole.h \
+	tests/family/extrapolated.h tests/family/family.h tests/family/script.h \
+	tests/unit/session_kit.h tests/unit/test.h tests/random.h
+family_machine_uses_LDADD = libcotree.la $(unit_ldadd)

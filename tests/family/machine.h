@@ -19,8 +19,8 @@ enum {
     HINGES = 8,
     TURNS = 12,
     LOADS = 28,
-    NODES = 14,
-    ELEMENTS = 20,
+    NODES = 20,
+    ELEMENTS = 30,
     UNKNOWNS = 6 * BODIES + 5 * HINGES + NODES + 3 * ELEMENTS,
     STATES = 13 * BODIES + TURNS + 2 * ELEMENTS,
 };
@@ -105,6 +105,9 @@ typedef enum ElementKind {
     WINDINGS,  /* v1 = K v2, i2 = -K i1 */
     GYRATOR,
     WHEEL_ON_END, /* through = J s'' */
+    HELD,         /* across = value, which a sampled block sets */
+    SWITCH,       /* of resistance low when on, high when not; 0: ideal */
+    DIODE,        /* likewise, from the voltage rest on; on its line through it */
 } ElementKind;
 
 typedef struct Element {
@@ -115,7 +118,7 @@ typedef struct Element {
     int coordinate;
     int state,
         more; /* in the network's states; -1: none. One that shares a state isn't its first */
-    bool first, limited;
+    bool first, limited, on;
     char name[16];
 } Element;
 

@@ -304,6 +304,19 @@ static inline void add_transducer(const Machine *m, Instant *now, const Element 
     }
 }
 
+/* the law of a switch or a diode, on the side that it is on */
+static inline void add_valve(const Element *e, Tableau *T, const Columns *c, int r, int i)
+{
+    if (!e->on && e->high == 0) {
+        T->at[r][i] = 1;
+        return;
+    }
+    voltage(T, c, r, e->p, e->m, 1);
+    T->at[r][i] = e->on ? -e->low : -e->high;
+    if (e->on)
+        T->at[r][T->n] = e->rest - (e->high > 0 ? e->low * e->rest / e->high : 0);
+}
+
 static inline void add_element(const Machine *m, Instant *now, int number, Tableau *T,
                                const Columns *c, int r)
 {
@@ -350,6 +363,14 @@ static inline void add_element(const Machine *m, Instant *now, int number, Table
     case LAG:
         voltage(T, c, r, e->p, e->m, 1);
         T->at[r][n] = controlled(e, now, T, c, r);
+        break;
+    case HELD:
+        voltage(T, c, r, e->p, e->m, 1);
+        T->at[r][n] = e->value;
+        break;
+    case SWITCH:
+    case DIODE:
+        add_valve(e, T, c, r, i);
         break;
     case AMPLIFIER:
         voltage(T, c, r, e->p, e->m, 1);
