@@ -27,16 +27,29 @@ enum {
     MOST_OPERATIONS = 250000 /* and of all that is told: 150000 take half the time of factors */
 };
 
+/* what something is, but for parts that are to be added: all at once, when it is read. A sum that
+ * grew by one after the other would be told anew with each. */
+typedef struct Sum {
+    Expr value;
+    int parts; /* the last of them in `parts`, plus 1 */
+} Sum;
+
+typedef struct Part {
+    Expr value;
+    int before; /* of the same sum, plus 1 */
+} Part;
+
 typedef struct Term {
     int column;
-    Expr value; /* of the matrix, then of L^T */
+    Sum value; /* of the matrix, then of L^T */
 } Term;
 
 typedef struct Row { /* of an unknown, as they are eliminated */
     LIST(Term) beyond;
-    Expr own, inverse;
-    Expr stiff;        /* of a speed that waits: its entry of M, and what rows before it add */
-    Expr right, asked; /* right sides: F and gamma, s; then what they are solved by */
+    Sum own;
+    Expr inverse;
+    Expr stiff;       /* of a speed that waits: its entry of M, and what rows before it add */
+    Sum right, asked; /* right sides: F and gamma, s; then what they are solved by */
 } Row;
 
 typedef struct Elimination {
@@ -49,6 +62,8 @@ typedef struct Elimination {
     int *place_of; /* of it, by classes */
     int owns;      /* speeds that don't wait */
     Row *row;      /* by place */
+    LIST(Part) parts;
+    LIST(Expr) terms; /* of the sum that is told */
 } Elimination;
 
 /* --- the matrix --- */
@@ -84,7 +99,7 @@ static void list_constraints(Elimination *e)
 }
 
 /* its entry in the half that is kept, 0 at first */
-static Expr *entry_at(Elimination *e, int a, int b)
+static Sum *entry_at(Elimination *e, int a, int b)
 {
     Row *row = &e->row[a < b ? a : b];
     const int column = a < b ? b : a;
@@ -94,7 +109,7 @@ static Expr *entry_at(Elimination *e, int a, int b)
     for (int i = 0; i < row->beyond.count; i++)
         if (row->beyond.at[i].column == column)
             return &row->beyond.at[i].value;
-    LIST_PUSH(row->beyond, (Term){column, expr_int(e->arena, 0)});
+    LIST_PUSH(row->beyond, (Term){column, {expr_int(e->arena, 0), 0}});
     return &row->beyond.at[row->beyond.count - 1].value;
 }
 
@@ -102,12 +117,12 @@ static Expr *entry_at(Elimination *e, int a, int b)
 static void place_entries(Elimination *e)
 {
     for (int i = 0; i < e->size; i++)
-        e->row[i].own = e->row[i].right = e->row[i].asked = expr_int(e->arena, 0);
+        e->row[i].own = e->row[i].right = e->row[i].asked = (Sum){expr_int(e->arena, 0), 0};
     for (int i = 0; i < e->entries.count; i++) {
         const Entry *entry = &e->entries.at[i];
-        Expr *at = entry_at(e, e->place_of[entry->row], e->place_of[entry->column]);
+        Sum *at = entry_at(e, e->place_of[entry->row], e->place_of[entry->column]);
 
-        *at = expr_add(e->arena, *at, entry->value);
+        at->value = expr_add(e->arena, at->value, entry->value);
     }
 }
 
@@ -159,10 +174,29 @@ static int64_t find_order(Elimination *e)
 
 /* --- elimination --- */
 
-static void take_off(Arena *arena, Expr *from, Expr factor, Expr value)
+static void add_product(Elimination *e, Sum *to, Expr factor, Expr value)
 {
-    if (!expr_is_zero(value))
-        *from = expr_sub(arena, *from, expr_mul(arena, factor, value));
+    if (expr_is_zero(value))
+        return;
+    LIST_PUSH(e->parts, (Part){expr_mul(e->arena, factor, value), to->parts});
+    to->parts = e->parts.count;
+}
+
+static Expr sum_of(Elimination *e, Sum *sum)
+{
+    if (sum->parts == 0)
+        return sum->value;
+    e->terms.count = 0;
+    LIST_PUSH(e->terms, sum->value);
+    for (int i = sum->parts; i > 0; i = e->parts.at[i - 1].before)
+        LIST_PUSH(e->terms, e->parts.at[i - 1].value);
+    sum->parts = 0;
+    return sum->value = expr_sum(e->arena, e->terms.at, e->terms.count);
+}
+
+static Expr hold_sum(Elimination *e, Sum *sum)
+{
+    return sum->value = expr_hold(e->arena, sum_of(e, sum));
 }
 
 /* false: there is no pivot */
@@ -170,26 +204,26 @@ static bool eliminate_row(Elimination *e, int k)
 {
     Row *row = &e->row[k];
     const int count = row->beyond.count;
+    const Expr own = hold_sum(e, &row->own), right = hold_sum(e, &row->right),
+               asked = hold_sum(e, &row->asked);
 
-    row->own = expr_hold(e->arena, row->own);
-    row->right = expr_hold(e->arena, row->right);
-    row->asked = expr_hold(e->arena, row->asked);
-    if (expr_is_zero(row->own))
+    if (expr_is_zero(own))
         return false;
-    row->inverse = expr_hold(e->arena, expr_div(e->arena, expr_int(e->arena, 1), row->own));
+    row->inverse = expr_hold(e->arena, expr_div(e->arena, expr_int(e->arena, 1), own));
     for (int i = 0; i < count; i++)
-        row->beyond.at[i].value = expr_hold(e->arena, row->beyond.at[i].value);
+        (void)hold_sum(e, &row->beyond.at[i].value);
     for (int i = 0; i < count; i++) {
         const int column = row->beyond.at[i].column;
-        const Expr value = row->beyond.at[i].value;
+        const Expr value = row->beyond.at[i].value.value;
         const Expr part = expr_hold(e->arena, expr_mul(e->arena, value, row->inverse));
+        const Expr off = expr_neg(e->arena, part);
 
         for (int j = i; j < count; j++)
-            take_off(e->arena, entry_at(e, column, row->beyond.at[j].column), part,
-                     row->beyond.at[j].value);
-        take_off(e->arena, &e->row[column].right, part, row->right);
-        take_off(e->arena, &e->row[column].asked, part, row->asked);
-        row->beyond.at[i].value = part;
+            add_product(e, entry_at(e, column, row->beyond.at[j].column), off,
+                        row->beyond.at[j].value.value);
+        add_product(e, &e->row[column].right, off, right);
+        add_product(e, &e->row[column].asked, off, asked);
+        row->beyond.at[i].value.value = part;
     }
     return true;
 }
@@ -218,12 +252,12 @@ static bool tell_taken(Elimination *e, const Constrained *out)
 
             mass[j] = own_mass(e, &e->entries, j);
             has_mass = has_mass && !expr_is_zero(mass[j]);
-            row->stiff = expr_sub(e->arena, mass[j], row->own);
+            row->stiff = expr_sub(e->arena, mass[j], sum_of(e, &row->own));
         }
     for (int k = 0; k < e->m; k++) {
-        const Row *row = &e->row[e->place_of[e->nu + k]];
+        Row *row = &e->row[e->place_of[e->nu + k]];
 
-        out->taken[k] = expr_neg(e->arena, row->own);
+        out->taken[k] = expr_neg(e->arena, sum_of(e, &row->own));
     }
     for (int i = 0; i < e->entries.count && has_mass; i++) {
         const Entry *entry = &e->entries.at[i];
@@ -245,7 +279,8 @@ static bool tell_taken(Elimination *e, const Constrained *out)
 static void tell_stiff(Elimination *e)
 {
     for (int i = e->owns + e->m; i < e->size; i++)
-        e->row[i].stiff = expr_hold(e->arena, expr_add(e->arena, e->row[i].stiff, e->row[i].own));
+        e->row[i].stiff =
+            expr_hold(e->arena, expr_add(e->arena, e->row[i].stiff, sum_of(e, &e->row[i].own)));
 }
 
 static bool eliminate(Elimination *e, const Constrained *out)
@@ -266,16 +301,18 @@ static void substitute_back(Elimination *e)
     for (int i = e->size - 1; i >= 0; i--) {
         Row *row = &e->row[i];
 
-        row->right = expr_mul(e->arena, row->right, row->inverse);
-        row->asked = expr_mul(e->arena, row->asked, row->inverse);
+        row->right.value = expr_mul(e->arena, row->right.value, row->inverse);
+        row->asked.value = expr_mul(e->arena, row->asked.value, row->inverse);
         for (int k = 0; k < row->beyond.count; k++) {
             const Term *term = &row->beyond.at[k];
+            const Row *later = &e->row[term->column];
+            const Expr off = expr_neg(e->arena, term->value.value);
 
-            take_off(e->arena, &row->right, term->value, e->row[term->column].right);
-            take_off(e->arena, &row->asked, term->value, e->row[term->column].asked);
+            add_product(e, &row->right, off, later->right.value);
+            add_product(e, &row->asked, off, later->asked.value);
         }
-        row->right = expr_hold(e->arena, row->right);
-        row->asked = expr_hold(e->arena, row->asked);
+        (void)hold_sum(e, &row->right);
+        (void)hold_sum(e, &row->asked);
     }
 }
 
@@ -284,8 +321,8 @@ static void tell(const Elimination *e, const MassEntries *entries, const Constra
     for (int j = 0; j < e->nu; j++) {
         const Row *row = &e->row[e->place_of[j]];
 
-        out->acceleration[j] = row->right;
-        out->step[j] = row->asked;
+        out->acceleration[j] = row->right.value;
+        out->step[j] = row->asked.value;
         out->excess[j] = expr_int(e->arena, 0);
     }
     for (int i = 0; i < entries->count; i++) {
@@ -299,13 +336,13 @@ static void tell(const Elimination *e, const MassEntries *entries, const Constra
     for (int k = 0; k < e->m; k++) {
         const Row *row = &e->row[e->place_of[e->nu + k]];
 
-        out->multiplier[k] = row->right;
-        out->pivot[k] = expr_hold(e->arena, expr_neg(e->arena, row->own));
+        out->multiplier[k] = row->right.value;
+        out->pivot[k] = expr_hold(e->arena, expr_neg(e->arena, row->own.value));
     }
     for (int i = 0; i < out->left_count; i++) {
         const Row *row = &e->row[e->owns + e->m + i];
 
-        out->left[i] = expr_div(e->arena, row->own, row->stiff);
+        out->left[i] = expr_div(e->arena, row->own.value, row->stiff);
     }
 }
 
@@ -339,12 +376,12 @@ static Constrained *solve(Elimination *e, const Expr *force, const Expr *gamma)
 
     place_entries(e);
     for (int j = 0; j < e->nu; j++)
-        e->row[e->place_of[j]].right = force[j];
+        e->row[e->place_of[j]].right.value = force[j];
     for (int k = 0; k < e->m; k++) {
         Row *row = &e->row[e->place_of[e->nu + k]];
 
-        row->right = gamma[e->rows[k]];
-        row->asked = system_multiplier(e->system, e->rows[k]);
+        row->right.value = gamma[e->rows[k]];
+        row->asked.value = system_multiplier(e->system, e->rows[k]);
     }
     if (eliminate(e, out)) {
         substitute_back(e);
@@ -409,6 +446,8 @@ Constrained *constrained_new(System *system, const int *rows, int row_count, con
     for (int i = 0; i < e.size; i++)
         LIST_FREE(e.row[i].beyond);
     LIST_FREE(e.entries);
+    LIST_FREE(e.parts);
+    LIST_FREE(e.terms);
     MEM_FREE(e.class, e.place_of, e.row);
     return out;
 }
