@@ -23,6 +23,8 @@
 #define SUSPECT                                                                                    \
     2e-2 /* least d / p above which none is near: it was at most 1.7 times the other               \
           */
+/* and above which epsilon isn't needed: all that is less than NEAR is told by it then */
+#define FOUND 1e-3
 /* likewise of rows exchanged, least over largest: such a pivot comes out as two of its root */
 #define SPLIT 0.15
 #define ROUNDED                                                                                    \
@@ -356,17 +358,20 @@ static double least_pivot(Kkt *kkt, const double *phi_u)
 }
 
 /* Pivots of rows in groups are at least what is left of them by the groups' own columns, in the
- * order from the last group to the first. */
+ * order from the last group to the first. Where these don't tell, d / p does as long as it isn't
+ * small. */
 static double least_pivot_at_most(Kkt *kkt, const double *phi_u)
 {
-    double rest;
+    if (kkt->groups != NULL) {
+        double rest;
 
-    if (kkt->groups == NULL)
-        return least_pivot(kkt, phi_u);
-    measure(kkt, phi_u);
-    rest = rest_of_groups(kkt, phi_u);
-    kkt->is_told_by_groups = rest > NEAR;
-    return kkt->is_told_by_groups ? rest : least_pivot(kkt, phi_u);
+        measure(kkt, phi_u);
+        rest = rest_of_groups(kkt, phi_u);
+        kkt->is_told_by_groups = rest > NEAR;
+        if (kkt->is_told_by_groups)
+            return rest;
+    }
+    return !kkt->is_exchanging && kkt->angle > FOUND ? kkt->angle : least_pivot(kkt, phi_u);
 }
 
 double kkt_independence(Kkt *kkt, const double *phi_u, const int *rows)
@@ -516,7 +521,7 @@ static void measure_rows(Kkt *kkt)
 
     for (int k = 0; k < kkt->m; k++)
         size[kkt->nu + k] = taken[kkt->place_of[kkt->nu + k]];
-    for (int e = kkt->mass_entries; e < kkt->entries; e++)
+    for (int e = kkt->mass_entries; e < kkt->entries && kkt->border != NO_BORDER; e++)
         if (kkt->class[kkt->row[e]] == CLASS_BORDER)
             size[kkt->column[e]] += entries[kkt->place[e]] * entries[kkt->place[e]] /
                                     entries[kkt->place_of[kkt->row[e]]];
@@ -544,7 +549,7 @@ static double least_angle(const Kkt *kkt)
     const double *pivots = ldl_pivots(kkt->factors), *taken = ldl_taken(kkt->factors);
     double least = 1;
 
-    for (int i = 0; i < kkt->nu; i++)
+    for (int i = 0; i < kkt->nu && kkt->border != NO_BORDER; i++)
         if (kkt->class[i] == CLASS_BORDER) {
             const double pivot = pivots[kkt->place_of[i]];
 
@@ -615,7 +620,7 @@ static bool factor(Kkt *kkt, const double *mass, const double *phi_u)
     if (!ldl_factor(kkt->factors, NULL, kkt->watch))
         return false;
     regular = mass_is_regular(kkt);
-    kkt->is_told_by_groups = false;
+    kkt->is_told_by_groups = kkt->is_exchanging = false;
     kkt->angle = 0;
     if (regular) {
         measure_rows(kkt);
