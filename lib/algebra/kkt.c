@@ -20,11 +20,10 @@
 
 #define NEAR     1e-2      /* pivot ratio of G G^T; below: a singular configuration isn't far */
 #define SINGULAR LDL_SMALL /* and here epsilon is needed */
-#define SUSPECT                                                                                    \
-    2e-2 /* least d / p above which none is near: it was at most 1.7 times the other               \
-          */
-/* and above which epsilon isn't needed: all that is less than NEAR is told by it then */
-#define FOUND 1e-3
+/* Least d / p above which none is near, and above which epsilon isn't needed: d / p was at most 1.7
+ * times the other. */
+#define SUSPECT 2e-2
+#define FOUND   1e-3
 /* likewise of rows exchanged, least over largest: such a pivot comes out as two of its root */
 #define SPLIT 0.15
 #define ROUNDED                                                                                    \

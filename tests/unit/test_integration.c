@@ -118,6 +118,72 @@ static void dop853_tells_what_decays_fast_in_between_as_well_as_at_the_end(void)
     }
 }
 
+/* y'' = -y, but at one instant, where rates are anything and are known to be */
+typedef struct Spoilt {
+    double at, blur;
+    int evaluations;
+} Spoilt;
+
+static bool spoilt_rate(void *context, double t, const double *y, double *rate)
+{
+    Spoilt *s = context;
+    const double off = fabs(t - s->at) < 1e-9 ? 0.5 : 0;
+
+    s->evaluations++;
+    s->blur = fmax(s->blur, off > 0 ? 1e-9 : 0);
+    rate[0] = y[1] + off;
+    rate[1] = -y[0] - off;
+    return true;
+}
+
+static double spoilt_blur(void *context)
+{
+    Spoilt *s = context;
+    const double blur = s->blur;
+
+    s->blur = 0;
+    return blur;
+}
+
+/* the largest error within one step of h, with rates that are anything at `at` of it */
+static double error_within(double h, double at, int *evaluations)
+{
+    Spoilt spoilt = {.at = at * h};
+    const Ode ode = {.n = 2, .context = &spoilt, .rate = spoilt_rate, .blur = spoilt_blur};
+    const Control control = {.rtol = 1e-8, .atol = 1e-8, .step = h};
+    Stepper *s = method_dop853.create(&ode, &control);
+    double y[2] = {1, 0}, largest = 0;
+
+    EXPECT(method_dop853.start(s, 0, y, NULL) == OK);
+    s->next = h;
+    EXPECT(method_dop853.step(s, h, NULL) == OK);
+    EXPECT(s->t == h);
+    for (int k = 1; k < 40; k++) {
+        method_dop853.at(s, k * h / 40, y);
+        largest = fmax(largest, fmax(fabs(y[0] - cos(k * h / 40)), fabs(y[1] + sin(k * h / 40))));
+    }
+    method_dop853.destroy(s);
+    *evaluations = spoilt.evaluations;
+    return largest;
+}
+
+/* one that the step itself doesn't read */
+static void dop853_tells_a_stage_between_by_its_slope_where_rates_are_anything(void)
+{
+    static const double nodes[] = {0.1, 0.2, 7 / 9.0};
+    const double h = 0.25;
+    int plain;
+    const double error = error_within(h, -1, &plain);
+
+    EXPECT(error < 1e-10);
+    for (int i = 0; i < COUNT(nodes); i++) {
+        int evaluations;
+
+        EXPECT(error_within(h, nodes[i], &evaluations) < 1e-8);
+        EXPECT(evaluations > plain && evaluations < plain + 25); /* two parts take 31 more */
+    }
+}
+
 static void rk4_has_order_4(void)
 {
     double coarse, fine, coarse_middle, fine_middle;
@@ -641,6 +707,7 @@ int main(void)
     RUN(few_states_of_a_network_have_an_exact_jacobian_by_one_evaluation);
     RUN(dop853_has_order_8_and_its_interpolant_7);
     RUN(dop853_tells_what_decays_fast_in_between_as_well_as_at_the_end);
+    RUN(dop853_tells_a_stage_between_by_its_slope_where_rates_are_anything);
     RUN(rk4_has_order_4);
     RUN(every_method_meets_its_tolerance_on_a_spring);
     RUN(a_start_forgets_the_steps_before_it);

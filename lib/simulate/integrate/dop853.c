@@ -79,6 +79,7 @@ static double step_error(Dop853 *d, double h)
     third_order =
         h * sqrt(sum3 / d->n * d->base.control.rtol) / (d->base.may_bend ? STEEP_LUCK : LUCK);
     d->blur = fmax(1, d->rounded / d->base.control.rtol);
+    d->rounded = 0;
     return fmax(h * sum5 / sqrt(under * d->n) / d->blur, third_order * third_order);
 }
 
@@ -274,7 +275,9 @@ static Status step(Stepper *stepper, double end, Diag *diag)
             return solver_failure(diag, d->base.before,
                                   "the equations have no solution just behind this instant (ten "
                                   "ever shorter steps failed)");
-        leap = leaps++ < LEAPS ? leap_over(singular_place(d, tried), LEAP * tried) : 0;
+        /* where its parts end elsewhere, stages are those of parts */
+        leap = !isinf(error) && leaps++ < LEAPS ? leap_over(singular_place(d, tried), LEAP * tried)
+                                                : 0;
         if (leap > 0)
             h = leap;
         else

@@ -13,7 +13,8 @@
 /* rows of the tableau: of a stage from those before it, by its number; and of their sums */
 enum {
     ROW_END = 12,
-    STAGES = 16, /* those behind the end serve the dense output alone */
+    ROW_EXTRA, /* stages from here on serve the dense output alone */
+    STAGES = 16,
     ROW_ERROR_FIVE = STAGES,
     ROW_THIRD,
     ROW_DENSE,
@@ -49,8 +50,8 @@ typedef struct Dop853 {
     double parted;                /* errors that it aims at, from its end to that of its parts */
     double step;                  /* of the last step, s; */
     double blur;                  /* and what rounding makes of its tolerance */
-    double rounding[ROW_END];     /* of rates at each stage, not 0 near a singular position; */
-    double rounded;               /* the largest of them */
+    double rounding[STAGES];      /* of rates at each stage, not 0 near a singular position; */
+    double rounded;               /* the largest since an error was measured by it */
     bool was_rejected;
     int stiff, calm; /* steps above and below the boundary */
 } Dop853;
@@ -75,8 +76,10 @@ extern const Terms dop853_rows[ROWS];
 const double *dop853_weigh(const Dop853 *d, int row, double *sums);
 /* out = old + h sum (count each) */
 void dop853_move(const double *old, double h, const double *sum, int count, double *out);
-/* k[stage] from the stages before it, in a step of h from `old` at base.before; `point` (all) is
- * where. False: f is undefined there. */
+/* Rounding of rates so far is none of the next stage's. */
+void dop853_note_rounding(Dop853 *d);
+/* k[stage] and its rounding from the stages before it, in a step of h from `old` at base.before;
+ * `point` (all) is where. False: f is undefined there. */
 bool dop853_take_stage(Dop853 *d, int stage, double h, double *point);
 /* Stages 1 to 11 of such a step; `stage_point` keeps that of stage 11. False: as above. */
 bool dop853_take_stages(Dop853 *d, double h);

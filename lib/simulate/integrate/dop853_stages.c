@@ -53,23 +53,29 @@ AS_WIDE_AS_CAN_BE void dop853_move(const double *old, double h, const double *su
         out[i] = old[i] + h * sum[i];
 }
 
+void dop853_note_rounding(Dop853 *d)
+{
+    d->rounded = fmax(d->rounded, stepper_rounding(&d->base));
+}
+
 bool dop853_take_stage(Dop853 *d, int stage, double h, double *point)
 {
+    bool is_defined;
+
     dop853_move(d->old, h, dop853_weigh(d, stage, d->sums[0]), d->all, point);
-    return stepper_rate(&d->base, d->base.before + dop853_nodes[stage] * h, point, d->k[stage]);
+    is_defined =
+        stepper_rate(&d->base, d->base.before + dop853_nodes[stage] * h, point, d->k[stage]);
+    d->rounding[stage] = stepper_rounding(&d->base);
+    d->rounded = fmax(d->rounded, d->rounding[stage]);
+    return is_defined;
 }
 
 bool dop853_take_stages(Dop853 *d, double h)
 {
-    d->rounded = stepper_rounding(&d->base);
+    dop853_note_rounding(d);
     memset(d->rounding, 0, sizeof d->rounding);
-    for (int stage = 1; stage < ROW_END; stage++) {
-        const bool is_defined = dop853_take_stage(d, stage, h, d->stage_point);
-
-        d->rounding[stage] = stepper_rounding(&d->base);
-        d->rounded = fmax(d->rounded, d->rounding[stage]);
-        if (!is_defined)
+    for (int stage = 1; stage < ROW_END; stage++)
+        if (!dop853_take_stage(d, stage, h, d->stage_point))
             return false;
-    }
     return true;
 }
