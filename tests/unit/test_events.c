@@ -413,6 +413,39 @@ static void an_event_that_leaves_rates_open_is_refused(void)
     }
 }
 
+/* An attitude that is set keeps its angular velocity in its own axes, the joint its angle and rate,
+ * and the body that is named its place. */
+static void a_floating_chain_turns_with_the_body_that_is_named(void)
+{
+    static const char *const trees[] = {"tree joint", "tree absolute",
+                                        "tree rotation b h; tree translation a h"};
+    static const char *const stay[] = {"b.Wx", "b.Wy", "b.Wz", "b.x", "b.z", "b.vx", "h", "h'"};
+
+    for (int i = 0; i < 3; i++) {
+        Kit kit = kit_new();
+        double before[8];
+
+        EXPECT_DONE(&kit, "body a mass=2 inertia=[0.2, 0.3, 0.4]\n"
+                          "body b mass=1 inertia=[0.1, 0.2, 0.15]\narm a2 a [0, -0.5, 0.2]\n"
+                          "arm b1 b [0.1, 0.4, 0]\nrevolute h a2 b1 axis=[0, 1, 1]\n"
+                          "init h = 0.4, h' = 0.5, a.vx = 0.3, a.wz = 0.7");
+        EXPECT_DONE(&kit, trees[i]);
+        EXPECT_DONE(&kit, "simulate 0.2 rtol=1e-11 atol=1e-12");
+        for (int k = 0; k < 8; k++)
+            before[k] = kit_value(&kit, stay[k]);
+        EXPECT_DONE(&kit, "event turn when=t > 0.2 b.q0=cos(0.6) b.q1=sin(0.6) b.q2=0 b.q3=0\n"
+                          "simulate 0.3 every=0.1 rtol=1e-11 atol=1e-12");
+        for (int k = 0; k < 8; k++) {
+            char at[40];
+
+            (void)snprintf(at, sizeof at, "%s at 0.2", stay[k]);
+            EXPECT_NEAR(kit_value(&kit, at), before[k], 1e-8);
+        }
+        EXPECT_NEAR(fabs(kit_value(&kit, "b.q1 at 0.2")), sin(0.6), 1e-8);
+        kit_free(&kit);
+    }
+}
+
 /* in Euler parameters the rates of coordinates are no speeds */
 static void a_spinning_body_is_stopped(void)
 {
@@ -695,6 +728,7 @@ int main(void)
     RUN(joints_stay_when_another_is_set_in_whatever_tree);
     RUN(an_event_that_leaves_joints_open_is_refused);
     RUN(an_event_that_leaves_rates_open_is_refused);
+    RUN(a_floating_chain_turns_with_the_body_that_is_named);
     RUN(a_spinning_body_is_stopped);
     RUN(energy_that_events_take_is_no_drift);
     RUN(bounces_that_pile_up_end_with_a_message);
