@@ -225,28 +225,6 @@ static void a_wall_is_entered_as_exactly_as_it_is_left(void)
     kit_free(&kit);
 }
 
-/* The last steps in a wall become shorter one after another, until one leads out of it whose
- * history is all of the wall; the speed behind is that before. Where steps meet the wall's end
- * hangs on the tolerance: five of them. */
-static void a_wall_is_left_by_a_step_that_knows_its_error(void)
-{
-    static const double tolerances[] = {5e-9, 6e-9, 6.48e-9, 7e-9, 8e-9};
-
-    for (int i = 0; i < (int)(sizeof tolerances / sizeof tolerances[0]); i++) {
-        Kit kit = kit_new();
-        char run[100];
-
-        EXPECT_DONE(&kit, "scene planar\ngravity [0, 0]\n"
-                          "body b mass=0.14905156216131191 inertia=1\nprismatic s ground b axis=x\n"
-                          "actuator w s force=293484241207*(ramp(-s) - ramp(s - 2.4954791315))\n"
-                          "init s = 1.5119944816542126, s' = -1.6859097910329306\n");
-        (void)snprintf(run, sizeof run, "simulate 7.9 rtol=%g method=adams", tolerances[i]);
-        EXPECT_DONE(&kit, run);
-        EXPECT_NEAR(kit_value(&kit, "s'"), 1.6859097910329306, 5e-7);
-        kit_free(&kit);
-    }
-}
-
 /* A mass swings on a spring, another hangs from one, and charge goes to and fro through a coil:
  * nothing gives or takes energy. */
 static void energy_that_comes_or_goes_by_itself_is_told(void)
@@ -558,7 +536,6 @@ int main(void)
     RUN(the_end_of_a_run_by_sundials_is_told_in_our_words);
     RUN(a_wall_ahead_is_not_felt);
     RUN(a_wall_is_entered_as_exactly_as_it_is_left);
-    RUN(a_wall_is_left_by_a_step_that_knows_its_error);
     RUN(energy_that_comes_or_goes_by_itself_is_told);
     RUN(work_does_not_hide_energy_that_comes_by_itself);
     RUN(the_way_out_leads_out);

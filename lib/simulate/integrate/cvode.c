@@ -8,8 +8,7 @@
 
 #define AT_ONCE 1e-2 /* of what Newton's method may leave: a first correction that is the last */
 #define SLOWEST 0.9  /* from correction to correction: else it doesn't converge */
-#define CUT     0.9  /* of what it was to be: a shorter step is what tries that failed left */
-#define FAILED  0.1  /* of the history's: such a one that is shorter doesn't know its error */
+#define FAILED  0.1  /* of what it was to be: a shorter step doesn't know its error */
 #define BEGIN   0.01 /* with so much of one it begins anew */
 
 static const SundialsCalls calls = {
@@ -272,7 +271,6 @@ static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
     int code;
 
     sundials_place(c, t, y);
-    c->taken = 0;
     code = c->linear == NULL && c->nonlinear == NULL ? first_start(c, t)
                                                      : CVodeReInit(c->memory, t, c->w);
     if (code == CV_MEM_FAIL)
@@ -292,39 +290,26 @@ static int advance(Sundials *c, double end, double *reached)
     return code;
 }
 
-/* the longest of the steps that the history is of */
-static double longest_known(const Sundials *c)
+/* Whether the step to `reached`, taken after one of length `last`, knows its error. CVODE tells
+ * that by how far the step ends from where the history leads, and takes it for the less, the
+ * further that reaches back. Where tries that failed have left a step far shorter than those
+ * before, a slope that bends in this one alone, as in a wall, seems to do so slowly. */
+static bool knows_its_error(const Sundials *c, double end, double reached, double last)
 {
-    int order = 0;
-    double longest = 0;
+    const double meant = fmin(fmin(last, c->base.next), stepper_stop(&c->base, end) - c->base.t);
 
-    (void)CVodeGetLastOrder(c->memory, &order);
-    for (int k = 1; k <= order + 1 && k <= c->taken && k <= SUNDIALS_HISTORY; k++)
-        longest = fmax(longest, c->lengths[(c->taken - k) % SUNDIALS_HISTORY]);
-    return longest;
-}
-
-/* Whether the step to `reached` knows its error, taken where the longest of those before was
- * `longest`. CVODE tells that by how far the step ends from where the history leads, and takes it
- * for the less, the further that reaches back. Where tries that failed, in this step and in those
- * just before, have left it far shorter than the history is, a slope that bends in this one alone,
- * as in a wall, seems to do so slowly. */
-static bool knows_its_error(const Sundials *c, double end, double reached, double longest)
-{
-    const double way = stepper_stop(&c->base, end) - c->base.t, h = reached - c->base.t;
-
-    return !(h < CUT * fmin(c->base.next, way) && h < FAILED * fmin(longest, way));
+    return !(reached - c->base.t < FAILED * meant);
 }
 
 static Status step(Stepper *stepper, double end, Diag *diag)
 {
     Sundials *c = (Sundials *)stepper;
-    const double longest = longest_known(c);
+    const double last = c->base.t - c->base.before;
     const int stuck = stepper->stuck;
     double reached = c->base.t;
     int code = advance(c, end, &reached);
 
-    if (code >= 0 && !knows_its_error(c, end, reached, longest)) {
+    if (code >= 0 && !knows_its_error(c, end, reached, last)) {
         const double h = reached - c->base.t;
 
         TRY(start(stepper, c->base.t, c->base.y, diag));
@@ -332,12 +317,11 @@ static Status step(Stepper *stepper, double end, Diag *diag)
         stepper->next = BEGIN * h;
         code = advance(c, end, &reached);
     }
+    c->base.before = c->base.t;
     if (code == CV_MEM_FAIL)
         transaction_fail();
-    c->base.before = c->base.t;
     if (code < 0)
         return sundials_failure(c, code, diag);
-    c->lengths[c->taken++ % SUNDIALS_HISTORY] = reached - c->base.before;
     return sundials_arrive(c, reached, diag);
 }
 

@@ -15,9 +15,8 @@
 #include <sundials/sundials_nonlinearsolver.h>
 #include <sundials/sundials_types.h>
 
-#define SUNDIALS_ANY     1e20   /* a tolerance that nothing comes near */
-#define SUNDIALS_HISTORY 16     /* steps: more than a method of 12th order looks back */
-#define SUNDIALS_TRIES   100000 /* inner steps it may take for one of ours: one mode makes one */
+#define SUNDIALS_ANY   1e20   /* a tolerance that nothing comes near */
+#define SUNDIALS_TRIES 100000 /* inner steps it may take for one of ours: one mode makes one */
 
 /* the functions of one of its solvers that are alike in all; they return 0 where all went well */
 typedef struct SundialsCalls {
@@ -56,9 +55,6 @@ typedef struct Sundials {
     /* by Newton's method: the last correction, in tolerances, and how fast they become less */
     double corrected, becoming;
     double power; /* largest rate of a quadrature so far: what its errors count beside */
-    double
-        lengths[SUNDIALS_HISTORY]; /* of explicit ones: the last steps since a start, s, in turn */
-    int taken;                     /* and how many there were */
     char reason[200];
 } Sundials;
 
