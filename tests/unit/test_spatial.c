@@ -4,7 +4,13 @@
  * Every choice of trees starts from the position and the velocities of the first one. */
 #include "spatial.h"
 
-enum { MODELS = 20, MOST_BODIES = 12, CHOICES = 5 };
+/* under the sanitizers fewer, which show how memory is used as well */
+#ifdef __SANITIZE_ADDRESS__
+enum { MODELS = 5 };
+#else
+enum { MODELS = 20 };
+#endif
+enum { MOST_BODIES = 12, CHOICES = 5 };
 
 typedef struct Compared {
     int systems;
