@@ -164,7 +164,7 @@ static Verdict unit_runs(Member *member)
 }
 
 static const Family families[] = {
-    {"units of machines jump where and as their parts do", 3, 0.5, 0, unit_runs},
+    {"units of machines jump where and as their parts do", 2, 0.5, 0, unit_runs},
 };
 
 int main(int argc, char **argv)
