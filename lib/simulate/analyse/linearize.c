@@ -241,7 +241,7 @@ Status linearize(const LinearOrder *order, Linear **out, Diag *diag)
     report(order->watch, "linearizing", -1);
     CHECK(compile(&w, diag));
     CHECK(linear_point(&w, diag));
-    CHECK(linear_columns(&w, out, diag));
+    CHECK(linear_settled(&w, out, diag));
     (*out)->is_passing = linear_is_passing(&w, *out);
 done:
     work_free(&w);

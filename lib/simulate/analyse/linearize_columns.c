@@ -1,13 +1,9 @@
 /* linearize_columns.c: what a deviation of a state or an input brings with it, column by column */
 #include "simulate/analyse/linearize_impl.h"
 
-#include "algebra/linear.h"
 #include "base/memory.h"
 
 #include <string.h>
-
-#define ROUNDED 1e-12 /* of the largest entry of a row: what rounding may leave */
-#define ALIKE   1e-3  /* of an entry, by which others beside the point differ at most */
 
 /* --- deviations --- */
 
@@ -195,18 +191,12 @@ static void put(const LinearColumn *column, int row, LinearNumber number)
     column->error[(ptrdiff_t)row * column->stride] = number.error;
 }
 
-/* of 0, by what it may be off: whether that is all it is */
-static bool is_untold(double value, double error)
-{
-    return value != 0 && fabs(value) <= error;
-}
-
 /* what can't be told from 0 is 0 */
 static void drop(const LinearColumn *column, int count)
 {
     for (int i = 0; i < count; i++)
-        if (is_untold(column->at[(ptrdiff_t)i * column->stride],
-                      column->error[(ptrdiff_t)i * column->stride]))
+        if (linear_is_untold(column->at[(ptrdiff_t)i * column->stride],
+                             column->error[(ptrdiff_t)i * column->stride]))
             column->at[(ptrdiff_t)i * column->stride] = 0;
 }
 
@@ -438,7 +428,7 @@ static void write_deviation(const Work *w, const Deviation *d, int c, Linear *ou
         out->motion[(w->l->nu + i) * out->states + c] = d->state == i;
 }
 
-static Status write_columns(const Work *w, Linear *out, Diag *diag)
+Status linear_columns(const Work *w, Linear *out, Diag *diag)
 {
     const int columns = out->states + out->inputs;
     const bool is_whole = w->beside == 0 && is_mechanical(w);
@@ -472,226 +462,5 @@ done:
     for (int lane = 0; lane < TANGENT_LANES; lane++)
         deviation_close(&d[lane]);
     close_balance(&balance);
-    return status;
-}
-
-/* --- the result --- */
-
-/* "h8"; for an angular velocity m1.Wx "m1.turnX", a small turn about that axis */
-static char *part_name(const Work *w, int speed)
-{
-    int i = speed_coordinate(w->system, speed);
-    const char *name = system_u(w->system, speed)->name;
-    const char *axis = strrchr(name, '.');
-    Text text = {0};
-
-    if (i >= 0)
-        text_add(&text, system_q(w->system, i)->name);
-    else if (axis != NULL)
-        text_addf(&text, "%.*s.turn%c", (int)(axis - name), name,
-                  axis[1] != '\0' ? axis[strlen(axis) - 1] - 'a' + 'A' : ' ');
-    else
-        text_addf(&text, "turn %s", name);
-    return text_done(&text);
-}
-
-static char *copy(const char *text)
-{
-    return mem_text(text, strlen(text));
-}
-
-static Linear *linear_new(const Work *w)
-{
-    const LinearOrder *order = w->order;
-    const Layout *l = w->l;
-    Linear *out = NEW(Linear);
-    int f = w->freedoms;
-
-    out->at = order->at;
-    out->freedoms = f;
-    out->states = 2 * f + l->nx;
-    out->inputs = order->input_count;
-    out->outputs = order->output_count;
-    out->parts = l->nu + l->nx;
-    out->a = NEW_ARRAY(double, out->states * out->states);
-    out->b = NEW_ARRAY(double, out->states * out->inputs);
-    out->c = NEW_ARRAY(double, out->outputs * out->states);
-    out->d = NEW_ARRAY(double, out->outputs * out->inputs);
-    out->a_error = NEW_ARRAY(double, out->states * out->states);
-    out->b_error = NEW_ARRAY(double, out->states * out->inputs);
-    out->c_error = NEW_ARRAY(double, out->outputs * out->states);
-    out->d_error = NEW_ARRAY(double, out->outputs * out->inputs);
-    out->motion = NEW_ARRAY(double, out->parts * out->states);
-    out->state_names = NEW_ARRAY(char *, out->states);
-    out->input_names = NEW_ARRAY(char *, out->inputs);
-    out->output_names = NEW_ARRAY(char *, out->outputs);
-    out->part_names = NEW_ARRAY(char *, out->parts);
-    for (int j = 0; j < l->nu; j++)
-        out->part_names[j] = part_name(w, j);
-    for (int i = 0; i < f; i++) {
-        int j = partitioning_independent(w->partitioning)[i];
-
-        out->state_names[i] = copy(out->part_names[j]);
-        out->state_names[f + i] = copy(system_u(w->system, j)->name);
-    }
-    for (int i = 0; i < l->nx; i++) {
-        out->state_names[2 * f + i] = copy(system_x(w->system, i)->name);
-        out->part_names[l->nu + i] = copy(system_x(w->system, i)->name);
-    }
-    for (int i = 0; i < out->inputs; i++)
-        out->input_names[i] = copy(order->inputs[i].name);
-    for (int i = 0; i < out->outputs; i++)
-        out->output_names[i] = copy(order->output_names[i]);
-    return out;
-}
-
-static void free_names(char **names, int count)
-{
-    for (int i = 0; i < count; i++)
-        mem_free(names[i]);
-    mem_free(names);
-}
-
-void linear_free(Linear *linear)
-{
-    if (linear == NULL)
-        return;
-    MEM_FREE(linear->a, linear->b, linear->c, linear->d, linear->a_error, linear->b_error,
-             linear->c_error, linear->d_error, linear->motion, linear->mass, linear->mass_error,
-             linear->force, linear->force_error);
-    free_names(linear->state_names, linear->states);
-    free_names(linear->input_names, linear->inputs);
-    free_names(linear->output_names, linear->outputs);
-    free_names(linear->part_names, linear->parts);
-    mem_free(linear);
-}
-
-/* --- what is 0 --- */
-
-/* a matrix of a Linear, row by row, with its bounds */
-typedef struct Entries {
-    double *at, *error;
-    int rows, columns;
-} Entries;
-
-enum { MATRICES = 4, SAMPLES = 2 };
-
-static void list_entries(const Linear *linear, Entries out[MATRICES])
-{
-    const int n = linear->states, p = linear->inputs, q = linear->outputs;
-
-    out[0] = (Entries){linear->a, linear->a_error, n, n};
-    out[1] = (Entries){linear->b, linear->b_error, n, p};
-    out[2] = (Entries){linear->c, linear->c_error, q, n};
-    out[3] = (Entries){linear->d, linear->d_error, q, p};
-}
-
-/* Bounds take every error at its worst, and each by itself: far from rest those of a long chain are
- * beyond all measure, and what they can't tell from 0 is most of what there is. An entry that they
- * don't tell, and that is more than rounding would leave of its row, is asked for again. */
-static bool is_doubtful(const Entries *m, int row, int k)
-{
-    const double *at = m->at + (ptrdiff_t)row * m->columns;
-    double largest = 0;
-
-    if (!is_untold(at[k], m->error[(ptrdiff_t)row * m->columns + k]))
-        return false;
-    for (int i = 0; i < m->columns; i++)
-        largest = fmax(largest, fabs(at[i]));
-    return fabs(at[k]) > ROUNDED * largest;
-}
-
-static bool has_doubtful(const Linear *linear)
-{
-    Entries m[MATRICES];
-
-    list_entries(linear, m);
-    for (int i = 0; i < MATRICES; i++)
-        for (int row = 0; row < m[i].rows; row++)
-            for (int k = 0; k < m[i].columns; k++)
-                if (is_doubtful(&m[i], row, k))
-                    return true;
-    return false;
-}
-
-/* What is true is nearly the same where all numbers and all coefficients are moved in their last
- * places; what rounding left is not. What isn't told from 0 so either is 0. */
-static void settle(Linear *linear, Linear *const *samples, int count)
-{
-    Entries m[MATRICES], sampled[SAMPLES][MATRICES];
-
-    list_entries(linear, m);
-    for (int s = 0; s < count; s++)
-        list_entries(samples[s], sampled[s]);
-    for (int i = 0; i < MATRICES; i++)
-        for (ptrdiff_t at = 0; at < (ptrdiff_t)m[i].rows * m[i].columns; at++) {
-            const double value = m[i].at[at];
-            bool stays = count == SAMPLES &&
-                         is_doubtful(&m[i], (int)(at / m[i].columns), (int)(at % m[i].columns));
-
-            for (int s = 0; s < count && stays; s++)
-                stays = fabs(sampled[s][i].at[at] - value) <= ALIKE * fabs(value);
-            if (is_untold(value, m[i].error[at]) && !stays) {
-                m[i].error[at] += fabs(value);
-                m[i].at[at] = 0;
-            }
-        }
-}
-
-/* the same once more, beside the point: *out is new, NULL where it can't be told there */
-static Status sample(Work *w, uint64_t seed, Linear **out, Diag *diag)
-{
-    Linear *linear;
-    Status status = OK;
-
-    *out = NULL;
-    w->beside = seed;
-    if (linear_beside(w)) {
-        linear = linear_new(w);
-        status = write_columns(w, linear, diag);
-        if (status == OK)
-            *out = linear;
-        else
-            linear_free(linear);
-    }
-    w->beside = 0;
-    return status;
-}
-
-static Status settle_all(Work *w, Linear *linear, Diag *diag)
-{
-    Linear *samples[SAMPLES] = {NULL};
-    int count = 0;
-    Status status = OK;
-
-    if (has_doubtful(linear))
-        for (; count < SAMPLES; count++) {
-            CHECK(sample(w, 1 + (uint64_t)count, &samples[count], diag));
-            if (samples[count] == NULL)
-                break;
-        }
-    settle(linear, samples, count);
-done:
-    for (int s = 0; s < SAMPLES; s++)
-        linear_free(samples[s]);
-    return status;
-}
-
-Status linear_columns(Work *w, Linear **out, Diag *diag)
-{
-    Linear *linear = linear_new(w);
-    Status status;
-
-    CHECK(write_columns(w, linear, diag));
-    if (!vector_is_finite(linear->a, linear->states * linear->states)) {
-        (void)diag_set(diag, E_SINGULAR, "the equations have no derivatives there");
-        diag_hint(diag, "a distance of 0 or an angle at its limit has none: take another point");
-        CHECK(E_SINGULAR);
-    }
-    CHECK(settle_all(w, linear, diag));
-    *out = linear;
-    linear = NULL;
-done:
-    linear_free(linear);
     return status;
 }

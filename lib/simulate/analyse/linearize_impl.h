@@ -1,7 +1,8 @@
 /* linearize_impl.h: what the files of linearize() share
  *
  * linearize.c puts the equations together, linearize_point.c evaluates them where they are wanted,
- * with what every number may be off by, linearize_columns.c goes through the deviations. */
+ * with what every number may be off by, linearize_columns.c goes through the deviations,
+ * linearize_settle.c tells what is 0. */
 #ifndef COTREE_SIMULATE_ANALYSE_LINEARIZE_IMPL_H
 #define COTREE_SIMULATE_ANALYSE_LINEARIZE_IMPL_H
 
@@ -37,6 +38,12 @@ static inline void number_add(LinearNumber *sum, LinearNumber a, LinearNumber b)
     sum->value = total.high;
     sum->error += fabs(product.low) + fabs(total.low) + fabs(a.value) * b.error +
                   a.error * (fabs(b.value) + b.error);
+}
+
+/* of 0, by what it may be off: whether that is all it is */
+static inline bool linear_is_untold(double value, double error)
+{
+    return value != 0 && fabs(value) <= error;
 }
 
 typedef struct Work {
@@ -108,8 +115,20 @@ bool linear_beside(Work *w);
  * coordinates. */
 bool linear_is_passing(Work *w, const Linear *linear);
 
+/* --- linearize_result.c --- */
+
+/* New, all entries 0, names from the order and the system; linear_free(). */
+Linear *linear_new(const Work *w);
+
 /* --- linearize_columns.c --- */
 
-MUST_USE Status linear_columns(Work *w, Linear **out, Diag *diag);
+/* All entries, with what each may be off by; at the point, or beside it. */
+MUST_USE Status linear_columns(const Work *w, Linear *out, Diag *diag);
+
+/* --- linearize_settle.c --- */
+
+/* New: the equations at the point, what can't be told from 0 there as 0; linear_free(). E_SINGULAR
+ * where they have no derivatives. */
+MUST_USE Status linear_settled(Work *w, Linear **out, Diag *diag);
 
 #endif

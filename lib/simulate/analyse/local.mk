@@ -8,6 +8,8 @@ libcore_la_SOURCES += \
   lib/simulate/analyse/linearize.c \
   lib/simulate/analyse/linearize.h \
   lib/simulate/analyse/linearize_columns.c \
+  lib/simulate/analyse/linearize_result.c \
+  lib/simulate/analyse/linearize_settle.c \
   lib/simulate/analyse/linearize_impl.h \
   lib/simulate/analyse/linearize_point.c \
   lib/simulate/analyse/modes.c \

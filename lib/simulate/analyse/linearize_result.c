@@ -1,0 +1,95 @@
+/* linearize_result.c: linear equations as they are handed out, with their names */
+#include "simulate/analyse/linearize_impl.h"
+
+#include "base/memory.h"
+
+#include <string.h>
+
+/* "h8"; for an angular velocity m1.Wx "m1.turnX", a small turn about that axis */
+static char *part_name(const Work *w, int speed)
+{
+    int i = speed_coordinate(w->system, speed);
+    const char *name = system_u(w->system, speed)->name;
+    const char *axis = strrchr(name, '.');
+    Text text = {0};
+
+    if (i >= 0)
+        text_add(&text, system_q(w->system, i)->name);
+    else if (axis != NULL)
+        text_addf(&text, "%.*s.turn%c", (int)(axis - name), name,
+                  axis[1] != '\0' ? axis[strlen(axis) - 1] - 'a' + 'A' : ' ');
+    else
+        text_addf(&text, "turn %s", name);
+    return text_done(&text);
+}
+
+static char *copy(const char *text)
+{
+    return mem_text(text, strlen(text));
+}
+
+Linear *linear_new(const Work *w)
+{
+    const LinearOrder *order = w->order;
+    const Layout *l = w->l;
+    Linear *out = NEW(Linear);
+    int f = w->freedoms;
+
+    out->at = order->at;
+    out->freedoms = f;
+    out->states = 2 * f + l->nx;
+    out->inputs = order->input_count;
+    out->outputs = order->output_count;
+    out->parts = l->nu + l->nx;
+    out->a = NEW_ARRAY(double, out->states * out->states);
+    out->b = NEW_ARRAY(double, out->states * out->inputs);
+    out->c = NEW_ARRAY(double, out->outputs * out->states);
+    out->d = NEW_ARRAY(double, out->outputs * out->inputs);
+    out->a_error = NEW_ARRAY(double, out->states * out->states);
+    out->b_error = NEW_ARRAY(double, out->states * out->inputs);
+    out->c_error = NEW_ARRAY(double, out->outputs * out->states);
+    out->d_error = NEW_ARRAY(double, out->outputs * out->inputs);
+    out->motion = NEW_ARRAY(double, out->parts * out->states);
+    out->state_names = NEW_ARRAY(char *, out->states);
+    out->input_names = NEW_ARRAY(char *, out->inputs);
+    out->output_names = NEW_ARRAY(char *, out->outputs);
+    out->part_names = NEW_ARRAY(char *, out->parts);
+    for (int j = 0; j < l->nu; j++)
+        out->part_names[j] = part_name(w, j);
+    for (int i = 0; i < f; i++) {
+        int j = partitioning_independent(w->partitioning)[i];
+
+        out->state_names[i] = copy(out->part_names[j]);
+        out->state_names[f + i] = copy(system_u(w->system, j)->name);
+    }
+    for (int i = 0; i < l->nx; i++) {
+        out->state_names[2 * f + i] = copy(system_x(w->system, i)->name);
+        out->part_names[l->nu + i] = copy(system_x(w->system, i)->name);
+    }
+    for (int i = 0; i < out->inputs; i++)
+        out->input_names[i] = copy(order->inputs[i].name);
+    for (int i = 0; i < out->outputs; i++)
+        out->output_names[i] = copy(order->output_names[i]);
+    return out;
+}
+
+static void free_names(char **names, int count)
+{
+    for (int i = 0; i < count; i++)
+        mem_free(names[i]);
+    mem_free(names);
+}
+
+void linear_free(Linear *linear)
+{
+    if (linear == NULL)
+        return;
+    MEM_FREE(linear->a, linear->b, linear->c, linear->d, linear->a_error, linear->b_error,
+             linear->c_error, linear->d_error, linear->motion, linear->mass, linear->mass_error,
+             linear->force, linear->force_error);
+    free_names(linear->state_names, linear->states);
+    free_names(linear->input_names, linear->inputs);
+    free_names(linear->output_names, linear->outputs);
+    free_names(linear->part_names, linear->parts);
+    mem_free(linear);
+}

@@ -1,0 +1,138 @@
+/* linearize_settle.c: which entries of the linear equations are 0
+ *
+ * Bounds take every error at its worst, and each by itself: far from rest those of a long chain are
+ * beyond all measure, and what they can't tell from 0 is most of what there is. What they leave
+ * open is asked for again beside the point. */
+#include "simulate/analyse/linearize_impl.h"
+
+#include "algebra/linear.h"
+#include "base/memory.h"
+
+#define ROUNDED 1e-12 /* of the largest entry of a row: what rounding may leave */
+#define ALIKE   1e-3  /* of an entry, by which others beside the point differ at most */
+
+/* a matrix of a Linear, row by row, with its bounds */
+typedef struct Entries {
+    double *at, *error;
+    int rows, columns;
+} Entries;
+
+enum { MATRICES = 4, SAMPLES = 2 };
+
+static void list_entries(const Linear *linear, Entries out[MATRICES])
+{
+    const int n = linear->states, p = linear->inputs, q = linear->outputs;
+
+    out[0] = (Entries){linear->a, linear->a_error, n, n};
+    out[1] = (Entries){linear->b, linear->b_error, n, p};
+    out[2] = (Entries){linear->c, linear->c_error, q, n};
+    out[3] = (Entries){linear->d, linear->d_error, q, p};
+}
+
+/* whether bounds don't tell an entry from 0 that is more than rounding would leave of its row */
+static bool is_doubtful(const Entries *m, int row, int k)
+{
+    const double *at = m->at + (ptrdiff_t)row * m->columns;
+    double largest = 0;
+
+    if (!linear_is_untold(at[k], m->error[(ptrdiff_t)row * m->columns + k]))
+        return false;
+    for (int i = 0; i < m->columns; i++)
+        largest = fmax(largest, fabs(at[i]));
+    return fabs(at[k]) > ROUNDED * largest;
+}
+
+static bool has_doubtful(const Linear *linear)
+{
+    Entries m[MATRICES];
+
+    list_entries(linear, m);
+    for (int i = 0; i < MATRICES; i++)
+        for (int row = 0; row < m[i].rows; row++)
+            for (int k = 0; k < m[i].columns; k++)
+                if (is_doubtful(&m[i], row, k))
+                    return true;
+    return false;
+}
+
+/* What is true is nearly the same where all numbers and all coefficients are moved in their last
+ * places; what rounding left is not. What isn't told from 0 so either is 0. */
+static void settle(Linear *linear, Linear *const *samples, int count)
+{
+    Entries m[MATRICES], sampled[SAMPLES][MATRICES];
+
+    list_entries(linear, m);
+    for (int s = 0; s < count; s++)
+        list_entries(samples[s], sampled[s]);
+    for (int i = 0; i < MATRICES; i++)
+        for (ptrdiff_t at = 0; at < (ptrdiff_t)m[i].rows * m[i].columns; at++) {
+            const double value = m[i].at[at];
+            bool stays = count == SAMPLES &&
+                         is_doubtful(&m[i], (int)(at / m[i].columns), (int)(at % m[i].columns));
+
+            for (int s = 0; s < count && stays; s++)
+                stays = fabs(sampled[s][i].at[at] - value) <= ALIKE * fabs(value);
+            if (linear_is_untold(value, m[i].error[at]) && !stays) {
+                m[i].error[at] += fabs(value);
+                m[i].at[at] = 0;
+            }
+        }
+}
+
+/* the same once more, beside the point: *out is new, NULL where it can't be told there */
+static Status sample(Work *w, uint64_t seed, Linear **out, Diag *diag)
+{
+    Linear *linear;
+    Status status = OK;
+
+    *out = NULL;
+    w->beside = seed;
+    if (linear_beside(w)) {
+        linear = linear_new(w);
+        status = linear_columns(w, linear, diag);
+        if (status == OK)
+            *out = linear;
+        else
+            linear_free(linear);
+    }
+    w->beside = 0;
+    return status;
+}
+
+static Status settle_all(Work *w, Linear *linear, Diag *diag)
+{
+    Linear *samples[SAMPLES] = {NULL};
+    int count = 0;
+    Status status = OK;
+
+    if (has_doubtful(linear))
+        for (; count < SAMPLES; count++) {
+            CHECK(sample(w, 1 + (uint64_t)count, &samples[count], diag));
+            if (samples[count] == NULL)
+                break;
+        }
+    settle(linear, samples, count);
+done:
+    for (int s = 0; s < SAMPLES; s++)
+        linear_free(samples[s]);
+    return status;
+}
+
+Status linear_settled(Work *w, Linear **out, Diag *diag)
+{
+    Linear *linear = linear_new(w);
+    Status status;
+
+    CHECK(linear_columns(w, linear, diag));
+    if (!vector_is_finite(linear->a, linear->states * linear->states)) {
+        (void)diag_set(diag, E_SINGULAR, "the equations have no derivatives there");
+        diag_hint(diag, "a distance of 0 or an angle at its limit has none: take another point");
+        CHECK(E_SINGULAR);
+    }
+    CHECK(settle_all(w, linear, diag));
+    *out = linear;
+    linear = NULL;
+done:
+    linear_free(linear);
+    return status;
+}
