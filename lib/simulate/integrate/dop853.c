@@ -196,10 +196,20 @@ static double singular_place(const Dop853 *d, double h)
     return sum > 0 ? h * moment / sum : 0;
 }
 
-/* The step that passes a singular position `place` behind its beginning with its stages, those of
- * the dense output too, furthest from it, up to `most` long; 0: none does. There y' off the
- * constraints says little, so that errors grow the nearer a stage comes; shorter steps would end
- * before it, each nearer than the one before. */
+/* how far from there, s, the nearest stage of a step of h is, of those of its dense output too */
+static double nearest_stage(double place, double h)
+{
+    double nearest = HUGE_VAL;
+
+    for (int stage = 0; stage < STAGES; stage++)
+        nearest = fmin(nearest, fabs(dop853_nodes[stage] * h - place));
+    return nearest;
+}
+
+/* The step that passes a singular position `place` behind its beginning with its stages furthest
+ * from it, up to `most` long; 0: none does. There y' off the constraints says little, so that
+ * errors grow the nearer a stage comes; shorter steps would end before it, each nearer than the one
+ * before. */
 static double leap_over(double place, double most)
 {
     const double least = place / LEAP_PAST;
@@ -207,10 +217,8 @@ static double leap_over(double place, double most)
 
     for (int i = 0; i <= LEAP_CHOICES && least < most; i++) {
         const double h = most + (least - most) * i / LEAP_CHOICES;
-        double nearest = HUGE_VAL;
+        const double nearest = nearest_stage(place, h);
 
-        for (int stage = 0; stage < STAGES; stage++)
-            nearest = fmin(nearest, fabs(dop853_nodes[stage] * h - place));
         if (nearest > furthest) {
             furthest = nearest;
             best = h;
@@ -219,9 +227,19 @@ static double leap_over(double place, double most)
     return best;
 }
 
+/* Whether another step's stages would be at least twice as far from what this one's rounding tells
+ * of. */
+static bool can_see_better(const Dop853 *d, double h)
+{
+    const double place = singular_place(d, h), leap = leap_over(place, LEAP * h);
+
+    return leap > 0 && nearest_stage(place, leap) > 2 * nearest_stage(place, h);
+}
+
 /* Whether a step of h, to t, is taken. `error`: in units of the tolerance; HUGE_VAL where its parts
- * end elsewhere, NAN where it has no value. */
-static bool take_step(Dop853 *d, double h, double t, double *error)
+ * end elsewhere, NAN where it has no value. Where it is at most 1 and `is_choosy`, and rounding is
+ * all that another step would have less of, it isn't. */
+static bool take_step(Dop853 *d, double h, double t, bool is_choosy, double *error)
 {
     double estimate;
 
@@ -229,7 +247,13 @@ static bool take_step(Dop853 *d, double h, double t, double *error)
     if (!try_step(d, h))
         return false;
     estimate = step_error(d, h);
-    if (!isfinite(estimate) || (estimate <= 1 && !settle(d, t, h)))
+    if (!isfinite(estimate))
+        return false;
+    if (estimate <= 1 && is_choosy && d->blur > 1 && can_see_better(d, h)) {
+        *error = estimate;
+        return false;
+    }
+    if (estimate <= 1 && !settle(d, t, h))
         return false;
     *error = estimate <= 1 && !parts_agree(d) ? HUGE_VAL : estimate;
     return *error <= 1;
@@ -246,10 +270,31 @@ static double next_step(const Dop853 *d, double taken, double h, double error)
     return fmax(taken * fmin(most, fmax(SHRINK, factor)), longer);
 }
 
+/* what was tried for one step */
+typedef struct Tries {
+    int failures, leaps;
+    double sure; /* s: a step that would do, but for its rounding; 0: none was tried */
+} Tries;
+
+/* the length to try behind one of h that wasn't taken */
+static double try_next(const Dop853 *d, double h, double error, Tries *tries)
+{
+    /* where its parts end elsewhere, the stages are those of parts */
+    const double leap = isinf(error) ? 0 : leap_over(singular_place(d, h), LEAP * h);
+
+    if (tries->sure > 0)
+        return tries->sure;
+    if (error <= 1)
+        tries->sure = h;
+    if (error <= 1 || (leap > 0 && tries->leaps++ < LEAPS))
+        return leap;
+    return h * (isnan(error) ? RETREAT : fmax(SHRINK, SAFETY / eighth_root(error)));
+}
+
 static Status step(Stepper *stepper, double end, Diag *diag)
 {
     Dop853 *d = (Dop853 *)stepper;
-    int failures = 0, leaps = 0;
+    Tries tries = {0};
     double h;
 
     memcpy(d->old, d->base.y, (size_t)d->all * sizeof(double));
@@ -259,11 +304,11 @@ static Status step(Stepper *stepper, double end, Diag *diag)
     for (;;) {
         const double tried = trim(d, h, end);
         const double t = tried == end - d->base.before ? end : d->base.before + tried;
-        double error, leap;
+        double error;
 
         if (!(tried > 4e-16 * fabs(t)))
             return solver_failure(diag, d->base.before, "the step became too small");
-        if (take_step(d, tried, t, &error)) {
+        if (take_step(d, tried, t, tries.sure == 0, &error)) {
             d->base.next = next_step(d, tried, h, error);
             d->was_rejected = false;
             d->base.counts.steps++;
@@ -271,17 +316,11 @@ static Status step(Stepper *stepper, double end, Diag *diag)
         }
         d->base.counts.rejected++;
         d->was_rejected = true;
-        if (isnan(error) && ++failures >= MAX_REJECTIONS)
+        if (isnan(error) && ++tries.failures >= MAX_REJECTIONS)
             return solver_failure(diag, d->base.before,
                                   "the equations have no solution just behind this instant (ten "
                                   "ever shorter steps failed)");
-        /* where its parts end elsewhere, stages are those of parts */
-        leap = !isinf(error) && leaps++ < LEAPS ? leap_over(singular_place(d, tried), LEAP * tried)
-                                                : 0;
-        if (leap > 0)
-            h = leap;
-        else
-            h = tried * (isnan(error) ? RETREAT : fmax(SHRINK, SAFETY / eighth_root(error)));
+        h = try_next(d, tried, error, &tries);
     }
 }
 
