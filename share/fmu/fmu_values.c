@@ -193,7 +193,7 @@ static int put_level(Fmu *fmu, int level, int by_mass, const int *chosen, const 
     int i, j, k, sweep, count = 0;
 
     for (k = 0; k < 2 * FMU_TARGETS; k++) { /* the last ones follow from others */
-        const int at = k % FMU_TARGETS;
+        const int at = k < FMU_TARGETS ? k : k - FMU_TARGETS;
 
         if (!chosen[at] || fmu_level[at] != level || follows(chosen, values, at) != (k != at))
             continue;
