@@ -30,11 +30,16 @@ static char *file_text(const char *path)
     return text_done(&text);
 }
 
-/* what a script builds; NULL: it can't be */
+/* what a script builds, up to where it clears that; NULL: it can't be */
 static Model *model_of(const char *path)
 {
     char *text = file_text(path);
-    Model *model = text != NULL ? bench_model(text) : NULL;
+    char *cleared = text != NULL ? strstr(text, "\nclear\n") : NULL;
+    Model *model;
+
+    if (cleared != NULL)
+        cleared[1] = '\0';
+    model = text != NULL ? bench_model(text) : NULL;
 
     mem_free(text);
     return model;
