@@ -215,7 +215,7 @@ static double leap_over(double place, double most)
     const double least = place / LEAP_PAST;
     double best = 0, furthest = 0;
 
-    for (int i = 0; i <= LEAP_CHOICES && least < most; i++) {
+    for (int i = 0; i <= LEAP_CHOICES && least > 0 && least < most; i++) {
         const double h = most + (least - most) * i / LEAP_CHOICES;
         const double nearest = nearest_stage(place, h);
 
@@ -273,20 +273,27 @@ static double next_step(const Dop853 *d, double taken, double h, double error)
 /* what was tried for one step */
 typedef struct Tries {
     int failures, leaps;
-    double sure; /* s: a step that would do, but for its rounding; 0: none was tried */
+    bool has_looked; /* for a step with less rounding than one that would do: */
+    double sure;     /* that one, s, until it is gone back to; 0 */
 } Tries;
 
 /* the length to try behind one of h that wasn't taken */
 static double try_next(const Dop853 *d, double h, double error, Tries *tries)
 {
-    /* where its parts end elsewhere, the stages are those of parts */
-    const double leap = isinf(error) ? 0 : leap_over(singular_place(d, h), LEAP * h);
+    const double sure = tries->sure;
+    double leap;
 
-    if (tries->sure > 0)
-        return tries->sure;
-    if (error <= 1)
+    tries->sure = 0;
+    if (sure > 0)
+        return sure;
+    /* where its parts end elsewhere, the stages are those of parts */
+    leap = isinf(error) ? 0 : leap_over(singular_place(d, h), LEAP * h);
+    if (error <= 1) {
+        tries->has_looked = true;
         tries->sure = h;
-    if (error <= 1 || (leap > 0 && tries->leaps++ < LEAPS))
+        return leap;
+    }
+    if (leap > 0 && tries->leaps++ < LEAPS)
         return leap;
     return h * (isnan(error) ? RETREAT : fmax(SHRINK, SAFETY / eighth_root(error)));
 }
@@ -308,7 +315,7 @@ static Status step(Stepper *stepper, double end, Diag *diag)
 
         if (!(tried > 4e-16 * fabs(t)))
             return solver_failure(diag, d->base.before, "the step became too small");
-        if (take_step(d, tried, t, tries.sure == 0, &error)) {
+        if (take_step(d, tried, t, !tries.has_looked, &error)) {
             d->base.next = next_step(d, tried, h, error);
             d->was_rejected = false;
             d->base.counts.steps++;
