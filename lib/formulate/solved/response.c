@@ -92,6 +92,37 @@ static void find_atoms(Solver *s, Expr e, int depth)
     }
 }
 
+/* Numbers of parts have symbols, for polynomials to be exact. A variable that is a function of such
+ * symbols holds the numbers: the root of coupled coils' L1 L2. */
+static Expr with_numbers_in_atoms(const Solver *s, Expr e, int depth)
+{
+    const LinearNetwork *net = &s->net;
+    Expr *args, out;
+    int count;
+
+    if (expr_is_number(e) || expr_kind(e) == EXPR_SYMBOL || net->literals.count == 0)
+        return e;
+    if (is_atom(e, depth))
+        return expr_substitute(net->arena, e, net->literals.at, net->numbers.at,
+                               net->literals.count);
+    count = expr_arg_count(e);
+    args = NEW_ARRAY(Expr, count);
+    for (int i = 0; i < count; i++)
+        args[i] = with_numbers_in_atoms(s, expr_arg(e, i), depth + 1);
+    switch (expr_kind(e)) {
+    case EXPR_SUM:
+        out = expr_sum(net->arena, args, count);
+        break;
+    case EXPR_PRODUCT:
+        out = expr_product(net->arena, args, count);
+        break;
+    default:
+        out = expr_pow(net->arena, args[0], args[1]);
+    }
+    mem_free(args);
+    return out;
+}
+
 static Fraction fraction_of_number(const Solver *s, Expr e)
 {
     int64_t num, den;
@@ -314,8 +345,10 @@ static Status make_matrix(Solver *s, Expr output, const char *about, Diag *diag)
     laplace_row(s, slopes, all + (ptrdiff_t)s->unknowns * s->columns);
     all[s->unknowns * s->columns + s->unknowns] = expr_int(arena, 1);
     CHECK(check_steady(s, all + (ptrdiff_t)s->unknowns * s->columns, about, diag));
-    for (int k = 0; k < rows * s->columns; k++)
+    for (int k = 0; k < rows * s->columns; k++) {
+        all[k] = with_numbers_in_atoms(s, all[k], 0);
         find_atoms(s, all[k], 0);
+    }
     s->ring = ring_new(s->atoms.count, MOST_TERMS, net->watch);
     for (int r = 0; r < rows && ring_status(s->ring) == OK; r++)
         clear_row(s, r, all + (ptrdiff_t)r * s->columns);
