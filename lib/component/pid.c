@@ -10,6 +10,7 @@
 #include "component/control.h"
 
 #include "base/memory.h"
+#include "expr/jumps.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -176,12 +177,32 @@ static void pid_state(const Instance *instance, Arena *arena, int k, OwnState *o
         block_held(instance, arena, pid_command(instance, arena), out);
 }
 
+/* Without filter and sampling the rate is the derivative: a jump would be an impulse. */
+static Status check_no_jump(const Instance *instance, Arena *arena, Diag *diag)
+{
+    static const char *const names[] = {"ref", "of"};
+    const Expr error = error_of(instance, arena);
+    const unsigned kinds = ~(1U << SYMBOL_PARAMETER);
+
+    if (!has_rate(instance) || rate_state(instance) != NULL || !expr_jumps(arena, error, kinds))
+        return OK;
+    (void)diag_set(diag, E_VALUE, "%s takes the derivative of something that jumps",
+                   instance->name);
+    diag_hint(diag, "filter= smooths it, or give the source a rise time");
+    for (size_t i = 0; i < COUNT(names); i++)
+        if (expr_jumps(arena, instance_scalar(instance, names[i]), kinds)) {
+            diag_about(diag, "%s", names[i]);
+            break;
+        }
+    return E_VALUE;
+}
+
 static Status pid_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
-    (void)arena;
     (void)planar;
     TRY(check_not_negative(instance, "filter", diag));
     TRY(block_check(instance, diag));
+    TRY(check_no_jump(instance, arena, diag));
     if (is_pid(instance) && instance_value(instance, "limits")->given &&
         expr_is_zero(instance_scalar(instance, "Kp"))) {
         (void)diag_set(diag, E_VALUE, "with limits= %s needs Kp=", instance->name);

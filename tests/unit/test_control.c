@@ -116,7 +116,28 @@ static void refused(const char *model, const char *statement, const char *messag
 
 static void rate_of_a_jump_is_refused(void)
 {
-    refused("pd c1 a 0 ref=step(t - 1) of=0 Kp=2 Kd=5\n", "simulate 2\n",
+    static const char *const jump[] = {
+        "pd c1 a 0 ref=step(t - 1) of=0 Kp=2 Kd=5\n", "pd c1 a 0 ref=3*(t > 1) of=0 Kp=2 Kd=5\n",
+        "pd c1 a 0 ref=0 of=L(t) Kp=2 Kd=5\n", "pd c1 a 0 ref=if(R1.v > 1, p, 0) of=0 Kp=2 Kd=5\n",
+        "pid c1 a 0 ref=sign(R1.v - 1) of=0 Kp=2 Ki=1 Kd=5\n"};
+    static const char *const bend[] = {"pd c1 a 0 ref=ramp(t - 1) of=0 Kp=2 Kd=5\n",
+                                       "pd c1 a 0 ref=if(t > 1, t, 1) of=0 Kp=2 Kd=5\n",
+                                       "pd c1 a 0 ref=max(R1.v, p) of=0 Kp=2 Kd=5\n",
+                                       "pd c1 a 0 ref=3*(t > 1) of=0 Kp=2 Kd=5 filter=0.1\n",
+                                       "pd c1 a 0 ref=3*(t > 1) of=0 Kp=2 Kd=5 period=0.1\n"};
+    static const char base[] =
+        "p = 2\nL(x) = if(x > 1, p, 0)\nvsource E1 b 0 t\nresistor R1 b 0 3\n";
+
+    for (size_t i = 0; i < sizeof jump / sizeof *jump; i++)
+        refused(base, jump[i], "c1 takes the derivative of something that jumps", "filter=");
+    for (size_t i = 0; i < sizeof bend / sizeof *bend; i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, base);
+        EXPECT_DONE(&kit, bend[i]);
+        kit_free(&kit);
+    }
+    refused("L(x) = x\npd c1 a 0 ref=L(t) of=0 Kp=2 Kd=5\n", "L(x) = step(x - 1)\n",
             "c1 takes the derivative of something that jumps", "filter=");
     refused("vsource V1 b 0 pulse(t, 0, 1, 1, 0, 0, 1, 2)\npd c1 a 0 ref=b.v of=0 Kp=2 Kd=5\n",
             "simulate 2\n", "c1 takes the derivative of something that jumps", "filter=");

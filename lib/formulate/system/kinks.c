@@ -3,28 +3,6 @@
 
 #include "base/memory.h"
 
-Expr switch_condition(Arena *arena, Expr e)
-{
-    if (expr_kind(e) != EXPR_CALL)
-        return NULL;
-    switch (expr_op(e)) {
-    case OP_LT:
-    case OP_LE:
-    case OP_MIN:
-    case OP_MAX:
-        return expr_sub(arena, expr_arg(e, 0), expr_arg(e, 1));
-    case OP_STEP:
-    case OP_RAMP:
-    case OP_SIGN:
-    case OP_ABS:
-        return expr_arg(e, 0);
-    case OP_FLOOR: /* at whole numbers */
-        return expr_sin(arena, expr_mul(arena, expr_pi(arena, 1), expr_arg(e, 0)));
-    default:
-        return NULL;
-    }
-}
-
 /* the first number among the factors of the first term */
 static Expr leading(Arena *arena, Expr e)
 {

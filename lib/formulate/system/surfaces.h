@@ -7,6 +7,7 @@
 #define COTREE_FORMULATE_SYSTEM_SURFACES_H
 
 #include "expr/expr.h"
+#include "expr/jumps.h" /* IWYU pragma: export */
 
 typedef struct Surface {
     Expr condition; /* h, as system_surface() has it */
@@ -15,8 +16,6 @@ typedef struct Surface {
     Expr measure;   /* h, the other surfaces' signs put in */
 } Surface;
 
-/* what changes sign where a function jumps or kinks; NULL: it does neither (kinks.c) */
-Expr switch_condition(Arena *arena, Expr e);
 /* h of a condition, whatever its scale; *way -1: with the opposite sign */
 Expr surface_of(Arena *arena, Expr condition, int *way);
 /* whether a call jumps where its condition is 0 */
