@@ -1,4 +1,5 @@
 libcore_la_SOURCES += \
+	lib/algebra/anderson.c lib/algebra/anderson.h \
   lib/algebra/blocks.c \
   lib/algebra/blocks.h \
   lib/algebra/dense.c \

@@ -1,4 +1,5 @@
 /* test_algebra.c: parts of lib/algebra by what they promise, on random matrices */
+#include "algebra/anderson.h"
 #include "algebra/blocks.h"
 #include "algebra/dense.h"
 #include "algebra/enclosure.h"
@@ -345,8 +346,49 @@ static void sums_that_cancel_keep_all_their_digits(void)
     remainders_free(r);
 }
 
+/* x = c + sum_k a_k (b_k . x), whose eigenvalues are far above 1, in rank + 2 steps */
+static void an_affine_map_meets_its_fixed_point(void)
+{
+    enum { N = 7, RANK = 3 };
+    const double size[N] = {1e-3, 1, 1, 50, 1, 1e3, 1};
+    uint64_t seed = 11;
+
+    for (int trial = 0; trial < 200; trial++) {
+        const int rank = trial % (RANK + 1);
+        double a[RANK][N], b[RANK][N], c[N], x[N] = {0}, image[N];
+        double largest = 0;
+        Anderson *anderson = anderson_new(N);
+
+        for (int i = 0; i < N; i++) {
+            c[i] = size[i] * test_uniform(&seed, -1, 1);
+            for (int k = 0; k < rank; k++) {
+                a[k][i] = size[i] * test_uniform(&seed, -4, 4);
+                b[k][i] = test_uniform(&seed, -4, 4) / size[i];
+            }
+        }
+        for (int step = 0; step < rank + 3; step++) {
+            memcpy(image, c, sizeof c);
+            for (int k = 0; k < rank; k++) {
+                double along = 0;
+
+                for (int i = 0; i < N; i++)
+                    along += b[k][i] * x[i];
+                for (int i = 0; i < N; i++)
+                    image[i] += a[k][i] * along;
+            }
+            if (step < rank + 2)
+                anderson_step(anderson, x, image, size);
+        }
+        for (int i = 0; i < N; i++)
+            largest = fmax(largest, fabs(image[i] - x[i]) / size[i]);
+        EXPECT(largest < 1e-6);
+        anderson_free(anderson);
+    }
+}
+
 int main(void)
 {
+    RUN(an_affine_map_meets_its_fixed_point);
     RUN(blocks_are_what_acts_both_ways);
     RUN(a_match_is_found_where_there_is_one);
     RUN(cholesky_factors_solve);

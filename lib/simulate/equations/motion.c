@@ -87,6 +87,11 @@ Motion *motion_new(const Equations *eq, const MotionOptions *options)
     mo->network = netsolve_new(eq);
     mo->solved = netsolve_values(mo->network);
     mo->solved_before = NEW_ARRAY(double, eq->nx + eq->nz);
+    if (eq->network_reads != NULL) {
+        mo->together = anderson_new(eq->nx + eq->nz);
+        mo->solved_size = NEW_ARRAY(double, eq->nx + eq->nz);
+        mo->turn_size = NEW_ARRAY(double, eq->nx + eq->nz);
+    }
     mo->q = NEW_ARRAY(double, eq->n);
     mo->references = NEW_ARRAY(double, eq->multi_turn_count);
     mo->top = NEW_ARRAY(double, eq->nu);
@@ -121,10 +126,12 @@ void motion_free(Motion *mo)
     partitioning_free(mo->partitioning);
     MEM_FREE(mo->full_mass, mo->full_phi_u);
     netsolve_free(mo->network);
+    anderson_free(mo->together);
     signs_free(mo->signs);
-    MEM_FREE(mo->slip, mo->off, mo->way, mo->solved_before, mo->q, mo->references, mo->slack,
-             mo->top, mo->bottom, mo->du, mo->kept, mo->lambda, mo->nearest, mo->lambda_all,
-             mo->row_size, mo->row_part, mo->dae_weight, mo->is_tested, mo->slopes, mo);
+    MEM_FREE(mo->slip, mo->off, mo->way, mo->solved_before, mo->solved_size, mo->turn_size, mo->q,
+             mo->references, mo->slack, mo->top, mo->bottom, mo->du, mo->kept, mo->lambda,
+             mo->nearest, mo->lambda_all, mo->row_size, mo->row_part, mo->dae_weight, mo->is_tested,
+             mo->slopes, mo);
 }
 
 const Ode *motion_ode(const Motion *mo)

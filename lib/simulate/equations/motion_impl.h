@@ -2,6 +2,7 @@
 #ifndef COTREE_SIMULATE_EQUATIONS_MOTION_IMPL_H
 #define COTREE_SIMULATE_EQUATIONS_MOTION_IMPL_H
 
+#include "algebra/anderson.h"
 #include "algebra/kkt.h"
 #include "simulate/equations/motion.h"
 #include "simulate/equations/netsolve.h"
@@ -46,6 +47,8 @@ struct Motion {
     uint64_t sides;                                       /* of switches, likewise */
     const double *solved;                                 /* [x'; z] */
     double *solved_before;
+    Anderson *together;              /* of a network that reads u' or lambda; NULL: none does */
+    double *solved_size, *turn_size; /* its largest [x'; z] so far; what a turn measures by */
     double *top, *bottom, *du, *kept, *lambda, *lambda_all;
     double *nearest; /* a y */
     ImplicitJacobian implicit;

@@ -8,8 +8,11 @@
 #include <math.h>
 #include <string.h>
 
-#define TURNS   50
-#define SUSPECT 1e-2 /* pivot ratio of Phi_d above which no position is singular */
+#define TURNS    50
+#define STALLED  3     /* turns that no longer shrink, */
+#define ROUNDING 1e-11 /* and are rounding below this */
+#define LEAST    1e-15
+#define SUSPECT  1e-2 /* pivot ratio of Phi_d above which no position is singular */
 
 static void pick_rows(const Motion *mo, const double *all, double *out)
 {
@@ -118,15 +121,44 @@ void motion_spread_multipliers(Motion *mo)
     mem_free(phi_u);
 }
 
-/* A network that reads u' or lambda, while forces read the network: each in turn, until nothing
- * changes. Where forces don't read what follows from it, the second turn is the last. */
+/* how far w moved in a turn, in the sizes of its entries; 0: by their last digits */
+static double turn_of(Motion *mo, int n)
+{
+    double largest = 0;
+
+    for (int i = 0; i < n; i++) {
+        const double size = fabs(mo->solved[i]);
+        const double move = fabs(mo->solved[i] - mo->solved_before[i]);
+
+        mo->turn_size[i] = fmax(mo->solved_size[i], fmax(size, LEAST));
+        if (!(move <= 1e-13 * size + LEAST))
+            largest = fmax(largest, move / mo->turn_size[i]);
+    }
+    return largest;
+}
+
+static void note_size(Motion *mo, int n)
+{
+    for (int i = 0; i < n; i++)
+        mo->solved_size[i] = fmax(mo->solved_size[i], fabs(mo->solved[i]));
+}
+
+/* A network that reads u' or lambda, while forces read the network: w = F(w), w = [x'; z], where F
+ * solves for u' and lambda at w, and then for w. Where forces don't read what follows from u' the
+ * second turn is the last. A reflected inertia larger than that of M makes F diverge by itself.
+ *
+ * Ends where w stands, or where it moves by rounding alone: what is small among large terms that
+ * cancel has fewer digits. */
 static bool solve_together(Motion *mo)
 {
     const Equations *eq = mo->eq;
-    int n = eq->nx + eq->nz;
+    const int n = eq->nx + eq->nz;
+    double least = INFINITY;
+    int stalled = 0;
 
+    anderson_restart(mo->together);
     for (int k = 0; k < TURNS; k++) {
-        bool changed = false;
+        double turn;
 
         if (!solve_augmented(mo))
             return false;
@@ -135,11 +167,15 @@ static bool solve_together(Motion *mo)
         eq->network_reads(eq->context, mo->du, mo->lambda_all);
         if (!netsolve_find(mo->network))
             return false;
-        for (int i = 0; i < n; i++)
-            changed = changed || !(fabs(mo->solved[i] - mo->solved_before[i]) <=
-                                   1e-13 * fabs(mo->solved[i]) + 1e-15);
-        if (!changed)
+        turn = turn_of(mo, n);
+        stalled = turn > least / 2 ? stalled + 1 : 0;
+        if (turn == 0 || (stalled >= STALLED && turn <= ROUNDING)) {
+            note_size(mo, n);
             return true;
+        }
+        least = fmin(least, turn);
+        anderson_step(mo->together, mo->solved_before, mo->solved, mo->turn_size);
+        memcpy(netsolve_values(mo->network), mo->solved_before, (size_t)n * sizeof(double));
         eq->network_solved(eq->context, mo->solved);
         if (eq->loads != NULL)
             eq->loads(eq->context);
