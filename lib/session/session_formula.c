@@ -82,7 +82,7 @@ static Status count_size(ct_session *session, const char *path, double *out, Dia
     Status status = OK;
     int independents;
 
-    CHECK(session_system(session, &system, diag));
+    CHECK(session_shown(session, &system, diag));
     CHECK(count_block(system, model_form(session->model, &independent, &independents), name, shared,
                       &count, diag));
     if (dot != NULL && strcmp(dot, ".add") == 0)
@@ -218,6 +218,75 @@ done:
     return status;
 }
 
+/* an entry of the equations that are shown, over variables that any form of the network has */
+static Expr entry_shown(System *shown, System *running, Arena *arena, Expr entry)
+{
+    const unsigned own = 1U << SYMBOL_STATE | 1U << SYMBOL_STATE_RATE | 1U << SYMBOL_ALGEBRAIC;
+    Expr *symbols = NULL, *names;
+    Expr out, there;
+    Diag ignored;
+    int count, used = 0;
+
+    if (system_variable(shown, expr_name(entry), 0, &out, &ignored) != OK)
+        return entry;
+    count = expr_symbols(&out, 1, &symbols);
+    names = NEW_ARRAY(Expr, count);
+    for (int i = 0; i < count; i++) {
+        if ((1U << expr_symbol_kind(symbols[i]) & own) == 0)
+            continue;
+        symbols[used] = symbols[i];
+        names[used++] = expr_symbol(arena, expr_name(symbols[i]), SYMBOL_VARIABLE);
+    }
+    out = expr_substitute(arena, out, symbols, names, used);
+    MEM_FREE(symbols, names);
+    return system_resolve(running, out, &there, &ignored) == OK ? out : entry;
+}
+
+/* whether a name is that of an entry: mass(2,2), and not lambda(1), which a run has */
+static bool is_block_entry(const char *name)
+{
+    const char *bracket = strchr(name, '(');
+
+    for (Block block = 0; bracket != NULL && block < BLOCK_COUNT; block++)
+        if (strlen(block_name(block)) == (size_t)(bracket - name) &&
+            strncmp(block_name(block), name, (size_t)(bracket - name)) == 0)
+            return true;
+    return false;
+}
+
+/* Entries of blocks are those that `show` shows, also where a run takes the network in state form.
+ * A run of an earlier model has its own. */
+static Status put_shown(ct_session *session, int run, Expr *e, Diag *diag)
+{
+    Arena *arena = model_arena(session->model);
+    System *running, *shown = NULL;
+    Expr *symbols = NULL, *values;
+    const int count = expr_symbols(e, 1, &symbols);
+    int used = 0;
+    Status status = OK;
+
+    values = NEW_ARRAY(Expr, count);
+    for (int i = 0; i < count; i++) {
+        if (expr_symbol_kind(symbols[i]) != SYMBOL_VARIABLE ||
+            !is_block_entry(expr_name(symbols[i])) ||
+            (run > 0 && system_revision(result_system(session->runs.at[run - 1].result)) !=
+                            model_revision(session->model)))
+            continue;
+        if (shown == NULL) {
+            CHECK(session_system(session, &running, diag));
+            if (system_tree_is_normal(running))
+                break;
+            CHECK(session_shown(session, &shown, diag));
+        }
+        symbols[used] = symbols[i];
+        values[used++] = entry_shown(shown, running, arena, symbols[i]);
+    }
+    *e = expr_substitute(arena, *e, symbols, values, used);
+done:
+    MEM_FREE(symbols, values);
+    return status;
+}
+
 static Status cut_pure(Cut *cut, const Syntax *syntax, int run, Expr *out, Diag *diag)
 {
     ct_session *session = cut->session;
@@ -237,6 +306,7 @@ static Status cut_pure(Cut *cut, const Syntax *syntax, int run, Expr *out, Diag 
     CHECK(model_expression(session->model, run > 0 ? strip(pool, syntax) : syntax, &e, diag));
     e = session_put_outputs(session->model, e);
     CHECK(put_sizes(session, &e, diag));
+    CHECK(put_shown(session, run, &e, diag));
     *out = expr_is_number(e)
                ? e
                : push_leaf(cut, (Leaf){.kind = LEAF_VARIABLE, .expr = e, .run = run - 1});
