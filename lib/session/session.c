@@ -278,11 +278,20 @@ void session_note_change(ct_session *session, uint64_t revision, bool trees_only
     session_sweep(session);
 }
 
+static Status take_back(ct_session *session)
+{
+    Diag ignored;
+
+    if (model_undo(session->model, &ignored) != OK)
+        return E_MODEL;
+    model_forget_undone(session->model);
+    return OK;
+}
+
 /* Trees that take freedoms away are refused at once where the present values can be assembled, and
  * what was before stays. */
 static Status try_trees(ct_session *session, const Statement *s, Diag *diag)
 {
-    Diag ignored;
     Status status = OK;
 
     if (graph_edge_count(model_graph(session->model)) > GLANCE)
@@ -291,10 +300,28 @@ static Status try_trees(ct_session *session, const Statement *s, Diag *diag)
     if (status != E_BRANCH)
         return status;
     diag->place = s->verb_place;
-    if (model_undo(session->model, &ignored) != OK)
-        return E_MODEL;
-    model_forget_undone(session->model);
+    TRY(take_back(session));
     return E_BRANCH;
+}
+
+/* `set network tree`, with trees whose equations can't be brought to a form that runs, is refused
+ * at once where the state form has no such trouble; so are such trees once it is set. */
+static Status try_network(ct_session *session, const Statement *s, int before, Diag *diag)
+{
+    const int form = model_setting_value(session->model, SETTING_NETWORK);
+    System *system;
+    Diag ignored;
+    Status status;
+
+    if (form != NETWORK_TREE || (form == before && !chooses_trees(s)))
+        return OK;
+    status = session_system(session, &system, diag);
+    if (status == OK || status == E_STOPPED || status == E_MEMORY ||
+        session_system_of(session, NETWORK_STATE, false, &system, &ignored) != OK)
+        return status == E_STOPPED || status == E_MEMORY ? status : OK;
+    diag->place = s->operands.count > 0 ? s->operands.at[0].place : s->verb_place;
+    TRY(take_back(session));
+    return status;
 }
 
 ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error *error)
@@ -304,6 +331,7 @@ ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error 
     const Statement *s = statement_of(statement);
     const VerbChanges changes = changes_of(s);
     const uint64_t revision = model_revision(session->model);
+    const int form = model_setting_value(session->model, SETTING_NETWORK);
     Status status = OK;
     Diag diag = {0};
 
@@ -330,6 +358,7 @@ ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error 
         CHECK(model_apply(session->model, s, &diag));
         if (chooses_trees(s))
             CHECK(try_trees(session, s, &diag));
+        CHECK(try_network(session, s, form, &diag));
         session_remark(session, model_remarks(session->model));
     }
     session->at_rest = session->at_rest && !forgets_start(s);

@@ -134,8 +134,8 @@ static void put_last(ct_session *session, System *system)
     session->systems.at[count - 1] = system;
 }
 
-static Status system_of_form(ct_session *session, NetworkForm form, bool has_literals, System **out,
-                             Diag *diag)
+Status session_system_of(ct_session *session, NetworkForm form, bool has_literals, System **out,
+                         Diag *diag)
 {
     const SystemOptions options = {
         .form = form, .has_literals = has_literals, .watch = &session->watch};
@@ -165,16 +165,16 @@ done:
 
 Status session_system(ct_session *session, System **out, Diag *diag)
 {
-    return system_of_form(session,
-                          (NetworkForm)model_setting_value(session->model, SETTING_NETWORK), false,
-                          out, diag);
+    return session_system_of(session,
+                             (NetworkForm)model_setting_value(session->model, SETTING_NETWORK),
+                             false, out, diag);
 }
 
 Status session_running(ct_session *session, System **out, Diag *diag)
 {
-    return system_of_form(session,
-                          (NetworkForm)model_setting_value(session->model, SETTING_NETWORK), true,
-                          out, diag);
+    return session_system_of(session,
+                             (NetworkForm)model_setting_value(session->model, SETTING_NETWORK),
+                             true, out, diag);
 }
 
 Status session_shown(ct_session *session, System **out, Diag *diag)
@@ -185,7 +185,7 @@ Status session_shown(ct_session *session, System **out, Diag *diag)
     CHECK(session_system(session, out, diag));
     if (system_tree_is_normal(*out))
         return OK;
-    status = system_of_form(session, NETWORK_TREE, false, out, &why);
+    status = session_system_of(session, NETWORK_TREE, false, out, &why);
     if (status != OK && status != E_STOPPED) {
         Text line = {0};
 

@@ -123,6 +123,18 @@ done:
     return status;
 }
 
+Status network_no_rate(const System *system, const char *edge, Status status, Diag *diag)
+{
+    if (status != E_MISSING || system->network->form != NETWORK_TREE)
+        return status;
+    (void)diag_set(diag, E_MODEL,
+                   "in this tree %s needs the derivative of an acceleration or of a reaction",
+                   edge);
+    diag_hint(diag, "take capacitors and their kin into the tree and inductors out of it, or set "
+                    "network state");
+    return E_MODEL;
+}
+
 Status network_stored_rate(System *system, const Branchlike *branch, Expr *out, Diag *diag)
 {
     const Relation *relation = &branch->relation;
@@ -131,7 +143,8 @@ Status network_stored_rate(System *system, const Branchlike *branch, Expr *out, 
     TRY(variables_resolve(system, relation->content, out, diag));
     TRY(system_need_smooth(system, graph_edge(system->origin->graph, branch->edge)->name, *out,
                            diag));
-    TRY(system_rate_of(system, *out, out, diag));
+    TRY(network_no_rate(system, graph_edge(system->origin->graph, branch->edge)->name,
+                        system_rate_of(system, *out, out, diag), diag));
     TRY(variables_resolve(system, relation->rest, &rest, diag));
     *out = expr_add(system->arena, *out, rest);
     return OK;

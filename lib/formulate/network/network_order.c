@@ -5,7 +5,9 @@
  * row tells a lower rate of one of its unknowns, and, differentiated, those above it, which are put
  * into the other rows: the unknown is then of that order. theory 8. */
 #include "formulate/network/network_impl.h"
+#include "formulate/network/scalar_edges.h"
 #include "formulate/system/network.h"
+#include "formulate/system/origin.h"
 #include "formulate/system/rates.h"
 #include "formulate/system/resolve.h"
 #include "formulate/system/sample.h"
@@ -91,7 +93,7 @@ static Status check_room(const Order *o, Diag *diag)
     Status status = poll(o->system->watch);
 
     if (status == OK && arena_nodes(o->system->arena) - o->nodes > ROOM) {
-        status = diag_set(diag, E_MODEL, "the equations of this electrical tree grow too long");
+        status = diag_set(diag, E_MODEL, "the equations of this tree grow too long");
         diag_hint(diag, "set network state integrates the state form, which any network has");
     }
     return status;
@@ -199,11 +201,23 @@ static int lowered_by(const Order *o, Expr row, int *rate)
     return best;
 }
 
+/* what an unknown belongs to: an edge of the graph, or a part with a state of its own */
+static const char *edge_of(const Order *o, int j)
+{
+    const System *system = o->system;
+    const Unknown *y = &system->network->unknowns.at[j];
+
+    return y->branchlike < 0
+               ? system->origin->instances[y->instance].name
+               : graph_edge(system->origin->graph, system->network->branches.at[y->branchlike].edge)
+                     ->name;
+}
+
 static Status cant_order(const Order *o, int row, Diag *diag)
 {
     const Unknown *y = &o->system->network->unknowns.at[row];
 
-    (void)diag_set(diag, E_MODEL, "the equations of this electrical tree can't be solved for %s",
+    (void)diag_set(diag, E_MODEL, "the equations of this tree can't be solved for %s",
                    expr_name(y->symbol));
     diag_hint(diag, "set network state integrates the state form, which any network has");
     return E_MODEL;
@@ -242,7 +256,9 @@ static Status rates_by(const Order *o, Expr row, int j, int k, Expr *symbol, Exp
         Expr rate;
 
         symbol[i] = rate_symbol(&system->network->unknowns.at[j], k + 1 + i);
-        TRY(system_rate_of(system, i == 0 ? row : value[i - 1], &rate, diag));
+        TRY(network_no_rate(system, edge_of(o, j),
+                            system_rate_of(system, i == 0 ? row : value[i - 1], &rate, diag),
+                            diag));
         if (i == 0 && expr_is_zero(expr_diff(arena, rate, symbol[0])))
             TRY(cant_order(o, j, diag));
         if (i == 0)

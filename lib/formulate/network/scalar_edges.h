@@ -9,6 +9,9 @@ Branchlike *scalar_branch(System *system, const Instance *instance, int which);
 /* its member names: "i", or of an edge with a suffix "s.i" */
 const char *branch_member(const System *system, const Branchlike *branch, bool through);
 TreeKind branch_tree(const System *system, const Branchlike *branch);
+/* The status of a derivative that an edge needs; where there is none in the form of the user's
+ * tree, E_MODEL with the edge. */
+Status network_no_rate(const System *system, const char *edge, Status status, Diag *diag);
 /* content' + rest: i of what stores v, v of what stores i */
 MUST_USE Status network_stored_rate(System *system, const Branchlike *branch, Expr *out,
                                     Diag *diag);
