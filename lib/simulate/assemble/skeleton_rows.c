@@ -104,7 +104,9 @@ static int axis_rows(const double *u, const double E[9], LinkRow *rows)
     vector3_cross(far, w, across);
     for (int k = 0; k < 2; k++) {
         const double along = vector3_dot(n[k], w), beside = vector3_dot(n[k], side);
-        const double ratio = angle < 1e-6 ? 1 : angle / fmax(sine, least);
+        const double ratio = angle < 1e-6       ? 1
+                             : angle < M_PI / 2 ? angle / sine
+                                                : angle / fmax(sine, least);
 
         rows[k] = (LinkRow){.value = angle * along};
         for (int j = 0; j < 3; j++)
