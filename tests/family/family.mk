@@ -69,6 +69,11 @@ family_assembly_SOURCES = tests/family/family_assembly.c tests/family/standing.h
   tests/unit/session_kit.h tests/unit/test.h
 family_assembly_LDADD = libcotree.la $(unit_ldadd)
 
+FAMILIES += family_guesses
+family_guesses_SOURCES = tests/family/family_guesses.c tests/family/standing.h tests/family/scenes.h tests/family/jointed.h tests/family/family.h tests/random.h \
+  tests/unit/session_kit.h tests/unit/test.h
+family_guesses_LDADD = libcotree.la $(unit_ldadd)
+
 FAMILIES += family_events
 family_events_SOURCES = tests/family/family_events.c tests/family/family.h tests/family/script.h
 family_events_LDADD = libcotree.la $(unit_ldadd)

@@ -6,10 +6,14 @@
 #include <math.h>
 #include <string.h>
 
-static void wish(Placing *p, const Stand *stand, double value, bool is_guess, int group)
+static void wish(Placing *p, const Stand *stand, double value, const char *guess, int group)
 {
-    Wish wish = {
-        .link = -1, .head = stand->node, .value = value, .is_guess = is_guess, .group = group};
+    Wish wish = {.link = -1,
+                 .head = stand->node,
+                 .value = value,
+                 .is_guess = guess != NULL,
+                 .group = group,
+                 .name = guess};
 
     if (stand->kind == STANDS_COORDINATE || stand->kind == STANDS_SHIFT) {
         wish.link = p->s->link_at[stand->instance->edge];
@@ -54,14 +58,15 @@ Status place_take_wishes(Placing *p, Diag *diag)
             if (prescribed == NULL)
                 continue;
             TRY(initial_driven(a, prescribed, &value, diag));
-            wish(p, &stand, value, false, -1);
+            wish(p, &stand, value, NULL, -1);
         }
         for (int i = 0; i < a->given_count; i++) {
             const GivenValue *given = &a->given[i];
 
             if (given->stand.kind != STANDS_NOT && is_told(p, &given->stand) &&
                 given->value->is_guess == (guesses == 1))
-                wish(p, &given->stand, given->target, guesses == 1, given->group);
+                wish(p, &given->stand, given->target, guesses == 1 ? given->value->name : NULL,
+                     given->group);
         }
     }
     gather_groups(p);

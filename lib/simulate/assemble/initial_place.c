@@ -98,15 +98,6 @@ static void begin(Placing *p)
     }
 }
 
-static bool is_guessed_elsewhere(const Placing *p)
-{
-    for (int i = 0; i < p->wishes.count; i++)
-        if (p->wishes.at[i].is_guess &&
-            (p->wishes.at[i].link < 0 || !place_has(p, p->wishes.at[i].link, p->wishes.at[i].k)))
-            return true;
-    return false;
-}
-
 /* --- what came out --- */
 
 /* A body that joints place has no coordinates whose turns would be looked up. */
@@ -436,8 +427,7 @@ Status initial_place(Assembly *a, WarmValue warm, void *context, bool *closed, D
     CHECK(place_choose_trees(&p, diag));
     begin(&p);
     place_columns(&p);
-    if (!place_meet_guesses(&p) && is_guessed_elsewhere(&p))
-        (void)place_search(&p, true);
+    place_by_guesses(&p);
     from = NEW_ARRAY(double, size);
     memcpy(from, p.c, (size_t)size * sizeof(double));
     *closed = place_search(&p, false);
@@ -445,6 +435,7 @@ Status initial_place(Assembly *a, WarmValue warm, void *context, bool *closed, D
         CHECK(close_by_bodies(&p, from, closed, diag));
     place_poses(&p, p.c);
     remark_moved(&p, from);
+    place_remark_guesses(&p);
     CHECK(hand_out(&p, diag));
 done:
     mem_free(from);

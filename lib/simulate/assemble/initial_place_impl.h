@@ -13,7 +13,8 @@ typedef struct Wish {
     int k;    /* coordinate of the link */
     double value;
     bool is_guess;
-    int group; /* of Euler parameters told together; -1 */
+    int group;        /* of Euler parameters told together; -1 */
+    const char *name; /* of a guess, borrowed; NULL of others */
 } Wish;
 
 typedef enum ColumnKind { COLUMN_SLIDE, COLUMN_TURN, COLUMN_FREE } ColumnKind;
@@ -43,8 +44,8 @@ typedef struct Placing {
     double *groups; /* x POSE_COORDS: what was told of each, the rest 0 */
     LIST(PlaceColumn) columns;
     LIST(Ask) asks;
-    int row_count;
-    double *turned, *shifted; /* nodes x 3: what a unit of a column does to them */
+    int row_count, guess_count; /* the last ones are of guesses, one each */
+    double *turned, *shifted;   /* nodes x 3: what a unit of a column does to them */
     WarmValue warm;
     void *warm_context;
     bool goes_on; /* whole turns of angles are those of before */
@@ -76,8 +77,32 @@ void place_poses(Placing *p, const double *c);
 void place_columns(Placing *p); /* list the unknowns (initial_search.c) */
 /* Close what the trees leave open; false: nothing was found that does. */
 bool place_search(Placing *p, bool guesses);
-/* All that was told and guessed, exactly, where that can be: guesses that fit stay as they are.
- * Else nothing moves. */
-bool place_meet_guesses(Placing *p);
+
+/* the rows of a search and what they are of (initial_search.c) */
+typedef struct PlaceSearch {
+    Placing *p;
+    Rows rows;
+    LinkRow *link_rows;
+    int *tails, *heads;
+} PlaceSearch;
+
+void place_open_search(PlaceSearch *search, Placing *p, bool guesses);
+void place_close_search(PlaceSearch *search); /* what it holds */
+/* where the frame that is furthest from the datum stands, m; 1 where all stand there */
+double place_size(const Placing *p);
+/* What a residual is multiplied by: lengths over `size` (m), angles as they are (rad), guesses
+ * `guesses` times that. After an evaluation. */
+void place_row_scales(const PlaceSearch *search, double size, double guesses, double *scale);
+/* what wish `number` is where frames stand, less its value; whether that is a length (m) */
+double place_missed(Placing *p, int number, bool *is_length);
+
+#define PLACE_APPROACHED 1e-12 /* scaled: guesses are met if they can be */
+
+/* An assembly that meets all guesses, or the one with the least distance to them. Where no loop
+ * closes from any start, where the first one comes nearest to guesses and loops. Without guesses
+ * nothing moves (initial_guesses.c). */
+void place_by_guesses(Placing *p);
+/* A remark for each guess that the assembly is far from. */
+void place_remark_guesses(Placing *p);
 
 #endif

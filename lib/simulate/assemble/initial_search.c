@@ -10,11 +10,10 @@
 #include <math.h>
 #include <string.h>
 
-#define AT_ONCE    8     /* other starts at a distance, when the first leads nowhere: near ones, */
-#define TRIES      24    /* then further ones, so many in all; */
-#define MOST_TRIES 56    /* of few unknowns, which cost little, */
-#define WORK       1680  /* as many as together have so many unknowns */
-#define APPROACHED 1e-12 /* of guesses, which are met if they can be */
+#define AT_ONCE    8    /* other starts at a distance, when the first leads nowhere: near ones, */
+#define TRIES      24   /* then further ones, so many in all; */
+#define MOST_TRIES 56   /* of few unknowns, which cost little, */
+#define WORK       1680 /* as many as together have so many unknowns */
 
 /* --- unknowns --- */
 
@@ -156,9 +155,18 @@ static void ask(Placing *p, AskKind kind, int link)
                                        : 1;
 }
 
+/* whether coordinates of the trees hold a value by themselves */
+static bool is_held(const Placing *p, const Wish *told)
+{
+    return !told->is_guess && told->link >= 0 && place_has(p, told->link, told->k) &&
+           (told->group < 0 || p->known[place_at(told->link, told->k)] != KNOWN_GIVEN ||
+            place_ignorance(p, told->link, TREE_ROTATION) == 0);
+}
+
+/* joints, given values, guesses */
 static void list_asks(Placing *p, bool guesses)
 {
-    p->asks.count = p->row_count = 0;
+    p->asks.count = p->row_count = p->guess_count = 0;
     for (int i = 0; i < p->s->link_count; i++) {
         const Link *l = &p->s->links[i];
 
@@ -171,16 +179,14 @@ static void list_asks(Placing *p, bool guesses)
         if (l->is_tied && !(place_shifts(p, i) && place_turns(p, i)))
             ask(p, ASK_TIE, i);
     }
-    for (int i = 0; i < p->wishes.count; i++) {
-        const Wish *told = &p->wishes.at[i];
-        const bool is_held =
-            !told->is_guess && told->link >= 0 && place_has(p, told->link, told->k) &&
-            (told->group < 0 || p->known[place_at(told->link, told->k)] != KNOWN_GIVEN ||
-             place_ignorance(p, told->link, TREE_ROTATION) == 0);
-
-        if ((guesses || !told->is_guess) && !is_held)
+    for (int i = 0; i < p->wishes.count; i++)
+        if (!p->wishes.at[i].is_guess && !is_held(p, &p->wishes.at[i]))
             ask(p, ASK_WISH, i);
-    }
+    for (int i = 0; i < p->wishes.count && guesses; i++)
+        if (p->wishes.at[i].is_guess) {
+            ask(p, ASK_WISH, i);
+            p->guess_count++;
+        }
 }
 
 static int ask_rows(const Placing *p, const Ask *asked, LinkRow *rows, int *tail, int *head)
@@ -214,12 +220,6 @@ static int ask_rows(const Placing *p, const Ask *asked, LinkRow *rows, int *tail
     return 0;
 }
 
-typedef struct PlaceSearch {
-    Placing *p;
-    LinkRow *rows;
-    int *tails, *heads;
-} PlaceSearch;
-
 /* whether the column that nodes were moved by leaves this one where it is, as most of another leg's
  * do */
 static bool stands(const Placing *p, int node)
@@ -246,7 +246,8 @@ static double row_slope(const PlaceSearch *s, int row)
     matrix3_transpose(p->poses[t].R, back);
     matrix3_apply(back, turn, turn);
     matrix3_apply(back, shift, shift);
-    return vector3_dot(s->rows[row].by_turn, turn) + vector3_dot(s->rows[row].by_shift, shift);
+    return vector3_dot(s->link_rows[row].by_turn, turn) +
+           vector3_dot(s->link_rows[row].by_shift, shift);
 }
 
 static void evaluate(void *context, const double *v, double *residual, double *jacobian)
@@ -258,10 +259,10 @@ static void evaluate(void *context, const double *v, double *residual, double *j
     place_poses(p, v);
     for (int i = 0; i < p->asks.count; i++) {
         int tail = 0, head = 0;
-        const int more = ask_rows(p, &p->asks.at[i], s->rows + count, &tail, &head);
+        const int more = ask_rows(p, &p->asks.at[i], s->link_rows + count, &tail, &head);
 
         for (int k = 0; k < more; k++) {
-            residual[count] = s->rows[count].value;
+            residual[count] = s->link_rows[count].value;
             s->tails[count] = tail;
             s->heads[count++] = head;
         }
@@ -278,17 +279,36 @@ static void move(void *context, double *v, const double *step)
     move_columns(((PlaceSearch *)context)->p, v, step);
 }
 
-static void open_search(PlaceSearch *s, Placing *p)
+double place_missed(Placing *p, int number, bool *is_length)
 {
-    *s = (PlaceSearch){.p = p,
-                       .rows = NEW_ARRAY(LinkRow, p->row_count + LINK_ROWS),
-                       .tails = NEW_ARRAY(int, p->row_count + LINK_ROWS),
-                       .heads = NEW_ARRAY(int, p->row_count + LINK_ROWS)};
+    const Ask asked = {ASK_WISH, number};
+    LinkRow rows[LINK_ROWS];
+    int tail, head;
+
+    (void)ask_rows(p, &asked, rows, &tail, &head);
+    *is_length = vector3_dot(rows[0].by_shift, rows[0].by_shift) > 0;
+    return rows[0].value;
 }
 
-static void close_search(PlaceSearch *s)
+void place_open_search(PlaceSearch *s, Placing *p, bool guesses)
 {
-    MEM_FREE(s->rows, s->tails, s->heads);
+    list_asks(p, guesses);
+    *s = (PlaceSearch){.p = p,
+                       .link_rows = NEW_ARRAY(LinkRow, p->row_count + LINK_ROWS),
+                       .tails = NEW_ARRAY(int, p->row_count + LINK_ROWS),
+                       .heads = NEW_ARRAY(int, p->row_count + LINK_ROWS),
+                       .rows = {.rows = p->row_count,
+                                .columns = p->columns.count,
+                                .length = p->s->link_count * POSE_COORDS,
+                                .context = s,
+                                .watch = p->a->setting->watch,
+                                .evaluate = evaluate,
+                                .move = move}};
+}
+
+void place_close_search(PlaceSearch *s)
+{
+    MEM_FREE(s->link_rows, s->tails, s->heads);
 }
 
 /* Columns that no row which is missed feels stay where they are. */
@@ -368,8 +388,7 @@ static bool solve(Placing *p, const Rows *rows, double *residual)
     return met;
 }
 
-/* where the frame that is furthest from the datum stands, m */
-static double size_of(const Placing *p)
+double place_size(const Placing *p)
 {
     double size = 0;
 
@@ -383,69 +402,43 @@ static double size_of(const Placing *p)
     return size > 0 ? size : 1;
 }
 
-/* What comes nearest to all guesses and to loops that close, an angle of 1 rad as far as the size
- * of the mechanism: of guesses that contradict each other the best start follows. */
-static void approach(const PlaceSearch *s, const Rows *rows)
+void place_row_scales(const PlaceSearch *s, double size, double guesses, double *scale)
 {
-    const double size = size_of(s->p);
-    double *scale = NEW_ARRAY(double, rows->rows);
+    for (int i = 0; i < s->rows.rows; i++) {
+        const double *shift = s->link_rows[i].by_shift;
 
-    for (int i = 0; i < rows->rows; i++)
-        scale[i] = vector3_dot(s->rows[i].by_shift, s->rows[i].by_shift) > 0 ? 1 / size : 1;
-    (void)levenberg_marquardt_solve(rows, NULL, scale, APPROACHED, s->p->c, NULL);
-    mem_free(scale);
+        scale[i] = vector3_dot(shift, shift) > 0 ? 1 / size : 1;
+        if (i >= s->rows.rows - s->p->guess_count)
+            scale[i] *= guesses;
+    }
 }
 
-static bool search(Placing *p, bool guesses, bool exactly)
+/* To what comes nearest to all guesses and to loops that close, all alike. */
+static void approach(PlaceSearch *s)
 {
-    PlaceSearch s;
-    Rows rows;
-    double *residual;
-    bool met = true;
+    double *scale = NEW_ARRAY(double, s->rows.rows);
 
-    list_asks(p, guesses);
-    if (p->row_count == 0)
-        return true;
-    open_search(&s, p);
-    rows = (Rows){.rows = p->row_count,
-                  .columns = p->columns.count,
-                  .length = p->s->link_count * POSE_COORDS,
-                  .context = &s,
-                  .watch = p->a->setting->watch,
-                  .evaluate = evaluate,
-                  .move = move};
-    residual = NEW_ARRAY(double, rows.rows);
-    evaluate(&s, p->c, residual, NULL);
-    for (int i = 0; i < rows.rows; i++)
-        met = met && !initial_misses(residual[i]);
-    if (!met && rows.columns > 0 && !exactly)
-        approach(&s, &rows);
-    else if (!met && rows.columns > 0)
-        met = solve(p, &rows, residual);
-    mem_free(residual);
-    close_search(&s);
-    return met;
+    place_row_scales(s, place_size(s->p), 1, scale);
+    (void)levenberg_marquardt_solve(&s->rows, NULL, scale, PLACE_APPROACHED, s->p->c, NULL);
+    mem_free(scale);
 }
 
 bool place_search(Placing *p, bool guesses)
 {
-    return search(p, guesses, !guesses);
-}
+    PlaceSearch s;
+    double *residual;
+    bool met = true;
 
-bool place_meet_guesses(Placing *p)
-{
-    const size_t bytes = (size_t)p->s->link_count * POSE_COORDS * sizeof(double);
-    double *begun = NEW_ARRAY(double, p->s->link_count *POSE_COORDS);
-    bool met = false;
-
-    memcpy(begun, p->c, bytes);
-    for (int i = 0; i < p->wishes.count && !met; i++)
-        if (p->wishes.at[i].is_guess) {
-            met = search(p, true, true);
-            break;
-        }
-    if (!met)
-        memcpy(p->c, begun, bytes);
-    mem_free(begun);
+    place_open_search(&s, p, guesses);
+    residual = NEW_ARRAY(double, s.rows.rows);
+    evaluate(&s, p->c, residual, NULL);
+    for (int i = 0; i < s.rows.rows; i++)
+        met = met && !initial_misses(residual[i]);
+    if (!met && s.rows.columns > 0 && guesses)
+        approach(&s);
+    else if (!met && s.rows.columns > 0)
+        met = solve(p, &s.rows, residual);
+    mem_free(residual);
+    place_close_search(&s);
     return met;
 }

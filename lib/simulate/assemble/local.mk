@@ -17,6 +17,7 @@ libcore_la_SOURCES += \
   lib/simulate/assemble/initial.c \
   lib/simulate/assemble/initial.h \
   lib/simulate/assemble/initial_given.c \
+  lib/simulate/assemble/initial_guesses.c \
   lib/simulate/assemble/initial_impl.h \
   lib/simulate/assemble/initial_known.c \
   lib/simulate/assemble/initial_network.c \

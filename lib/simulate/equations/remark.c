@@ -77,6 +77,10 @@ static void write_start(const Remark *r, Text *out)
                   "assembly meant",
                   r->size);
         break;
+    case REMARK_GUESS_MISSED:
+        text_addf(out, "no assembly found that meets all guesses: %s went from %.4g to %.4g",
+                  r->what, r->size, r->to);
+        break;
     case REMARK_START_SINGULAR:
         text_addf(out, "the start is a singular position: %d of %d constraints hold there",
                   r->count, r->of);
