@@ -94,6 +94,10 @@ typedef struct Number {
 Number number_int(int64_t value);
 Number number_of(Expr number);
 Number number_add(Number a, Number b);
+/* *sum += a, where *size starts at 0: the sum of the sizes of what was rounded, 0 where nothing
+ * was. A sum of doubles within `ROUNDED` of that size is rounding of 0, and is 0. What rationals
+ * are, a user's 1e-17 too, is exact and never that. */
+void number_gather(Number *sum, double *size, Number a);
 Number number_mul(Number a, Number b);
 Number number_neg(Number a);
 /* a^k; a isn't 0 where k < 0 */
@@ -146,6 +150,7 @@ typedef struct Item {
     Expr exponent;      /* of a factor */
     Expr whole;         /* the factor as it came, NULL once two were merged */
     Number coefficient; /* of a term */
+    double size;        /* of what was rounded in it (number_gather()) */
 } Item;
 
 /* Stable sort by the keys. O(n log n), O(n) where in order already. */

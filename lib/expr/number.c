@@ -6,6 +6,7 @@
 #include "expr/expr_impl.h"
 
 #include <ctype.h>
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -130,6 +131,26 @@ Number number_add(Number a, Number b)
     if (a.den == 1 && b.den == 1)
         return wide_ratio((Wide)a.num + b.num, 1);
     return wide_ratio((Wide)a.num * b.den + (Wide)b.num * a.den, (Wide)a.den * b.den);
+}
+
+/* Doubles come of functions' values and of long products, each rounded by some eps/2: entries of a
+ * product of three rotations have an error of some 5 eps/2 of 1. */
+#define ROUNDED (16 * DBL_EPSILON)
+
+void number_gather(Number *sum, double *size, Number a)
+{
+    const Number before = *sum;
+
+    *sum = number_add(before, a);
+    if (number_is(before, 0)) {
+        *size = a.den == 0 ? fabs(a.real) : 0;
+        return;
+    }
+    if (*size == 0 && sum->den != 0)
+        return;
+    *size += fabs(number_value(a)) + (*size == 0 ? fabs(number_value(before)) : 0);
+    if (sum->den == 0 && fabs(sum->real) <= ROUNDED * *size)
+        *sum = number_int(0);
 }
 
 Number number_mul(Number a, Number b)

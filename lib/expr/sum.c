@@ -73,12 +73,15 @@ Expr expr_neg(Arena *arena, Expr a)
     return term_scale(arena, a, number_neg(term_coefficient(a)));
 }
 
-static void push_term(Item *items, int *count, Number *constant, Expr term)
+static void push_term(Item *items, int *count, Item *constant, Expr term)
 {
-    if (is_number(term))
-        *constant = number_add(*constant, number_of(term));
-    else
-        items[(*count)++] = (Item){.key = term, .coefficient = term_coefficient(term)};
+    if (is_number(term)) {
+        number_gather(&constant->coefficient, &constant->size, number_of(term));
+        return;
+    }
+    items[*count] = (Item){.key = term, .coefficient = number_int(0)};
+    number_gather(&items[*count].coefficient, &items[*count].size, term_coefficient(term));
+    (*count)++;
 }
 
 /* Add up like terms, which stand side by side; how many stay. */
@@ -88,8 +91,8 @@ static int merge_terms(Item *items, int count)
 
     for (int i = 0; i < count; i++) {
         if (kept > 0 && order_terms(items[kept - 1].key, items[i].key) == 0)
-            items[kept - 1].coefficient =
-                number_add(items[kept - 1].coefficient, items[i].coefficient);
+            number_gather(&items[kept - 1].coefficient, &items[kept - 1].size,
+                          items[i].coefficient);
         else
             items[kept++] = items[i];
     }
@@ -134,7 +137,7 @@ Expr expr_sum(Arena *arena, const Expr *terms, int count)
 {
     Item at_hand[AT_HAND];
     Item *items = at_hand;
-    Number constant = number_int(0);
+    Item constant = {.coefficient = number_int(0)};
     int total = 0;
     int kept = 0;
     int some = 0; /* that aren't 0 */
@@ -162,7 +165,7 @@ Expr expr_sum(Arena *arena, const Expr *terms, int count)
     }
     items_sort(items, kept, order_terms);
     kept = merge_terms(items, kept);
-    sum = sum_of_items(arena, items, kept, constant);
+    sum = sum_of_items(arena, items, kept, constant.coefficient);
     if (items != at_hand)
         mem_free(items);
     return sum;

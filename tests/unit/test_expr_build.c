@@ -488,8 +488,30 @@ static void long_sums_are_built_at_once(void)
     arena_free(arena);
 }
 
+/* A sum of doubles that is rounding of their sizes is 0; what a user gives is exact, and what is
+ * small beside nothing that cancels stays. */
+static void rounding_of_nothing_vanishes(void)
+{
+    BEGIN;
+    const Expr third = expr_real(w.arena, 0.1 + 0.2), minus = expr_real(w.arena, -0.3);
+    const Expr tiny = expr_decimal(w.arena, "1e-17"), small = expr_real(w.arena, 1e-15 / 3);
+
+    EXPECT(0.1 + 0.2 - 0.3 != 0);
+    EXPECT(expr_is_zero(ADD(third, minus)));
+    EXPECT(ADD(MUL(third, x), MUL(minus, x)) == INT(0));
+    EXPECT(expr_sum(w.arena, (Expr[]){MUL(third, x), a, MUL(minus, x)}, 3) == a);
+    EXPECT(ADD(MUL(third, x), MUL(tiny, a)) != MUL(third, x));
+    EXPECT(expr_value(expr_sum(w.arena, (Expr[]){INT(1), tiny, INT(-1)}, 3)) == 1e-17);
+    EXPECT(expr_value(expr_sum(w.arena, (Expr[]){INT(1), INT(-1), small}, 3)) == 1e-15 / 3);
+    EXPECT(expr_value(ADD(ADD(third, minus), small)) == 1e-15 / 3);
+    EXPECT(expr_value(ADD(INT(1), expr_real(w.arena, -1 + 1e-14))) != 0);
+    EXPECT(expr_value(ADD(small, small)) == 2 * (1e-15 / 3));
+    END;
+}
+
 int main(void)
 {
+    RUN(rounding_of_nothing_vanishes);
     RUN(rationals_are_exact_until_they_overflow);
     RUN(multiples_of_pi_are_exact);
     RUN(sines_of_turns_are_exact);
