@@ -44,6 +44,13 @@ static OpCount count_network(const System *system, bool shared)
     return count;
 }
 
+static bool exceeds(OpCount a, OpCount b)
+{
+    return a.add > b.add || a.mul > b.mul || a.fun > b.fun;
+}
+
+/* The recursive form shares what the equations of a run compute once; of what is short as written
+ * it may have more operations of a kind. What is written shares its own common parts then. */
 Status system_count(System *system, Block block, bool shared, OpCount *out, Diag *diag)
 {
     system_touch(system);
@@ -51,6 +58,7 @@ Status system_count(System *system, Block block, bool shared, OpCount *out, Diag
     int columns;
     const Expr *run;
     Expr *entries = NULL;
+    OpCount written, recursive;
     Status status = OK;
 
     if (block == BLOCK_NETWORK) {
@@ -60,17 +68,18 @@ Status system_count(System *system, Block block, bool shared, OpCount *out, Diag
     system_block_size(system, block, &rows, &columns);
     if (shared && block == BLOCK_MASS)
         CHECK(system_form_mass(system, diag));
-    run = run_block(system, block);
-    if (shared && run != NULL) {
-        *out = expr_count_shared(run, rows * columns);
-        return OK;
-    }
     entries = NEW_ARRAY(Expr, (size_t)rows * (size_t)columns);
     for (int r = 0; r < rows; r++)
         for (int c = 0; c < columns; c++)
             CHECK(system_show(system, block, r, c, &entries[r * columns + c], diag));
-    *out =
-        shared ? expr_count_shared(entries, rows * columns) : expr_count(entries, rows * columns);
+    written = expr_count(entries, rows * columns);
+    run = run_block(system, block);
+    if (!shared) {
+        *out = written;
+        goto done;
+    }
+    recursive = expr_count_shared(run != NULL ? run : entries, rows * columns);
+    *out = exceeds(recursive, written) ? expr_count_shared(entries, rows * columns) : recursive;
 done:
     mem_free(entries);
     return status;
