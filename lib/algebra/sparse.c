@@ -8,9 +8,10 @@
 #include <math.h>
 #include <string.h>
 
-#define SMALL  12   /* up to here dense factors are faster (make bench: algebra.sparse_*) */
-#define GROWTH 1e-8 /* pivots kept from an earlier matrix are given up below this */
-#define OFTEN  4    /* solutions with the same factors, from which on they are unpacked */
+#define SMALL 12   /* up to here dense factors are faster (make bench: algebra.sparse_*) */
+#define WORN  1e-3 /* of what they were chosen for: growth that gives up an earlier matrix' pivots \
+                    */
+#define OFTEN 4    /* solutions with the same factors, from which on they are unpacked */
 
 /* KLU's factors for many solutions, LU + F = P (R \ A) Q: it keeps them so that they are found
  * fast, with a division an unknown and all blocks apart. Here rows: of L, and of F before them, and
@@ -34,6 +35,7 @@ struct Sparse {
     klu_symbolic *symbolic;
     klu_numeric *numeric;
     klu_common common;
+    double growth;   /* of pivots as they were chosen: least of max |A| / max |U| by columns */
     Cleanup cleanup; /* of KLU's */
     int singular;
     int solutions; /* with the factors there are; OFTEN: they are unpacked */
@@ -135,7 +137,7 @@ static bool refactor(Sparse *s)
            klu_refactor(s->start, s->row, s->values, s->symbolic, s->numeric, &s->common) &&
            s->common.status == KLU_OK &&
            klu_rgrowth(s->start, s->row, s->values, s->symbolic, s->numeric, &s->common) &&
-           s->common.rgrowth > GROWTH;
+           s->common.rgrowth > WORN * s->growth;
 }
 
 bool sparse_factor(Sparse *s, const double *values)
@@ -158,8 +160,11 @@ bool sparse_factor(Sparse *s, const double *values)
         s->numeric = klu_factor(s->start, s->row, s->values, s->symbolic, &s->common);
     if (s->common.status == KLU_OUT_OF_MEMORY)
         transaction_fail();
-    if (s->numeric != NULL && s->common.status == KLU_OK)
+    if (s->numeric != NULL && s->common.status == KLU_OK) {
+        (void)klu_rgrowth(s->start, s->row, s->values, s->symbolic, s->numeric, &s->common);
+        s->growth = s->common.rgrowth;
         return true;
+    }
     s->singular = s->common.status == KLU_SINGULAR ? s->common.singular_col : -1;
     return false;
 }

@@ -8,6 +8,7 @@
 #include "algebra/linear.h"
 #include "algebra/rank.h"
 #include "algebra/remainders.h"
+#include "algebra/sparse.h"
 #include "base/memory.h"
 
 #include "../random.h"
@@ -386,8 +387,47 @@ static void an_affine_map_meets_its_fixed_point(void)
     }
 }
 
+/* a ring of n unknowns: diagonal entries `own` in size, neighbours about 1 */
+static void fill_ring(int n, double own, uint64_t *seed, int *row, int *column, double *value)
+{
+    for (int i = 0; i < n; i++)
+        for (int k = -1; k <= 1; k++) {
+            const int e = 3 * i + k + 1;
+
+            row[e] = i;
+            column[e] = (i + k + n) % n;
+            value[e] = (k == 0 ? own : 1) * test_uniform(seed, 0.5, 1.5);
+        }
+}
+
+/* Pivots on the diagonal serve the first matrix; in the second nearly nothing is left of them. */
+static void pivots_of_an_earlier_matrix_are_given_up_where_they_wear(void)
+{
+    enum { N = 15 };
+    int row[3 * N], column[3 * N];
+    double value[3 * N], b[N];
+    uint64_t seed = 5;
+    Sparse *sparse;
+
+    fill_ring(N, 4, &seed, row, column, value);
+    sparse = sparse_new(N, 3 * N, row, column);
+    EXPECT(sparse_factor(sparse, value));
+    for (int turn = 0; turn < 20; turn++) {
+        fill_ring(N, pow(10, -turn), &seed, row, column, value);
+        EXPECT(sparse_factor(sparse, value));
+        memset(b, 0, sizeof b);
+        for (int e = 0; e < 3 * N; e++)
+            b[row[e]] += value[e] * (1 + column[e]);
+        sparse_solve(sparse, b);
+        for (int i = 0; i < N; i++)
+            EXPECT_NEAR(b[i], 1 + i, 1e-8);
+    }
+    sparse_free(sparse);
+}
+
 int main(void)
 {
+    RUN(pivots_of_an_earlier_matrix_are_given_up_where_they_wear);
     RUN(an_affine_map_meets_its_fixed_point);
     RUN(blocks_are_what_acts_both_ways);
     RUN(a_match_is_found_where_there_is_one);
