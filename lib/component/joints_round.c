@@ -100,7 +100,9 @@ const Component component_spherical = {
             "Coordinates: Euler parameters q0 q1 q2 q3, scalar part first, tip to tail, or with "
             "euler=zxz and its kin angles a1 a2 a3 of three turns. Sequences that end as they "
             "begin (zxz) are singular where a2 is 0 or half a turn, the others (zyx) where it is "
-            "a quarter of a turn; Euler parameters nowhere. Reactions: three forces.",
+            "a quarter of a turn; Euler parameters nowhere. Angles of a chord are read off its "
+            "attitude, a1 and a3 within half a turn of 0, and a2 from 0 to half a turn (zxz) or "
+            "within a quarter of a turn (zyx). Reactions: three forces.",
     .example = "gravity [0, 0, -9.81]\nbody top mass=15 inertia=[0.3, 0.5, 0.3]\n"
                "arm P top [0, -1, 0]\nspherical b1 ground P\ninit top.wy = 150\n"
                "simulate 0.1\nprint top.x, top.y, top.z",

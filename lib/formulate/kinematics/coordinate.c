@@ -144,6 +144,51 @@ Vec joint_axis(const System *system, const Instance *owner, const Steps *steps, 
     return system->kinematics->speeds[speed].axis;
 }
 
+/* Of three turns u1, u2, u3, each axis at a right angle to the one before, R = R1 R2 R3. With n =
+ * u1 x u2, w = R u3 in the tail:
+ *
+ *     u3 = s n, s = 1 or -1   s (w.u1) = sin a2,  s (-w.u2, w.n) = cos a2 (sin a1, cos a1)
+ *                             (-s u1.R u2, u1.R u1) = cos a2 (sin a3, cos a3)
+ *     u3 = u1                 w.u1 = cos a2,  (w.u2, -w.n) = sin a2 (sin a1, cos a1)
+ *                             (u1.R u2, u1.R n) = sin a2 (sin a3, cos a3)
+ *
+ * The middle turn is within a quarter turn of 0, or of 0 to half a turn; where a1 and a3 turn about
+ * one line they have no value. theory 2. */
+static Expr euler_angle(const System *system, const Instance *owner, const Steps *steps, int which)
+{
+    Arena *arena = system->arena;
+    const Rotation constant = chord_constant(system, owner, steps);
+    const Vec a1 = turn_axis(&steps->turn[0]), a2 = turn_axis(&steps->turn[1]);
+    const Vec a3 = turn_axis(&steps->turn[2]), side = vec_cross(arena, a1, a2);
+    const Expr sense = vec_dot(arena, a3, side); /* 0: the first axis returns */
+    const bool returns = expr_is_zero(sense);
+    const Vec u1 = frame_vector(system, owner->tail, a1),
+              u2 = frame_vector(system, owner->tail, a2);
+    const Vec n = frame_vector(system, owner->tail, side);
+    const Vec far = far_axis(system, owner, &constant, a3);
+    Expr sine, cosine, size;
+
+    if (which == 2) {
+        sine = vec_dot(arena, u1, far_axis(system, owner, &constant, a2));
+        cosine = vec_dot(arena, u1, far_axis(system, owner, &constant, returns ? side : a1));
+    } else {
+        sine = vec_dot(arena, far, u2);
+        cosine = vec_dot(arena, far, n);
+    }
+    size = expr_add(arena, expr_square(arena, sine), expr_square(arena, cosine));
+    if (which == 1 && returns)
+        return expr_call2(arena, OP_ATAN2, expr_sqrt(arena, size), vec_dot(arena, far, u1));
+    if (which == 1)
+        return expr_call2(arena, OP_ATAN2, expr_mul(arena, sense, vec_dot(arena, far, u1)),
+                          expr_sqrt(arena, size));
+    if (!returns)
+        sine = expr_neg(arena, expr_mul(arena, sense, sine));
+    if (which == 0)
+        cosine = expr_mul(arena, returns ? expr_int(arena, -1) : sense, cosine);
+    /* no value where both are 0 */
+    return expr_call2(arena, OP_ATAN2, expr_div(arena, sine, size), expr_div(arena, cosine, size));
+}
+
 /* depth that two ends may differ by for a way between them to be written out */
 enum { FAR_APART = 20 };
 
@@ -235,4 +280,22 @@ Status coordinate_value(System *system, const Instance *owner, int coordinate, i
     for (; primes > 0; primes--)
         TRY(system_rate_of(system, *out, out, diag));
     return OK;
+}
+
+Status coordinate_shown(System *system, const Instance *owner, int coordinate, int primes,
+                        Expr *out, Diag *diag)
+{
+    Steps steps;
+
+    instance_steps(system, owner, &steps);
+    if (system->kinematics->coordinate[owner->number][coordinate] < 0 && primes <= 2 &&
+        steps.turn_count == 3)
+        for (int k = 0; k < 3; k++)
+            if (steps.turn[k].coordinate == coordinate) {
+                *out = euler_angle(system, owner, &steps, k);
+                for (; primes > 0; primes--)
+                    TRY(system_rate_of(system, *out, out, diag));
+                return OK;
+            }
+    return coordinate_value(system, owner, coordinate, primes, out, diag);
 }

@@ -31,6 +31,10 @@ bool steps_are_tied(const Steps *steps);
 /* value of a coordinate and its first and second derivatives, branch or chord */
 MUST_USE Status coordinate_value(System *system, const Instance *owner, int coordinate, int primes,
                                  Expr *out, Diag *diag);
+/* The same for who reads it: three angles of a chord too, each within half a turn of 0, which jump
+ * there and at critical angles; nothing may be attached to them. */
+MUST_USE Status coordinate_shown(System *system, const Instance *owner, int coordinate, int primes,
+                                 Expr *out, Diag *diag);
 /* derivative of e(q) per unit of a speed */
 Expr speed_partial(const System *system, Expr e, int speed);
 

@@ -674,7 +674,7 @@ Status system_variable(System *system, const char *path, int primes, Expr *out, 
     Status status = OK;
 
     if (find_coordinate(system, path, &owner, &which))
-        return coordinate_value(system, owner, which, primes, out, diag);
+        return coordinate_shown(system, owner, which, primes, out, diag);
     owner = solved_for(system, path, primes);
     if (owner != NULL)
         return network_across(system, scalar_branch(system, owner, 0), out, diag);

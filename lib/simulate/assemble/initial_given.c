@@ -2,6 +2,7 @@
 #include "simulate/assemble/initial_impl.h"
 
 #include <math.h>
+#include <string.h>
 
 #define ROUNDED 1e-2 /* of the length of four Euler parameters: more is no rounding */
 #define FEWER   1e-5 /* of fewer: the others may be small, but not as small as that */
@@ -56,25 +57,65 @@ Status initial_classify(Assembly *a, GivenValue *given, Diag *diag)
     return OK;
 }
 
-/* Three angles of a chord have no expression, but frames can be placed by them. */
+/* whether it is one of three angles that tell an attitude */
+static bool is_of_three_angles(const Stand *stand)
+{
+    int angles = 0;
+
+    if (stand->kind != STANDS_COORDINATE ||
+        stand->instance->coord_kind[stand->which] != COORDINATE_ANGLE)
+        return false;
+    for (int i = 0; i < stand->instance->coord_count; i++)
+        angles += stand->instance->coord_kind[i] == COORDINATE_ANGLE;
+    return angles == 3;
+}
+
+/* the middle one of three angles: its coordinate */
+static int middle_angle(const Instance *instance)
+{
+    int first = 0;
+
+    while (instance->coord_kind[first] != COORDINATE_ANGLE)
+        first++;
+    return first + 1;
+}
+
+/* Whether the middle angle is given beyond what a chord's expression tells of it: within a quarter
+ * turn of 0, or from 0 to half a turn where the first axis returns. */
+static bool is_other_set(const Assembly *a, const Instance *instance)
+{
+    const StartValues *start = a->setting->start;
+    const char *axes = instance_value(instance, "euler")->word;
+    const char *middle = instance->coord[middle_angle(instance)];
+
+    for (int i = 0; start != NULL && i < start->count; i++)
+        if (start->at[i].primes == 0 && strcmp(start->at[i].name, middle) == 0)
+            return (axes[0] == axes[2] ? sin(start->at[i].value) : cos(start->at[i].value)) < 0;
+    return false;
+}
+
+/* Three angles of a chord tell where frames are placed, which needs no expressions. These know one
+ * of the two sets of angles that an attitude has: in the other the middle angle falls where it
+ * rises here. */
+static void read_three_angles(const Assembly *a, const Stand *stand, GivenValue *given)
+{
+    if (given->value->primes == 0)
+        given->expr = NULL;
+    else if (stand->which == middle_angle(stand->instance) && is_other_set(a, stand->instance))
+        given->expr = expr_neg(system_arena(a->l->system), given->expr);
+}
+
 static Status read_one(Assembly *a, GivenValue *given, Diag *diag)
 {
     const StartValue *value = given->value;
-    const Stand stand =
-        value->primes == 0 ? system_stand(a->l->system, value->name) : (Stand){STANDS_NOT};
-    Status status = system_variable(a->l->system, value->name, value->primes, &given->expr, diag);
+    const Stand stand = system_stand(a->l->system, value->name);
+    Status status = OK;
 
-    if (status == E_MISSING && stand.kind == STANDS_COORDINATE) {
-        given->level = LEVEL_POSITION;
-        given->place = given->column = given->group = -1;
-        given->target = value->value;
-        given->stand = stand;
-        given->expr = NULL;
-        return OK;
-    }
-    CHECK(status);
+    CHECK(system_variable(a->l->system, value->name, value->primes, &given->expr, diag));
     CHECK(initial_classify(a, given, diag));
-    if (given->level == LEVEL_POSITION)
+    if (is_of_three_angles(&stand) && given->place < 0)
+        read_three_angles(a, &stand, given);
+    if (value->primes == 0 && given->level == LEVEL_POSITION)
         given->stand = stand;
 done:
     return status;
