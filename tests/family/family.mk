@@ -234,3 +234,8 @@ family_machine_uses_SOURCES = tests/family/family_machine_uses.c tests/family/ma
 	tests/family/extrapolated.h tests/family/family.h tests/family/script.h \
 	tests/unit/session_kit.h tests/unit/test.h tests/random.h
 family_machine_uses_LDADD = libcotree.la $(unit_ldadd)
+
+FAMILIES += family_attitudes
+family_attitudes_SOURCES = tests/family/family_attitudes.c tests/family/family.h \
+	tests/family/script.h tests/random.h tests/unit/session_kit.h tests/unit/test.h
+family_attitudes_LDADD = libcotree.la $(unit_ldadd)
