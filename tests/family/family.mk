@@ -239,3 +239,8 @@ FAMILIES += family_attitudes
 family_attitudes_SOURCES = tests/family/family_attitudes.c tests/family/family.h \
 	tests/family/script.h tests/random.h tests/unit/session_kit.h tests/unit/test.h
 family_attitudes_LDADD = libcotree.la $(unit_ldadd)
+
+FAMILIES += family_network_trees
+family_network_trees_SOURCES = tests/family/family_network_trees.c tests/family/family.h \
+	tests/family/script.h tests/random.h tests/unit/session_kit.h tests/unit/test.h
+family_network_trees_LDADD = libcotree.la $(unit_ldadd)

@@ -128,7 +128,7 @@ Status network_no_rate(const System *system, const char *edge, Status status, Di
     if (status != E_MISSING || system->network->form != NETWORK_TREE)
         return status;
     (void)diag_set(diag, E_MODEL,
-                   "in this tree %s needs the derivative of an acceleration or of a reaction",
+                   "in this tree %s follows from accelerations or reactions, or from their rates",
                    edge);
     diag_hint(diag, "take capacitors and their kin into the tree and inductors out of it, or set "
                     "network state");

@@ -119,6 +119,26 @@ static void find_cutsets(System *system, TreeKind kind)
     }
 }
 
+/* A start gives what elements store: in the user's tree it may not follow from accelerations, which
+ * are found later. */
+static Status check_stored(const System *system, Diag *diag)
+{
+    const unsigned late = 1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER;
+
+    for (int i = 0; i < system->network->branches.count; i++) {
+        const Branchlike *branch = &system->network->branches.at[i];
+        const RelationKind kind = branch->relation.kind;
+        const Expr stored = kind == RELATION_CAPACITIVE  ? branch->v
+                            : kind == RELATION_INDUCTIVE ? branch->i
+                                                         : NULL;
+
+        if (stored != NULL && (expr_kinds(stored) & late) != 0)
+            return network_no_rate(system, graph_edge(system->origin->graph, branch->edge)->name,
+                                   E_MISSING, diag);
+    }
+    return OK;
+}
+
 /* --- building --- */
 
 static int add_state(System *system, Unknown unknown, const char *name)
@@ -202,8 +222,10 @@ Status network_build(System *system, Diag *diag)
         TRY(poll(system->watch));
     }
     TRY(check_smooth(system, diag));
-    if (system->network->form == NETWORK_TREE)
+    if (system->network->form == NETWORK_TREE) {
         TRY(network_bring_order(system, diag));
+        TRY(check_stored(system, diag));
+    }
     network_list(system);
     return OK;
 }
