@@ -10,6 +10,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #define SOON      1e-3 /* of the time that things take: no further ahead, along a straight line */
@@ -295,6 +296,57 @@ static bool tell_unstable(RunEnd *e, const Stepper *stepper, Diag *diag)
     return true;
 }
 
+/* Which equation limits the step: over h along the rates, y'(t + h, y + h y') - y'(t, y) is twice
+ * the error of Euler's method over h, which is compared with the tolerance of each entry. -1: none
+ * changes, or there are no rates ahead. */
+static int find_limiting(RunEnd *e, Stepper *stepper, double h)
+{
+    const Layout *l = e->phase->layout;
+    double *later = NEW_ARRAY(double, e->phase->length), most = 0;
+    int found = -1;
+
+    look_ahead(e, h);
+    if (stepper_rate(stepper, e->t + h, e->ahead, later))
+        for (int i = 0; i < l->n + l->nu + l->nx; i++) {
+            const double part =
+                fabs(later[i] - e->rate[i]) / stepper_tolerance(stepper, i, fabs(e->y[i]));
+
+            if (part > most) {
+                most = part;
+                found = i;
+            }
+        }
+    mem_free(later);
+    return found;
+}
+
+/* No cause is known: the equation whose error limits the step, the part that acts most, and what
+ * may help. */
+static void add_limiting(RunEnd *e, Stepper *stepper, const char *hardest, Diag *diag)
+{
+    const double last = e->t - stepper->before;
+    const double h = fmax(last, fmax(FIRST * e->span, 4 * DBL_EPSILON * fabs(e->t)));
+    const int which = find_limiting(e, stepper, h);
+    const Method *stiff = method_for((MethodNeed){.stiff = true});
+    char other[80] = "";
+
+    if (which < 0)
+        add_cause(diag, "; ", "the equations", "have no value from there on");
+    else
+        add_cause(diag, "; the error of ", name_of(e, which), "limits it");
+    if (hardest != NULL)
+        add_cause(diag, ", ", hardest, "pushes hardest");
+    if (diag->hint[0] != '\0')
+        return;
+    if (stepper->method != stiff)
+        (void)snprintf(other, sizeof other, "method=%s or ", stiff->name);
+    diag_hint(diag,
+              "%sa larger rtol= may get further; else look at what acts on %s: a law that jumps or "
+              "grows without bound, or a part with hardly any mass or inertia; an event with "
+              "do=stop ends a run before",
+              other, which >= 0 ? name_of(e, which) : "the parts there");
+}
+
 static void tell(RunEnd *e, Stepper *stepper, bool *is_rounding, Diag *diag)
 {
     int growing;
@@ -324,7 +376,18 @@ static void tell(RunEnd *e, Stepper *stepper, bool *is_rounding, Diag *diag)
             add_cause(diag, ", ", pushing.hardest, "pushes hardest");
         diag_hint(diag, "a law may push the wrong way, or grow too fast with what it reads; an "
                         "event with do=stop ends a run before");
+    } else {
+        add_limiting(e, stepper, pushing.hardest, diag);
     }
+}
+
+/* There are no rates where it stands. */
+static void tell_undefined(const RunEnd *e, Diag *diag)
+{
+    char before[sizeof diag->message];
+
+    memcpy(before, diag->message, sizeof before);
+    (void)cause_tell(e->phase->layout, &e->run->phases->parameters, e->t, e->y, before, diag);
 }
 
 void ends_explain(void *context, const Segment *segment, Stepper *stepper, bool *is_rounding,
@@ -341,6 +404,8 @@ void ends_explain(void *context, const Segment *segment, Stepper *stepper, bool 
     end.at_start = c->run->begin;
     if (ode->rate(ode->context, end.t, end.y, end.rate))
         tell(&end, stepper, is_rounding, diag);
+    else
+        tell_undefined(&end, diag);
     mem_free(end.rate);
     mem_free(end.ahead);
 }
