@@ -91,7 +91,8 @@ static bool tell_massless(const Layout *l, const char *what, Diag *diag)
 {
     const Reading *run = system_run(l->system);
 
-    if (system_form_mass(l->system, NULL) != OK)
+    /* constraints may lend a speed the mass of another */
+    if (l->m > 0 || system_form_mass(l->system, NULL) != OK)
         return false;
     for (int j = 0; j < l->nu; j++) {
         bool is_empty = true;
@@ -126,43 +127,55 @@ static const char *thin_beam(const Layout *l)
     return NULL;
 }
 
-/* the mass matrix at y, each row and column divided by the root of its diagonal entry, which
- * `scale` tells; where that is zero it stays */
-static void scaled_mass(const Layout *l, Parameters *parameters, double t, const double *y,
-                        double *mass, double *scale)
+/* [S M S; Phi_u S R] at y, (nu + m) x nu: S divides columns by the root of the diagonal entry of M,
+ * which `scale` tells; where that is zero it stays. R divides rows of Phi_u by their size. */
+static void scaled_rows(const Layout *l, Parameters *parameters, double t, const double *y,
+                        double *rows, double *scale)
 {
     const Reading *run = system_run(l->system);
     double largest = 0;
 
-    for (int i = 0; i < l->nu * l->nu; i++)
-        if (!value_at(l, parameters, run->mass[i], t, y, &mass[i]))
-            mass[i] = 0;
+    for (int i = 0; i < (l->nu + l->m) * l->nu; i++)
+        if (!value_at(l, parameters,
+                      i < l->nu * l->nu ? run->mass[i] : run->phi_u[i - l->nu * l->nu], t, y,
+                      &rows[i]))
+            rows[i] = 0;
     for (int j = 0; j < l->nu; j++)
-        largest = fmax(largest, mass[j * l->nu + j]);
+        largest = fmax(largest, rows[j * l->nu + j]);
     for (int j = 0; j < l->nu; j++)
-        scale[j] = mass[j * l->nu + j] > ROUNDING * largest ? sqrt(mass[j * l->nu + j]) : 1;
+        scale[j] = rows[j * l->nu + j] > ROUNDING * largest ? sqrt(rows[j * l->nu + j]) : 1;
     for (int i = 0; i < l->nu * l->nu; i++)
-        mass[i] /= scale[i / l->nu] * scale[i % l->nu];
+        rows[i] /= scale[i / l->nu] * scale[i % l->nu];
+    for (int k = l->nu; k < l->nu + l->m; k++) {
+        double *row = rows + (ptrdiff_t)k * l->nu, size;
+
+        for (int j = 0; j < l->nu; j++)
+            row[j] /= scale[j];
+        size = vector_largest(row, l->nu);
+        for (int j = 0; j < l->nu && size > 0; j++)
+            row[j] /= size;
+    }
 }
 
-/* Speeds, in `shares`, that together move no mass: of column j what the others don't make of it is
- * nothing. */
-static bool find_massless(const Layout *l, const double *mass, int j, double *shares)
+/* Speeds, in `shares`, that together move no mass and obey the constraints: of column j what the
+ * others don't make of it is nothing. */
+static bool find_massless(const Layout *l, const double *rows, int j, double *shares)
 {
-    double *others = NEW_ARRAY(double, l->nu * l->nu);
-    double *column = NEW_ARRAY(double, l->nu);
-    double *made = NEW_ARRAY(double, l->nu);
+    const int count = l->nu + l->m;
+    double *others = NEW_ARRAY(double, count * l->nu);
+    double *column = NEW_ARRAY(double, count);
+    double *made = NEW_ARRAY(double, count);
     double left = 0;
 
-    for (int i = 0; i < l->nu; i++) {
-        column[i] = mass[i * l->nu + j];
+    for (int i = 0; i < count; i++) {
+        column[i] = rows[i * l->nu + j];
         for (int k = 0; k < l->nu; k++)
-            others[i * l->nu + k] = k == j ? 0 : mass[i * l->nu + k];
+            others[i * l->nu + k] = k == j ? 0 : rows[i * l->nu + k];
     }
-    if (rows_solve(others, l->nu, l->nu, column, shares) < 0)
+    if (rows_solve(others, count, l->nu, column, shares) < 0)
         left = INFINITY;
-    matrix_times(others, l->nu, l->nu, shares, made);
-    for (int i = 0; i < l->nu; i++)
+    matrix_times(others, count, l->nu, shares, made);
+    for (int i = 0; i < count; i++)
         left = hypot(left, column[i] - made[i]);
     shares[j] = -1;
     MEM_FREE(others, column, made);
@@ -187,24 +200,37 @@ static int name_shares(const Layout *l, const double *shares, const double *scal
     return count;
 }
 
-/* Speeds that move no mass at y alone, as that about which a beam turns that is straight. Of
- * equations without constraints, of which such a motion is the end. */
+/* the way out where what moves without mass is a body, a beam, or several */
+static void hint_at_mass(const char *beam, Diag *diag)
+{
+    if (beam != NULL)
+        diag_hint(diag,
+                  "a beam resists a turn about its axis by its sections alone: give %s "
+                  "inertia_per_length=[Jx, Jy, Jz]",
+                  beam);
+    else
+        diag_hint(diag, "give one of these bodies inertia= (in space [Jx, Jy, Jz]), or leave the "
+                        "motion out by a joint with less freedom, as universal for spherical");
+}
+
+/* Speeds that together move no mass at y, and that constraints leave: that about which a straight
+ * beam turns, or a rod without inertia between two ball joints. */
 static bool tell_massless_here(const Layout *l, Parameters *parameters, double t, const double *y,
                                const char *what, Diag *diag)
 {
     const char *beam = thin_beam(l);
-    double *mass, *scale, *shares;
+    double *rows, *scale, *shares;
     Text named = {0};
     bool found = false;
 
-    if (l->m > 0 || l->nu > MOST_LOOKED_AT || system_form_mass(l->system, NULL) != OK)
+    if (l->nu > MOST_LOOKED_AT || system_form_mass(l->system, NULL) != OK)
         return false;
-    mass = NEW_ARRAY(double, l->nu * l->nu);
+    rows = NEW_ARRAY(double, (l->nu + l->m) * l->nu);
     scale = NEW_ARRAY(double, l->nu);
     shares = NEW_ARRAY(double, l->nu);
-    scaled_mass(l, parameters, t, y, mass, scale);
+    scaled_rows(l, parameters, t, y, rows, scale);
     for (int j = 0; j < l->nu && !found; j++)
-        found = find_massless(l, mass, j, shares);
+        found = find_massless(l, rows, j, shares);
     if (found) {
         const int count = name_shares(l, shares, scale, &named);
 
@@ -212,14 +238,10 @@ static bool tell_massless_here(const Layout *l, Parameters *parameters, double t
                        count == 1 ? "%s: what %s moves has no mass or inertia there"
                                   : "%s: %s can move together where there is no mass or inertia",
                        what, named.at);
-        if (beam != NULL)
-            diag_hint(diag,
-                      "a beam resists a turn about its axis by its sections alone: give %s "
-                      "inertia_per_length=[Jx, Jy, Jz]",
-                      beam);
+        hint_at_mass(beam, diag);
     }
     text_free(&named);
-    MEM_FREE(mass, scale, shares);
+    MEM_FREE(rows, scale, shares);
     return found;
 }
 
