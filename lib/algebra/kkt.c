@@ -418,39 +418,12 @@ static void open_exchanging(Kkt *kkt)
     MEM_FREE(row, column);
 }
 
-/* A speed without mass of its own takes the mass that gives it the same weight in its constraints
- * as its heaviest-felt neighbour has. mass[]: of speeds; those that are less than `least` change.
- */
-static void borrow_masses(const Kkt *kkt, double least, double *mass)
-{
-    const double *entries = ldl_entries(kkt->factors);
-    double *strongest = kkt->answer, *borrowed = kkt->residual; /* of g_j^2 / M_jj */
-
-    memset(strongest, 0, (size_t)kkt->m * sizeof(double));
-    memset(borrowed, 0, (size_t)kkt->nu * sizeof(double));
-    for (int e = kkt->mass_entries; e < kkt->entries; e++) {
-        const double own = mass[kkt->row[e]], entry = entries[kkt->place[e]];
-        double *row = &strongest[kkt->column[e] - kkt->nu];
-
-        if (own > 0)
-            *row = fmax(*row, entry * entry / own);
-    }
-    for (int e = kkt->mass_entries; e < kkt->entries; e++) {
-        const double entry = entries[kkt->place[e]], row = strongest[kkt->column[e] - kkt->nu];
-
-        if (row > 0)
-            borrowed[kkt->row[e]] = fmax(borrowed[kkt->row[e]], entry * entry / row);
-    }
-    for (int i = 0; i < kkt->nu; i++)
-        if (!(mass[i] > least))
-            mass[i] = fmax(mass[i], borrowed[i]);
-}
-
 /* Unknowns are scaled to unit mass, rows of G to unit mass-norm at its largest so far. */
 static void choose_scale(Kkt *kkt)
 {
     const double *entries = ldl_entries(kkt->factors);
     double *size = kkt->weight; /* mass, and norm squared */
+    const KktPlaces places = places_of(kkt);
     double heaviest = 0, least;
 
     memset(size, 0, (size_t)kkt->size * sizeof(double));
@@ -458,7 +431,8 @@ static void choose_scale(Kkt *kkt)
         size[i] = entries[kkt->place_of[i]];
         heaviest = fmax(heaviest, size[i]);
     }
-    borrow_masses(kkt, LEAST_MASS * heaviest, size);
+    kkt_borrow_masses(&places, kkt->place, entries, LEAST_MASS * heaviest, kkt->answer,
+                      kkt->residual, size);
     for (int e = kkt->mass_entries; e < kkt->entries; e++) {
         const double entry = entries[kkt->place[e]], mass = size[kkt->row[e]];
 

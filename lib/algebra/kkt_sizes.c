@@ -8,6 +8,8 @@
 #include <math.h>
 #include <string.h>
 
+#define NO_ENTRY 1e-12 /* of the largest of its row: rounding */
+
 #define LEAST_REACH 1e-9 /* of the largest: what is less is rounding */
 #define LEAST_NORM  1e-3 /* likewise */
 
@@ -139,4 +141,36 @@ void kkt_sizes_keep(KktSizes *sizes, bool back)
         memcpy(back ? arrays[i] : kept, back ? kept : arrays[i], (size_t)count * sizeof(double));
         kept += count;
     }
+}
+
+void kkt_borrow_masses(const KktPlaces *places, const int *place, const double *entries,
+                       double least, double *largest, double *room, double *mass)
+{
+    const int m = places->m, nu = places->nu;
+    double *strongest = room, *borrowed = room + m; /* of G_kj^2 / M_j by rows; by speeds */
+
+    memset(largest, 0, (size_t)m * sizeof(double));
+    memset(room, 0, (size_t)(m + nu) * sizeof(double));
+    for (int e = places->mass_entries; e < places->entries; e++) {
+        double *row = &largest[places->column[e] - nu];
+
+        *row = fmax(*row, fabs(entries[place[e]]));
+    }
+    for (int e = places->mass_entries; e < places->entries; e++) {
+        const int row = places->column[e] - nu;
+        const double own = mass[places->row[e]], entry = entries[place[e]];
+
+        /* what rounding leaves of a 0 is no neighbour */
+        if (own > 0 && fabs(entry) > NO_ENTRY * largest[row])
+            strongest[row] = fmax(strongest[row], entry * entry / own);
+    }
+    for (int e = places->mass_entries; e < places->entries; e++) {
+        const double entry = entries[place[e]], row = strongest[places->column[e] - nu];
+
+        if (row > 0)
+            borrowed[places->row[e]] = fmax(borrowed[places->row[e]], entry * entry / row);
+    }
+    for (int i = 0; i < nu; i++)
+        if (!(mass[i] > least))
+            mass[i] = fmax(mass[i], borrowed[i]);
 }

@@ -74,6 +74,10 @@ family_guesses_SOURCES = tests/family/family_guesses.c tests/family/standing.h t
   tests/unit/session_kit.h tests/unit/test.h
 family_guesses_LDADD = libcotree.la $(unit_ldadd)
 
+FAMILIES += family_point_masses
+family_point_masses_SOURCES = tests/family/family_point_masses.c tests/family/family.h tests/random.h tests/unit/session_kit.h tests/unit/test.h
+family_point_masses_LDADD = libcotree.la $(unit_ldadd)
+
 FAMILIES += family_events
 family_events_SOURCES = tests/family/family_events.c tests/family/family.h tests/family/script.h
 family_events_LDADD = libcotree.la $(unit_ldadd)
