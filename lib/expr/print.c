@@ -50,11 +50,35 @@ void say_arguments(Printer *printer, Expr e)
 
 /* --- sums --- */
 
-/* The first term that needs no minus sign; a sum reads better when it starts there. */
-static int first_term(Expr sum)
+typedef LIST(Expr) Summands;
+
+/* The terms of a sum, and of sums among them: a named sum, or one of a shorter form, isn't
+ * merged into the sum that it stands in. Its sign is that of its own terms. */
+static Summands summands_of(Expr sum)
 {
-    for (int i = 0; i < sum->count; i++) {
-        if (!is_negative(held(node_args(sum)[i])))
+    Summands waiting = {0}, terms = {0};
+
+    LIST_PUSH(waiting, sum);
+    while (waiting.count > 0) {
+        const Expr e = waiting.at[--waiting.count];
+        const Expr inside = held(e);
+
+        if (inside->kind != EXPR_SUM) {
+            LIST_PUSH(terms, e);
+            continue;
+        }
+        for (int i = inside->count; i-- > 0;)
+            LIST_PUSH(waiting, node_args(inside)[i]);
+    }
+    LIST_FREE(waiting);
+    return terms;
+}
+
+/* The first term that needs no minus sign; a sum reads better when it starts there. */
+static int first_term(const Summands *terms)
+{
+    for (int i = 0; i < terms->count; i++) {
+        if (!is_negative(held(terms->at[i])))
             return i;
     }
     return 0;
@@ -62,7 +86,7 @@ static int first_term(Expr sum)
 
 static void say_term(Printer *printer, Expr term, bool first)
 {
-    bool negative = is_negative(term);
+    const bool negative = is_negative(held(term));
 
     if (negative)
         say(printer, first ? "-" : printer->dialect->minus);
@@ -75,13 +99,15 @@ static void say_term(Printer *printer, Expr term, bool first)
 
 static void lay_sum(Printer *printer, Expr sum)
 {
-    int start = first_term(sum);
+    Summands terms = summands_of(sum);
+    const int start = first_term(&terms);
 
-    say_term(printer, node_args(sum)[start], true);
-    for (int i = 0; i < sum->count; i++) {
+    say_term(printer, terms.at[start], true);
+    for (int i = 0; i < terms.count; i++) {
         if (i != start)
-            say_term(printer, node_args(sum)[i], false);
+            say_term(printer, terms.at[i], false);
     }
+    LIST_FREE(terms);
 }
 
 /* --- products --- */

@@ -37,7 +37,8 @@ char *view_expression(const View *view, Expr e)
 {
     Text text = {0};
 
-    expr_print(&text, e, view->page.notation);
+    expr_print(&text, view->system != NULL ? system_plain(view->system, e) : e,
+               view->page.notation);
     return text_done(&text);
 }
 
@@ -425,6 +426,9 @@ void view_equations(Text *out, const View *view, EquationList *equations)
     if (is_read)
         name_laws(view, equations, &laws);
     count = gather(equations, &terms, &is_long);
+    for (int i = 0; view->system != NULL && i < count; i++)
+        terms[i] = system_plain(view->system, terms[i]);
+    scatter(equations, terms);
     if (view->system != NULL)
         print_turns(view_kind(view) == NOTATION_SOURCE ? out : &notes, view, terms, count);
     if (is_long) {

@@ -128,6 +128,10 @@ MUST_USE Status session_running(ct_session *session, System **out, Diag *diag);
 MUST_USE Status session_shown(ct_session *session, System **out, Diag *diag);
 /* the equations that something needs which is to be shown */
 MUST_USE Status session_prepare(ct_session *session, Need need, View *view, Diag *diag);
+/* The same for what is written as formulas. Where these read full turns of angles the start is
+ * assembled, which chooses them; where there is no start a remark says that they are left out. */
+MUST_USE Status session_prepare_formulas(ct_session *session, Need need, View *view, Diag *diag);
+void session_end_formulas(const View *view); /* once they are written */
 /* free systems that neither the model nor a run needs any more */
 void session_sweep(ct_session *session);
 /* what there is to look at; `system` and `result` as needed */

@@ -44,12 +44,13 @@ ct_status ct_show(ct_session *session, const ct_statement *statement, char **tex
     session_begin(session);
     CHECK(check_no_units(s, &diag));
     CHECK(show_need(&view, s, &need, &diag));
-    CHECK(session_prepare(session, need, &view, &diag));
+    CHECK(session_prepare_formulas(session, need, &view, &diag));
     report(&session->watch, "writing out", -1);
     CHECK(show(&view, s, &out, &diag));
     if (need == NEED_LINEAR)
         session_remark_linear(session);
 done:
+    session_end_formulas(&view);
     return finish(status, &out, &diag, text, error);
 }
 

@@ -558,7 +558,7 @@ static Status prepare(ct_session *session, const Statement *s, const Format *for
     if (s->operands.count > 1)
         return diag_at(diag, E_SYNTAX, s->operands.at[1].place, "'export %s' takes no items",
                        s->operands.at[0].value->text);
-    return session_prepare(session, need, &what->view, diag);
+    return session_prepare_formulas(session, need, &what->view, diag);
 }
 
 /* what only FMUs are told */
@@ -628,6 +628,7 @@ ct_status ct_export_archive(ct_session *session, const ct_statement *statement, 
 done:
     sheet_free(&sheet);
     code_items_free(&items);
+    session_end_formulas(&what.view);
     return session_report(status, &diag, error);
 }
 
@@ -707,6 +708,7 @@ ct_status ct_export(ct_session *session, const ct_statement *statement, bool wit
 done:
     sheet_free(&sheet);
     code_items_free(&items);
+    session_end_formulas(&what.view);
     text_free(&out);
     return session_report(status, &diag, error);
 }

@@ -1,8 +1,12 @@
 /* multi_turn.c: turns of chords over any number of turns, as they were told (multi_turn_build.c) */
 #include "formulate/kinematics/multi_turn.h"
 #include "formulate/system/constraints.h"
+#include "formulate/system/kinematics.h"
 #include "formulate/system/origin.h"
+#include "formulate/system/shown.h"
 #include "formulate/system/system_impl.h"
+
+#include <string.h>
 
 Expr multi_turn_whole(const System *system, int instance, int coordinate)
 {
@@ -23,6 +27,52 @@ const WholeTurns *system_whole_turns(const System *system, int i)
     return &system->constraints->counted.at[i].told;
 }
 
+/* as an angle, in rad */
+static Expr full_turns(const System *system, int i)
+{
+    const int *const turns = system->shown != NULL ? system->shown->full_turns : NULL;
+    const int64_t halves = turns != NULL ? 2 * (int64_t)turns[i] : 0;
+
+    return expr_mul(system->arena, expr_int(system->arena, halves), expr_pi(system->arena, 1));
+}
+
+void system_show_turns(System *view, const int *turns)
+{
+    const int count = view->constraints->counted.count;
+
+    system_touch(view);
+    mem_free(view->shown->full_turns);
+    view->shown->full_turns = NULL;
+    if (turns == NULL || count == 0)
+        return;
+    view->shown->full_turns = NEW_ARRAY(int, count);
+    memcpy(view->shown->full_turns, turns, (size_t)count * sizeof(int));
+}
+
+static bool reads_any(const System *system, const Expr *roots, int count)
+{
+    Expr *symbols = NULL;
+    const int found = expr_symbols(roots, count, &symbols);
+    bool reads = false;
+
+    for (int i = 0; i < system->constraints->counted.count && !reads; i++)
+        for (int k = 0; k < found && !reads; k++)
+            reads = symbols[k] == system->constraints->counted.at[i].told.symbol;
+    mem_free(symbols);
+    return reads;
+}
+
+bool system_reads_turns(const System *system)
+{
+    const Reading *run = &system->run;
+
+    return system->constraints->counted.count > 0 &&
+           (reads_any(system, run->phi, system->constraints->rows.count) ||
+            reads_any(system, run->force, system->kinematics->u.count) ||
+            reads_any(system, run->network_residual, system_nx(system) + system_nz(system)) ||
+            reads_any(system, run->network_rhs, system_nx(system) + system_nz(system)));
+}
+
 Expr system_plain(const System *system, Expr e)
 {
     const Origin *origin = system->origin;
@@ -35,7 +85,7 @@ Expr system_plain(const System *system, Expr e)
     values = NEW_ARRAY(Expr, count);
     for (int i = 0; i < turns; i++) {
         symbols[i] = system->constraints->counted.at[i].told.symbol;
-        values[i] = expr_int(system->arena, 0);
+        values[i] = full_turns(system, i);
     }
     for (int i = 1; i <= origin->literals; i++) {
         const GivenParameter *literal = &origin->parameters.at[origin->parameters.count - i];

@@ -19,6 +19,7 @@ typedef struct Shown {
     Vec *actual_a;              /* accelerations of nodes */
     Vec *actual_alpha;          /* of chains */
     Expr *turn_rates;           /* of angles that count turns; as entries */
+    int *full_turns;            /* of sums of angles, an entry one; NULL: none has any */
     Expr power;                 /* that sources give and losses take */
     Expr *eliminated;           /* u' in symbols, the last told (accelerations.c); NULL: none yet */
     int told;                   /* how it was */

@@ -135,7 +135,12 @@ typedef struct WholeTurns {
 } WholeTurns;
 int system_whole_turns_count(const System *system);
 const WholeTurns *system_whole_turns(const System *system, int i);
-/* The same expression for a reader, who isn't told of whole turns, and of numbers as such. */
+/* Whether the equations read full turns of any of them. O(nodes). */
+bool system_reads_turns(const System *system);
+/* Show each sum with so many full turns until the next call: an entry one; NULL: none. */
+void system_show_turns(System *view, const int *turns);
+/* The same expression for a reader: full turns as system_show_turns() has them, literals as
+ * numbers. */
 Expr system_plain(const System *system, Expr e);
 
 /* An angle that a constraint compares by its sine alone, which half a turn off holds too: how far

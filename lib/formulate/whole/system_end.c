@@ -102,7 +102,8 @@ static void shown_free(Shown *shown)
         return;
     for (int b = 0; b < BLOCK_COUNT; b++)
         mem_free(shown->entries[b]);
-    MEM_FREE(shown->positions, shown->datum_axes, shown->turn_rates, shown->eliminated);
+    MEM_FREE(shown->positions, shown->datum_axes, shown->turn_rates, shown->full_turns,
+             shown->eliminated);
     LIST_FREE(shown->switches);
     LIST_FREE(shown->surfaces);
     mem_free(shown);

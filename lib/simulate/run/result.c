@@ -1,6 +1,8 @@
 /* result.c: what is told of a run without solving anything */
 #include "simulate/run/result_impl.h"
 
+#include <math.h>
+
 static void free_later(void *object)
 {
     result_free(object);
@@ -44,6 +46,13 @@ const RunReport *result_report(const Result *r)
 int result_freedoms(const Result *r)
 {
     return r->freedoms;
+}
+
+int result_full_turns(const Result *r, Expr symbol)
+{
+    double angle;
+
+    return parameters_kept(&r->parameters, symbol, &angle) ? (int)lround(angle / (2 * M_PI)) : 0;
 }
 
 const Remarks *result_remarks(const Result *r)

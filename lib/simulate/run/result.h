@@ -58,6 +58,9 @@ System *result_system(const Result *result);
 const RunReport *result_report(const Result *result);
 /* speeds less independent constraints, at the start of it */
 int result_freedoms(const Result *result);
+/* how many full turns a sum of angles has in the run (system_whole_turns()): i of its system's, 0
+ * where it isn't of it */
+int result_full_turns(const Result *result, Expr symbol);
 const Remarks *result_remarks(const Result *result);
 /* events of the model when the run was made, and earlier ones that happened before it went on */
 int result_event_count(const Result *result);
