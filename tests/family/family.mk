@@ -248,3 +248,8 @@ FAMILIES += family_network_trees
 family_network_trees_SOURCES = tests/family/family_network_trees.c tests/family/family.h \
 	tests/family/script.h tests/random.h tests/unit/session_kit.h tests/unit/test.h
 family_network_trees_LDADD = libcotree.la $(unit_ldadd)
+
+FAMILIES += family_rounding
+family_rounding_SOURCES = tests/family/family_rounding.c tests/family/family.h \
+	tests/family/script.h tests/random.h tests/unit/session_kit.h tests/unit/test.h
+family_rounding_LDADD = libcotree.la $(unit_ldadd)
