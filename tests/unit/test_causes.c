@@ -1,6 +1,8 @@
 /* test_causes.c: messages that name the cause, at its place */
 #include "session_kit.h"
 
+#include "base/memory.h"
+
 #define SWINGS PENDULUM "init none\ninit h = 1\n"
 #define MEETING                                                                                    \
     PENDULUM "init none\narm a1 ground [1, 0]\narm a2 m [1, 1]\nspring k1 a1 a2 k=3 length=1\n"
@@ -103,10 +105,34 @@ static void drivers_that_lead_too_far_are_named(void)
     }
 }
 
+/* A force that is infinite where it changes its sign ends a run of any method: what limits the step
+ * is named, and a way out. */
+static void what_limits_the_step_is_named(void)
+{
+    static const char *const names[] = {"dop853", "radau", "bdf", "adams", "ida"};
+
+    for (int i = 0; i < COUNT(names); i++) {
+        Kit kit = kit_new();
+        char run[60];
+
+        EXPECT_DONE(&kit, "scene planar\n"
+                          "body b mass=1 inertia=1\n"
+                          "prismatic s ground b axis=x\n"
+                          "actuator F s force=-1e2*abs(s)^-0.5*tanh(1e16*s)\n"
+                          "init s = 0.3, s' = 0.1\n");
+        (void)snprintf(run, sizeof run, "simulate 5 method=%s", names[i]);
+        EXPECT(kit_do(&kit, run) != CT_OK);
+        EXPECT_HOLDS(kit.error.message, "the error of s' limits it, F pushes hardest");
+        EXPECT_HOLDS(kit.error.hint, "rtol=");
+        kit_free(&kit);
+    }
+}
+
 int main(void)
 {
     RUN(the_cause_is_named_at_its_place);
     RUN(values_at_different_ends_are_said_to_be);
     RUN(drivers_that_lead_too_far_are_named);
+    RUN(what_limits_the_step_is_named);
     return test_end();
 }

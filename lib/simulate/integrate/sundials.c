@@ -114,6 +114,9 @@ static const char *reason_of(const Sundials *s, int code)
     case 11:
     case 12:
         return "the equations have no solution just behind this instant";
+    case 22: /* h0 or a distance that time itself can't tell */
+    case 27:
+        return "the step became too small";
     default:
         return s->reason;
     }
