@@ -143,34 +143,57 @@ void kkt_sizes_keep(KktSizes *sizes, bool back)
     }
 }
 
-void kkt_borrow_masses(const KktPlaces *places, const int *place, const double *entries,
-                       double least, double *largest, double *room, double *mass)
+/* |G_kj| of each row, the largest */
+static void find_largest(const KktPlaces *places, const int *place, const double *entries,
+                         double *largest)
 {
-    const int m = places->m, nu = places->nu;
-    double *strongest = room, *borrowed = room + m; /* of G_kj^2 / M_j by rows; by speeds */
-
-    memset(largest, 0, (size_t)m * sizeof(double));
-    memset(room, 0, (size_t)(m + nu) * sizeof(double));
+    memset(largest, 0, (size_t)places->m * sizeof(double));
     for (int e = places->mass_entries; e < places->entries; e++) {
-        double *row = &largest[places->column[e] - nu];
+        double *row = &largest[places->column[e] - places->nu];
 
         *row = fmax(*row, fabs(entries[place[e]]));
     }
+}
+
+/* From neighbours that have mass to those that have at most `least`; whether more of them have some
+ * now. What rounding leaves of a 0 is no neighbour. */
+static bool borrow_once(const KktPlaces *places, const int *place, const double *entries,
+                        double least, const double *largest, double *room, double *mass)
+{
+    const int m = places->m, nu = places->nu;
+    double *strongest = room, *borrowed = room + m; /* of G_kj^2 / M_j by rows; by speeds */
+    bool more = false;
+
+    memset(room, 0, (size_t)(m + nu) * sizeof(double));
     for (int e = places->mass_entries; e < places->entries; e++) {
         const int row = places->column[e] - nu;
         const double own = mass[places->row[e]], entry = entries[place[e]];
 
-        /* what rounding leaves of a 0 is no neighbour */
         if (own > 0 && fabs(entry) > NO_ENTRY * largest[row])
             strongest[row] = fmax(strongest[row], entry * entry / own);
     }
     for (int e = places->mass_entries; e < places->entries; e++) {
-        const double entry = entries[place[e]], row = strongest[places->column[e] - nu];
+        const int row = places->column[e] - nu;
+        const double entry = entries[place[e]];
 
-        if (row > 0)
-            borrowed[places->row[e]] = fmax(borrowed[places->row[e]], entry * entry / row);
+        if (strongest[row] > 0 && fabs(entry) > NO_ENTRY * largest[row])
+            borrowed[places->row[e]] =
+                fmax(borrowed[places->row[e]], entry * entry / strongest[row]);
     }
     for (int i = 0; i < nu; i++)
-        if (!(mass[i] > least))
-            mass[i] = fmax(mass[i], borrowed[i]);
+        if (!(mass[i] > least) && borrowed[i] > mass[i]) {
+            more = more || mass[i] == 0;
+            mass[i] = borrowed[i];
+        }
+    return more;
+}
+
+void kkt_borrow_masses(const KktPlaces *places, const int *place, const double *entries,
+                       double least, double *largest, double *room, double *mass)
+{
+    find_largest(places, place, entries, largest);
+    /* rows between speeds without mass pass on what these have borrowed; in further rounds those
+     * with a mass of their own stay as they are */
+    while (borrow_once(places, place, entries, least, largest, room, mass))
+        least = 0;
 }

@@ -43,8 +43,8 @@ void kkt_sizes_keep(KktSizes *sizes, bool back);
 
 /* A speed without mass of its own takes the mass that gives it the same weight in its constraints
  * as its heaviest-felt neighbour has: M_i = max_k G_ki^2 / max_j (G_kj^2 / M_j). mass[]: of speeds
- * (nu); those that are at most `least` change. Entry e of G stands at entries[place[e]]; room is
- * for m and for m + nu numbers. */
+ * (nu); those that are at most `least` change, through rows between such speeds too. Entry e of G
+ * stands at entries[place[e]]; room is for m and for m + nu numbers. */
 void kkt_borrow_masses(const KktPlaces *places, const int *place, const double *entries,
                        double least, double *largest, double *room, double *mass);
 

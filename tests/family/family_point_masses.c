@@ -8,6 +8,7 @@
 #include "family.h"
 
 #include "../unit/session_kit.h"
+#include "base/memory.h"
 #include "base/text.h"
 
 #include <string.h>
@@ -235,6 +236,55 @@ static Verdict merged_member(Member *m)
     return right ? AGREES : DISAGREES;
 }
 
+/* A coupler without mass between two cranks carries a point mass, or is that mass itself: in trees
+ * of joints, of bodies and of some of each both move alike. */
+static Verdict coupler_member(Member *m)
+{
+    static const char *const trees[] = {"tree joint",    "tree absolute", "tree h1 h2 q c",
+                                        "tree h1 r q c", "tree a r w h4", "tree a h2 q h4"};
+    const double at[3] = {member_between(m, -0.3, 0.3), member_between(m, -0.2, 0.2),
+                          member_between(m, 0.05, 0.3)};
+    const double mass = member_decades(m, 0.3, 5), half = member_between(m, 0.5, 0.65);
+    const double span = member_between(m, 1, 1.25), speed = member_between(m, -1, 1);
+    double merged = 0;
+    bool right = true;
+
+    for (int which = -1; which < COUNT(trees) && right; which++) {
+        const double *c = which < 0 ? at : (const double[3]){0};
+        Kit kit = kit_new();
+        Text text = {0};
+
+        text_add(&text, "gravity [0, 0, -9.81]\nbody a mass=1 inertia=[0.1, 0.1, 0.1]\n"
+                        "arm a0 a [-0.5, 0, 0]\narm a1 a [0.5, 0, 0]\n"
+                        "body c mass=1.5 inertia=[0.1, 0.1, 0.1]\n"
+                        "arm c0 c [-0.5, 0, 0]\narm c1 c [0.5, 0, 0]\n");
+        text_addf(&text,
+                  "body r mass=%.17g inertia=[0, 0, 0]\narm r0 r [%.17g, %.17g, %.17g]\n"
+                  "arm r1 r [%.17g, %.17g, %.17g]\narm g ground [%.17g, 0, 0]\n",
+                  which < 0 ? mass : 0, -half - c[0], -c[1], -c[2], half - c[0], -c[1], -c[2],
+                  span);
+        if (which >= 0)
+            text_addf(&text,
+                      "body q mass=%.17g inertia=[0, 0, 0]\narm rq r [%.17g, %.17g, %.17g]\n"
+                      "weld w rq q\n",
+                      mass, at[0], at[1], at[2]);
+        text_addf(&text,
+                  "revolute h1 ground a0 axis=y\nuniversal h2 a1 r0 axes=[y, z]\n"
+                  "spherical h3 r1 c1\nrevolute h4 g c0 axis=y\nguess h1 = 1, h4 = 1\n"
+                  "init h1' = %.17g\n%s\nsimulate 0.3 rtol=1e-9\n",
+                  speed, trees[which < 0 ? 0 : which]);
+        right = kit_do(&kit, text.at) == CT_OK;
+        if (which < 0)
+            merged = kit_value(&kit, "h1");
+        right = right && keeps(m, "h1", fabs(kit_value(&kit, "h1") - merged), NEARLY);
+        if (!right || m->told)
+            tell(m, "%s\n%s", kit.error.message, text.at);
+        text_free(&text);
+        kit_free(&kit);
+    }
+    return right ? AGREES : DISAGREES;
+}
+
 /* a rod without inertia between two ball joints, or a point mass on one */
 static Verdict spin_member(Member *m)
 {
@@ -268,6 +318,7 @@ static Verdict spin_member(Member *m)
 
 static const Family families[] = {
     {"point_masses_move_with_what_they_are_welded_to", 20, 0, 0, merged_member},
+    {"point_masses_on_couplers_move_alike_in_all_trees", 8, 0, 0, coupler_member},
     {"spins_that_nothing_determines_are_refused_by_name", 10, 0, 0, spin_member},
 };
 
