@@ -143,8 +143,13 @@ family_native_LDADD = $(unit_ldadd)
 
 FAMILIES += family_derivation
 family_derivation_SOURCES = tests/family/family_derivation.c tests/family/family.h \
-	tests/family/script.h tests/unit/session_kit.h tests/unit/test.h
+	tests/family/shown_models.h tests/family/script.h tests/unit/session_kit.h tests/unit/test.h
 family_derivation_LDADD = libcotree.la $(unit_ldadd)
+
+FAMILIES += family_printed
+family_printed_SOURCES = tests/family/family_printed.c tests/family/family.h \
+	tests/family/shown_models.h tests/family/script.h tests/unit/session_kit.h tests/unit/test.h
+family_printed_LDADD = libcotree.la $(unit_ldadd)
 
 FAMILIES += family_beam_laws
 family_beam_laws_SOURCES = tests/family/family_beam_laws.c tests/family/family.h tests/family/script.h \
