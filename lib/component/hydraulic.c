@@ -7,11 +7,11 @@
 /* clang-format off */
 static const Param pipe_params[] = {
     {"R", PARAM_LAW,    "Pa*s/m^3",   "0", "pressure per flow, of laminar flow", 0},
-    {"k", PARAM_SCALAR, "Pa*s^2/m^6", "0", "pressure per flow squared, of turbulent flow: k*q*|q|", 0},
+    {"k", PARAM_LAW,    "Pa*s^2/m^6", "0", "pressure per flow squared, of turbulent flow: k*q*|q|", 0},
 };
 static const Param valve_params[] = {
-    {"R",    PARAM_SCALAR, "Pa*s/m^3",   "0",  "pressure per flow while it is open, of laminar flow", 0},
-    {"k",    PARAM_SCALAR, "Pa*s^2/m^6", "0",  "pressure per flow squared while it is open: k*q*|q|", 0},
+    {"R",    PARAM_LAW,    "Pa*s/m^3",   "0",  "pressure per flow while it is open, of laminar flow", 0},
+    {"k",    PARAM_LAW,    "Pa*s^2/m^6", "0",  "pressure per flow squared while it is open: k*q*|q|", 0},
     {"when", PARAM_LAW,    NULL,         NULL, "condition under which it is open", 0},
     {"Roff", PARAM_SCALAR, "Pa*s/m^3",   "0",  "pressure per flow of what leaks through it closed; 0: nothing does", 0},
 };
@@ -90,7 +90,8 @@ static void pipe_relation(const Instance *instance, Arena *arena, int which, con
     *out = (Relation){.kind = RELATION_RESISTIVE,
                       .value = resistance(instance, arena, motion->through),
                       .rest = expr_int(arena, 0)};
-    if (!is_linear && expr_is_zero(expr_diff(arena, R, motion->through)))
+    if (!is_linear && expr_is_zero(expr_diff(arena, R, motion->through)) &&
+        expr_is_zero(expr_diff(arena, instance_scalar(instance, "k"), motion->through)))
         out->inverse = flow_of(instance, arena, motion->across);
 }
 
@@ -116,7 +117,7 @@ const Component component_pipe = {
     .help = "A pipe or an orifice between two terminals: p = R*q of laminar flow, k*q*|q| of "
             "turbulent flow, or the sum of both; an orifice of area a has k = density/2/(c*a)^2 "
             "with c about 0.6. k alone has no slope where the flow turns; a small R beside it "
-            "smooths that. R may be an expression, also of its own variables.",
+            "smooths that. R and k may be expressions of t and of variables, also of its own.",
     .example = "tank T1 a 0 A=0.5\npipe P1 a 0 k=5e8\ninit T1.p = 10 kPa\nsimulate 60\n"
                "print T1.p, P1.flow",
     .see = "tank valve inertance pump",
@@ -248,7 +249,8 @@ const Component component_valve = {
     .relation = valve_relation,
     .check = valve_check,
     .help = "A pipe while the condition when= holds, with R, k or both as of pipe; while it does "
-            "not, nothing flows, or with Roff= what leaks. The condition compares time, "
+            "not, nothing flows, or with Roff= what leaks. R and k may be expressions of t and of "
+            "variables. The condition compares time, "
             "parameters and variables; the instants at which it changes are located. "
             "when=V1.p > 0 makes valve V1 a check valve.",
     .example = "pump U1 a 0 pressure=2e5\nvalve V1 a b R=1e8 when=t > 1\ntank T1 b 0 C=1e-8\n"

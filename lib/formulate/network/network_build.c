@@ -39,6 +39,16 @@ static void add_gmin(System *system, Expr across, Relation *relation)
                                    expr_mul(system->arena, system->network->gmin, across));
 }
 
+/* i = value(v, i) gives i only by solving: i - value = 0 */
+static void read_own_current(System *system, const Motion1 *motion, Relation *relation)
+{
+    if ((relation->kind != RELATION_CONDUCTIVE && relation->kind != RELATION_THROUGH) ||
+        !expr_depends(relation->value, motion->through))
+        return;
+    relation->value = expr_sub(system->arena, motion->through, relation->value);
+    relation->kind = RELATION_IMPLICIT;
+}
+
 static void read_relation(System *system, Branchlike *branch)
 {
     const Instance *instance = branch_owner(system, branch);
@@ -61,6 +71,7 @@ static void read_relation(System *system, Branchlike *branch)
     if (branch->relation.kind == RELATION_THROUGH &&
         !expr_is_zero(expr_diff(arena, branch->relation.value, motion.across)))
         branch->relation.kind = RELATION_CONDUCTIVE;
+    read_own_current(system, &motion, &branch->relation);
     if (system->network->gmin != NULL)
         add_gmin(system, motion.across, &branch->relation);
     if (branch->relation.kind == RELATION_IDEAL || branch->relation.switches)

@@ -12,6 +12,8 @@
 
 #define AWAY   1.0 /* of the point: how large what is 0 there is elsewhere */
 #define CLOSED 1e-9
+#define NEXT   1e-14 /* of the point: a neighbour, */
+#define BESIDE 1e-6  /* whose difference is less than this part of that away from there */
 
 enum { SPOTS = 6 };
 
@@ -87,17 +89,41 @@ static bool holds_at_spots(Arena *arena, Expr condition, Look look, Expr e, int 
     return found;
 }
 
-/* what an if chooses from is the same there */
+/* |yes - no| with the chosen symbol at `at` */
+static double gap_at(Expr choice, Spot spot, double at)
+{
+    spot.at = at;
+    return fabs(expr_evaluate(expr_arg(choice, 1), value_on, &spot) -
+                expr_evaluate(expr_arg(choice, 2), value_on, &spot));
+}
+
+/* Whether what an if chooses from is the same there. Beside the end of a domain, as that of
+ * (h - 2)^1.5, the condition's zero in numbers may have no value; then a neighbour has, and the
+ * difference is small beside that further inside: the root of 1e-14 is 1e-7. */
 static Finding choice_meets(Arena *arena, Expr choice, int k, Spot *spot)
 {
     const double yes = expr_evaluate(expr_arg(choice, 1), value_on, spot);
     const double no = expr_evaluate(expr_arg(choice, 2), value_on, spot);
+    const double size = fmax(1, fabs(spot->at));
+    bool found = false;
 
     (void)arena;
     (void)k;
-    if (!isfinite(yes) || !isfinite(no))
-        return NO_VALUE;
-    return fabs(yes - no) <= CLOSED * (fabs(yes) + fabs(no)) ? HOLDS : FAILS;
+    if (isfinite(yes) && isfinite(no) && fabs(yes - no) <= CLOSED * (fabs(yes) + fabs(no)))
+        return HOLDS;
+    for (int way = -1; way <= 1; way += 2) {
+        const double beside = gap_at(choice, *spot, spot->at + way * NEXT * size);
+        const double away = gap_at(choice, *spot, spot->at + way * AWAY * size);
+
+        if (!isfinite(beside) || !isfinite(away))
+            continue;
+        if (!(beside <= BESIDE * away))
+            return FAILS;
+        found = true;
+    }
+    if (!found && isfinite(yes) && isfinite(no))
+        return FAILS;
+    return found ? HOLDS : NO_VALUE;
 }
 
 /* What kinks on a surface, as it is there. Rounding leaves a condition beside 0, which roots make

@@ -11,11 +11,14 @@
 #include "formulate/system/system_impl.h"
 #include "formulate/whole/continuity.h"
 
+#include <math.h>
 #include <string.h>
 
 typedef LIST(Expr) Exprs;
 
 /* --- surfaces --- */
+
+#define SAME 1e-14 /* of a constant: what rounding makes of it */
 
 typedef struct Putting {
     const Surface *surfaces;
@@ -104,10 +107,51 @@ static Expr put_choice(Arena *arena, const Putting *put, Expr e)
     }
 }
 
+/* Whether e is 0 on one of the surfaces, but for the rounding of its constants. */
+static bool vanishes_on(Arena *arena, const Putting *put, Expr e)
+{
+    int way;
+    Expr surface;
+
+    if (expr_is_number(e))
+        return false;
+    surface = surface_of(arena, e, &way);
+    for (int i = 0; i < put->count; i++) {
+        const Expr condition = put->surfaces[i].condition;
+        const Expr off = expr_sub(arena, surface, condition);
+        const Expr constant =
+            expr_kind(condition) == EXPR_SUM ? expr_arg(condition, 0) : expr_int(arena, 0);
+
+        if (expr_is_zero(off) || (expr_is_number(off) && expr_is_number(constant) &&
+                                  fabs(expr_value(off)) <= SAME * fabs(expr_value(constant))))
+            return true;
+    }
+    return false;
+}
+
+/* A root of what is 0 on a surface, as (h - 2)^1.5 at h = 2, has no value where errors lead past
+ * it: x^a there is max(x, 0)^a. */
+static Expr put_root(Arena *arena, const Putting *put, Expr e)
+{
+    const bool is_root = expr_kind(e) == EXPR_CALL && expr_op(e) == OP_SQRT;
+    Expr base, inside;
+
+    if (!is_root && (expr_kind(e) != EXPR_POWER || !expr_is_number(expr_arg(e, 1)) ||
+                     expr_value(expr_arg(e, 1)) == floor(expr_value(expr_arg(e, 1)))))
+        return e;
+    base = expr_arg(e, 0);
+    if (!vanishes_on(arena, put, base))
+        return e;
+    inside = expr_call2(arena, OP_MAX, base, expr_int(arena, 0));
+    return is_root ? expr_sqrt(arena, inside) : expr_pow(arena, inside, expr_arg(e, 1));
+}
+
 static Expr put_node(Arena *arena, Expr e, void *context)
 {
     const Putting *put = context;
 
+    if (expr_kind(e) == EXPR_POWER || (expr_kind(e) == EXPR_CALL && expr_op(e) == OP_SQRT))
+        return put_root(arena, put, e);
     if (expr_kind(e) != EXPR_CALL)
         return e;
     return switch_jumps(e) ? put_jump(arena, put, e) : put_choice(arena, put, e);

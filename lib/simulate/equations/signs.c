@@ -15,6 +15,7 @@
 #define TURNS    4
 #define FAR      100  /* a sign that isn't between its ends, nor soon behind one */
 #define BEYOND   1e-6 /* of a sign, past an end */
+#define LEFT     2    /* a sign where the surface is left */
 #define HALVES   40
 #define ROUNDS   10
 
@@ -67,7 +68,8 @@ bool signs_slopes(Signs *s, SignsTrial trial, void *context, double *slip)
     return true;
 }
 
-/* (A^T A + d) x = A^T b, d so small that a few turns on what is left find the least x */
+/* (A^T A + d) x = A^T b, d so small that a few turns on what is left find the least x: 0 where A
+ * is, as of sign(x)*sqrt(abs(x)) at x = 0 */
 static bool least(const double *a, int n, double *b)
 {
     Lu *lu = lu_new(n);
@@ -76,7 +78,9 @@ static bool least(const double *a, int n, double *b)
     double small = DAMPED * vector_largest(a, n * n) * vector_largest(a, n * n);
     bool sound;
 
-    for (int i = 0; i < n; i++)
+    for (int i = 0; i < n && small == 0; i++)
+        lu_matrix(lu)[i * n + i] = 1;
+    for (int i = 0; i < n && small > 0; i++)
         for (int j = 0; j < n; j++) {
             double sum = i == j ? small : 0;
 
@@ -197,6 +201,19 @@ static bool is_beyond(const Signs *s)
     return vector_largest(s->values, s->count) > 1 + BEYOND;
 }
 
+/* Where the one sign hardly reaches slip, as of sign(x)*sqrt(abs(x)) beside x = 0, Newton's method
+ * leads far away. Slip is then of one sign between the ends, and the motion has left the surface on
+ * that side: the sign is beyond the end there. False: it is not so. */
+static bool lies_beyond(Signs *s, SignsTrial trial, void *context)
+{
+    bool sound;
+
+    if (s->count != 1 || bisect(s, 0, trial, context, &sound) || !sound || s->slip[0] == 0)
+        return false;
+    s->values[0] = s->slip[0] > 0 ? LEFT : -LEFT;
+    return trial(context, s->values, s->move);
+}
+
 bool signs_find(Signs *s, SignsTrial trial, void *context)
 {
     bool found = newton(s, trial, context);
@@ -213,5 +230,7 @@ bool signs_find(Signs *s, SignsTrial trial, void *context)
         }
         found = newton(s, trial, context);
     }
-    return found && (!is_beyond(s) || look_between(s, trial, context));
+    if (!found)
+        return lies_beyond(s, trial, context);
+    return !is_beyond(s) || look_between(s, trial, context);
 }

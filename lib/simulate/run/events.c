@@ -13,6 +13,7 @@
 #define FASTER_MOST 8     /* events ever sooner after one another, */
 #define FASTER_SPAN 1e-6  /* that add up to less than this, of the run, likewise: */
 #define SHRUNK      1e-3  /* bounces, whose pauses are this part of the longest one */
+#define SOONER      0.999 /* of the pause before: a shorter one */
 #define BOUNCES     4     /* so many of them at least */
 
 /* --- reading --- */
@@ -448,10 +449,16 @@ bool events_follow(Events *events, const int *sides)
 
 static Status happens_endlessly(const EventItem *item, double t, Diag *diag)
 {
-    (void)diag_set(diag, E_SOLVER,
-                   "at t = %.9g s: event %s happens without end: %s became true %d times, at last "
-                   "%.3g s after the time before",
-                   t, item->name, item->condition, item->course.times.count, item->course.gap);
+    Text how = {0};
+
+    if (item->course.times.count > 1 && isfinite(item->course.gap))
+        text_addf(&how, ": %s became true %d times, at last %.3g s after the time before",
+                  item->condition, item->course.times.count, item->course.gap);
+    else
+        text_addf(&how, ": %s changes to and fro within an instant", item->condition);
+    (void)diag_set(diag, E_SOLVER, "at t = %.9g s: event %s happens without end%s", t, item->name,
+                   how.at);
+    text_free(&how);
     diag_hint(diag, "another event can end the run before it comes to that, do=stop, for instance "
                     "where the speed is small");
     return E_SOLVER;
@@ -474,7 +481,7 @@ static Status check_pace(EventItem *item, double t, double span, Diag *diag)
     double ratio = gap / item->course.gap;
     double left = ratio < 1 ? gap * ratio / (1 - ratio) : INFINITY;
 
-    item->course.faster = gap < item->course.gap ? item->course.faster + 1 : 0;
+    item->course.faster = gap < SOONER * item->course.gap ? item->course.faster + 1 : 0;
     item->course.packed = gap <= PACKED * span ? item->course.packed + 1 : 0;
     item->course.last = t;
     item->course.gap = gap;
@@ -487,7 +494,9 @@ static Status check_pace(EventItem *item, double t, double span, Diag *diag)
     return happens_endlessly(item, t, diag);
 }
 
-/* Bounces too small to be told from rest: the new values no longer lead away from the condition. */
+/* Bounces too small to be told from rest: ever sooner after one another, and the new values no
+ * longer lead away from the condition. A thermostat switches at an even pace, also where its first
+ * pause was long. */
 static Status check_away(const Events *events, double t, const bool *due, const int *sides,
                          Diag *diag)
 {
@@ -495,7 +504,8 @@ static Status check_away(const Events *events, double t, const bool *due, const 
         const EventItem *item = &events->items.at[i];
 
         if (due[i] && item->value_count > 0 && item->course.times.count >= BOUNCES &&
-            item->course.gap <= SHRUNK * item->course.longest && is_true(events, item, sides))
+            item->course.faster >= BOUNCES && item->course.gap <= SHRUNK * item->course.longest &&
+            is_true(events, item, sides))
             return happens_endlessly(item, t, diag);
     }
     return OK;

@@ -210,8 +210,9 @@ static bool is_led_back(Integration *m, int i, bool crossed)
     return rate * value < 0;
 }
 
-/* Where the step, taken again to meet condition i, ends behind `when`, nobody has looked whether
- * others are met before that. */
+/* Where the step, taken again to meet condition i, ends after `when`, nobody has looked whether
+ * others are met between the two. Before `when` modes have followed what was crossed: there they
+ * are no longer those of the step's begin. */
 static bool passes_others(Integration *m, int i, double when)
 {
     double first;
@@ -219,7 +220,7 @@ static bool passes_others(Integration *m, int i, double when)
 
     if (!(m->stepper->t > when))
         return false;
-    m->scanned = m->stepper->before;
+    m->scanned = when;
     found = integration_find_switch(m, &first);
     return found >= 0 && found != i;
 }
