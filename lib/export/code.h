@@ -183,6 +183,17 @@ MUST_USE Status code_resolve(Code *code, Expr user, Expr *out, const char *name,
 /* What jumps in the roots and in the model's events, and what happens there; then the roots are on
  * signs. */
 MUST_USE Status code_live_events(Code *code, Diag *diag);
+/* Sampled states, and functions `periods` and `samples`: their next values. */
+MUST_USE Status code_add_samples(Code *code, Diag *diag);
+/* `text` with `value` for each `word` */
+void code_fill_word(const char *text, const char *word, const char *value, Text *out);
+/* what the step of smooth equations is called: step, or what a longer one is made of */
+const char *code_step_name(const Code *code);
+/* a step sets sampled states at whole multiples of their periods */
+static inline bool code_is_sampled(const Code *code)
+{
+    return !code->live.is_wanted && code->live.samples.count > 0;
+}
 /* derivatives of functions along a direction; the last functions that there are */
 void code_live_tangents(Code *code);
 /* parameters that follow from others */

@@ -196,3 +196,17 @@ void code_fill(const Code *code, const char *text, Text *out)
         c += length;
     }
 }
+
+void code_fill_word(const char *text, const char *word, const char *value, Text *out)
+{
+    for (const char *at; (at = strstr(text, word)) != NULL; text = at + strlen(word)) {
+        text_add_n(out, text, (size_t)(at - text));
+        text_add(out, value);
+    }
+    text_add(out, text);
+}
+
+const char *code_step_name(const Code *code)
+{
+    return code_has_modes(code) ? "smooth_step" : code_is_sampled(code) ? "step_between" : "step";
+}

@@ -223,7 +223,7 @@ done:
     return status;
 }
 
-static Status add_samples(Code *code, Diag *diag)
+Status code_add_samples(Code *code, Diag *diag)
 {
     System *system = code->layout->system;
     const OwnSample *own;
@@ -242,9 +242,11 @@ static Status add_samples(Code *code, Diag *diag)
         LIST_PUSH(periods, own->period);
         LIST_PUSH(code->live.samples, own->state);
     }
-    code_add_function(code, "periods", "sampling periods", periods.at, periods.count, 1);
-    code_add_function(code, "samples", "sampled states behind their instants", next.at, next.count,
-                      1);
+    if (code->live.is_wanted || next.count > 0) {
+        code_add_function(code, "periods", "sampling periods", periods.at, periods.count, 1);
+        code_add_function(code, "samples", "sampled states after their instants", next.at,
+                          next.count, 1);
+    }
 done:
     LIST_FREE(periods);
     LIST_FREE(next);
@@ -302,7 +304,7 @@ Status code_live_events(Code *code, Diag *diag)
     for (int i = 0; i < model_event_count(model); i++)
         CHECK(add_event(code, model_event(model, i), &truths, &values, &targets, diag));
     add_stays(code, &targets);
-    CHECK(add_samples(code, diag));
+    CHECK(code_add_samples(code, diag));
     add_sides_of(code, truths.at, truths.count);
     order_sides(code);
     for (int i = 0; i < live->sides.count; i++)

@@ -478,6 +478,25 @@ done:
     return status;
 }
 
+/* Steps of exported code know no new values: an event that sets some is refused by its name. */
+static Status check_events(const Code *code, Diag *diag)
+{
+    const Model *model = code->view->model;
+
+    for (int i = 0; i < model_event_count(model); i++) {
+        const Event *event = model_event(model, i);
+
+        if (event->action != EVENT_SET)
+            continue;
+        (void)diag_set(diag, E_MODEL,
+                       "event %s sets new values, which a step of exported code doesn't do",
+                       event->name);
+        diag_hint(diag, "export fmu does; or without it: delete %s", event->name);
+        return E_MODEL;
+    }
+    return OK;
+}
+
 /* --- the whole --- */
 
 /* operations on parameters alone that later ones use */
@@ -562,8 +581,13 @@ Status code_form(const Exported *what, Code *code, Diag *diag)
         CHECK(code_live_events(code, diag));
         code_live_tangents(code);
         code_live_relations(code);
-    } else
+    } else {
         CHECK(add_conditions(code, diag));
+        if (code->inverse == NULL) {
+            CHECK(check_events(code, diag));
+            CHECK(code_add_samples(code, diag));
+        }
+    }
     if (code->inverse != NULL) {
         add_efforts(code);
         code_put_now(code);

@@ -1,6 +1,8 @@
 libcore_la_SOURCES += \
   lib/export/archive.c \
   lib/export/archive.h \
+  lib/export/c_step.c \
+  lib/export/c_step.h \
   lib/export/code.h \
   lib/export/code_function.c \
   lib/export/code_head.c \

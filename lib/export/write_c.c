@@ -1,4 +1,5 @@
 /* write_c.c: a model in C99 that is C++ too: no allocation, nothing kept between calls */
+#include "export/c_step.h"
 #include "export/code.h"
 #include "export/shared_text.h"
 
@@ -47,7 +48,8 @@ static const char declarations[] =
     "int model_project(const real *p, real t, real *y, real *work);\n";
 
 static const char step_declaration[] =
-    "/* one step of the classical Runge-Kutta method, with projection */\n"
+    "/* one step of the classical Runge-Kutta method, with projection; sampled states are set at\n"
+    " * their instants, one at its end by the next step */\n"
     "int model_step(const real *p, real t, real step, real *y, real *s, real *work);\n";
 
 static const char modes_declaration[] =
@@ -225,22 +227,6 @@ static const char projection[] =
     "        for (i = 0; i < MODEL_A; i++)\n            y[MODEL_Q + MODEL_U + MODEL_X + i] = "
     "b[i];\n    }\n"
     "    return $PROJECTED;\n}\n";
-
-static const char step[] =
-    "\n$STEP(const real *p, real t, real step, real *y, real *s, real *work)\n{\n"
-    "    real *rate = work, *sum = rate + MODEL_Y, *at = sum + MODEL_Y, *rest = at + MODEL_Y;\n"
-    "    int i, k;\n\n    for (i = 0; i < MODEL_Y; i++) {\n        at[i] = y[i];\n"
-    "        sum[i] = 0;\n    }\n"
-    "    for (k = 0; k < 4; k++) {\n        const real part = k == 2 ? step : step / 2;\n"
-    "        const int status = model_rates(p, k == 0 ? t : k == 3 ? t + step : t + step / 2, at, "
-    "s,"
-    "\n                                       rest, rate);\n\n"
-    "        if (status != MODEL_OK)\n            return status;\n"
-    "        for (i = 0; i < MODEL_Y; i++) {\n"
-    "            sum[i] += rate[i] * (k == 0 || k == 3 ? step / 6 : step / 3);\n"
-    "            at[i] = y[i] + part * rate[i];\n        }\n    }\n"
-    "    for (i = 0; i < MODEL_Y; i++)\n        y[i] += sum[i];\n"
-    "    return model_project(p, t + step, y, rest);\n}\n";
 
 static const char check_begin[] =
     "\n#ifdef MODEL_CHECK /* numbers from where this file was made */\n#include <stdio.h>\n\n"
@@ -574,16 +560,6 @@ static void add_tables(const Code *code, Text *out)
              " : 0;\n}\n");
 }
 
-/* a text with something else in the place of a $NAME */
-static void add_with(Text *out, const char *text, const char *name, const char *value)
-{
-    const char *at = strstr(text, name);
-
-    text_add_n(out, text, (size_t)(at - text));
-    text_add(out, value);
-    text_add(out, at + strlen(name));
-}
-
 static void add_projection(const Code *code, Text *out)
 {
     Text firsts = {0}, body = {0};
@@ -591,11 +567,10 @@ static void add_projection(const Code *code, Text *out)
     for (int i = 0, first; (first = system_quaternion(code->layout->system, i)) >= 0; i++)
         text_addf(&firsts, "%d, ", first);
     text_add(&firsts, "-1");
-    add_with(&body, projection, "$FIRSTS", firsts.at);
-    add_with(out, body.at, "$PROJECTED",
-             code_has_modes(code) ? "model_drifted(p, t, y, work)" : "MODEL_OK");
-    add_with(out, step, "$STEP",
-             code_has_modes(code) ? "static int model_smooth_step" : "int model_step");
+    code_fill_word(projection, "$FIRSTS", firsts.at, &body);
+    code_fill_word(body.at, "$PROJECTED",
+                   code_has_modes(code) ? "model_drifted(p, t, y, work)" : "MODEL_OK", out);
+    c_step_add(code, out);
     text_free(&firsts);
     text_free(&body);
 }
@@ -722,7 +697,7 @@ static void write_file(const Code *code, const Language *language, Text *out)
     add_projection(code, out);
     if (code_has_modes(code)) {
         text_add(out, "\n#ifdef MODEL_CHECK\n#include <stdio.h>\n#endif\n");
-        add_lines(out, shared_text_modes_step_c);
+        c_step_add_modes(code, out);
     }
     if (code->inverse != NULL)
         add_inverse(code, out);

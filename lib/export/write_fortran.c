@@ -190,13 +190,38 @@ static const char step_in_mode[] =
     "\n! model_smooth_step; where an ideal part goes over on the way it is model_left, and y "
     "stays:\n"
     "! p has the mode, which export c changes by itself\n"
-    "subroutine model_step(p, t, h, y, s, status)\n    real(wp), intent(in) :: p(:), t, h\n"
+    "subroutine model_$STEP(p, t, h, y, s, status)\n    real(wp), intent(in) :: p(:), t, h\n"
     "    real(wp), intent(inout) :: y(:), s(:)\n    integer, intent(out) :: status\n"
     "    real(wp) :: before(model_y)\n\n    before = y\n"
     "    call model_smooth_step(p, t, h, y, s, status)\n"
     "    if (status == model_ok) call model_solve(p, t + h, y, s, status)\n"
     "    if (status == model_ok) call model_hold_sides(p, t + h, y, s, status)\n"
     "    if (status /= model_ok) y = before\nend subroutine\n";
+
+/* steps over sampling instants, whole multiples of the periods */
+static const char sampled_step[] =
+    "\n! the sampled states that are due at t\n"
+    "subroutine model_sample(p, t, y, s, status)\n    real(wp), intent(in) :: p(:), t\n"
+    "    real(wp), intent(inout) :: y(:), s(:)\n    integer, intent(out) :: status\n"
+    "    real(wp), dimension(size(model_sampled)) :: period, next\n"
+    "    logical, dimension(size(model_sampled)) :: due\n\n    status = model_ok\n"
+    "    call model_periods(p, t, y, s, period)\n"
+    "    due = abs(t/period - anint(t/period)) <= 1e-9_wp\n    if (.not. any(due)) return\n"
+    "    call model_solve(p, t, y, s, status)\n    if (status /= model_ok) return\n"
+    "    call model_samples(p, t, y, s, next)\n"
+    "    y(model_sampled) = merge(next, y(model_sampled), due)\nend subroutine\n"
+    "\n! model_step_between over sampling instants; one at its end is the next step's\n"
+    "subroutine model_step(p, t, h, y, s, status)\n    real(wp), intent(in) :: p(:), t, h\n"
+    "    real(wp), intent(inout) :: y(:), s(:)\n    integer, intent(out) :: status\n"
+    "    real(wp), dimension(size(model_sampled)) :: period, instant\n"
+    "    real(wp) :: now, until\n\n    status = model_ok\n    now = t\n"
+    "    call model_periods(p, t, y, s, period)\n"
+    "    do while (status == model_ok .and. now < t + h)\n"
+    "        instant = period*(floor(now/period + 1e-9_wp) + 1)\n"
+    "        until = minval(merge(instant, t + h, instant < t + h - 1e-9_wp*period))\n"
+    "        call model_sample(p, now, y, s, status)\n        if (status == model_ok) &\n"
+    "            call model_step_between(p, now, until - now, y, s, status)\n"
+    "        now = until\n    end do\nend subroutine\n";
 
 static const char begin_check[] =
     "\nend module\n"
@@ -321,10 +346,12 @@ static void add_check(const Code *code, const Language *language, Text *out)
         code_fill(code, half.at, out);
         text_free(&half);
     }
-    text_add(out, code_has_modes(code) ? "smooth_step" : "step");
+    text_add(out, code_step_name(code));
     text_add(out, step);
     if (code_has_modes(code))
-        text_add(out, step_in_mode);
+        code_fill_word(step_in_mode, "$STEP", code_is_sampled(code) ? "step_between" : "step", out);
+    if (code_is_sampled(code))
+        text_add(out, sampled_step);
     fill_words(code, begin_check, "$FUNCTIONS", count.at, out);
     code_sizes(code, sizes);
     code_set_array(language, "sizes", sizes, CODE_PARTS, out);
@@ -403,6 +430,13 @@ static void write_file(const Code *code, const Language *language, Text *out)
     code_fill(code, head, out);
     if (code_has_modes(code))
         add_ideals(code, out);
+    if (code_is_sampled(code)) {
+        text_add(out, "integer, parameter :: model_sampled(*) = [");
+        for (int i = 0; i < code->live.samples.count; i++)
+            text_addf(out, "%s%d", i > 0 ? ", &\n    " : "",
+                      code->layout->n + code->layout->nu + code->live.samples.at[i] + 1);
+        text_add(out, "] ! in y\n");
+    }
     text_add(out, interfaces);
     add_tables(code, language, out);
     text_add(out, "\n! what follows from parameters alone: after one has changed\n"

@@ -89,9 +89,24 @@ static const char step_in_mode[] =
     "            error('%s goes over before t = %g: p has the mode, which export c changes by "
     "itself', ...\n                names{k}, t);\n        end\n    end\nend\n"
     "\n% smooth_step; fails where an ideal part goes over on the way\n"
-    "function [y, s] = model_step(p, t, h, y, s)\n"
+    "function [y, s] = model_$STEP(p, t, h, y, s)\n"
     "    [y, s] = model_smooth_step(p, t, h, y, s);\n"
     "    s = model_solve(p, t + h, y, s);\n    model_hold_sides(p, t + h, y, s);\nend\n";
+
+/* steps over sampling instants, whole multiples of the periods */
+static const char sampled_step[] =
+    "    period = model_periods(p, t, y, s);\n"
+    "    due = abs(t./period - round(t./period)) <= 1e-9;\n    if any(due)\n"
+    "        s = model_solve(p, t, y, s);\n        next = model_samples(p, t, y, s);\n"
+    "        y(sampled(due)) = next(due);\n    end\nend\n"
+    "\n% model_step_between over sampling instants; one at its end is the next step's\n"
+    "function [y, s] = model_step(p, t, h, y, s)\n    stop = t + h;\n"
+    "    period = model_periods(p, t, y, s);\n    while t < stop\n"
+    "        instants = period.*(floor(t./period + 1e-9) + 1);\n"
+    "        until = min([stop; instants(instants < stop - 1e-9*period)]);\n"
+    "        [y, s] = model_sample(p, t, y, s);\n"
+    "        [y, s] = model_step_between(p, t, until - t, y, s);\n        t = until;\n"
+    "    end\nend\n";
 
 static const char check[] =
     "\nfunction bad = model_check()\n    k = model_sizes();\n    p = model_parameters();\n"
@@ -241,7 +256,7 @@ static void add_modes(const Code *code, Text *out)
         text_addf(out, "%s'%s'", k > 0 ? ", ...\n        " : "",
                   code->modes.ideals.at[k].ideal.name);
     text_add(out, "};\n");
-    text_add(out, step_in_mode);
+    code_fill_word(step_in_mode, "$STEP", code_is_sampled(code) ? "step_between" : "step", out);
 }
 
 static void write_file(const Code *code, const Language *language, Text *out)
@@ -273,10 +288,19 @@ static void write_file(const Code *code, const Language *language, Text *out)
     text_add(out, solver);
     add_solve(code, out);
     text_add(out, after);
-    text_add(out, code_has_modes(code) ? "smooth_step" : "step");
+    text_add(out, code_step_name(code));
     text_add(out, step);
     if (code_has_modes(code))
         add_modes(code, out);
+    if (code_is_sampled(code)) {
+        text_add(out, "\n% the sampled states that are due at t\n"
+                      "function [y, s] = model_sample(p, t, y, s)\n    sampled = [");
+        for (int i = 0; i < code->live.samples.count; i++)
+            text_addf(out, "%s%d", i > 0 ? "; " : "",
+                      code->layout->n + code->layout->nu + code->live.samples.at[i] + 1);
+        text_add(out, "];\n");
+        text_add(out, sampled_step);
+    }
     add_check(code, out);
     add_states(code, language, out);
     mem_free(solver);

@@ -100,12 +100,28 @@ static const char step_in_mode[] =
     "                '%s goes over before t = %s: p has the mode, which export c changes by "
     "itself'\n"
     "                % (name, t))\n"
-    "\n\ndef step(p, t, h, y, s):\n"
+    "\n\ndef $STEP(p, t, h, y, s):\n"
     "    \"\"\"smooth_step(); fails where an ideal part goes over on the way\"\"\"\n"
     "    y, s = smooth_step(p, t, h, y, s)\n"
     "    s = solve(p, t + h, y, s)\n"
     "    hold_sides(p, t + h, y, s)\n"
     "    return y, s\n";
+
+/* steps over sampling instants, whole multiples of the periods */
+static const char sampled_step[] =
+    "\n\ndef sample(p, t, y, s):\n"
+    "    \"\"\"y with the sampled states that are due at t\"\"\"\n"
+    "    period = periods(p, t, y, s)\n    count = t/period\n"
+    "    due = np.abs(count - np.round(count)) <= 1e-9\n    if not np.any(due):\n"
+    "        return y, s\n    s = solve(p, t, y, s)\n    y = y.copy()\n"
+    "    y[SAMPLED] = np.where(due, samples(p, t, y, s), y[SAMPLED])\n    return y, s\n"
+    "\n\ndef step(p, t, h, y, s):\n"
+    "    \"\"\"step_between() over sampling instants; one at its end is the next step's\"\"\"\n"
+    "    end = t + h\n    period = periods(p, t, y, s)\n    while t < end:\n"
+    "        instants = period*(np.floor(t/period + 1e-9) + 1)\n"
+    "        until = np.min(np.where(instants < end - 1e-9*period, instants, end))\n"
+    "        y, s = sample(p, t, y, s)\n        y, s = step_between(p, t, until - t, y, s)\n"
+    "        t = until\n    return y, s\n";
 
 /* The same functions with np standing for SymPy: what they compute with are symbols then. */
 static const char symbols[] =
@@ -303,7 +319,7 @@ static void add_modes(const Code *code, Text *out)
     for (int k = 0; k < code->modes.ideals.count; k++)
         text_addf(out, "%s'%s'", k > 0 ? ",\n    " : "", code->modes.ideals.at[k].ideal.name);
     text_add(out, "]\n");
-    text_add(out, step_in_mode);
+    code_fill_word(step_in_mode, "$STEP", code_is_sampled(code) ? "step_between" : "step", out);
 }
 
 static void write_file(const Code *code, const Language *language, Text *out)
@@ -339,10 +355,18 @@ static void write_file(const Code *code, const Language *language, Text *out)
     text_add(out, runtime);
     add_solve(code, out);
     text_add(out, after);
-    text_add(out, code_has_modes(code) ? "smooth_step" : "step");
+    text_add(out, code_step_name(code));
     text_add(out, step);
     if (code_has_modes(code))
         add_modes(code, out);
+    if (code_is_sampled(code)) {
+        text_add(out, "\n\nSAMPLED = np.array([");
+        for (int i = 0; i < code->live.samples.count; i++)
+            text_addf(out, "%s%d", i > 0 ? ", " : "",
+                      code->layout->n + code->layout->nu + code->live.samples.at[i]);
+        text_add(out, "])  # in y\n");
+        text_add(out, sampled_step);
+    }
     add_states(code, out);
     text_add(out, symbols);
     text_add(out, check);
