@@ -202,7 +202,7 @@ Run run_input_done(RunInput *input, Result *result, ResultReader *reader);
 MUST_USE Status session_start(ct_session *session, Run **out, Diag *diag);
 /* what a bare name means: the last run, or the start; NULL diag place */
 MUST_USE Status session_source(ct_session *session, Run **out, Diag *diag);
-/* the last run even when the model changed since: what is drawn is what ran; else the start */
+/* the last run, with a remark where the model has changed since; the start where there is none */
 MUST_USE Status session_last_run(ct_session *session, Run **out, Diag *diag);
 /* the start is no longer that of the model; it stays as what guesses come from */
 void session_forget_start(ct_session *session);

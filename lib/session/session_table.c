@@ -121,7 +121,7 @@ ct_status ct_round(ct_session *session, const ct_expression *expression, const d
 
     if (!formula_may_be_rounding(syntax_of(expression), *value))
         return CT_OK;
-    session_begin(session);
+    /* what the call that found the value remarked stands */
     CHECK(formula_new(session, syntax_of(expression), &formula, &diag));
     if (formula_needs_run(&formula))
         CHECK(source_at(session, at, &source, &diag));
@@ -324,11 +324,23 @@ done:
     return status;
 }
 
+static void remark_changes(ct_session *session)
+{
+    Text text = {0};
+
+    if (!session->changed)
+        return;
+    text_addf(&text, "these are rows of run%d: the model has changed since", session->runs.count);
+    session_remark(session, text.at);
+    text_free(&text);
+}
+
 Status session_last_run(ct_session *session, Run **out, Diag *diag)
 {
     if (session->runs.count == 0)
         return session_start(session, out, diag);
     *out = session->runs.at + session->runs.count - 1;
+    remark_changes(session);
     return OK;
 }
 
@@ -467,11 +479,13 @@ static void drop_times(Sheet *sheet)
     }
 }
 
-/* numbers of the last run, or the modes; units beside the names, or in them */
+/* numbers of the last run or, with the word `start`, of the start; or the modes; units beside the
+ * names, or in them */
 static Status read_numbers(ct_session *session, const Statement *s, bool splits_units, Sheet *sheet,
                            Exported *what, Diag *diag)
 {
-    const int count = s->operands.count - 1;
+    const bool is_start = begins_with(s, "start");
+    const int first = is_start ? 2 : 1, count = s->operands.count - first;
     const Syntax **items = NEW_ARRAY(const Syntax *, count);
     Run *source = NULL;
     Status status = OK;
@@ -484,8 +498,9 @@ static Status read_numbers(ct_session *session, const Statement *s, bool splits_
     if (status != OK || is_modes(s))
         goto done;
     for (int i = 0; i < count; i++)
-        items[i] = s->operands.at[i + 1].value;
-    CHECK(session_source(session, &source, diag));
+        items[i] = s->operands.at[i + first].value;
+    CHECK(is_start ? session_start(session, &source, diag)
+                   : session_last_run(session, &source, diag));
     CHECK(make_sheet(session, items, count, source, 0, sheet, diag));
     drop_times(sheet);
     for (int c = 0; c < sheet->columns && splits_units; c++)
