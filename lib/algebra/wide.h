@@ -6,6 +6,7 @@
 #define COTREE_ALGEBRA_WIDE_H
 
 #include <complex.h>
+#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 
@@ -163,7 +164,8 @@ static inline double wide_size(WideComplex a)
 
 static inline WideComplex wide_cdiv(WideComplex a, WideComplex b)
 {
-    const double scale = ldexp(1, -ilogb(wide_size(b))); /* squares stay in range */
+    const double size = wide_size(b); /* of a scaled b squares are in range */
+    const double scale = size >= DBL_MIN && isfinite(size) ? ldexp(1, -ilogb(size)) : 1;
     const WideComplex c = wide_ctimes(b, wide_of(scale));
     const Wide square = wide_add(wide_mul(c.re, c.re), wide_mul(c.im, c.im));
     const WideComplex top = wide_ctimes(wide_cmul(a, wide_conj(c)), wide_of(scale));

@@ -1,4 +1,9 @@
-/* session_bode.c: bode: gain and phase of outputs against inputs of the last linearisation */
+/* session_bode.c: bode: gain and phase of outputs against inputs of the last linearisation
+ *
+ * The frequencies are even on a logarithmic axis, and closer about poles and zeros off the real
+ * axis. The gain is a sum of logarithms of distances from i omega to the roots. A root at the
+ * distance d bends the curve by less than 20/ln(10)/d^2 dB, so a peak halfway between two points
+ * CLOSE d apart is higher than both by less than 20/ln(10)/2 (CLOSE/2)^2 = 0.04 dB. */
 #include "session/session_impl.h"
 
 #include "export/write.h"
@@ -6,9 +11,15 @@
 #include "simulate/analyse/transfer.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { USUAL_POINTS = 200, MOST_POINTS = 100000 };
+static const double LEAST_FREQUENCY = 1e-140, MOST_FREQUENCY = 1e140; /* Hz */
+static const double CLOSE =
+    0.2; /* between points, of the distance to the root that they are about */
+static const double UNDAMPED =
+    1e-3; /* of a root: as close as points come where it has no damping */
 
 /* what was asked for */
 typedef struct Bode {
@@ -104,6 +115,9 @@ static Status read_frequency(const Model *model, const Pair *pair, double *out, 
         *out /= 2 * M_PI;
     if (!isfinite(*out) || *out <= 0)
         return diag_at(diag, E_VALUE, value->place, "%s must be a frequency above 0", pair->name);
+    if (*out < LEAST_FREQUENCY || *out > MOST_FREQUENCY)
+        return diag_at(diag, E_VALUE, value->place, "%s must be a frequency from %g to %g Hz",
+                       pair->name, LEAST_FREQUENCY, MOST_FREQUENCY);
     return OK;
 }
 
@@ -226,9 +240,106 @@ static char *name_of(const Linear *linear, const char *what, int output, int inp
     return text_done(&text);
 }
 
+/* --- frequencies --- */
+
+typedef LIST(double) Frequencies; /* Hz */
+
+/* What counts as the damping of a root, 1/s: where it may be 0, the peak has no height to meet. */
+static double damping_of(Root root)
+{
+    const double real = fabs(root.real), size = hypot(root.real, root.imaginary);
+
+    return real > root.error ? real : fmax(root.error, UNDAMPED * size);
+}
+
+/* whether points about the one are about the other, too: a pole that several outputs have */
+static bool is_near(Root a, Root b)
+{
+    const double least = fmin(damping_of(a), damping_of(b));
+
+    return fabs(a.imaginary - b.imaginary) <= CLOSE / 10 * least &&
+           fabs(damping_of(a) - damping_of(b)) <= CLOSE / 2 * least;
+}
+
+/* From the root outward, up to where even points are closer. */
+static void add_side(const Bode *bode, Root root, double sign, Frequencies *out)
+{
+    const double ratio = pow(bode->to / bode->from, 1.0 / (bode->points - 1));
+    const double damping = damping_of(root);
+    double offset = 0, f = root.imaginary / (2 * M_PI);
+
+    for (;;) {
+        const double step = CLOSE * hypot(damping, offset);
+
+        offset += step;
+        f = (root.imaginary + sign * offset) / (2 * M_PI);
+        if (!(f > 0) || step / (2 * M_PI) >= f * (ratio - 1) ||
+            (sign > 0 ? f >= bode->to : f <= bode->from))
+            return;
+        if (f > bode->from && f < bode->to)
+            LIST_PUSH(*out, f);
+    }
+}
+
+static void add_about(const Bode *bode, Root root, Frequencies *out)
+{
+    const double f = root.imaginary / (2 * M_PI);
+
+    if (fabs(root.real) > root.error && f > bode->from && f < bode->to)
+        LIST_PUSH(*out, f);
+    add_side(bode, root, 1, out);
+    add_side(bode, root, -1, out);
+}
+
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+
+    return (x > y) - (x < y);
+}
+
+/* The even points, and those about roots off the real axis, in order. */
+static void find_frequencies(const Bode *bode, Frequencies *out)
+{
+    LIST(Root) roots = {0};
+    int count = 0;
+
+    for (int r = 0; r + 1 < bode->points; r++)
+        LIST_PUSH(*out,
+                  bode->from * pow(bode->to / bode->from, (double)r / (double)(bode->points - 1)));
+    LIST_PUSH(*out, bode->to);
+    for (int k = 0; k < bode->transfers.count; k++) {
+        const Transfer *t = bode->transfers.at[k];
+
+        for (int i = 0; i < t->poles + t->zeros; i++) {
+            const Root root = i < t->poles ? t->pole[i] : t->zero[i - t->poles];
+            bool is_known = root.imaginary <= 0;
+
+            for (int m = 0; m < roots.count && !is_known; m++)
+                is_known = is_near(roots.at[m], root);
+            if (is_known)
+                continue;
+            LIST_PUSH(roots, root);
+            add_about(bode, root, out);
+        }
+    }
+    LIST_FREE(roots);
+    qsort(out->at, (size_t)out->count, sizeof *out->at, by_value);
+    for (int i = 0; i < out->count; i++)
+        if (count == 0 || out->at[i] > out->at[count - 1])
+            out->at[count++] = out->at[i];
+    out->count = count;
+}
+
+/* --- the sheet --- */
+
 static Status fill_sheet(const Bode *bode, const Watch *watch, BodeSheet *sheet, Diag *diag)
 {
-    const int rows = bode->points, pairs = bode->transfers.count;
+    Frequencies f = {0};
+
+    find_frequencies(bode, &f);
+
+    const int rows = f.count, pairs = bode->transfers.count;
     double *omega = NEW_ARRAY(double, rows), *gain = NEW_ARRAY(double, rows),
            *phase = NEW_ARRAY(double, rows);
     Status status = OK;
@@ -239,12 +350,8 @@ static Status fill_sheet(const Bode *bode, const Watch *watch, BodeSheet *sheet,
     sheet->values = mem_array((size_t)rows * (size_t)sheet->columns, sizeof(double));
     LIST_PUSH(sheet->names, mem_text("f [Hz]", 6));
     for (int r = 0; r < rows; r++) {
-        const double f =
-            r == rows - 1 ? bode->to
-                          : bode->from * pow(bode->to / bode->from, (double)r / (double)(rows - 1));
-
-        sheet->values[r * sheet->columns] = f;
-        omega[r] = 2 * M_PI * f;
+        sheet->values[r * sheet->columns] = f.at[r];
+        omega[r] = 2 * M_PI * f.at[r];
     }
     for (int k = 0; k < pairs; k++) {
         const int output = bode->outputs.at[k / bode->linear->inputs];
@@ -264,6 +371,7 @@ static Status fill_sheet(const Bode *bode, const Watch *watch, BodeSheet *sheet,
     }
     LIST_PUSH(sheet->names, NULL);
 done:
+    LIST_FREE(f);
     MEM_FREE(omega, gain, phase);
     return status;
 }

@@ -3,7 +3,8 @@
  *
  * The oracle stamps each element into a matrix of node potentials and currents (Ho, Ruehli and
  * Brennan 1975), at a few complex frequencies, and solves it; what cotree prints is read as text by
- * a reader of its own and evaluated there. */
+ * a reader of its own and evaluated there. Peaks and notches of what bode draws are held against
+ * those of a sum of branches, searched on a grid of its own. */
 #include "../unit/session_kit.h"
 #include "family.h"
 
@@ -548,11 +549,169 @@ static Verdict equivalents_agree(Member *member)
     return verdict;
 }
 
+/* --- peaks --- */
+
+enum {
+    BRANCHES = 5,
+    SCANNED = 400,
+    SIDES = 2 * SCANNED + 1,
+    SCAN = SCANNED * 5 + BRANCHES * SIDES
+};
+
+/* branches of R, L and C between the terminals of a source: Y(s) = sum of s/L/(s^2 + R/L s + 1/LC)
+ */
+typedef struct Ladder {
+    int count;
+    double r[BRANCHES], l[BRANCHES], c[BRANCHES];
+} Ladder;
+
+/* |Y|, dB, at a frequency, Hz */
+static double admittance(const Ladder *n, double f)
+{
+    const Complex s = 2 * M_PI * f * _Complex_I;
+    Complex sum = 0;
+
+    for (int i = 0; i < n->count; i++)
+        sum += 1 / (n->r[i] + s * n->l[i] + 1 / (s * n->c[i]));
+    return 20 * log10(cabs(sum));
+}
+
+static int by_frequency(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+
+    return (x > y) - (x < y);
+}
+
+/* frequencies that are close about each resonance: Hz, SCAN */
+static int scan_frequencies(const Ladder *n, double from, double to, double *out)
+{
+    int count = 0;
+
+    for (int i = 0; i < SCANNED * 5; i++)
+        out[count++] = from * pow(to / from, (i + 0.5) / (SCANNED * 5));
+    for (int i = 0; i < n->count; i++) {
+        const double damping = n->r[i] / (2 * n->l[i]);
+        const double f = sqrt(1 / (n->l[i] * n->c[i]) - damping * damping) / (2 * M_PI);
+
+        for (int k = -SCANNED; k <= SCANNED; k++) {
+            const double at = f + sinh(k / 40.0) * 0.02 * damping / (2 * M_PI);
+
+            if (at > from && at < to)
+                out[count++] = at;
+        }
+    }
+    qsort(out, (size_t)count, sizeof *out, by_frequency);
+    return count;
+}
+
+/* the top (sign 1) or bottom (-1) between two frequencies, by the golden section */
+static double find_extremum(const Ladder *n, double sign, double low, double high)
+{
+    static const double part = 0.38196601125010515;
+
+    for (int i = 0; i < 100; i++) {
+        const double a = low + part * (high - low), b = high - part * (high - low);
+
+        if (sign * admittance(n, a) > sign * admittance(n, b))
+            high = b;
+        else
+            low = a;
+    }
+    return (low + high) / 2;
+}
+
+/* whether a row near the extremum comes to it within 0.1 dB */
+static bool is_drawn(Member *member, const Ladder *n, double sign, double f, const double *values,
+                     int rows)
+{
+    const double wanted = admittance(n, f);
+    double best = -INFINITY;
+    int next = 0;
+
+    while (next < rows - 1 && values[(ptrdiff_t)next * 3] < f)
+        next++;
+    for (int r = next > 0 ? next - 1 : 0; r <= next; r++)
+        best = fmax(best, sign * values[(ptrdiff_t)r * 3 + 1]);
+    if (keeps(member, "peak, dB", fabs(sign * wanted - best), 0.1))
+        return true;
+    tell(member, "at %.12g Hz: %.6g dB, drawn %.6g\n", f, wanted, sign * best);
+    return false;
+}
+
+static bool peaks_are_drawn(Member *member, const Ladder *n, const double *values, int rows)
+{
+    static double f[SCAN];
+    const int count = scan_frequencies(n, values[0], values[(ptrdiff_t)(rows - 1) * 3], f);
+    bool drawn = true;
+
+    for (int i = 1; i + 1 < count && drawn; i++) {
+        const double a = admittance(n, f[i - 1]), b = admittance(n, f[i]),
+                     c = admittance(n, f[i + 1]);
+        const double sign = b > a && b > c ? 1 : b < a && b < c ? -1 : 0;
+
+        /* what the sum of branches rounds away makes bumps, too */
+        if (sign == 0 || fmin(fabs(b - a), fabs(b - c)) < 1e-6)
+            continue;
+        drawn = is_drawn(member, n, sign, find_extremum(n, sign, f[i - 1], f[i + 1]), values, rows);
+    }
+    return drawn;
+}
+
+static void draw_ladder(Member *member, Ladder *n, Net *net)
+{
+    n->count = 1 + member_one_of(member, BRANCHES);
+    net->text[0] = '\0';
+    put(net, "vsource E a 0 0\n");
+    for (int i = 0; i < n->count; i++) {
+        const double omega = member_decades(member, 10, 1e5);
+        const double damping = member_decades(member, 1e-6, 0.5); /* ratio */
+
+        n->l[i] = member_decades(member, 1e-3, 1);
+        n->c[i] = 1 / (omega * omega * n->l[i]);
+        n->r[i] = 2 * damping * omega * n->l[i];
+        put(net,
+            "resistor R%d a p%d %.17g\ninductor L%d p%d q%d %.17g\ncapacitor C%d q%d 0 %.17g\n", i,
+            i, n->r[i], i, i, i, n->l[i], i, i, n->c[i]);
+    }
+    put(net, "output y = -E.i\nlinearize inputs=[E] outputs=[y]\n");
+}
+
+static Verdict peaks_agree(Member *member)
+{
+    static Net net;
+    static const char *const asked[] = {"bode", "bode points=20", "bode points=1000"};
+    const char *ask = asked[member_one_of(member, 3)];
+    Ladder n;
+    Kit kit = kit_new();
+    ct_statement *statement = NULL;
+    double *values = NULL;
+    char **names = NULL;
+    int rows = 0, columns = 0;
+    Verdict verdict = AGREES;
+
+    draw_ladder(member, &n, &net);
+    if (kit_do(&kit, net.text) != CT_OK ||
+        ct_parse(&(ct_cursor){.text = ask, .line = 1}, false, &statement, &kit.error) != CT_OK ||
+        ct_bode(kit.session, statement, &values, &rows, &columns, &names, &kit.error) != CT_OK)
+        verdict = refused(member, &net, &kit);
+    else if (!peaks_are_drawn(member, &n, values, rows))
+        verdict = DISAGREES;
+    if (verdict != AGREES || member->told)
+        tell(member, "%s%s\n", net.text, ask);
+    ct_statement_free(statement);
+    ct_free(values);
+    ct_words_free(names);
+    kit_free(&kit);
+    return verdict;
+}
+
 int main(int argc, char **argv)
 {
     static const Family families[] = {
         {"transfer_functions_agree", 150, 0.1, 0, transfer_functions_agree},
         {"equivalents_agree", 150, 0.1, 0, equivalents_agree},
+        {"peaks_agree", 100, 0.1, 0, peaks_agree},
     };
 
     return family_main(families, (int)(sizeof families / sizeof families[0]), argc, argv);

