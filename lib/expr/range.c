@@ -31,6 +31,12 @@ struct Ranges {
     int *roots;
     Range *out;
     int count;
+    int **below; /* of each root: moving nodes that it needs, operands first; NULL: not found */
+    int *below_count;
+    Range over;      /* where the symbol is, and */
+    int64_t *age;    /* for which interval each moving node has its range: */
+    int64_t current; /* this one */
+    int64_t visits;
 };
 
 static const Range everything = {-INFINITY, INFINITY};
@@ -293,6 +299,10 @@ Ranges *ranges_new(const Expr *roots, int count, Expr symbol, SymbolValue value,
     r->moving = NEW_ARRAY(int, walk.count);
     r->roots = NEW_ARRAY(int, count);
     r->out = NEW_ARRAY(Range, count);
+    r->below = NEW_ARRAY(int *, count);
+    r->below_count = NEW_ARRAY(int, count);
+    r->over = (Range){NAN, NAN};
+    r->age = NEW_ARRAY(int64_t, walk.count);
     r->count = count;
     r->symbol = walk_find(&walk, symbol);
     operands = 0;
@@ -334,18 +344,75 @@ void ranges_free(Ranges *r)
 {
     if (r == NULL)
         return;
-    MEM_FREE(r->nodes, r->operands, r->at, r->moving, r->roots, r->out, r);
+    for (int i = 0; i < r->count; i++)
+        mem_free(r->below[i]);
+    MEM_FREE(r->nodes, r->operands, r->at, r->moving, r->roots, r->out);
+    MEM_FREE(r->below, r->below_count, r->age, r);
+}
+
+/* From here on the symbol is in `over`: ranges found for another interval are stale. */
+static void set_interval(Ranges *r, Range over)
+{
+    if (over.low == r->over.low && over.high == r->over.high)
+        return;
+    r->over = over;
+    r->current++;
+}
+
+/* Find the range of a moving node, whose operands have theirs, once an interval. */
+static void visit(Ranges *r, int i)
+{
+    if (r->age[i] == r->current)
+        return;
+    r->age[i] = r->current;
+    r->visits++;
+    if (i == r->symbol)
+        r->at[i] = r->over;
+    else
+        find(r, i);
+}
+
+/* the moving nodes that a root needs, in the order of all nodes: operands first */
+static void find_below(Ranges *r, int root)
+{
+    bool *needed = NEW_ARRAY(bool, r->roots[root] + 1);
+    int count = 0;
+
+    needed[r->roots[root]] = true;
+    for (int i = r->roots[root]; i >= 0; i--) {
+        needed[i] = needed[i] && r->nodes[i].moves;
+        count += needed[i];
+        for (int k = 0; needed[i] && k < r->nodes[i].count; k++)
+            needed[r->operands[r->nodes[i].first + k]] = true;
+    }
+    r->below[root] = NEW_ARRAY(int, count);
+    for (int i = 0; i <= r->roots[root]; i++)
+        if (needed[i])
+            r->below[root][r->below_count[root]++] = i;
+    mem_free(needed);
 }
 
 const Range *ranges_over(Ranges *r, Range over)
 {
-    for (int i = 0; i < r->moving_count; i++) {
-        if (r->moving[i] == r->symbol)
-            r->at[r->symbol] = over;
-        else
-            find(r, r->moving[i]);
-    }
+    set_interval(r, over);
+    for (int i = 0; i < r->moving_count; i++)
+        visit(r, r->moving[i]);
     for (int i = 0; i < r->count; i++)
         r->out[i] = r->at[r->roots[i]];
     return r->out;
+}
+
+Range ranges_root_over(Ranges *r, int root, Range over)
+{
+    if (r->below[root] == NULL)
+        find_below(r, root);
+    set_interval(r, over);
+    for (int i = 0; i < r->below_count[root]; i++)
+        visit(r, r->below[root][i]);
+    return r->at[r->roots[root]];
+}
+
+int64_t ranges_visits(const Ranges *r)
+{
+    return r != NULL ? r->visits : 0;
 }

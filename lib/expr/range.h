@@ -20,5 +20,10 @@ void ranges_free(Ranges *ranges); /* NULL is fine */
 /* of each root, while the symbol is in `over`; borrowed, until the next call. Bounds that aren't
  * known are infinite. O(nodes). */
 const Range *ranges_over(Ranges *ranges, Range over);
+/* of one root. O(nodes of the root). */
+Range ranges_root_over(Ranges *ranges, int root, Range over);
+/* How many ranges of nodes have been found so far: each node has one an interval, however many
+ * others and calls ask for it. NULL: 0. */
+int64_t ranges_visits(const Ranges *ranges);
 
 #endif

@@ -191,11 +191,36 @@ static void rows_of_coordinates_and_speeds_solve_nothing(void)
     script_close(&script);
 }
 
+/* A controller that follows an angle of two joints: smooth, but intervals promise far more than
+ * there is. Its first look ahead took 5 million ranges. */
+static void the_look_ahead_of_a_smooth_reference_is_bounded(void)
+{
+    Script script;
+
+    script_open(
+        &script,
+        "scene planar\nT0 = 3 s\nr = 0.4/sqrt(3)\n"
+        "S(t) = t/T0 - sin(2*pi*t/T0)/(2*pi)\nX(t) = 0.5 + 0.05*S(t)\n"
+        "Y(t) = 0.5/sqrt(3) + (0.35 - 0.5/sqrt(3))*S(t)\nP(t) = pi/12*S(t)\n"
+        "ankle(x, y) = atan2(y, x) - acos((x^2 + y^2 + 0.4^2 - 0.6^2)/(2*0.4*sqrt(x^2 + "
+        "y^2)))\n"
+        "vsource V1 v1 0 ankle(X(t) + r*cos(P(t) + 210 deg), Y(t) + r*sin(P(t) + 210 deg))\n"
+        "body b mass=1 inertia=1\nrevolute h ground b\nsensor s h y 0 gain=1\n"
+        "pd c1 u 0 ref=v1.v of=y.v Kp=4000 Kd=8000\ninit h=-1.34\n"
+        "motor M h u 0 R=1 L=1 Kt=1 Kv=1 B=.01\nsimulate 0.01 every=0.01\n",
+        &(Changes){0});
+    EXPECT(script.status == OK);
+    EXPECT(result_report(script.result)->visits > 100); /* it does look */
+    EXPECT(result_report(script.result)->visits < 1000000);
+    script_close(&script);
+}
+
 int main(void)
 {
     RUN(rows_of_coordinates_and_speeds_solve_nothing);
     RUN(a_result_outlives_what_integrated_it);
     RUN(resuming_leaves_the_old_result_as_it_was);
     RUN(remarks_tell_of_which_part_and_when);
+    RUN(the_look_ahead_of_a_smooth_reference_is_bounded);
     return test_end();
 }

@@ -36,6 +36,11 @@ const Range *steep_bends_over(Steep *steep, Range over);
 /* the ranges of the sources once more, where terms cancel much closer: s(m) + s' (x - m) about the
  * middle. Three times the work. */
 const Range *steep_sources_close(Steep *steep, Range over);
+/* The same of one source: the work is that of its own expression. */
+Range steep_source_over(Steep *steep, int source, Range over);
+Range steep_source_close(Steep *steep, int source, Range over);
+/* How many ranges of expressions all this has taken so far. */
+int64_t steep_visits(const Steep *steep);
 
 /* A run goes from..to, s: from here on sources are as large as their ranges in it. */
 void steep_span(Steep *steep, double from, double to);

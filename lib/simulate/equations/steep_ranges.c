@@ -94,6 +94,29 @@ static Range narrowed(Range a, Range b, double reach)
     return out.low <= out.high ? out : a;
 }
 
+Range steep_source_over(Steep *s, int j, Range over)
+{
+    over = (Range){motion_clock(s->motion, over.low), motion_clock(s->motion, over.high)};
+    return ranges_root_over(s->values, j, over);
+}
+
+Range steep_source_close(Steep *s, int j, Range over)
+{
+    const double low = motion_clock(s->motion, over.low), high = motion_clock(s->motion, over.high);
+    const double middle = low + (high - low) / 2;
+    const Range wide = ranges_root_over(s->values, j, (Range){low, high});
+    Range slope;
+    double reach;
+
+    if (!s->sources.at[j].is_continuous)
+        return wide;
+    slope = ranges_root_over(s->slopes, j, (Range){low, high});
+    reach = fmax(fabs(slope.low), fabs(slope.high)) * (high - low) / 2;
+    if (!isfinite(reach))
+        return wide;
+    return narrowed(wide, ranges_root_over(s->values, j, (Range){middle, middle}), reach);
+}
+
 const Range *steep_sources_close(Steep *s, Range over)
 {
     const double low = motion_clock(s->motion, over.low), high = motion_clock(s->motion, over.high);
@@ -110,6 +133,12 @@ const Range *steep_sources_close(Steep *s, Range over)
         if (s->sources.at[j].is_continuous && isfinite(s->reach[j]))
             s->closer[j] = narrowed(s->closer[j], at[j], s->reach[j]);
     return s->closer;
+}
+
+int64_t steep_visits(const Steep *s)
+{
+    return ranges_visits(s->values) + ranges_visits(s->slopes) + ranges_visits(s->bends) +
+           ranges_visits(s->corners);
 }
 
 void steep_span(Steep *s, double from, double to)

@@ -20,6 +20,7 @@ void integration_give_up_stepper(Integration *m)
     m->earlier.rejected += m->stepper->counts.rejected;
     m->earlier.evaluations += m->stepper->counts.evaluations;
     m->earlier.jacobians += m->stepper->counts.jacobians;
+    m->earlier.visits += m->stepper->counts.visits;
     if (m->stepper->missed > m->missed) {
         m->missed = m->stepper->missed;
         m->missed_at = m->stepper->missed_at;

@@ -15,6 +15,7 @@ Onset *onset_new(Steep *steep, const Ode *ode)
         return NULL;
     o = NEW(Onset);
     o->steep = steep;
+    o->visits = steep_visits(steep);
     o->ode = ode;
     o->elements = k = steep_elements(steep);
     o->sources = j = steep_sources(steep);
@@ -91,6 +92,14 @@ static void choose_scale(Onset *o, const Stepper *stepper)
     }
 }
 
+static void count_visits(Onset *o, Stepper *stepper)
+{
+    const int64_t visits = steep_visits(o->steep);
+
+    stepper->counts.visits += visits - o->visits;
+    o->visits = visits;
+}
+
 double onset_before_step(Onset *o, Stepper *stepper, double end)
 {
     double bound = INFINITY, first = end;
@@ -123,6 +132,7 @@ double onset_before_step(Onset *o, Stepper *stepper, double end)
     for (int k = 0; k < o->elements; k++)
         stepper->may_bend = stepper->may_bend || o->conducts[k];
     o->is_first = false;
+    count_visits(o, stepper);
     o->planned = fmin(first, o->t + o->h * (1 - 1e-9));
     return first;
 }
@@ -138,6 +148,7 @@ bool onset_after_step(Onset *o, Stepper *stepper, double *when)
         return false;
     o->h = stepper->t - o->t;
     first = onset_next_unseen(o, stepper, stepper->t);
+    count_visits(o, stepper);
     *when = first;
     return first < stepper->t;
 }

@@ -105,8 +105,8 @@ static bool find_effects(Onset *o, const Stepper *stepper)
 /* an element that has just reached its threshold */
 static Pulse element_pulse(Onset *o, int k, double end, double steps)
 {
-    OnsetSearch rise = {o, size_beyond, 0, k, size_at(o, k) + RISE, 1, ONSET_INTERVALS};
-    OnsetSearch fall = {o, size_beyond, 0, k, o->threshold[k] - NEAR, -1, ONSET_INTERVALS};
+    OnsetSearch rise = {o, size_beyond, 0, k, size_at(o, k) + RISE, 1, ONSET_INTERVALS, false};
+    OnsetSearch fall = {o, size_beyond, 0, k, o->threshold[k] - NEAR, -1, ONSET_INTERVALS, false};
     Pulse pulse = onset_pulse(&rise, &fall, o->t, end, steps);
 
     pulse.level = o->threshold[k];
@@ -140,7 +140,8 @@ static double growth_bound(Onset *o)
     double bound = INFINITY;
 
     for (int k = 0; k < o->elements; k++) {
-        OnsetSearch grown = {o, size_beyond, 0, k, size_at(o, k) + SETTLING, 1, ONSET_INTERVALS};
+        OnsetSearch grown = {o, size_beyond,     0,    k, size_at(o, k) + SETTLING,
+                             1, ONSET_INTERVALS, false};
 
         if (o->conducts[k])
             bound = fmin(bound, onset_first_place(&grown, o->t, o->t + fmin(o->h, bound)) - o->t);
@@ -162,7 +163,7 @@ static bool conducts(const Onset *o, int k)
 double onset_next_conduction(Onset *o, Stepper *stepper, double end, double *bound)
 {
     const double steps = stepper->method->pulse_steps;
-    OnsetSearch search = {o, conduction, REACHED, 0, 0, 1, ONSET_INTERVALS};
+    OnsetSearch search = {o, conduction, REACHED, 0, 0, 1, ONSET_INTERVALS, false};
 
     if (!stepper_slope(stepper, o->slope) ||
         !steep_arguments(o->steep, o->t, stepper->y, o->at.a) || !find_effects(o, stepper))
@@ -185,7 +186,7 @@ double onset_next_conduction(Onset *o, Stepper *stepper, double end, double *bou
 
 bool onset_has_conducted(Onset *o, const Stepper *stepper, double *when)
 {
-    OnsetSearch search = {o, conduction, REACHED, 0, 0, 1, ONSET_INTERVALS};
+    OnsetSearch search = {o, conduction, REACHED, 0, 0, 1, ONSET_INTERVALS, false};
     double h = stepper->t - o->t, x;
     double *a = NEW_ARRAY(double, o->elements);
     bool is_open = true, passed = false;

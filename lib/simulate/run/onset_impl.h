@@ -47,19 +47,22 @@ struct Onset {
     double *rates;  /* two y' */
     Turns turns;
     void *context;
-    int age; /* of the effects, in steps */
+    int age;        /* of the effects, in steps */
+    int64_t visits; /* of expressions, that are counted */
     Pulse *element_pulses, *source_pulses;
 };
 
 /* first time in (from, to] at which a quantity passes a level, upwards or downwards */
 typedef struct OnsetSearch {
     Onset *o;
-    /* above 0: it may have passed somewhere in the interval `over` */
+    /* above 0: it may have passed somewhere in the interval `over`; `sources` are all, or that one
+     * which is searched for */
     double (*excess)(struct OnsetSearch *search, Range over, const Range *sources);
     double slack; /* this much below 0 is passed, at a point */
     int which;    /* element or source */
     double level, sign;
-    int left; /* intervals to go */
+    int left;          /* intervals to go */
+    bool is_of_source; /* `which` is one: nothing else is looked at */
 } OnsetSearch;
 
 /* Middles of what the sources are at t, in `source_at`. */

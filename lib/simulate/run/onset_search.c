@@ -8,20 +8,39 @@
 
 #define FINEST 1e-12 /* of the way: no search goes on below it */
 
+/* by one source, or by all */
+static double excess_over(OnsetSearch *s, Range over)
+{
+    Steep *steep = s->o->steep;
+    Range source;
+
+    if (!s->is_of_source)
+        return s->excess(s, over, steep_sources_over(steep, over));
+    source = steep_source_over(steep, s->which, over);
+    return s->excess(s, over, &source);
+}
+
+static double excess_close(OnsetSearch *s, Range over)
+{
+    Steep *steep = s->o->steep;
+    Range source;
+
+    if (!s->is_of_source)
+        return s->excess(s, over, steep_sources_close(steep, over));
+    source = steep_source_close(steep, s->which, over);
+    return s->excess(s, over, &source);
+}
+
 /* whether it may have passed somewhere between: at first as terms are, then closer */
 static bool may_pass(OnsetSearch *s, Range over)
 {
-    Steep *steep = s->o->steep;
-
-    return s->excess(s, over, steep_sources_over(steep, over)) > 0 &&
-           s->excess(s, over, steep_sources_close(steep, over)) > 0;
+    return excess_over(s, over) > 0 && excess_close(s, over) > 0;
 }
 
 double onset_first_place(OnsetSearch *s, double from, double to)
 {
-    Steep *steep = s->o->steep;
     double finest = FINEST * (to - from) + 4e-16 * fabs(to);
-    double low = from, high = to;
+    double low = from, high = to, looked = NAN;
 
     if (!(to > from))
         return INFINITY;
@@ -42,9 +61,9 @@ double onset_first_place(OnsetSearch *s, double from, double to)
         } else {
             high = middle;
         }
-        if (s->excess(s, (Range){low, low}, steep_sources_over(steep, (Range){low, low})) >
-            -s->slack)
+        if (low != looked && excess_over(s, (Range){low, low}) > -s->slack)
             return low;
+        looked = low;
         if (--s->left <= 0)
             return high;
     }

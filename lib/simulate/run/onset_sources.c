@@ -33,7 +33,7 @@ void onset_take_sources(Onset *o, double t)
 static double way_beyond(OnsetSearch *s, Range over, const Range *sources)
 {
     double here = s->o->source_at[s->which];
-    double low = sources[s->which].low - here, high = sources[s->which].high - here;
+    double low = sources->low - here, high = sources->high - here;
     double most = fmax(fabs(low), fabs(high));
     double least = low <= 0 && high >= 0 ? 0 : fmin(fabs(low), fabs(high));
 
@@ -44,8 +44,8 @@ static double way_beyond(OnsetSearch *s, Range over, const Range *sources)
 /* a source that has just begun to act */
 static Pulse source_pulse(Onset *o, int j, double delta, double end, double steps)
 {
-    OnsetSearch rise = {o, way_beyond, 0, j, GROWN * delta, 1, ONSET_INTERVALS};
-    OnsetSearch fall = {o, way_beyond, 0, j, 2 * delta, -1, ONSET_INTERVALS};
+    OnsetSearch rise = {o, way_beyond, 0, j, GROWN * delta, 1, ONSET_INTERVALS, true};
+    OnsetSearch fall = {o, way_beyond, 0, j, 2 * delta, -1, ONSET_INTERVALS, true};
 
     return onset_pulse(&rise, &fall, o->t, end, steps);
 }
@@ -144,16 +144,16 @@ static double delta_of(Onset *o, int j, const Stepper *stepper, double to)
 
 static double way_at(Onset *o, int j, double t)
 {
-    const Range *at = steep_sources_over(o->steep, (Range){t, t});
+    const Range at = steep_source_over(o->steep, j, (Range){t, t});
 
-    return fabs((at[j].low + at[j].high) / 2 - o->source_at[j]);
+    return fabs((at.low + at.high) / 2 - o->source_at[j]);
 }
 
 /* A place at which source j has gone as far as `level`, or INFINITY: an interval may promise more
  * than there is. */
 static double place_beyond(Onset *o, int j, double level, double to)
 {
-    OnsetSearch peak = {o, way_beyond, 0, j, level, 1, ONSET_INTERVALS};
+    OnsetSearch peak = {o, way_beyond, 0, j, level, 1, ONSET_INTERVALS, true};
     double at = onset_first_place(&peak, o->t, to);
 
     return at <= to && !(peak.left > 0 && way_at(o, j, at) < 0.5 * level) ? at : INFINITY;
@@ -199,7 +199,7 @@ static double acting_at_large(Onset *o, int j, Stepper *stepper, double to, doub
  * to it let no estimate see that. INFINITY: it doesn't. */
 static double turning(Onset *o, int j, const Stepper *stepper, double to)
 {
-    OnsetSearch leaves = {o, way_beyond, 0, j, o->seen[j] / GROWN, 1, ONSET_INTERVALS};
+    OnsetSearch leaves = {o, way_beyond, 0, j, o->seen[j] / GROWN, 1, ONSET_INTERVALS, true};
 
     if (o->turns == NULL || !(o->seen[j] > 0) || !(o->seen_at[j] > o->t && o->seen_at[j] < to) ||
         !o->turns(o->context, o->seen_at[j], stepper->y) || o->turns(o->context, to, stepper->y))
@@ -212,7 +212,7 @@ static double turning(Onset *o, int j, const Stepper *stepper, double to)
 static double unseen(Onset *o, int j, Stepper *stepper, double to, double way)
 {
     double delta = delta_of(o, j, stepper, to);
-    OnsetSearch leaves = {o, way_beyond, 0, j, delta, 1, ONSET_INTERVALS};
+    OnsetSearch leaves = {o, way_beyond, 0, j, delta, 1, ONSET_INTERVALS, true};
 
     if (!(place_beyond(o, j, fmax(delta, o->seen[j] / SEEN), to) <= to)) {
         delta = acting_at_large(o, j, stepper, to, way);

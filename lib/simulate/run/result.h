@@ -20,6 +20,7 @@ typedef struct RunReport {
     int64_t evaluations; /* of the right-hand side */
     int64_t factorisations;
     int64_t jacobians;
+    int64_t visits;           /* ranges of expressions that the look-ahead has found */
     int64_t regularised;      /* factorisations near a singular configuration */
     double singular_time;     /* first of these; NAN: none */
     double position_residual; /* largest |Phi| on the output grid */

@@ -169,6 +169,7 @@ static void fill_report(ActiveRun *r, const IntegrationReport *integration,
     r->result->report.rejected = integration->counts.rejected;
     r->result->report.evaluations = integration->counts.evaluations;
     r->result->report.jacobians = integration->counts.jacobians;
+    r->result->report.visits = integration->counts.visits;
     r->result->report.factorisations = counts.factorisations;
     r->result->report.regularised = counts.regularised;
     r->result->report.singular_time = counts.singular_time;
