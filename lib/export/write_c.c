@@ -150,7 +150,10 @@ static const char newton[] =
     "static real model_lack(const real *a, int n, const real *weight)\n{\n    real sum = 0;\n"
     "    int i;\n\n    for (i = 0; i < n; i++)\n"
     "        sum += R(fabs(a[i * (n + 1) + n])) / weight[i];\n    return sum;\n}\n"
-    "\n/* Newton's method, its steps shortened where they lead away */\n"
+    "\n/* Newton's method, its steps shortened where they lead away. Where the full step is next "
+    "to "
+    "nothing\n * and does not halve the residual, rounding hides what is left: s is the solution. "
+    "*/\n"
     "static int model_newton(void (*rows)(const real *, real, const real *, const real *, real "
     "*),\n"
     "                        const real *p, real t, const real *y, real *s, int first, int n,\n"
@@ -159,7 +162,7 @@ static const char newton[] =
     "n;\n"
     "    int i, j, tries, near = 0;\n\n"
     "    for (tries = 0; tries < 200; tries++) {\n"
-    "        real lack, step = 1, change = 0, size = 0;\n        int halves;\n\n"
+    "        real lack, after = 0, step = 1, change = 0, size = 0;\n        int halves;\n\n"
     "        rows(p, t, y, s, a);\n        for (i = 0; i < n; i++) {\n            weight[i] = 0;\n"
     "            for (j = 0; j < n; j++)\n"
     "                if (R(fabs(a[i * (n + 1) + j])) > weight[i])\n"
@@ -175,10 +178,13 @@ static const char newton[] =
     "            for (i = 0; i < n; i++)\n                s[first + i] = old[i] + step * x[i];\n"
     "            if (near > 0 || !(lack > 0))\n                break;\n"
     "            rows(p, t, y, s, a);\n"
-    "            if (model_lack(a, n, weight) < lack)\n                break;\n        }\n"
+    "            after = model_lack(a, n, weight);\n            if (after < lack)\n                "
+    "break;\n        }\n"
     "        for (i = 0; i < n; i++) {\n"
     "            if (!(R(fabs(x[i])) <= change))\n                change = R(fabs(x[i]));\n"
     "            if (R(fabs(old[i])) > size)\n                size = R(fabs(old[i]));\n        }\n"
+    "        if (near == 0 && after > lack / 2 && change <= R(sizeof(real) > 4 ? 1e-12 : 1e-6))\n"
+    "            return MODEL_OK;\n"
     "        if (change <= size * R(sizeof(real) > 4 ? 1e-9 : 1e-4) || !(lack > 0))\n"
     "            near++;\n        if (near > 2)\n            return MODEL_OK;\n    }\n"
     "    return MODEL_NO_SOLUTION;\n}\n";
@@ -493,6 +499,20 @@ static void add_check(const Code *code, Text *out)
               code->states.count);
 }
 
+/* a column's name of a csv file, within a string of C */
+static void add_column(const char *name, Text *out)
+{
+    const char *quote = strpbrk(name, ",\"") != NULL ? "\\\"" : "";
+
+    text_addf(out, ",%s", quote);
+    for (const char *c = name; *c != '\0'; c++)
+        if (*c == '"')
+            text_add(out, "\\\"\\\"");
+        else
+            text_char(out, *c);
+    text_add(out, quote);
+}
+
 static void add_driver(const Code *code, Text *out)
 {
     const Layout *l = code->layout;
@@ -500,7 +520,7 @@ static void add_driver(const Code *code, Text *out)
     text_add(out, "\n#ifdef MODEL_MAIN /* a.out SECONDS STEP: values at each step, as csv */\n"
                   "#include <stdio.h>\n#include <stdlib.h>\n\nint main(int argc, char **argv)\n{\n"
                   "    static real p[MODEL_P + 1], y[MODEL_Y + 1], s[MODEL_S + 1], "
-                  "work[MODEL_WORK];\n"
+                  "work[MODEL_WORK];\n    static real out[MODEL_OUTPUTS + 1];\n"
                   "    const double end = argc > 1 ? atof(argv[1]) : 1, step = argc > 2 ? "
                   "atof(argv[2]) : 1e-3;\n"
                   "    const long count = (long)(end / step + 0.5);\n    long k;\n    int i;\n\n"
@@ -511,13 +531,20 @@ static void add_driver(const Code *code, Text *out)
                   : i < l->n + l->nu         ? system_u(l->system, i - l->n)->name
                   : i < layout_references(l) ? system_x(l->system, i - l->n - l->nu)->name
                                              : "reference");
-    text_add(out,
-             "\");\n    for (k = 0; k <= count; k++) {\n"
-             "        printf(\"%.17g\", (double)k * step);\n"
-             "        for (i = 0; i < MODEL_Y; i++)\n"
-             "            printf(\",%.17g\", (double)y[i]);\n        putchar('\\n');\n"
-             "        if (model_step(p, R((double)k * step), R(step), y, s, work) != MODEL_OK)\n"
-             "            return 1;\n    }\n    return 0;\n}\n#endif\n");
+    for (int i = 0; i < code->outputs.count; i++)
+        add_column(code->outputs.at[i], out);
+    text_add(out, "\");\n    for (k = 0;; k++) {\n"
+                  "        const real t = R((double)k * step);\n\n"
+                  "        if (MODEL_OUTPUTS > 0 && model_solve(p, t, y, s, work) != MODEL_OK)\n"
+                  "            return 1;\n        model_outputs(p, t, y, s, out);\n"
+                  "        printf(\"%.17g\", (double)k * step);\n"
+                  "        for (i = 0; i < MODEL_Y; i++)\n"
+                  "            printf(\",%.17g\", (double)y[i]);\n"
+                  "        for (i = 0; i < MODEL_OUTPUTS; i++)\n"
+                  "            printf(\",%.17g\", (double)out[i]);\n        putchar('\\n');\n"
+                  "        if (k >= count)\n            return 0;\n"
+                  "        if (model_step(p, t, R(step), y, s, work) != MODEL_OK)\n"
+                  "            return 1;\n    }\n}\n#endif\n");
 }
 
 static void add_tables(const Code *code, Text *out)

@@ -97,12 +97,14 @@ static const char full_pivots[] =
     "end subroutine\n";
 
 static const char newton[] =
-    "\n! Newton's method, its steps shortened where they lead away\n"
+    "\n! Newton's method, its steps shortened where they lead away. Where the full step is next to "
+    "nothing\n"
+    "! and does not halve the residual, rounding hides what is left: s is the solution.\n"
     "subroutine model_newton(rows, p, t, y, s, first, n, status)\n"
     "    procedure(model_rows) :: rows\n    real(wp), intent(in) :: p(:), t, y(:)\n"
     "    real(wp), intent(inout) :: s(:)\n    integer, intent(in) :: first, n\n"
     "    integer, intent(out) :: status\n"
-    "    real(wp) :: a(n, n + 1), weight(n), x(n), old(n), lack, part\n"
+    "    real(wp) :: a(n, n + 1), weight(n), x(n), old(n), lack, after, part\n"
     "    integer :: tries, halves, near\n\n    near = 0\n    do tries = 1, 200\n"
     "        call rows(p, t, y, s, a)\n        weight = maxval(abs(a(:, 1:n)), 2)\n"
     "        lack = sum(abs(a(:, n + 1))/weight)\n"
@@ -110,11 +112,13 @@ static const char newton[] =
     "            if (tries > 1) s(first:first + n - 1) = old\n            exit\n        end if\n"
     "        call model_eliminate(a, x, status)\n"
     "        if (status /= model_ok) return\n        old = s(first:first + n - 1)\n"
-    "        part = 1\n        do halves = 1, 60\n"
+    "        part = 1\n        after = 0\n        do halves = 1, 60\n"
     "            s(first:first + n - 1) = old + part*x\n"
     "            if (near > 0 .or. .not. lack > 0) exit\n            call rows(p, t, y, s, a)\n"
-    "            if (sum(abs(a(:, n + 1))/weight) < lack) exit\n            part = part/2\n"
+    "            after = sum(abs(a(:, n + 1))/weight)\n            if (after < lack) exit\n        "
+    "    part = part/2\n"
     "        end do\n"
+    "        if (near == 0 .and. after > lack/2 .and. maxval(abs(x)) <= 1e-12_wp) return\n"
     "        if (maxval(abs(x)) <= 1e-9_wp*maxval(abs(old)) .or. .not. lack > 0) near = near + 1\n"
     "        if (near > 2) return\n    end do\n    status = model_no_solution\nend subroutine\n";
 
