@@ -44,6 +44,23 @@ char *param_unit(const Param *param, bool on_angle)
     return mem_text(unit, bar != NULL ? (size_t)(bar - unit) : strlen(unit));
 }
 
+bool instance_takes_angle(const Instance *instance, const Param *param)
+{
+    return instance->on_angle || (instance->is_geared && (param->use & GEARS) == 0);
+}
+
+int instance_in_force(const Instance *instance, int param)
+{
+    const Component *row = instance->row;
+
+    if ((row->params[param].use & PAIRED) == 0 || instance->values[param].given)
+        return param;
+    for (int i = 0; i < row->param_count; i++)
+        if (i != param && (row->params[i].use & PAIRED) != 0)
+            return i;
+    return param;
+}
+
 int component_source(const Component *row)
 {
     for (int i = 0; i < row->param_count; i++)

@@ -38,8 +38,10 @@ typedef enum ParamUse {
     GIVES_SOURCE = 2, /* across or through, whatever the rest of the network does */
     GIVES_LOAD = 4,   /* an effort that acts on bodies from outside */
     GIVES = GIVES_SOURCE | GIVES_LOAD,
-    ALIKE = 8, /* those of a row that have it are subtracted: of one dimension, whichever */
-    ALONG = 16 /* may vary along the part: x in it is the place, of whose powers it is made */
+    ALIKE = 8,  /* those of a row that have it are subtracted: of one dimension, whichever */
+    ALONG = 16, /* may vary along the part: x in it is the place, of whose powers it is made */
+    GEARS = 32, /* where it is given, other values are of a shaft that turns, also on a length */
+    PAIRED = 64 /* where it isn't given it is as the other of its row that is PAIRED, too */
 } ParamUse;
 
 typedef struct Param {
@@ -56,6 +58,10 @@ typedef struct Param {
 /* the unit that counts: "N/m|N*m" is the first on a length, the second on an angle; new string,
  * NULL: any */
 char *param_unit(const Param *param, bool on_angle);
+/* which of the two counts for a part */
+bool instance_takes_angle(const Instance *instance, const Param *param);
+/* whose value is in force: that param's or, where this is PAIRED and not given, the other's */
+int instance_in_force(const Instance *instance, int param);
 
 typedef struct Value {
     bool given;                    /* by the user, not the fallback */
@@ -366,6 +372,7 @@ struct Instance {
     int joint_coordinate;
     const char *coordinate; /* its name, as in the user's expressions; NULL */
     bool on_angle;          /* that coordinate is an angle */
+    bool is_geared;         /* a value of use GEARS is given */
     Value *values;          /* one a param of the row */
     int coord_count;
     int pose_count;     /* the first of them place its head; those of shapes follow */

@@ -14,13 +14,13 @@
 
 /* clang-format off */
 static const Param motor_params[] = {
-    {"R",     PARAM_SCALAR, "ohm",       NULL, "resistance of the winding", 0},
-    {"L",     PARAM_SCALAR, "H",         "0",  "its inductance; 0 makes the current algebraic", 0},
-    {"Kt",    PARAM_SCALAR, "N*m/A",     "0",  "torque per current, at the motor's shaft; as Kv if not given", 0},
-    {"Kv",    PARAM_SCALAR, "V*s/rad",   "0",  "voltage per rate, at the motor's shaft; as Kt if not given", 0},
-    {"J",     PARAM_SCALAR, "kg*m^2",    "0",  "inertia of the rotor, at the motor's shaft", 0},
-    {"B",     PARAM_SCALAR, "N*m*s/rad", "0",  "friction per rate, at the motor's shaft", 0},
-    {"ratio", PARAM_SCALAR, "1",         "1",  "turns of the motor's shaft for one of the joint", 0},
+    {"R",     PARAM_SCALAR, "ohm",               NULL, "resistance of the winding", 0},
+    {"L",     PARAM_SCALAR, "H",                 "0",  "its inductance; 0 makes the current algebraic", 0},
+    {"Kt",    PARAM_SCALAR, "N/A|N*m/A",         "0",  "torque per current, at the motor's shaft; as Kv if not given", PAIRED},
+    {"Kv",    PARAM_SCALAR, "V*s/m|V*s/rad",     "0",  "voltage per rate, at the motor's shaft; as Kt if not given", PAIRED},
+    {"J",     PARAM_SCALAR, "kg|kg*m^2",         "0",  "inertia of the rotor, at the motor's shaft", 0},
+    {"B",     PARAM_SCALAR, "N*s/m|N*m*s/rad",   "0",  "friction per rate, at the motor's shaft", 0},
+    {"ratio", PARAM_SCALAR, "rad/m|1",           "1",  "turns of the motor's shaft for one of the joint", GEARS},
 };
 
 static const Param platecap_params[] = {
@@ -44,30 +44,32 @@ static const Param piezo_params[] = {
 
 static const Member capacitive_members[] = {
     {"q",      "C",   "charge", 2},
-    {"force",  "N",   "on the tip of the joint, along its coordinate", 0},
-    {"torque", "N*m", "the same, where the coordinate is an angle", 0},
+    {"force",  "N|N*m", "on the tip of the joint, along its coordinate", 0},
+    {"torque", "N|N*m", "the same, by the name that suits an angle", 0},
 };
 static const Member inductive_members[] = {
     {"flux",   "Wb",  "flux linkage", 2},
-    {"force",  "N",   "on the tip of the joint, along its coordinate", 0},
-    {"torque", "N*m", "the same, where the coordinate is an angle", 0},
+    {"force",  "N|N*m", "on the tip of the joint, along its coordinate", 0},
+    {"torque", "N|N*m", "the same, by the name that suits an angle", 0},
 };
 static const Member motor_members[] = {
-    {"torque", "N*m", "on the tip of the joint, along its coordinate; without the rotor's inertia", 0},
+    {"torque", "N|N*m", "on the tip of the joint, along its coordinate; without the rotor's inertia", 0},
+    {"force",  "N|N*m", "the same, by the name that suits a slide", 0},
 };
 /* clang-format on */
 
-/* in SI both constants are the same number, so one may stand for the other */
-static Expr constant(const Instance *instance, const char *name, const char *other)
+/* Kt or Kv: in SI both are the same number, so one may stand for the other */
+static Expr constant(const Instance *instance, const char *name)
 {
-    return instance_scalar(instance, instance_value(instance, name)->given ? name : other);
+    const int param = component_param(instance->row, name);
+
+    return instance->values[instance_in_force(instance, param)].at[0];
 }
 
 static Expr motor_effort(const Instance *instance, Arena *arena, const Motion1 *motion)
 {
     Expr ratio = instance_scalar(instance, "ratio");
-    Expr push =
-        expr_mul(arena, ratio, expr_mul(arena, constant(instance, "Kt", "Kv"), motion->through));
+    Expr push = expr_mul(arena, ratio, expr_mul(arena, constant(instance, "Kt"), motion->through));
     Expr drag = expr_mul(arena, expr_square(arena, ratio),
                          expr_mul(arena, instance_scalar(instance, "B"), motion->rate));
 
@@ -100,7 +102,7 @@ static void winding(Arena *arena, Expr R, Expr L, Expr back, Expr i, Relation *o
 static void motor_relation(const Instance *instance, Arena *arena, int which, const Motion1 *motion,
                            Relation *out)
 {
-    Expr back = expr_mul(arena, constant(instance, "Kv", "Kt"),
+    Expr back = expr_mul(arena, constant(instance, "Kv"),
                          expr_mul(arena, instance_scalar(instance, "ratio"), motion->rate));
 
     (void)which;
@@ -117,7 +119,9 @@ static Status motor_check(const Instance *instance, Arena *arena, bool planar, D
 
     if (!instance_value(instance, "Kt")->given && !instance_value(instance, "Kv")->given) {
         status = diag_set(diag, E_VALUE, "motor %s needs Kt= or Kv=", instance->name);
-        diag_hint(diag, "torque per current in N*m/A; the two are one number in SI");
+        diag_hint(diag,
+                  "torque per current in N*m/A, on a slide force per current in N/A; the two are "
+                  "one number in SI");
         return status;
     }
     for (int i = 0; i < COUNT(positive); i++)
@@ -146,10 +150,14 @@ const Component component_motor = {
     .members = motor_members,
     .member_count = COUNT(motor_members),
     .check = motor_check,
-    .help = "Turns the coordinate of a joint and stands between two terminals: v = R*i + L*i' + "
-            "Kv*ratio*w, torque on the tip ratio*Kt*i - ratio^2*B*w, and ratio^2*J joins the "
-            "inertia of the joint; w is the rate of the joint. Kt, Kv, J and B are those at the "
-            "motor's own shaft. Without L the current is algebraic.",
+    .help =
+        "Turns the coordinate of a joint and stands between two terminals: v = R*i + L*i' + "
+        "Kv*ratio*w, torque on the tip ratio*Kt*i - ratio^2*B*w, and ratio^2*J joins the "
+        "inertia of the joint; w is the rate of the joint. Kt, Kv, J and B are those at the "
+        "motor's own shaft. Without L the current is algebraic. On a slide without ratio= it is a "
+        "linear motor: Kt in N/A, Kv in V*s/m, J a mass in kg, B in N*s/m. With ratio=, in rad/m, "
+        "a "
+        "shaft turns there, too. M1.torque is its force on a slide, in N, and M1.force the same.",
     .example = "scene planar\nbody wheel mass=1 inertia=0.02\nrevolute h1 ground wheel\n"
                "vsource V1 a 0 12\nmotor M1 h1 a 0 R=1 L=10 mH Kt=0.1 J=1e-4\n"
                "init h1 = 0, h1' = 0, M1.i = 0\nsimulate 1\nprint h1', M1.i, M1.torque",

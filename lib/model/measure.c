@@ -657,7 +657,11 @@ const char *member_unit(const State *state, const Instance *part, const char *na
 
     if (member == NULL)
         return NULL;
-    return strcmp(name, "effort") == 0 ? effort_unit(state, part) : member->unit;
+    /* the unit of an effort in two parts: on a length, on an angle */
+    return strcmp(name, "effort") == 0 ||
+                   (member->unit != NULL && strchr(member->unit, '|') != NULL)
+               ? effort_unit(state, part)
+               : member->unit;
 }
 
 Measure variable_measure(const State *state, const Instance *own, const char *name)

@@ -15,8 +15,8 @@ static Status give(PartDraft *draft, int index, const Syntax *value, Place place
 
     if (part->values[index].given)
         return diag_at(draft->diag, E_SYNTAX, place, "%s is given twice", param->name);
-    TRY(param_read(&draft->scope, (Wanted){param, part->on_angle}, value, &part->values[index],
-                   draft->diag));
+    TRY(param_read(&draft->scope, (Wanted){param, instance_takes_angle(part, param)}, value,
+                   &part->values[index], draft->diag));
     return param_check_alike(part->row, part->values, index, value, draft->diag);
 }
 
@@ -125,6 +125,11 @@ static Status read_values(PartDraft *draft)
         first = 1;
     }
     draft->first_value = draft->at;
+    for (int i = 0; i < statement->pairs.count; i++) {
+        const int param = component_param(row, statement->pairs.at[i].name);
+
+        part->is_geared = part->is_geared || (param >= 0 && (row->params[param].use & GEARS) != 0);
+    }
     CHECK(read_positional(draft));
     for (int i = first; i < statement->pairs.count; i++)
         CHECK(read_key(draft, &statement->pairs.at[i]));

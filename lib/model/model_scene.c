@@ -278,11 +278,14 @@ static Status set_pair(State **state, const Pair *pair, Outcome *outcome, Diag *
     values = pool_alloc(s->pool, sizeof *values * (size_t)part->row->param_count);
     memcpy(values, kept, sizeof *values * (size_t)part->row->param_count);
     values[index] = (Value){0};
-    CHECK(param_read(&scope, (Wanted){&part->row->params[index], part->on_angle}, pair->value,
-                     &values[index], diag));
+    CHECK(param_read(
+        &scope,
+        (Wanted){&part->row->params[index], instance_takes_angle(part, &part->row->params[index])},
+        pair->value, &values[index], diag));
     CHECK(param_check_alike(part->row, values, index, pair->value, diag));
     pool_keep(s->pool, part, sizeof *part);
     part->values = values;
+    part->is_geared = part->is_geared || (part->row->params[index].use & GEARS) != 0;
     if (part->row->deforming != NULL &&
         instance_coord_count(part, s->planar) != part->coord_count) {
         part->values = kept;

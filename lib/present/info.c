@@ -134,15 +134,19 @@ static void add_values(Table *table, const View *view, const Instance *instance)
 {
     for (int i = 0; i < instance->row->param_count; i++) {
         const Param *param = &instance->row->params[i];
-        const Value *value = &instance->values[i];
-        char *unit = param_unit(param, instance->on_angle);
+        const int force = instance_in_force(instance, i);
+        const Value *value = &instance->values[force];
+        char *unit = param_unit(param, instance_takes_angle(instance, param));
         Text text = {0};
 
         /* long defaults tell nothing: no turn, no further moments */
         if (value->word != NULL || (value->count > 0 && (value->given || value->count <= 3))) {
             add_value(&text, view, value, unit);
             table_cell(table, param->name);
-            table_cellf(table, "%s%s", text.at, value->given ? "" : "  (not said)");
+            if (force == i)
+                table_cellf(table, "%s%s", text.at, value->given ? "" : "  (not said)");
+            else
+                table_cellf(table, "%s  (as %s)", text.at, instance->row->params[force].name);
         }
         text_free(&text);
         mem_free(unit);
