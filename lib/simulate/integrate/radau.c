@@ -3,11 +3,15 @@
  * Hairer and Wanner (1996), Solving ODE II, IV.8: with stages y + z_i at c_i h,
  * z = h (A x 1) f(y + z), solved by simplified Newton with J = df/dy, kept while the iteration
  * contracts well. A^-1 = T diag(g, [a b; -b a]) T^-1 splits its linear system into a real one and a
- * complex one. The error is that of their embedded formula of order 3, filtered by
- * (g/h - J)^-1 so that stiff parts don't blow it up. Between the ends of a step the collocation
- * polynomial is read, whose error the step control bounds as well. */
+ * complex one. Where stiff forces turn as the motion goes on, as those of a knife edge with damping
+ * D, that contracts only while D turn^2 h^3 is below 1; Newton's method with J at each stage goes
+ * on from there, (A^-1/h x 1 - diag(J_1, J_2, J_3)) delta = f - A^-1/h z. The error is that of
+ * their embedded formula of order 3, filtered by (g/h - J)^-1 so that stiff parts don't blow it up.
+ * Between the ends of a step the collocation polynomial is read, whose error the step control
+ * bounds as well. */
 #include "simulate/integrate/shifted.h"
 
+#include "algebra/linear.h"
 #include "base/memory.h"
 
 #include <float.h>
@@ -15,6 +19,8 @@
 #include <string.h>
 
 #define ITERATIONS 10
+#define FEW        40   /* unknowns, up to which all stages are solved for at once */
+#define REFRESH    1e-2 /* a contraction by Jacobians of the stages that calls for new ones */
 #define SAFETY     0.9
 #define SHRINK     0.125
 #define GROW       5.0
@@ -73,6 +79,10 @@ typedef struct Radau {
     double *slope;   /* n: that its polynomial ends with */
     double contraction;
     bool was_rejected;
+    /* of Newton's method with a Jacobian at each stage; NULL until one is needed */
+    Lu *whole;         /* 3n x 3n */
+    double *jacobians; /* 3 x all x n: rows of y' by n */
+    bool is_turning;   /* the simplified one failed: it isn't taken again until a restart */
 } Radau;
 
 typedef enum StepOutcome { CONVERGED, DIVERGED, UNDEFINED } StepOutcome;
@@ -103,8 +113,10 @@ static Stepper *create(const Ode *ode, const Control *control)
 
 static void destroy(Stepper *stepper)
 {
-    if (stepper != NULL)
+    if (stepper != NULL) {
         shifted_free(((Radau *)stepper)->shifted);
+        lu_free(((Radau *)stepper)->whole);
+    }
     stepper_free(stepper);
 }
 
@@ -115,7 +127,7 @@ static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
     r->factored = 0;
     r->fresh = r->is_linear = false;
     r->contraction = 1;
-    r->was_rejected = false;
+    r->was_rejected = r->is_turning = false;
     r->step = 0;
     return stepper_start(stepper, t, y, r->rate, diag);
 }
@@ -251,6 +263,94 @@ static StepOutcome solve_stages(Radau *r, double h, int *used)
         before = size;
     }
     return DIVERGED;
+}
+
+/* A^-1/h x 1 - diag(J_1, J_2, J_3), factored, at the stages as they are */
+static bool factor_whole(Radau *r, double h)
+{
+    const int n = r->n, all = r->all, size = 3 * n;
+    double *a = lu_matrix(r->whole);
+
+    for (int k = 0; k < 3; k++) {
+        const double *jacobian = r->jacobians + (ptrdiff_t)k * all * n;
+
+        for (int i = 0; i < all; i++)
+            r->point[i] = r->old[i] + r->z[k * all + i];
+        if (!shifted_jacobian(r->shifted, r->base.before + nodes[k] * h, r->point, r->f + k * all,
+                              r->jacobians + (ptrdiff_t)k * all * n))
+            return false;
+        for (int i = 0; i < n; i++)
+            for (int l = 0; l < 3; l++)
+                for (int j = 0; j < n; j++)
+                    a[(ptrdiff_t)(k * n + i) * size + l * n + j] =
+                        (i == j ? inverse[k][l] / h : 0) - (k == l ? jacobian[i * n + j] : 0);
+    }
+    return lu_factor(r->whole);
+}
+
+/* Newton's method for all stages at once, with J at each of them. The unknowns are few, and J is
+ * dense. O(27 n^3) a factorisation. */
+static StepOutcome solve_stages_whole(Radau *r, double h, int *used)
+{
+    const int n = r->n, all = r->all;
+    const double enough = fmax(10 * DBL_EPSILON / r->base.control.rtol, 1e-3);
+    double before = 0;
+    bool factored = false;
+
+    if (r->whole == NULL) {
+        r->whole = lu_new(3 * n);
+        r->jacobians = stepper_numbers(&r->base, 3 * all * n);
+    }
+    for (int it = 1; it <= ITERATIONS; it++) {
+        double size, eta = 1;
+
+        if (!evaluate_stages(r, h))
+            return UNDEFINED;
+        if (!factored && !factor_whole(r, h))
+            return UNDEFINED;
+        for (int k = 0; k < 3; k++)
+            for (int i = 0; i < n; i++)
+                r->delta[k * n + i] =
+                    r->f[k * all + i] - (inverse[k][0] * r->z[i] + inverse[k][1] * r->z[all + i] +
+                                         inverse[k][2] * r->z[2 * all + i]) /
+                                            h;
+        lu_solve(r->whole, r->delta);
+        size = scaled_norm(r, r->delta, 3);
+        if (!isfinite(size))
+            return UNDEFINED;
+        for (int k = 0; k < 3; k++)
+            for (int i = 0; i < n; i++)
+                r->z[k * all + i] += r->delta[k * n + i];
+        *used = it;
+        if (it > 1) {
+            r->contraction = size / before;
+            if (r->contraction >= 2)
+                return DIVERGED;
+            eta = fmin(1, r->contraction);
+        }
+        if (eta * size <= enough || size == 0)
+            return CONVERGED;
+        factored = it > 1 && r->contraction < REFRESH;
+        before = size;
+    }
+    return DIVERGED;
+}
+
+/* The stages, by the cheaper way that leads there. */
+static StepOutcome find_stages(Radau *r, double h, int *used)
+{
+    const bool is_small = r->n > 0 && r->n <= FEW && !r->is_linear && r->step > 0;
+    StepOutcome outcome = DIVERGED;
+
+    if (!is_small || !r->is_turning)
+        outcome = solve_stages(r, h, used);
+    if (outcome != DIVERGED || !is_small)
+        return outcome;
+    if (!r->is_turning)
+        guess_stages(r, h, false);
+    outcome = solve_stages_whole(r, h, used);
+    r->is_turning = true;
+    return outcome;
 }
 
 /* A first step may begin on the very edge of a steep part, as where a contact ends. Then a Jacobian
@@ -401,7 +501,7 @@ static bool try_step(Radau *r, double *h, double end, int *failures)
 
     stepper_begin(&r->base, r->base.before, r->old, tried);
     if ((r->fresh || find_jacobian(r)) && (r->factored == tried || factor(r, tried)))
-        outcome = solve_stages(r, tried, &used);
+        outcome = find_stages(r, tried, &used);
     if (outcome == CONVERGED && r->step == 0 && !r->is_linear)
         outcome = confirm_stages(r, tried, &used);
     if (outcome != CONVERGED) {

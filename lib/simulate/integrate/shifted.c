@@ -226,6 +226,20 @@ bool shifted_differentiate(Shifted *s, double t, const double *y, const double *
     return true;
 }
 
+bool shifted_jacobian(Shifted *s, double t, const double *y, const double *rate, double *out)
+{
+    double *const own = s->jacobian;
+    bool found;
+
+    if (is_sparse(s))
+        return false;
+    s->counts->jacobians++;
+    s->jacobian = out;
+    found = find_dense(s, t, y, rate);
+    s->jacobian = own;
+    return found;
+}
+
 bool shifted_is_linear(const Shifted *s)
 {
     return s->is_linear;

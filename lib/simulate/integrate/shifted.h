@@ -18,6 +18,9 @@ Shifted *shifted_new(const Ode *ode, Counts *counts);
 void shifted_free(Shifted *shifted); /* NULL is fine */
 /* J at (t, y), where `rate` is y'. False: f is undefined nearby. */
 bool shifted_differentiate(Shifted *shifted, double t, const double *y, const double *rate);
+/* J at (t, y) into out, rows of y' by n, which stays the caller's: what was differentiated and
+ * factored before stays. False: f is undefined nearby, or J isn't dense. */
+bool shifted_jacobian(Shifted *shifted, double t, const double *y, const double *rate, double *out);
 /* whether that is J at any later time, too, until a restart, and f(t, y) = J y + f(t, 0) */
 bool shifted_is_linear(const Shifted *shifted);
 /* Factor for a real shift, and for alpha - i beta. False: singular. */
