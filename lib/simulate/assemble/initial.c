@@ -245,12 +245,13 @@ static Status find_velocity(Assembly *a, Diag *diag)
     Status status = OK;
 
     a->eq->position(a->eq->context, 0, a->y);
+    CHECK(initial_align_rates(a, diag));
     CHECK(initial_speeds(a, diag));
     for (int i = 0; i < a->given_count; i++) {
         const GivenValue *given = &a->given[i];
 
         if (given->level == LEVEL_VELOCITY && given->column >= 0 && !given->value->is_guess) {
-            a->y[l->n + given->column] = given->value->value;
+            a->y[l->n + given->column] = given->target;
             held[given->column] = true;
         }
     }

@@ -1,5 +1,7 @@
 /* initial_given.c: what was given or guessed, and what it is of */
 #include "simulate/assemble/initial_impl.h"
+#include "simulate/equations/probe.h"
+#include "simulate/equations/rows.h"
 
 #include <math.h>
 #include <string.h>
@@ -117,6 +119,8 @@ static Status read_one(Assembly *a, GivenValue *given, Diag *diag)
         read_three_angles(a, &stand, given);
     if (value->primes == 0 && given->level == LEVEL_POSITION)
         given->stand = stand;
+    else if (given->level == LEVEL_VELOCITY && value->primes == 1)
+        given->rate_of = system_stand(a->l->system, value->name);
 done:
     return status;
 }
@@ -213,25 +217,29 @@ void initial_unit(double p[4])
 }
 
 /* which of the four it is; -1: none */
-static int parameter_of(const GivenValue *given)
+static int parameter_of(const Stand *stand)
 {
-    const Instance *owner = given->stand.instance;
+    const Instance *owner = stand->instance;
     int first = 0;
 
-    if (given->stand.kind == STANDS_PARAMETER)
-        return given->stand.which;
-    if (given->stand.kind != STANDS_COORDINATE ||
-        owner->coord_kind[given->stand.which] != COORDINATE_PARAMETER)
+    if (stand->kind == STANDS_PARAMETER)
+        return stand->which;
+    if (stand->kind != STANDS_COORDINATE || owner->coord_kind[stand->which] != COORDINATE_PARAMETER)
         return -1;
     while (owner->coord_kind[first] != COORDINATE_PARAMETER)
         first++;
-    return given->stand.which - first;
+    return stand->which - first;
+}
+
+/* of two Euler parameters */
+static bool is_one_attitude(const Stand *a, const Stand *b)
+{
+    return a->kind == b->kind && a->instance == b->instance && a->node == b->node;
 }
 
 static bool are_together(const GivenValue *a, const GivenValue *b)
 {
-    return a->stand.kind == b->stand.kind && a->stand.instance == b->stand.instance &&
-           a->stand.node == b->stand.node && a->value->is_guess == b->value->is_guess;
+    return is_one_attitude(&a->stand, &b->stand) && a->value->is_guess == b->value->is_guess;
 }
 
 /* All four of a group to unit length; likewise fewer that leave nothing to the others. */
@@ -243,7 +251,7 @@ static void finish_group(Assembly *a, int group)
 
     for (int i = 0; i < a->given_count; i++)
         if (a->given[i].group == group)
-            members[parameter_of(&a->given[i])] = &a->given[i];
+            members[parameter_of(&a->given[i].stand)] = &a->given[i];
     for (int i = 0; i < 4; i++)
         if (members[i] != NULL) {
             p[i] = members[i]->target;
@@ -263,7 +271,7 @@ void initial_group(Assembly *a)
     for (int i = 0; i < a->given_count; i++) {
         GivenValue *given = &a->given[i];
 
-        if (given->is_own || parameter_of(given) < 0)
+        if (given->is_own || parameter_of(&given->stand) < 0)
             continue;
         for (int j = 0; j < i && given->group < 0; j++)
             if (a->given[j].group >= 0 && are_together(given, &a->given[j]))
@@ -296,4 +304,40 @@ void initial_align(Problem *p)
                 given->target = -given->target;
         }
     MEM_FREE(along, residual);
+}
+
+/* sum of q_i p_i: q at y, p as given (or as guessed) for the attitude of which that is a rate */
+static Status find_sense(const Assembly *a, const Stand *rate_of, bool guesses, double *out,
+                         Diag *diag)
+{
+    const RowValues row = row_of_state(a->l, a->t, a->y);
+
+    *out = 0;
+    for (int i = 0; i < a->given_count; i++) {
+        const GivenValue *given = &a->given[i];
+        double q;
+
+        if (given->group < 0 || given->value->is_guess != guesses ||
+            !is_one_attitude(&given->stand, rate_of))
+            continue;
+        TRY(probe_at(a->l, a->parameters, given->expr, &row, &q, diag));
+        *out += q * given->value->value;
+    }
+    return OK;
+}
+
+Status initial_align_rates(Assembly *a, Diag *diag)
+{
+    for (int i = 0; i < a->given_count; i++) {
+        GivenValue *given = &a->given[i];
+        double sense;
+
+        if (parameter_of(&given->rate_of) < 0)
+            continue;
+        TRY(find_sense(a, &given->rate_of, false, &sense, diag));
+        if (sense == 0)
+            TRY(find_sense(a, &given->rate_of, true, &sense, diag));
+        given->target = sense < 0 ? -given->value->value : given->value->value;
+    }
+    return OK;
 }

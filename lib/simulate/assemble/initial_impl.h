@@ -20,6 +20,7 @@ typedef struct GivenValue {
     double target; /* the value; Euler parameters are of unit length, and of the sign that the
                       system's own expression has */
     int group;     /* of Euler parameters of one attitude, given or guessed; -1 */
+    Stand rate_of; /* coordinate or parameter whose first derivative it is, if it is one */
 } GivenValue;
 
 typedef struct Assembly {
@@ -76,6 +77,10 @@ void initial_unit(double p[4]);
 void initial_group(Assembly *assembly);
 /* Either sign is the same attitude: targets of the sign that their expressions have at y. */
 void initial_align(Problem *problem);
+/* (q, q') and (-q, -q') are the same motion: where the attitude at y has -q for the q that was
+ * given, or else guessed, the targets of its rates q' change their sign, too. O(rates x positions)
+ * of Euler parameters. Fails as probe_new() does. */
+MUST_USE Status initial_align_rates(Assembly *assembly, Diag *diag);
 
 /* Where a driver has a coordinate. */
 MUST_USE Status initial_driven(const Assembly *assembly, Expr prescribed, double *out, Diag *diag);

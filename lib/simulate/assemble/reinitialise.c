@@ -68,10 +68,10 @@ Status reinit_add(Reinit *reinit, const char *name, int primes, Diag *diag)
 
     TRY(system_variable(system, name, primes, &target.expr, diag));
     TRY(classify(reinit, &target, name, primes, diag));
-    if (target.level == LEVEL_POSITION) {
+    if (target.level == LEVEL_POSITION || (target.level == LEVEL_VELOCITY && primes == 1))
         target.stand = system_stand(system, name);
+    if (target.level == LEVEL_POSITION)
         LIST_PUSH(reinit->named, name);
-    }
     LIST_PUSH(reinit->targets, target);
     return OK;
 }
@@ -250,14 +250,19 @@ static bool is_parameter(const Stand *stand)
             stand->instance->coord_kind[stand->which] == COORDINATE_PARAMETER);
 }
 
+/* whether two are Euler parameters of one attitude, or rates of such */
+static bool is_one_attitude(const Stand *a, const Stand *b)
+{
+    return is_parameter(a) && is_parameter(b) && a->kind == b->kind && a->instance == b->instance &&
+           a->node == b->node;
+}
+
 /* of two that are chosen, whether they are Euler parameters of one attitude */
 static bool is_same_attitude(const Reinit *reinit, int i, int k)
 {
-    const Stand *a = &reinit->targets.at[i].stand, *b = &reinit->targets.at[k].stand;
-
     return reinit_is_chosen(reinit, i, LEVEL_POSITION) &&
-           reinit_is_chosen(reinit, k, LEVEL_POSITION) && is_parameter(a) && is_parameter(b) &&
-           a->kind == b->kind && a->instance == b->instance && a->node == b->node;
+           reinit_is_chosen(reinit, k, LEVEL_POSITION) &&
+           is_one_attitude(&reinit->targets.at[i].stand, &reinit->targets.at[k].stand);
 }
 
 /* Either sign of Euler parameters is the same attitude: the new values get that of the present
@@ -554,7 +559,29 @@ static Status refuse_rates(const Reinit *reinit, const char *events, Diag *diag)
     return E_SOLVER;
 }
 
-static Status put_positions(Reinit *reinit, const char *events, const double *values,
+/* (q, q') and (-q, -q') are the same motion: where the attitude that was given as q stands as -q,
+ * the rates that were given with it change their sign, too. */
+static void align_rates(const Reinit *reinit, double *values)
+{
+    const double *present = targets_here(reinit);
+
+    for (int k = 0; k < reinit->given; k++) {
+        const Target *rate = &reinit->targets.at[k];
+        double along = 0;
+
+        if (rate->level != LEVEL_VELOCITY || isnan(values[k]))
+            continue;
+        for (int i = 0; i < reinit->given; i++)
+            if (reinit->targets.at[i].level == LEVEL_POSITION && !isnan(values[i]) &&
+                is_one_attitude(&reinit->targets.at[i].stand, &rate->stand))
+                along += present[i] * values[i];
+        if (along < 0)
+            values[k] = -values[k];
+    }
+}
+
+/* rates among `values` get the sense in which their attitudes stand */
+static Status put_positions(Reinit *reinit, const char *events, double *values,
                             const double *present, Diag *diag)
 {
     Decision decision;
@@ -566,8 +593,11 @@ static Status put_positions(Reinit *reinit, const char *events, const double *va
         status = refuse_open(reinit, events, &decision, diag);
     else if (!solve_positions(reinit, &decision, &why))
         status = refuse(reinit, events, why.at, diag);
-    else if (!keep_rates(reinit, &decision, values, present))
-        status = refuse_rates(reinit, events, diag);
+    else {
+        align_rates(reinit, values);
+        if (!keep_rates(reinit, &decision, values, present))
+            status = refuse_rates(reinit, events, diag);
+    }
     decision_free(&decision);
     text_free(&why);
     choose_given(reinit, values);
@@ -575,8 +605,8 @@ static Status put_positions(Reinit *reinit, const char *events, const double *va
 }
 
 /* all levels, in place */
-static Status put_values(Reinit *reinit, const char *events, const double *values,
-                         const double *present, const double *stored, Diag *diag)
+static Status put_values(Reinit *reinit, const char *events, double *values, const double *present,
+                         const double *stored, Diag *diag)
 {
     const bool has_positions = any_chosen(reinit, LEVEL_POSITION);
     const bool has_speeds = any_chosen(reinit, LEVEL_VELOCITY);
@@ -600,9 +630,11 @@ Status reinit_apply(Reinit *reinit, double t, const double *values, const char *
     int length = references + eq->multi_turn_count + 1;
     double *stored = NEW_ARRAY(double, reinit->storage_count);
     double *present = NEW_ARRAY(double, reinit->targets.count);
+    double *wanted = NEW_ARRAY(double, reinit->targets.count);
     double before;
     Status status;
 
+    memcpy(wanted, values, (size_t)reinit->given * sizeof(double));
     reinit->t = t;
     reinit->values = NEW_ARRAY(double, reinit->targets.count);
     choose_given(reinit, values);
@@ -612,7 +644,7 @@ Status reinit_apply(Reinit *reinit, double t, const double *values, const char *
     if (reinit->storage_count > 0)
         memcpy(stored, probe_here(reinit), (size_t)reinit->storage_count * sizeof(double));
     memcpy(present, targets_here(reinit), (size_t)reinit->targets.count * sizeof(double));
-    status = put_values(reinit, events, values, present, stored, diag);
+    status = put_values(reinit, events, wanted, present, stored, diag);
     if (status == OK) {
         double after;
 
@@ -622,7 +654,7 @@ Status reinit_apply(Reinit *reinit, double t, const double *values, const char *
             reinit->y[length - 1] += after - before;
         memcpy(y, reinit->y, (size_t)length * sizeof(double));
     }
-    MEM_FREE(stored, present, reinit->y, reinit->values);
+    MEM_FREE(stored, present, wanted, reinit->y, reinit->values);
     reinit->y = NULL;
     reinit->values = NULL;
     return status;

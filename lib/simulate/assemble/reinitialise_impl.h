@@ -16,7 +16,7 @@ typedef struct Target {
     int column;     /* unknown that is held with it; -1: it is an equation */
     int multi_turn; /* angle of turns that it is; -1 */
     int row;        /* among the expressions of its level */
-    Stand stand;    /* what it says of frames, if it does */
+    Stand stand;    /* what it says of frames, or what its first integral does */
     int node;       /* of a position: the frame whose it is; -1 */
     int rate;       /* the target that is its rate; -1 */
     int attitude;   /* of what is given: that it is an Euler parameter of; -1 */
