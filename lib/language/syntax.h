@@ -69,7 +69,7 @@ typedef enum Room {
 /* of what there was before */
 typedef enum VerbChanges {
     CHANGES_NOTHING,
-    CHANGES_NAMES, /* how runs are looked at or begin to be sought: none becomes another's */
+    CHANGES_NAMES, /* how runs are looked at: none becomes another's */
     CHANGES_START,
     CHANGES_TREES,
     CHANGES_FORM, /* of the equations */

@@ -585,16 +585,6 @@ const Start *model_start(const Model *model, int i)
     return &model->state->starts.at[i].start;
 }
 
-int model_start_statements(const Model *model)
-{
-    return model->state->group_count;
-}
-
-int model_start_statement(const Model *model, int i)
-{
-    return model->state->starts.at[i].group;
-}
-
 Form model_form(const Model *model, const char *const **independent, int *count)
 {
     *independent = model->state->independent.at;

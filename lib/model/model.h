@@ -115,9 +115,6 @@ typedef struct Start {
 } Start;
 int model_start_count(const Model *model);
 const Start *model_start(const Model *model, int i);
-/* Statements that have given starts, so far; and which of them gave one. */
-int model_start_statements(const Model *model);
-int model_start_statement(const Model *model, int i);
 
 /* Subsystems and their instances, in order of making. */
 int model_subsystem_count(const Model *model);

@@ -2,8 +2,10 @@ libcore_la_SOURCES += \
   lib/session/session.c \
   lib/session/session_bode.c \
   lib/session/session_bounds.c \
+  lib/session/session_change.c \
   lib/session/session_code.h \
   lib/session/session_draw.c \
+  lib/session/session_equilibrium.c \
   lib/session/session_evaluator.c \
   lib/session/session_expect.c \
   lib/session/session_figures.c \

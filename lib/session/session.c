@@ -77,9 +77,6 @@ static void drop_runs(ct_session *session)
         run_free(session->runs.at + i);
     LIST_FREE(session->runs);
     run_free(&session->start);
-    run_free(&session->warm);
-    run_free(&session->rest);
-    session->at_rest = false;
     linear_free(session->linear);
     session->linear = NULL;
     modes_free(session->modes);
@@ -159,12 +156,6 @@ const char *ct_remarks(const ct_session *session)
 static VerbChanges changes_of(const Statement *statement)
 {
     return statement->kind == STATEMENT_VERB ? statement->row.changes : CHANGES_MODEL;
-}
-
-/* init none: what others don't speak of stays at rest */
-static bool forgets_start(const Statement *statement)
-{
-    return changes_of(statement) == CHANGES_START && statement->operands.count > 0;
 }
 
 /* whether it chose trees or the form, and so left the graph alone */
@@ -265,19 +256,6 @@ static void remark_trees(ct_session *session)
     session->cost_now = now;
 }
 
-void session_note_change(ct_session *session, uint64_t revision, bool trees_only)
-{
-    session->changed = true;
-    session->linear_is_old = true;
-    session->start_is_later = true;
-    session->told = NULL;
-    session_forget_start(session);
-    /* figures of another graph say nothing about this one */
-    if (model_revision(session->model) != revision && !trees_only)
-        tree_costs_free(&session->costs);
-    session_sweep(session);
-}
-
 static Status take_back(ct_session *session)
 {
     Diag ignored;
@@ -361,11 +339,8 @@ ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error 
         CHECK(try_network(session, s, form, &diag));
         session_remark(session, model_remarks(session->model));
     }
-    session->at_rest = session->at_rest && !forgets_start(s);
     if (is_search(s) ? model_revision(session->model) != revision : changes != CHANGES_NAMES)
         session_note_change(session, revision, chooses(changes));
-    if (forgets_start(s))
-        session_forget_guesses(session);
     if (chooses_trees(s) && status == OK) {
         remark_trees(session);
         session_remark_free(session);
@@ -402,15 +377,8 @@ static ct_status move_over(ct_session *session, Status (*move)(Model *, Diag *),
     CHECK(move(session->model, &diag));
     is_statement = statement_parse(model_undone(session->model), 1, (SyntaxOptions){false}, &next,
                                    &moved, NULL) == OK;
-    session->at_rest = session->at_rest && !(is_statement && forgets_start(moved));
-    /* what was given before the equilibrium may be among what is undone */
-    if (model_start_statements(session->model) < session->rests_since)
-        session->rests_since = model_start_statements(session->model);
     text_addf(&session->remarks, "%s: %s\n", what, model_undone(session->model));
     session_note_change(session, revision, is_statement && chooses(changes_of(moved)));
-    /* what it gave is no longer where a coordinate begins that nothing else tells */
-    if (is_statement && changes_of(moved) == CHANGES_START)
-        session_forget_guesses(session);
 done:
     statement_free(moved);
     return session_report(status, &diag, error);

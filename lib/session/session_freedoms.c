@@ -68,7 +68,6 @@ static Status assemble_real(ct_session *session, const Setting *setting, System 
 
     plain.form = FORM_AUGMENTED;
     plain.independent_count = 0;
-    plain.warm = NULL;
     plain.scene = (SceneSource){make_real, &trees};
     CHECK(model_preset_trees(session->model, false, trees.halves, diag));
     CHECK(make_real(&trees, &scene, diag));

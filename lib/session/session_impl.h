@@ -44,11 +44,8 @@ struct ct_session {
     Model *model;
     LIST(System *) systems; /* of the runs and, last, of the model as it was when asked last */
     LIST(Run) runs;         /* run1 is the first */
-    Run start;              /* assembled from the model as it is; result NULL: not yet */
-    Run warm;               /* the start before that: where guesses come from */
-    bool at_rest;           /* runs start from an equilibrium: the start, where that is it, */
-    Run rest;               /* or else this one */
-    int rests_since;        /* statements of starts: earlier ones it has taken the place of */
+    Run start;              /* assembled from the model as it is, or its equilibrium; result NULL:
+                               not yet. No run depends on it */
     Linear *linear;         /* the last linearisation; NULL */
     bool linear_is_old;     /* the model has changed since */
     Modes *modes;           /* and modes */
@@ -110,7 +107,8 @@ void session_remark_result(ct_session *session, const Result *result);
 
 /* (session_import.c) The whole of a file that a statement names. */
 MUST_USE Status session_read_file(ct_session *session, const Syntax *name, Text *out, Diag *diag);
-/* What changed the model since model_begin_group() is one step from now on, or taken back. */
+/* (session_change.c) What changed the model since model_begin_group() is one step from now on, or
+ * taken back. */
 void session_end_group(ct_session *session, int group, const char *called, uint64_t revision,
                        bool keep);
 /* the model is no longer what it was at that revision */
@@ -181,7 +179,6 @@ typedef struct RunInput {
     BoundWatch watch;
     Setting setting;
 } RunInput;
-bool input_is_in_force(const ct_session *session, int start); /* an initial value of the model */
 /* to run that System */
 void run_input_make(ct_session *session, const System *system, RunInput *input);
 void run_input_go_on(RunInput *input, const Run *old); /* with the numbers of parts that that had */
@@ -204,10 +201,10 @@ MUST_USE Status session_start(ct_session *session, Run **out, Diag *diag);
 MUST_USE Status session_source(ct_session *session, Run **out, Diag *diag);
 /* the last run, with a remark where the model has changed since; the start where there is none */
 MUST_USE Status session_last_run(ct_session *session, Run **out, Diag *diag);
-/* the start is no longer that of the model; it stays as what guesses come from */
-void session_forget_start(ct_session *session);
-/* neither it nor the one before it tells where the next begins */
-void session_forget_guesses(ct_session *session);
+/* The result of an equilibrium takes the place of initial values and guesses: guesses of every
+ * coordinate, multi-turn angle and network unknown, one step of the model's history. */
+MUST_USE Status session_store_equilibrium(ct_session *session, const Run *equilibrium,
+                                          const char *called, Diag *diag);
 
 /* --- one function a verb --- */
 

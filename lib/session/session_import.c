@@ -59,22 +59,6 @@ done:
     return status;
 }
 
-void session_end_group(ct_session *session, int group, const char *called, uint64_t revision,
-                       bool keep)
-{
-    Model *model = session->model;
-    const int count = model_end_group(model, group, called);
-
-    if (!keep && count > 0) {
-        Diag ignored;
-
-        if (model_undo(model, &ignored) == OK)
-            model_forget_undone(model);
-    }
-    if (count > 0)
-        session_note_change(session, revision, false);
-}
-
 /* all or none, as one step */
 static Status apply_import(ct_session *session, const Import *import, Diag *diag)
 {

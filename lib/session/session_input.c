@@ -63,26 +63,6 @@ void run_free(Run *run)
     *run = (Run){0};
 }
 
-void session_forget_start(ct_session *session)
-{
-    if (session->start.result == NULL)
-        return;
-    if (session->at_rest && session->rest.result == NULL) {
-        session->rest = session->start;
-    } else {
-        run_free(&session->warm);
-        session->warm = session->start;
-    }
-    session->start = (Run){0};
-}
-
-void session_forget_guesses(ct_session *session)
-{
-    run_free(&session->warm);
-    if (!session->at_rest)
-        run_free(&session->rest);
-}
-
 /* --- what a run is told --- */
 
 void run_input_free(RunInput *input)
@@ -93,21 +73,6 @@ void run_input_free(RunInput *input)
     Run run = {.parameters = input->parameters, .host = input->host};
 
     run_free(&run);
-}
-
-/* the equilibrium from which runs start; NULL: there is none */
-static ResultReader *resting_start(const ct_session *session)
-{
-    if (!session->at_rest)
-        return NULL;
-    return session->rest.result != NULL ? session->rest.reader : session->start.reader;
-}
-
-/* an equilibrium takes the place of what was given before it */
-bool input_is_in_force(const ct_session *session, int i)
-{
-    return resting_start(session) == NULL ||
-           model_start_statement(session->model, i) >= session->rests_since;
 }
 
 void run_input_make(ct_session *session, const System *system, RunInput *input)
@@ -121,28 +86,25 @@ void run_input_make(ct_session *session, const System *system, RunInput *input)
     for (int i = 0; i < count; i++) {
         const Start *start = model_start(model, i);
 
-        if (input_is_in_force(session, i))
-            input->start.at[input->start.count++] =
-                (StartValue){.name = start->name,
-                             .primes = start->primes,
-                             .value = model_number(model, start->value),
-                             .is_guess = start->is_guess};
+        input->start.at[input->start.count++] =
+            (StartValue){.name = start->name,
+                         .primes = start->primes,
+                         .value = model_number(model, start->value),
+                         .is_guess = start->is_guess};
     }
     input->events = mem_array((size_t)model_event_count(model), sizeof *input->events);
     for (int i = 0; i < model_event_count(model); i++)
         input->events[i] = model_event(model, i);
-    input->setting = (Setting){
-        .parameter = parameter_value,
-        .context = input->parameters,
-        .scene = model_scene_source(model),
-        .events = input->events,
-        .event_count = model_event_count(model),
-        .start = &input->start,
-        .warm = session->warm.result != NULL ? session->warm.reader : session->rest.reader,
-        .from = resting_start(session),
-        .evaluator = (Evaluator)model_setting_value(model, SETTING_EVALUATOR),
-        .threads = session->threads,
-        .watch = &session->watch};
+    input->setting =
+        (Setting){.parameter = parameter_value,
+                  .context = input->parameters,
+                  .scene = model_scene_source(model),
+                  .events = input->events,
+                  .event_count = model_event_count(model),
+                  .start = &input->start,
+                  .evaluator = (Evaluator)model_setting_value(model, SETTING_EVALUATOR),
+                  .threads = session->threads,
+                  .watch = &session->watch};
     input->setting.form =
         model_form(model, &input->setting.independent, &input->setting.independent_count);
 }

@@ -33,6 +33,7 @@ static Status read_instant(const ct_session *session, const Syntax *at, double *
 Status session_equilibrium(ct_session *session, const Statement *s, Diag *diag)
 {
     RunInput input = {0};
+    Run found = {0};
     Result *result = NULL;
     ResultReader *reader = NULL;
     System *system;
@@ -45,15 +46,16 @@ Status session_equilibrium(ct_session *session, const Statement *s, Diag *diag)
     if (at != NULL)
         CHECK(read_instant(session, at, &input.setting.at, diag));
     CHECK(run_equilibrium(system, &input.setting, &result, &reader, diag));
-    session_forget_start(session);
-    run_free(&session->rest);
-    session->start = run_input_done(&input, result, reader);
-    session->at_rest = true;
-    session->rests_since = model_start_statements(session->model);
+    found = run_input_done(&input, result, reader);
+    CHECK(session_store_equilibrium(session, &found, s->verb, diag));
+    run_free(&session->start);
+    session->start = found;
+    found = (Run){0};
     session->start_is_later = true;
     session->told = NULL;
     session_remark_result(session, result);
 done:
+    run_free(&found);
     run_input_free(&input);
     return status;
 }

@@ -168,14 +168,6 @@ done:
     return status;
 }
 
-static bool any_in_force(const ct_session *session)
-{
-    for (int i = 0; i < model_start_count(session->model); i++)
-        if (input_is_in_force(session, i))
-            return true;
-    return false;
-}
-
 /* what isn't said again is as in the run that goes on */
 static RunOptions options_from(const Result *old, const RunOptions *said)
 {
@@ -264,8 +256,7 @@ Status session_assemble(ct_session *session, const Statement *s, Diag *diag)
     Status status;
 
     (void)s;
-    session_forget_start(session);
-    session->at_rest = session->at_rest && any_in_force(session);
+    run_free(&session->start);
     CHECK(session_start(session, &start, diag));
     session->start_is_later = true;
     session->told = NULL;

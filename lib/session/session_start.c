@@ -1,4 +1,7 @@
-/* session_start.c: the start that is asked for, and the run that values are taken from */
+/* session_start.c: the start that is asked for, and the run that values are taken from
+ *
+ * A run starts from the initial values and guesses of the model, and from 0 else. What was
+ * assembled before is no part of it. */
 #include "session/session_impl.h"
 
 Status session_start(ct_session *session, Run **out, Diag *diag)

@@ -72,8 +72,7 @@ static bool is_named(const ct_session *session, const System *system)
     for (int i = 0; i < session->runs.count; i++)
         if (is_of(&session->runs.at[i], system))
             return true;
-    return is_of(&session->start, system) || is_of(&session->warm, system) ||
-           is_of(&session->rest, system);
+    return is_of(&session->start, system);
 }
 
 static bool is_current(const ct_session *session, const System *system)

@@ -29,7 +29,7 @@ say "$pendulum
 init h = 30 deg
 guess h = 50 deg
 equilibrium
-init none
+guess none
 print h [deg]"
 cat >filter.ct <<'MODEL'
 R = 1 kohm; C = 1 uF

@@ -460,6 +460,8 @@ static void a_change_of_numbers_starts_from_the_old_equilibrium(void)
     expect_value(&kit, "C1.v at 0", 1, 1e-12);
     expect_value(&kit, "C1.v at 1", 3 - 2 * exp(-1), 1e-7);
     EXPECT_DONE(&kit, "assemble\n");
+    expect_value(&kit, "C1.v", 1, 1e-12);
+    EXPECT_DONE(&kit, "guess none\n");
     expect_value(&kit, "C1.v", 0, 0);
     kit_free(&kit);
 }

@@ -140,7 +140,7 @@ static void undo_of_an_init_leaves_the_operating_point(void)
                       "expect C2.v ~ 5 within 1e-9\nexpect C1.v ~ 1 within 1e-9\nundo\n"
                       "expect C1.v ~ 7.5 within 1e-9\nredo\nexpect C1.v ~ 1 within 1e-9\n"
                       "undo\nsimulate 1 us\nexpect C1.v ~ 7.5 within 1e-9\n"
-                      "init none\nexpect C1.v ~ 0 within 1e-9\n");
+                      "guess none\nexpect C1.v ~ 0 within 1e-9\n");
     kit_free(&kit);
 }
 

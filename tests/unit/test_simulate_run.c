@@ -697,29 +697,6 @@ static void a_long_line_of_resistors_is_handed_over(void)
     script_close(&script);
 }
 
-static void a_warm_start_carries_the_configuration_over(void)
-{
-    Script joint =
-        run(CRANK "init h8 = 60 deg\nguess h10 = 0.3, s11 = -0.5\nassemble", (Changes){0});
-    Script absolute = run(CRANK "tree absolute\n", (Changes){0});
-    StartValue value = {"h8", 0, 1.1, false};
-    StartValues start = {1, &value};
-    ResultReader *reader = NULL;
-    Setting setting = {.parameter = script_parameter,
-                       .context = absolute.model,
-                       .scene = model_scene_source(absolute.model),
-                       .start = &start};
-    Diag diag = {0};
-
-    EXPECT(result_reader_new(joint.result, &reader, &diag) == OK);
-    setting.warm = reader;
-    EXPECT(form_system(absolute.model, &absolute.system, &diag) == OK);
-    EXPECT(run_assemble(absolute.system, &setting, &absolute.result, NULL, &diag) == OK);
-    EXPECT_NEAR(value_at(&absolute, "h10", 0), asin(0.2 * sin(1.1) / 0.6), 1e-12);
-    result_reader_free(reader);
-    script_close(&joint);
-    script_close(&absolute);
-}
 
 static void every_method_has_a_line_of_help(void)
 {
@@ -772,7 +749,6 @@ int main(void)
     RUN(no_method_steps_over_a_pulse);
     RUN(a_long_line_of_coils_stays_explicit);
     RUN(a_long_line_of_resistors_is_handed_over);
-    RUN(a_warm_start_carries_the_configuration_over);
     RUN(every_method_has_a_line_of_help);
     return test_end();
 }

@@ -339,8 +339,7 @@ done:
 }
 
 Status initial_find(const Layout *layout, Parameters *parameters, Numbers *numbers,
-                    const Setting *setting, bool has_modes, WarmValue warm, void *warm_context,
-                    Assembled *out, Diag *diag)
+                    const Setting *setting, bool has_modes, Assembled *out, Diag *diag)
 {
     Assembly a = {.l = layout,
                   .parameters = parameters,
@@ -360,12 +359,12 @@ Status initial_find(const Layout *layout, Parameters *parameters, Numbers *numbe
     a.y = out->y;
     a.skeleton = skeleton_new(layout, parameters);
     CHECK(initial_read_given(&a, diag));
-    CHECK(initial_place(&a, warm, warm_context, &closed, diag));
+    CHECK(initial_place(&a, &closed, diag));
     CHECK(find_position(&a, closed, diag));
     equations_turn(a.eq, 0, a.y, a.y + layout_references(layout));
     CHECK(find_rank(&a, diag));
     CHECK(find_velocity(&a, diag));
-    CHECK(initial_find_network(&a, setting->from != NULL ? warm : NULL, warm_context, diag));
+    CHECK(initial_find_network(&a, diag));
 done:
     /* what was stopped has found nothing, and says so in many ways */
     if (poll(setting->watch) != OK)

@@ -20,15 +20,11 @@ typedef struct Assembled {
     Remarks remarks;
 } Assembled;
 
-/* Fails with E_ASSEMBLE, naming what can't be met, and the errors of system_variable(). `warm`
- * tells the value of a variable in an earlier result (NAN: not known); NULL: there is none. Where
- * the setting has a `from`, that is the earlier result, and what was given is left aside. With
+/* Fails with E_ASSEMBLE, naming what can't be met, and the errors of system_variable(). With
  * `has_modes` the network's equations are solved later, once the sides of its switches are known.
  */
-typedef double (*WarmValue)(void *context, const char *name);
 MUST_USE Status initial_find(const Layout *layout, Parameters *parameters, Numbers *numbers,
-                             const Setting *setting, bool has_modes, WarmValue warm,
-                             void *warm_context, Assembled *out, Diag *diag);
+                             const Setting *setting, bool has_modes, Assembled *out, Diag *diag);
 /* What is put in place in the middle of a run: borrowed. */
 typedef struct NewPlaces {
     const Layout *layout;

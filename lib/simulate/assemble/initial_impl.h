@@ -89,15 +89,13 @@ MUST_USE Status initial_driven(const Assembly *assembly, Expr prescribed, double
 MUST_USE Status initial_whole_turns(Assembly *assembly, const double *angles, Diag *diag);
 /* Place the frames along the joints and put coordinates and references of angles that count turns
  * into y (initial_place.c). *closed: loops and all that says where frames stand hold. */
-MUST_USE Status initial_place(Assembly *assembly, WarmValue warm, void *context, bool *closed,
-                              Diag *diag);
+MUST_USE Status initial_place(Assembly *assembly, bool *closed, Diag *diag);
 
 /* Speeds into y that constraints and given values leave open, before those are met: the least rates
  * of the joints along which frames are placed (initial_speed.c). */
 MUST_USE Status initial_speeds(Assembly *assembly, Diag *diag);
 
-/* States of the network, into y, and x' and z to begin a search with (initial_network.c). `from`
- * tells the value of a variable in an earlier result; NULL: there is none. */
-MUST_USE Status initial_find_network(Assembly *assembly, WarmValue from, void *context, Diag *diag);
+/* States of the network, into y, and x' and z to begin a search with (initial_network.c). */
+MUST_USE Status initial_find_network(Assembly *assembly, Diag *diag);
 
 #endif

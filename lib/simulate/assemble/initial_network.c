@@ -102,7 +102,7 @@ static int guessed_place(const Layout *l, const GivenValue *given)
     return -1;
 }
 
-Status initial_find_network(Assembly *a, WarmValue from, void *context, Diag *diag)
+Status initial_find_network(Assembly *a, Diag *diag)
 {
     const Layout *l = a->l;
     Problem p = {0};
@@ -114,23 +114,12 @@ Status initial_find_network(Assembly *a, WarmValue from, void *context, Diag *di
     Rows rows;
     Status status = OK;
 
-    if (system_at_rest(l->system, 0) != NULL && from == NULL)
+    if (system_at_rest(l->system, 0) != NULL)
         CHECK(rest_network(a, v, diag));
     for (int i = 0; system_sample(l->system, i) != NULL; i++) {
         const OwnSample *own = system_sample(l->system, i);
 
         v[own->state] = parameters_evaluate(a->parameters, own->initial);
-    }
-    for (int i = 0; i < l->nx && from != NULL; i++) {
-        double value = from(context, system_x(l->system, i)->name);
-
-        if (isfinite(value))
-            v[i] = value;
-    }
-    for (int i = 0; i < l->nz && from != NULL; i++) {
-        double value = from(context, system_z(l->system, i)->name);
-
-        v[2 * l->nx + i] = isfinite(value) ? value : 0;
     }
     for (int i = 0; i < a->given_count; i++) {
         const GivenValue *given = &a->given[i];

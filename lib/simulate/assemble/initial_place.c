@@ -2,7 +2,7 @@
  *
  * Frames are placed along trees of its own making, chosen by what is known: edges whose coordinates
  * are given, then those that are guessed, then joints before bodies. What isn't given starts at its
- * guess, at the value of an earlier start, or at 0. Loops and given values elsewhere are closed by
+ * guess, or at 0. Loops and given values elsewhere are closed by
  * Levenberg-Marquardt in the coordinates of these trees. So where the frames stand follows from the
  * model and from what was said about it, and from no tree of the user's. New values in the middle
  * of a run go the same way. */
@@ -20,64 +20,12 @@ enum { MOST_COLUMNS = 300 }; /* of bodies' coordinates: a try costs their number
 
 /* --- where it begins --- */
 
-static double recall(const Placing *p, const char *name)
-{
-    return p->warm != NULL ? p->warm(p->warm_context, name) : NAN;
-}
-
-/* attitude of a frame at the earlier start; false: not known */
-static bool recall_attitude(const Placing *p, int node, double R[9])
-{
-    double q[4];
-
-    matrix3_one(R);
-    for (int i = 0; i < 4 && node != p->s->datum; i++) {
-        Text name = {0};
-
-        text_addf(&name, "%s.q%d", graph_node(system_graph(p->a->l->system), node)->name, i);
-        q[i] = recall(p, name.at);
-        text_free(&name);
-        if (!isfinite(q[i]))
-            return false;
-    }
-    if (node != p->s->datum)
-        matrix3_of_parameters(q, R);
-    return true;
-}
-
-/* three turns of a chord are told by its frames alone */
-static void recall_turns(Placing *p, int link)
-{
-    const Link *l = &p->s->links[link];
-    double c[POSE_COORDS] = {0};
-    Pose tail = {0}, head = {0}, relative;
-
-    if (p->warm == NULL || !recall_attitude(p, l->tail, tail.R) ||
-        !recall_attitude(p, l->head, head.R))
-        return;
-    pose_between(&tail, &head, &relative);
-    link_read(l, &relative, c);
-    for (int k = 0; k < 3; k++)
-        p->begun[place_at(link, l->turn[k].coordinate)] = c[l->turn[k].coordinate];
-}
-
 /* where the coordinates of a half of a link start that nobody told */
 static void begin_half(Placing *p, int link, bool rotation)
 {
     const Link *l = &p->s->links[link];
     const Instance *instance = l->instance;
-    bool open = false;
 
-    for (int k = 0; k < instance->pose_count; k++) {
-        double *begun = &p->begun[place_at(link, k)];
-
-        if (instance->coord_rotation[k] == rotation && isnan(*begun)) {
-            *begun = recall(p, instance->coord[k]);
-            open = open || !isfinite(*begun);
-        }
-    }
-    if (open && rotation && l->turn_count == 3)
-        recall_turns(p, link);
     for (int k = 0; k < instance->pose_count; k++)
         if (instance->coord_rotation[k] == rotation && !isfinite(p->begun[place_at(link, k)]))
             p->begun[place_at(link, k)] = l->has_parameters && k == l->first_parameter ? 1 : 0;
@@ -111,8 +59,8 @@ static bool is_asked(const Placing *p, const Instance *instance)
     return false;
 }
 
-/* Whether coordinate k has its whole turns from no statement and no run that goes on: an earlier
- * start tells where the search begins, and no more. Those of a screw are a way. */
+/* Whether coordinate k has its whole turns from no statement and no run that goes on: the search
+ * may have gone around. Those of a screw are a way. */
 static bool is_within_half_a_turn(const Placing *p, int link, int k)
 {
     const Link *l = &p->s->links[link];
@@ -406,13 +354,9 @@ done:
     return status;
 }
 
-Status initial_place(Assembly *a, WarmValue warm, void *context, bool *closed, Diag *diag)
+Status initial_place(Assembly *a, bool *closed, Diag *diag)
 {
-    Placing p = {.a = a,
-                 .s = a->skeleton,
-                 .warm = warm,
-                 .warm_context = context,
-                 .goes_on = a->setting->from != NULL};
+    Placing p = {.a = a, .s = a->skeleton};
     double *from = NULL; /* where the search began that guesses have no part in */
     int size;
     Status status = OK;

@@ -46,9 +46,7 @@ typedef struct Placing {
     LIST(Ask) asks;
     int row_count, guess_count; /* the last ones are of guesses, one each */
     double *turned, *shifted;   /* nodes x 3: what a unit of a column does to them */
-    WarmValue warm;
-    void *warm_context;
-    bool goes_on; /* whole turns of angles are those of before */
+    bool goes_on;               /* whole turns of angles are those of before */
 } Placing;
 
 /* the place of coordinate k of a link in what is kept by link and coordinate */

@@ -56,9 +56,7 @@ typedef struct Setting {
     const Event *const *events; /* borrowed during the call; what a result needs it copies */
     int event_count;
     const StartValues *start;
-    ResultReader *warm; /* configuration by coordinate name to start guesses from; NULL: none */
     Host *host;         /* NULL: nobody. It outlives results, as `context` does */
-    ResultReader *from; /* start where this one does, but for what `start` tells; NULL: there */
     bool keeps_rates;   /* of an equilibrium: what is driven moves as at `at` */
     double at;          /* s: sources and drivers of an equilibrium are as then */
     const Watch *watch; /* borrowed as long as what is made with it */

@@ -12,35 +12,6 @@
 
 #define START_TOLERANCE 1e-8
 
-/* a variable of an earlier result at its first row */
-static double warm_value(void *context, const char *name)
-{
-    ResultReader *warm = context;
-
-    mem_keep(warm->phases);
-    const Grid *grid = &warm->result->grid;
-    Phase *phase;
-    const Layout *l;
-    RowValues row;
-    Expr e;
-    double value;
-
-    if (grid->count == 0)
-        return NAN;
-    phase = warm->phases->at[grid->phase[0]];
-    l = phase->layout;
-    for (int i = 0; i < l->nx; i++)
-        if (strcmp(system_x(l->system, i)->name, name) == 0)
-            return grid_row(grid, 0)[l->n + l->nu + i];
-
-    if (system_variable(phase->system, name, 0, &e, NULL) == OK &&
-        phase_driven_row(phase, grid->times[0], grid_row(grid, 0),
-                         driven_row(&warm->result->driven, 0), &row) &&
-        probe_at(l, &warm->phases->parameters, e, &row, &value, NULL) == OK)
-        return value;
-    return NAN;
-}
-
 /* What supplies a driver's motion is found in the equations of the whole, as long as no ideal
  * switch is in them. */
 static bool goes_through_modes(const Layout *whole)
@@ -113,7 +84,6 @@ Status run_begin(ActiveRun *r, const Setting *setting, Diag *diag)
 
 Status run_open(RunKind kind, System *system, const Setting *setting, ActiveRun **out, Diag *diag)
 {
-    ResultReader *warm = setting->from != NULL ? setting->from : setting->warm;
     const Phase *whole;
     ActiveRun *r = NULL;
     Status status = OK;
@@ -121,8 +91,7 @@ Status run_open(RunKind kind, System *system, const Setting *setting, ActiveRun 
     CHECK(prepare(kind, system, setting, &r, diag));
     whole = phases_whole(r->phases);
     CHECK(initial_find(whole->layout, &r->phases->parameters, whole->numbers, setting,
-                       r->mode_search != NULL, warm != NULL ? warm_value : NULL, warm,
-                       &r->result->start, diag));
+                       r->mode_search != NULL, &r->result->start, diag));
     CHECK(run_begin(r, setting, diag));
     remarks_append(&r->result->remarks, &r->result->start.remarks);
     if (kind == RUN_SIMULATE)

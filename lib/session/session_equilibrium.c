@@ -1,0 +1,69 @@
+/* session_equilibrium.c: an equilibrium becomes the start of the model */
+#include "session/session_impl.h"
+
+/* the unknowns whose values repeat a configuration */
+typedef struct Unknowns {
+    LIST(const char *) names;
+    LIST(Expr) symbols;
+} Unknowns;
+
+static void add_unknown(Unknowns *unknowns, const char *name, Expr symbol)
+{
+    LIST_PUSH(unknowns->names, name);
+    LIST_PUSH(unknowns->symbols, symbol);
+}
+
+static void list_unknowns(const System *system, Unknowns *out)
+{
+    for (int i = 0; i < system_n(system); i++)
+        add_unknown(out, system_q(system, i)->name, system_q(system, i)->symbol);
+    for (int i = 0; i < system_multi_turn_count(system); i++)
+        add_unknown(out, system_multi_turn(system, i)->name, system_multi_turn(system, i)->angle);
+    for (int i = 0; i < system_whole_turns_count(system); i++)
+        if (system_whole_turns(system, i)->name != NULL)
+            add_unknown(out, system_whole_turns(system, i)->name,
+                        system_whole_turns(system, i)->sum);
+    for (int i = 0; i < system_nx(system); i++)
+        add_unknown(out, system_x(system, i)->name, system_x(system, i)->symbol);
+    for (int i = 0; i < system_nz(system); i++)
+        add_unknown(out, system_z(system, i)->name, system_z(system, i)->symbol);
+}
+
+/* statements that make it the start, to all digits */
+static Status write_starts(const Run *equilibrium, Text *out, Diag *diag)
+{
+    Unknowns unknowns = {0};
+    double *values = NULL;
+    Status status = OK;
+
+    list_unknowns(result_system(equilibrium->result), &unknowns);
+    values = NEW_ARRAY(double, unknowns.names.count);
+    CHECK(result_reader_values(equilibrium->reader, unknowns.symbols.at, unknowns.symbols.count,
+                               values, diag));
+    text_add(out, "init none\nguess none");
+    for (int i = 0; i < unknowns.names.count; i++)
+        text_addf(out, "%s%s = %.17g", i == 0 ? "\nguess " : ", ", unknowns.names.at[i], values[i]);
+    text_char(out, '\n');
+done:
+    LIST_FREE(unknowns.names);
+    LIST_FREE(unknowns.symbols);
+    mem_free(values);
+    return status;
+}
+
+Status session_store_equilibrium(ct_session *session, const Run *equilibrium, const char *called,
+                                 Diag *diag)
+{
+    const uint64_t revision = model_revision(session->model);
+    const int group = model_begin_group(session->model);
+    Text text = {0};
+    int count = 0;
+    Status status;
+
+    CHECK(write_starts(equilibrium, &text, diag));
+    CHECK(session_apply_text(session->model, text.at, &count, diag));
+done:
+    session_end_group(session, group, called, revision, status == OK);
+    text_free(&text);
+    return status;
+}
