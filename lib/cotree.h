@@ -41,6 +41,7 @@ typedef struct ct_error {
     char message[600];
     char hint[400];   /* "" where there is none */
     char inside[300]; /* where in a definition it arose: lines to be shown as they are; "" */
+    bool is_unsolved; /* a computation failed: no start, no step or no convergence was found */
 } ct_error;
 
 typedef struct ct_session ct_session;

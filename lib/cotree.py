@@ -31,7 +31,8 @@ PARAMETERS, STATE, SOLUTION, OUTPUTS = range(4)
 
 class _Error(ctypes.Structure):
     _fields_ = [('status', c_int), ('line', c_int), ('column', c_int), ('width', c_int),
-                ('message', c_char * 600), ('hint', c_char * 400), ('inside', c_char * 300)]
+                ('message', c_char * 600), ('hint', c_char * 400), ('inside', c_char * 300),
+                ('is_unsolved', c_bool)]
 
 
 class _Cursor(ctypes.Structure):

@@ -16,7 +16,7 @@
 #include <unistd.h>
 
 /* exit statuses */
-enum { DONE = 0, FAILED = 1, WRONG_USAGE = 2, UNMET = 3 };
+enum { DONE = 0, FAILED = 1, WRONG_USAGE = 2, UNMET = 3, UNSOLVED = 4 };
 
 enum {
     OPTION_SEED = 256,
@@ -58,7 +58,8 @@ static const char usage[] =
     "      --help               print this\n"
     "\n"
     "Exit status: 0 done, 1 a statement failed or was stopped, 2 wrong usage,\n"
-    "3 an `expect` did not hold.\n"
+    "3 an `expect` did not hold, 4 a computation failed (no start, no step, no\n"
+    "convergence).\n"
     "Environment: GNUPLOT, PAGER, XDG_CONFIG_HOME (cotree/init.ct), XDG_STATE_HOME\n"
     "(cotree/history, cotree/unsaved).\n";
 
@@ -288,7 +289,11 @@ static int run(const Invocation *request)
     else if (piped && !shell.quitting && (shell.failed + shell.unmet == 0 || shell.keep_going))
         replay_file(&shell, "-", &error);
 
-    int status = typed ? DONE : shell.failed > 0 ? FAILED : shell.unmet > 0 ? UNMET : DONE;
+    int status = typed                           ? DONE
+                 : shell.failed > shell.unsolved ? FAILED
+                 : shell.unsolved > 0            ? UNSOLVED
+                 : shell.unmet > 0               ? UNMET
+                                                 : DONE;
 
     shell_close(&shell);
     return status;

@@ -16,8 +16,10 @@ static ct_status run_script_line(Shell *shell, const Origin *origin, const char 
 
     if (status == CT_UNMET)
         shell->unmet++;
-    else if (status != CT_OK)
+    else if (status != CT_OK) {
         shell->failed++;
+        shell->unsolved += shell->is_unsolved;
+    }
     return status;
 }
 

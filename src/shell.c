@@ -279,9 +279,11 @@ static ct_status run_next(Shell *shell, const Origin *origin, ct_cursor *line, b
         status = carry_out(shell, statement, &error);
 
     /* what happened in another file was told there: here is the way to it */
-    if (status != CT_OK && error.message[0] != '\0')
+    if (status != CT_OK && error.message[0] != '\0') {
+        shell->is_unsolved = error.is_unsolved;
         complain(origin, line->text, &error);
-    else if (status != CT_OK && origin->name != NULL)
+    }
+    if (status != CT_OK && error.message[0] == '\0' && origin->name != NULL)
         remark("%s:%d: in %s", origin->name, origin->line, ct_statement_text(statement));
     ct_statement_free(statement);
     return status;

@@ -31,6 +31,8 @@ typedef struct Shell {
     int stopped_at; /* line at which a script ended early */
     int failed; /* statements in scripts that failed, and those whose expectation did not hold */
     int unmet;
+    int unsolved;     /* of the statements that failed: those whose computation did */
+    bool is_unsolved; /* the last one that failed */
     int dropping; /* line of the definition whose first line failed, up to its 'end'; 0: none */
 } Shell;
 

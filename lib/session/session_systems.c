@@ -17,6 +17,7 @@ ct_status session_report(Status status, const Diag *diag, ct_error *error)
         return public;
     memset(error, 0, sizeof *error);
     error->status = public;
+    error->is_unsolved = status == E_ASSEMBLE || status == E_SINGULAR || status == E_SOLVER;
     if (status == OK)
         return public;
     error->line = diag->place.line;
