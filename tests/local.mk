@@ -65,6 +65,7 @@ SCRIPT_TESTS = \
 	tests/cases/pendulum \
 	tests/cases/read_back \
 	tests/cases/serial \
+	tests/cases/shown_fortran \
 	tests/cases/slider_crank \
 	tests/cases/spatial_slider_crank \
 	tests/cases/tours \

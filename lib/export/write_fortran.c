@@ -1,5 +1,6 @@
 /* write_fortran.c: a model as a module of Fortran 2008 */
 #include "export/code.h"
+#include "present/fortran_lines.h"
 
 #include <string.h>
 
@@ -428,6 +429,7 @@ static void add_ideals(const Code *code, Text *out)
 static void write_file(const Code *code, const Language *language, Text *out)
 {
     Text derived = {0};
+    const size_t from = out->length;
     char *locals = code_print_derived(code, language, &derived);
 
     code_head(code, language, "! ", out);
@@ -464,6 +466,7 @@ static void write_file(const Code *code, const Language *language, Text *out)
     text_add(out, newton);
     add_solve(code, out);
     add_check(code, language, out);
+    fortran_wrap(out, from);
     mem_free(locals);
     text_free(&derived);
 }

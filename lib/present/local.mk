@@ -25,6 +25,8 @@ libcore_la_SOURCES += \
   lib/present/help_topics.c \
   lib/present/info.c \
   lib/present/info.h \
+  lib/present/fortran_lines.c \
+  lib/present/fortran_lines.h \
   lib/present/latex_lines.c \
   lib/present/latex_lines.h \
   lib/present/layout.c \

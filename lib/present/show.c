@@ -1,6 +1,7 @@
 /* show.c: the topics of `show`, and what stands behind them */
 #include "present/show.h"
 
+#include "present/fortran_lines.h"
 #include "present/info.h"
 
 #include <stdlib.h>
@@ -393,23 +394,34 @@ static Status show_item(const View *view, const Statement *statement, int item, 
     return show_expression(view, operand->value, number, out, diag);
 }
 
-Status show(const View *view, const Statement *statement, Text *out, Diag *diag)
+static Status show_operands(const View *view, const Topic *topic, const Statement *statement,
+                            Text *out, Diag *diag)
 {
-    View in_notation = *view;
-    const Topic *topic = find_topic(view->linear, statement);
     Status status = OK;
 
-    TRY(read_notation(statement, topic, &in_notation.page.notation, diag));
     if (topic != NULL)
-        return show_topic(&in_notation, topic, statement, out, diag);
+        return show_topic(view, topic, statement, out, diag);
     for (int i = 0; status == OK && i < statement->operands.count; i++) {
         const Operand *operand = statement->operands.at + i;
 
-        status = show_item(&in_notation, statement, i, out, diag);
+        status = show_item(view, statement, i, out, diag);
         if (status != OK && diag->place.line == 0)
             diag->place = operand->place;
         if (status != OK && i == 0)
             status = unknown_topic(operand, status, diag);
     }
     return status;
+}
+
+Status show(const View *view, const Statement *statement, Text *out, Diag *diag)
+{
+    View in_notation = *view;
+    const Topic *topic = find_topic(view->linear, statement);
+    const size_t from = out->length;
+
+    TRY(read_notation(statement, topic, &in_notation.page.notation, diag));
+    TRY(show_operands(&in_notation, topic, statement, out, diag));
+    if (in_notation.page.notation == NOTATION_FORTRAN)
+        fortran_wrap(out, from);
+    return OK;
 }

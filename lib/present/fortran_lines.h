@@ -1,0 +1,12 @@
+/* fortran_lines.h: source code of Fortran on lines that its standard allows */
+#ifndef COTREE_PRESENT_FORTRAN_LINES_H
+#define COTREE_PRESENT_FORTRAN_LINES_H
+
+#include "base/text.h"
+
+/* Break lines of more than 132 columns, from the place `from` in the text on, which begins a line:
+ * statements go on after an `&`, comments in another comment (ISO/IEC 1539-1:2018, 6.3.2). Lines of
+ * the preprocessor are left alone. */
+void fortran_wrap(Text *text, size_t from);
+
+#endif
