@@ -10,6 +10,11 @@ family_euler_rates_SOURCES = tests/family/family_euler_rates.c tests/family/fami
 	tests/random.h tests/unit/session_kit.h tests/unit/test.h
 family_euler_rates_LDADD = libcotree.la $(unit_ldadd)
 
+FAMILIES += family_walks
+family_walks_SOURCES = tests/family/family_walks.c tests/family/family.h \
+	tests/random.h tests/unit/session_kit.h tests/unit/test.h
+family_walks_LDADD = libcotree.la $(unit_ldadd)
+
 FAMILIES += family_trees
 family_trees_SOURCES = tests/family/family_trees.c tests/family/family.h tests/family/trees.c \
 	tests/family/trees.h tests/random.h tests/unit/form.h
