@@ -281,9 +281,15 @@ static ct_status command_redo(Call *call, ct_error *error)
     return ct_redo(call->session, error);
 }
 
+/* It says what it throws away: statements come back by undo, runs don't. */
 static ct_status command_clear(Call *call, ct_error *error)
 {
+    const int steps = ct_step_count(call->session), runs = ct_run_count(call->session);
+
     (void)error;
+    if (steps + runs > 0 && !call->shell->quiet)
+        remark("cleared: a model of %d statement%s, which undo brings back, and %d run%s", steps,
+               steps == 1 ? "" : "s", runs, runs == 1 ? "" : "s");
     ct_clear(call->session);
     return CT_OK;
 }
@@ -325,9 +331,10 @@ const Command commands_session[] = {
     {"recover", command_recover, NULL, FORGOTTEN | OWN},
     {"undo", command_undo, NULL, 0},
     {"redo", command_redo, NULL, 0},
-    {"clear", command_clear, NULL, 0},
+    {"clear", command_clear, NULL, OWN},
     {"history", command_history, NULL, FORGOTTEN | OWN},
     {"quit", command_quit, NULL, FORGOTTEN | OWN},
+    {"exit", command_quit, NULL, FORGOTTEN | OWN},
     {"set", command_set, settings_own, OWN},
     {NULL, NULL, NULL, 0},
 };

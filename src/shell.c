@@ -209,7 +209,8 @@ static bool is_for_reader(const ct_statement *statement)
 {
     const char *verb = ct_verb(statement);
 
-    return strcmp(verb, "help") == 0 || strcmp(verb, "quit") == 0 || strcmp(verb, "complete") == 0;
+    return strcmp(verb, "help") == 0 || strcmp(verb, "quit") == 0 || strcmp(verb, "exit") == 0 ||
+           strcmp(verb, "complete") == 0;
 }
 
 static ct_status carry_out(Shell *shell, const ct_statement *statement, ct_error *error)

@@ -11,7 +11,6 @@ static const struct {
     const char *word;
     const char *hint;
 } habits[] = {
-    {HABIT_VERB, "exit", "'quit' leaves, and so does Ctrl-D"},
     {HABIT_VERB, "bye", "'quit' leaves, and so does Ctrl-D"},
     {HABIT_VERB, "q", "'quit' leaves, and so does Ctrl-D"},
     {HABIT_VERB, "sim", "did you mean 'simulate'?"},

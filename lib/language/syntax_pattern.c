@@ -170,6 +170,16 @@ static Status read_values_maybe(Parser *parser, Statement *statement)
     return OK;
 }
 
+/* another expression behind a blank, as in a list of items; a sign there makes it one with the
+ * expression before */
+static bool sees_another(const Parser *parser)
+{
+    const TokenKind kind = parser_token(parser)->kind;
+
+    return !parser_sees_stop(parser) && !parser_sees_pair(parser) &&
+           (kind == TOKEN_PATH || kind == TOKEN_STRING || parser_sees(parser, "("));
+}
+
 /* e */
 static Status read_expressions(Parser *parser, Statement *statement)
 {
@@ -179,12 +189,13 @@ static Status read_expressions(Parser *parser, Statement *statement)
         if (parser_sees_stop(parser))
             CHECK(parser_expected(parser, "an expression"));
         CHECK(add_operand(parser, statement, parse_shown));
-    } while (parser_took_comma(parser) && !parser_ends(parser) && !parser_sees_stop(parser));
+    } while ((parser_took_comma(parser) && !parser_ends(parser) && !parser_sees_stop(parser)) ||
+             sees_another(parser));
     if (!parser_ends(parser) && !parser_sees_stop(parser))
         CHECK(parser_unexpected(parser));
 done:
     if (status == E_SYNTAX && parser->diag != NULL && parser->diag->hint[0] == '\0')
-        diag_hint(parser->diag, "expressions stand between commas");
+        diag_hint(parser->diag, "expressions stand between commas or blanks");
     return status;
 }
 

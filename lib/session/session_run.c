@@ -151,6 +151,11 @@ static Status run_new(ct_session *session, const RunOptions *options, RunFunctio
     Status status;
 
     session->told = NULL;
+    if (graph_edge_count(model_graph(session->model)) == 0) {
+        (void)diag_set(diag, E_MODEL, "the model is empty: there is nothing to run");
+        diag_hint(diag, "body m1 mass=1 and capacitor C1 a 0 1 are parts; 'help' lists them all");
+        return E_MODEL;
+    }
     CHECK(session_running(session, &system, diag));
     run_input_make(session, system, &input);
     run_input_host(&input, host, NULL);

@@ -185,7 +185,7 @@ static void later_words_say_that_they_are(void)
 
 static void help_and_hints_offer_what_is_there(void)
 {
-    static const char *const habits[] = {"for", "while", "run", "joint", "exit", "list", "echo"};
+    static const char *const habits[] = {"for", "while", "run", "joint", "bye", "list", "echo"};
     char *overview = ct_help("");
     Kit kit = kit_new();
     Verb verb;
