@@ -1,6 +1,8 @@
 /* session_equilibrium.c: an equilibrium becomes the start of the model */
 #include "session/session_impl.h"
 
+#include <math.h>
+
 /* the unknowns whose values repeat a configuration */
 typedef struct Unknowns {
     LIST(const char *) names;
@@ -29,25 +31,35 @@ static void list_unknowns(const System *system, Unknowns *out)
         add_unknown(out, system_z(system, i)->name, system_z(system, i)->symbol);
 }
 
-/* statements that make it the start, to all digits */
+/* Statements that make it the start, to all digits. What has no value in the mode at rest, as the
+ * current of a switch that is solved for apart, is left to the start. */
 static Status write_starts(const Run *equilibrium, Text *out, Diag *diag)
 {
     Unknowns unknowns = {0};
-    double *values = NULL;
+    int written = 0;
     Status status = OK;
 
     list_unknowns(result_system(equilibrium->result), &unknowns);
-    values = NEW_ARRAY(double, unknowns.names.count);
-    CHECK(result_reader_values(equilibrium->reader, unknowns.symbols.at, unknowns.symbols.count,
-                               values, diag));
     text_add(out, "init none\nguess none");
-    for (int i = 0; i < unknowns.names.count; i++)
-        text_addf(out, "%s%s = %.17g", i == 0 ? "\nguess " : ", ", unknowns.names.at[i], values[i]);
+    for (int i = 0; i < unknowns.names.count; i++) {
+        Diag why = {0};
+        double value;
+
+        status =
+            result_reader_values(equilibrium->reader, &unknowns.symbols.at[i], 1, &value, &why);
+        if (status == E_STOPPED || status == E_MEMORY) {
+            *diag = why;
+            goto done;
+        }
+        if (status == OK && isfinite(value))
+            text_addf(out, "%s%s = %.17g", written++ == 0 ? "\nguess " : ", ", unknowns.names.at[i],
+                      value);
+    }
     text_char(out, '\n');
+    status = OK;
 done:
     LIST_FREE(unknowns.names);
     LIST_FREE(unknowns.symbols);
-    mem_free(values);
     return status;
 }
 
