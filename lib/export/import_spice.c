@@ -59,6 +59,108 @@ static void say_times(Spice *s, bool has_initial)
                    s->times.step.alone);
 }
 
+/* --- temperatures and options --- */
+
+/* the circuit's temperature, or its tnom, of a card; two that differ are refused */
+static void take_temperature(Spice *s, const Card *card, const char *what, const char *text,
+                             double *out, bool *is_given)
+{
+    SpiceValue v;
+
+    if (!spice_read(s, text, &v) || !v.is_number || !(v.number > -273.15))
+        import_leave(s->import, card->line, true, card->words.at[0],
+                     "%s is no number of degrees Celsius", what);
+    else if (*is_given && v.number != *out)
+        import_leave(s->import, card->line, true, card->words.at[0],
+                     "it gives a second %s: delete one", what);
+    else
+        *out = v.number;
+    *is_given = true;
+}
+
+static bool is_options(const Card *card)
+{
+    return spice_is(card->words.at[0], ".options") || spice_is(card->words.at[0], ".option") ||
+           spice_is(card->words.at[0], ".opt");
+}
+
+/* .temp T, .options temp=T tnom=T */
+static void read_temperatures(Spice *s)
+{
+    bool has_temperature = false, has_nominal = false;
+
+    s->temperature = s->nominal = 27;
+    for (int c = 0; c < s->cards.count; c++) {
+        const Card *card = &s->cards.at[c];
+
+        if (spice_is(card->words.at[0], ".temp"))
+            for (int i = 1; i < card->words.count || i == 1; i++)
+                take_temperature(s, card, "temperature", card_word(card, i), &s->temperature,
+                                 &has_temperature);
+        for (int i = 1; is_options(card) && i + 2 < card->words.count; i++)
+            if (card_is_key(card, i) && spice_is(card->words.at[i], "temp"))
+                take_temperature(s, card, "temperature", card->words.at[i + 2], &s->temperature,
+                                 &has_temperature);
+            else if (card_is_key(card, i) && spice_is(card->words.at[i], "tnom"))
+                take_temperature(s, card, "tnom", card->words.at[i + 2], &s->nominal, &has_nominal);
+    }
+}
+
+/* options that change values are refused; a leakage of gmin = 1 pA a volt is that of our diodes */
+static void say_options(Spice *s, const Card *card)
+{
+    static const char *const refused[] = {"rshunt", "cshunt", "scale", "scalm", "gmin"};
+    bool has_others = card->words.count < 2;
+
+    for (int i = 1; i < card->words.count; i += card_is_key(card, i) ? 3 : 1) {
+        const char *name = card->words.at[i];
+        const bool is_temperature = spice_is(name, "temp") || spice_is(name, "tnom");
+        double number;
+
+        has_others = has_others || !is_temperature;
+        if (is_temperature && s->outer != NULL)
+            import_leave(s->import, card->line, true, card->words.at[0],
+                         "%s= stands in a .subckt: move it out", name);
+        for (int k = 0; k < COUNT(refused); k++)
+            if (spice_is(name, refused[k]) &&
+                !(spice_is(name, "gmin") && spice_number(card_word(card, i + 2), &number) &&
+                  number == 1e-12))
+                import_leave(s->import, card->line, true, card->words.at[0],
+                             "%s= isn't modelled; delete it where it has no effect", name);
+    }
+    if (has_others)
+        import_leave(s->import, card->line, false, card->words.at[0], "it is for the simulator");
+}
+
+static bool is_for_the_simulator(const char *name)
+{
+    static const char *const names[] = {
+        ".ac",    ".dc",    ".op",      ".noise",    ".tf",    ".sens", ".pz",
+        ".disto", ".four",  ".meas",    ".measure",  ".print", ".plot", ".save",
+        ".probe", ".width", ".nodeset", ".backanno", ".sp",    ".pss",  ".fourier"};
+
+    for (int i = 0; i < COUNT(names); i++)
+        if (spice_is(name, names[i]))
+            return true;
+    return false;
+}
+
+/* a card that isn't met elsewhere */
+static void say_control(Spice *s, const Card *card)
+{
+    const char *name = card->words.at[0];
+
+    if (is_options(card))
+        say_options(s, card);
+    else if (spice_is(name, ".temp") && s->outer == NULL)
+        return; /* read before elements */
+    else if (is_for_the_simulator(name))
+        import_leave(s->import, card->line, false, name, "it is for the simulator");
+    else
+        import_leave(s->import, card->line, true, name,
+                     "it may change values, and can't be taken; delete it where it has no effect");
+}
+
 static Status say_controls(Spice *s)
 {
     static const char *const refused[] = {".include", ".inc", ".lib", ".func", ".global"};
@@ -82,7 +184,7 @@ static Status say_controls(Spice *s)
             say_initial(s, card);
             has_initial = true;
         } else if (!is_met) {
-            import_leave(s->import, card->line, false, name, "it is for the simulator");
+            say_control(s, card);
         }
     }
     say_times(s, has_initial);
@@ -231,6 +333,8 @@ static Status define(Spice *s, int depth)
     s->definition = BEGUN;
     s->times = whole->times;
     s->uses_initial = whole->uses_initial;
+    s->temperature = whole->temperature;
+    s->nominal = whole->nominal;
     s->name = import_name(s->import, SPICE_SUBCIRCUIT,
                           import_text(s->import, "%s%s", around, s->head.words.at[1]));
     CHECK(define_used(s, depth));
@@ -258,6 +362,7 @@ static Status say_netlist(Spice *s)
 
     read_times(s);
     spice_say_values(s);
+    read_temperatures(s);
     CHECK(define_used(s, 0));
     for (int i = 0; i < s->inner.count; i++)
         if (s->inner.at[i]->definition == UNSAID)

@@ -25,6 +25,7 @@ libcore_la_SOURCES += \
   lib/export/spice_cards.h \
   lib/export/spice_elements.c \
   lib/export/spice_impl.h \
+  lib/export/spice_models.c \
   lib/export/spice_source.c \
   lib/export/spice_source.h \
   lib/export/spice_value.c \

@@ -9,27 +9,6 @@
 #include <math.h>
 #include <string.h>
 
-static const char *lower(Import *import, const char *word)
-{
-    char *copy = pool_text(import->pool, word, strlen(word));
-
-    for (char *c = copy; *c != '\0'; c++)
-        *c = (char)tolower((unsigned char)*c);
-    return copy;
-}
-
-bool spice_read(Spice *s, const char *text, SpiceValue *out)
-{
-    s->why = NULL;
-    return spice_value(s->import, text, out, &s->why);
-}
-
-/* a number given in words or `other` */
-static bool value_or(Spice *s, const char *text, const char *other, SpiceValue *out)
-{
-    return spice_read(s, text != NULL && text[0] != '\0' ? text : other, out);
-}
-
 static bool is_zero(SpiceValue v)
 {
     return v.is_number && v.number == 0;
@@ -61,7 +40,7 @@ static const char *name_of_card(Spice *s, const Card *card)
 void spice_take_parameters(Spice *s, const Card *card, int first)
 {
     for (int i = first; i < card->words.count; i += 3) {
-        const ParameterCard parameter = {.name = lower(s->import, card->words.at[i]),
+        const ParameterCard parameter = {.name = spice_lower(s->import, card->words.at[i]),
                                          .written = card->words.at[i],
                                          .value = card_word(card, i + 2),
                                          .line = card->line};
@@ -121,8 +100,8 @@ static void find_models(Spice *s)
 
         if (!spice_is(card->words.at[0], ".model") || card->words.count < 3)
             continue;
-        if (names_add(s->model_names, lower(s->import, card->words.at[1])) == s->models.count)
-            LIST_PUSH(s->models, (DeviceModel){lower(s->import, card->words.at[2]), card});
+        if (names_add(s->model_names, spice_lower(s->import, card->words.at[1])) == s->models.count)
+            LIST_PUSH(s->models, (DeviceModel){spice_lower(s->import, card->words.at[2]), card});
     }
 }
 
@@ -134,52 +113,6 @@ void spice_say_values(Spice *s)
         say_parameter(s, s->parameters.at[i].name);
 }
 
-/* the model of that name and type, or NULL and why */
-static const DeviceModel *find_model(Spice *s, const char *name, const char *type, const char **why)
-{
-    int i = names_find(s->model_names, lower(s->import, name));
-
-    if (i < 0 && s->outer != NULL)
-        return find_model(s->outer, name, type, why);
-    if (i >= 0 && strcmp(s->models.at[i].type, type) == 0)
-        return &s->models.at[i];
-    *why = i < 0 ? import_text(s->import, "there is no .model %s", name)
-                 : import_text(s->import, "its .model %s is of type %s, not %s", name,
-                               s->models.at[i].type, type);
-    return NULL;
-}
-
-enum { MODEL_KEYS = 3 }; /* the first word of a model that may be a key */
-
-static bool model_value(Spice *s, const DeviceModel *model, const char *name, const char *other,
-                        SpiceValue *out)
-{
-    return value_or(s, card_key(model->card, MODEL_KEYS, name), other, out);
-}
-
-/* keys that do nothing here, said once for each card that has them */
-static void say_others(Spice *s, const Card *card, int first, const char *const *known)
-{
-    Text others = {0};
-
-    for (int i = first; i < card->words.count; i++) {
-        bool is_known = false;
-
-        if (!card_is_key(card, i))
-            continue;
-        for (int k = 0; known[k] != NULL; k++)
-            is_known = is_known || spice_is(card->words.at[i], known[k]);
-        if (!is_known)
-            text_addf(&others, "%s%s", others.length > 0 ? " " : "", card->words.at[i]);
-    }
-    if (others.length > 0)
-        import_leave(s->import, card->line, false,
-                     import_text(s->import, "%s of %s", others.at,
-                                 card->words.at[card->words.at[0][0] == '.' ? 1 : 0]),
-                     "no part of ours has that");
-    text_free(&others);
-}
-
 /* --- elements --- */
 
 void spice_give_initial(Spice *s, int line, const char *variable, SpiceValue v)
@@ -187,22 +120,107 @@ void spice_give_initial(Spice *s, int line, const char *variable, SpiceValue v)
     import_add(s->import, line, "init %s = %s", variable, v.alone);
 }
 
-/* R, C, L: name, two nodes, a value or KEY=value, ic= */
-static void two_terminals(Spice *s, const Card *card, const char *verb, const char *letter,
-                          const char *state)
-{
-    const char *const known[] = {letter, "ic",   "m",     "tc",    "tc1",
-                                 "tc2",  "temp", "dtemp", "noisy", NULL};
-    const char *given = card_key(card, 3, letter), *initial = card_key(card, 3, "ic");
-    SpiceValue v, ic, m;
+/* --- R, C, L --- */
 
+/* The model, the value and nothing else may stand without a key after the nodes, but for the second
+ * coefficient of tc=. False: the element is left out. */
+static bool read_positions(Spice *s, const Card *card, const char *type, const DeviceModel **model,
+                           const char **value)
+{
+    int i = 3;
+
+    *model = NULL;
+    *value = NULL;
+    while (i < card->words.count) {
+        const char *word = card->words.at[i];
+        double number;
+
+        if (card_is_key(card, i)) {
+            i += spice_is(word, "tc") && i + 3 < card->words.count && !card_is_key(card, i + 3) ? 4
+                                                                                                : 3;
+        } else if (!spice_number(word, &number) && *model == NULL &&
+                   (*model = spice_find_model(s, word, type, &s->why)) != NULL) {
+            i++;
+        } else if (*value == NULL) {
+            *value = word;
+            i++;
+        } else {
+            leave(s, card, import_text(s->import, "'%s' of it can't be taken", word));
+            return false;
+        }
+    }
+    return true;
+}
+
+static const SpiceKey passive_model_keys[] = {{"r", TAKEN, NULL},
+                                              {"res", TAKEN, NULL},
+                                              {"cap", TAKEN, NULL},
+                                              {"ind", TAKEN, NULL},
+                                              {"tc1", TAKEN, NULL},
+                                              {"tc2", TAKEN, NULL},
+                                              {"tnom", TAKEN, NULL},
+                                              {"t_measured", TAKEN, NULL},
+                                              {"kf", WITHOUT_EFFECT, NULL},
+                                              {"af", WITHOUT_EFFECT, NULL},
+                                              {"bv_max", WITHOUT_EFFECT, NULL},
+                                              {"rsh", REFUSED_UNLESS_ZERO, "sheet resistance"},
+                                              {"cj", REFUSED_UNLESS_ZERO, "capacitance an area"},
+                                              {NULL, REFUSED, NULL}};
+
+/* R, C, L: name, two nodes, a value and a model or KEY=value, ic= */
+static void two_terminals(Spice *s, const Card *card, const char *verb, const char *letter,
+                          const char *long_name, const char *state)
+{
+    const SpiceKey keys[] = {{letter, TAKEN, NULL},
+                             {long_name, TAKEN, NULL},
+                             {"ic", TAKEN, NULL},
+                             {"m", TAKEN, NULL},
+                             {"scale", TAKEN, NULL},
+                             {"tc", TAKEN, NULL},
+                             {"tc1", TAKEN, NULL},
+                             {"tc2", TAKEN, NULL},
+                             {"temp", TAKEN, NULL},
+                             {"dtemp", TAKEN, NULL},
+                             {"noisy", WITHOUT_EFFECT, NULL},
+                             {"noise", WITHOUT_EFFECT, NULL},
+                             {"ac", WITHOUT_EFFECT, NULL},
+                             {"bv_max", WITHOUT_EFFECT, NULL},
+                             {"rser", REFUSED_UNLESS_ZERO, "a resistor in series"},
+                             {"rpar", REFUSED_UNLESS_ZERO, "a resistor in parallel"},
+                             {"cpar", REFUSED_UNLESS_ZERO, "a capacitor in parallel"},
+                             {"lser", REFUSED_UNLESS_ZERO, "an inductor in series"},
+                             {"w", REFUSED, "geometry"},
+                             {"nt", REFUSED, "geometry"},
+                             {"tce", REFUSED_UNLESS_ZERO, "exponential in the temperature"},
+                             {NULL, REFUSED, NULL}};
+    const char *given = card_key(card, 3, letter), *initial = card_key(card, 3, "ic");
+    const DeviceModel *model;
+    const char *value;
+    SpiceValue v, ic, m, scale, factor;
+
+    if (!read_positions(s, card, letter, &model, &value) ||
+        !spice_check_keys(s, card, card, 3, keys) ||
+        (model != NULL && !spice_check_keys(s, card, model->card, MODEL_KEYS, passive_model_keys)))
+        return;
     if (given == NULL)
-        given = card_is_key(card, 3) ? "" : card_word(card, 3);
-    if (!spice_read(s, given, &v) || !value_or(s, card_key(card, 3, "m"), "1", &m)) {
-        leave(s, card, given[0] == '\0' ? "it has no value" : s->why);
+        given = card_key(card, 3, long_name);
+    if (given == NULL)
+        given = value;
+    if (given == NULL && model != NULL)
+        given = card_key(model->card, MODEL_KEYS, letter);
+    if (given == NULL && model != NULL)
+        given = card_key(model->card, MODEL_KEYS, long_name);
+    if (given == NULL || !spice_read(s, given, &v) ||
+        !spice_value_or(s, card_key(card, 3, "m"), "1", &m) ||
+        !spice_value_or(s, card_key(card, 3, "scale"), "1", &scale) ||
+        !spice_temperature_factor(s, card, model, &factor)) {
+        leave(s, card, given == NULL ? "it has no value" : s->why);
         return;
     }
-    say_others(s, card, 3, known);
+    if (!(scale.is_number && scale.number == 1))
+        v = spice_times(s, v, scale);
+    if (!(factor.is_number && factor.number == 1))
+        v = spice_times(s, v, factor);
     if (!(m.is_number && m.number == 1))
         v.alone = import_text(s->import, "%s%c%s", v.text, verb[0] == 'c' ? '*' : '/', m.text);
     if (!import_add(s->import, card->line, "%s %s %s %s %s", verb, name_of_card(s, card),
@@ -223,17 +241,17 @@ static void two_terminals(Spice *s, const Card *card, const char *verb, const ch
 
 static void say_resistor(Spice *s, const Card *card)
 {
-    two_terminals(s, card, "resistor", "r", "v");
+    two_terminals(s, card, "resistor", "r", "res", "v");
 }
 
 static void say_capacitor(Spice *s, const Card *card)
 {
-    two_terminals(s, card, "capacitor", "c", "v");
+    two_terminals(s, card, "capacitor", "c", "cap", "v");
 }
 
 static void say_inductor(Spice *s, const Card *card)
 {
-    two_terminals(s, card, "inductor", "l", "i");
+    two_terminals(s, card, "inductor", "l", "ind", "i");
 }
 
 /* K: pairs of all inductors that it names */
@@ -305,26 +323,82 @@ static void say_by_current(Spice *s, const Card *card)
                spice_node(s, card->words.at[2]), source, gain.alone);
 }
 
+static const SpiceKey diode_keys[] = {{"area", TAKEN, NULL},
+                                      {"m", TAKEN, NULL},
+                                      {"temp", TAKEN, NULL},
+                                      {"dtemp", TAKEN, NULL},
+                                      {NULL, REFUSED, NULL}};
+static const SpiceKey diode_model_keys[] = {
+    {"is", TAKEN, NULL},
+    {"js", TAKEN, NULL},
+    {"n", TAKEN, NULL},
+    {"rs", TAKEN, NULL},
+    {"eg", TAKEN, NULL},
+    {"xti", TAKEN, NULL},
+    {"tnom", TAKEN, NULL},
+    {"level", TAKEN, NULL},
+    {"kf", WITHOUT_EFFECT, NULL}, /* noise */
+    {"af", WITHOUT_EFFECT, NULL},
+    {"vj", WITHOUT_EFFECT, NULL}, /* of a capacitance that is refused */
+    {"pb", WITHOUT_EFFECT, NULL},
+    {"m", WITHOUT_EFFECT, NULL},
+    {"mj", WITHOUT_EFFECT, NULL},
+    {"fc", WITHOUT_EFFECT, NULL},
+    {"ibv", WITHOUT_EFFECT, NULL}, /* of a breakdown that is refused */
+    {"nbv", WITHOUT_EFFECT, NULL},
+    {"bv", REFUSED, "breakdown"},
+    {"cjo", REFUSED_UNLESS_ZERO, "junction capacitance"},
+    {"cj0", REFUSED_UNLESS_ZERO, "junction capacitance"},
+    {"cj", REFUSED_UNLESS_ZERO, "junction capacitance"},
+    {"tt", REFUSED_UNLESS_ZERO, "transit time"},
+    {"ikf", REFUSED_UNLESS_ZERO, "high injection"},
+    {"ik", REFUSED_UNLESS_ZERO, "high injection"},
+    {"ikr", REFUSED_UNLESS_ZERO, "high injection"},
+    {"isr", REFUSED_UNLESS_ZERO, "recombination current"},
+    {"jsw", REFUSED_UNLESS_ZERO, "sidewall current"},
+    {"trs1", REFUSED_UNLESS_ZERO, "rs= over the temperature"},
+    {"trs2", REFUSED_UNLESS_ZERO, "rs= over the temperature"},
+    {NULL, REFUSED, NULL}};
+
+/* area, which may stand without a key, times m */
+static bool read_area(Spice *s, const Card *card, SpiceValue *out)
+{
+    const char *area = card_key(card, 4, "area");
+    SpiceValue m;
+
+    if (area == NULL && !card_is_key(card, 4) &&
+        (isdigit((unsigned char)card_word(card, 4)[0]) || card_word(card, 4)[0] == '{'))
+        area = card_word(card, 4);
+    if (!spice_value_or(s, area, "1", out) || !spice_value_or(s, card_key(card, 4, "m"), "1", &m))
+        return false;
+    if (!(m.is_number && m.number == 1))
+        *out = spice_times(s, *out, m);
+    return true;
+}
+
 /* D: name, two nodes, model, area; a resistance in series makes a node of its own */
 static void say_diode(Spice *s, const Card *card)
 {
-    static const char *const known[] = {"is", "n", "rs", "level", NULL};
-    static const char *const keys[] = {"area", "m", NULL};
-    const DeviceModel *model = find_model(s, card_word(card, 3), "d", &s->why);
-    const char *area = card_key(card, 4, "area");
-    const char *plus;
-    SpiceValue is, n, rs, by;
+    const DeviceModel *model = spice_find_model(s, card_word(card, 3), "d", &s->why);
+    const char *plus, *current;
+    SpiceValue is, n, rs, by, level;
 
-    if (area == NULL && !card_is_key(card, 4) && isdigit((unsigned char)card_word(card, 4)[0]))
-        area = card_word(card, 4);
-    if (model == NULL || !model_value(s, model, "is", "1e-14", &is) ||
-        !model_value(s, model, "n", "1", &n) || !model_value(s, model, "rs", "0", &rs) ||
-        !value_or(s, area, "1", &by)) {
+    if (model != NULL && (!spice_check_keys(s, card, card, 4, diode_keys) ||
+                          !spice_check_keys(s, card, model->card, MODEL_KEYS, diode_model_keys)))
+        return;
+    current = model != NULL && card_key(model->card, MODEL_KEYS, "js") != NULL ? "js" : "is";
+    if (model == NULL || !spice_model_value(s, model, current, "1e-14", &is) ||
+        !spice_model_value(s, model, "n", "1", &n) ||
+        !spice_model_value(s, model, "rs", "0", &rs) ||
+        !spice_model_value(s, model, "level", "1", &level) || !read_area(s, card, &by) ||
+        !spice_heat_diode(s, card, model, &is, &n)) {
         leave(s, card, s->why);
         return;
     }
-    say_others(s, card, 4, keys);
-    say_others(s, model->card, MODEL_KEYS, known);
+    if (!level.is_number || level.number != 1) {
+        leave(s, card, "only level=1 of a diode's .model can be taken");
+        return;
+    }
     plus = spice_node(s, card->words.at[1]);
     if (!(by.is_number && by.number == 1))
         is.alone = import_text(s->import, "%s*%s", is.text, by.text);
@@ -344,9 +418,21 @@ static void say_diode(Spice *s, const Card *card)
 /* S, W: closed above a threshold of a voltage or of a source's current */
 static void say_switch(Spice *s, const Card *card)
 {
+    static const SpiceKey none[] = {{NULL, REFUSED, NULL}};
+    static const SpiceKey by_voltage[] = {{"vt", TAKEN, NULL},
+                                          {"vh", TAKEN, NULL},
+                                          {"ron", TAKEN, NULL},
+                                          {"roff", TAKEN, NULL},
+                                          {NULL, REFUSED, NULL}};
+    static const SpiceKey by_current[] = {{"it", TAKEN, NULL},
+                                          {"ih", TAKEN, NULL},
+                                          {"ron", TAKEN, NULL},
+                                          {"roff", TAKEN, NULL},
+                                          {NULL, REFUSED, NULL}};
     const bool current = tolower((unsigned char)card->words.at[0][0]) == 'w';
     const int at = current ? 4 : 5;
-    const DeviceModel *model = find_model(s, card_word(card, at), current ? "csw" : "sw", &s->why);
+    const DeviceModel *model =
+        spice_find_model(s, card_word(card, at), current ? "csw" : "sw", &s->why);
     const char *source = import_known(s->import, SPICE_PART, card_word(card, 3));
     const char *controlled;
     SpiceValue threshold, hysteresis, on, off;
@@ -354,12 +440,16 @@ static void say_switch(Spice *s, const Card *card)
     if (current && source == NULL)
         s->why = import_text(s->import, "%s isn't there", card_word(card, 3));
     if (model == NULL || (current && source == NULL) ||
-        !model_value(s, model, current ? "it" : "vt", "0", &threshold) ||
-        !model_value(s, model, current ? "ih" : "vh", "0", &hysteresis) ||
-        !model_value(s, model, "ron", "1", &on) || !model_value(s, model, "roff", "1e12", &off)) {
+        !spice_model_value(s, model, current ? "it" : "vt", "0", &threshold) ||
+        !spice_model_value(s, model, current ? "ih" : "vh", "0", &hysteresis) ||
+        !spice_model_value(s, model, "ron", "1", &on) ||
+        !spice_model_value(s, model, "roff", "1e12", &off)) {
         leave(s, card, s->why);
         return;
     }
+    if (!spice_check_keys(s, card, card, at + 1, none) ||
+        !spice_check_keys(s, card, model->card, MODEL_KEYS, current ? by_current : by_voltage))
+        return;
     if (!is_zero(hysteresis)) {
         leave(s, card, "a switch with hysteresis has no counterpart");
         return;
@@ -413,8 +503,10 @@ static void say_source(Spice *s, const Card *card)
             if (s->why == NULL && card_key(card, i, "r") != NULL &&
                 spice_read(s, card_key(card, i, "r"), &v))
                 times.repeat = v;
-            while (card_is_key(card, i))
-                i += 3;
+            for (; s->why == NULL && card_is_key(card, i); i += 3)
+                if (!spice_is(name, "pwl") ||
+                    (!spice_is(card->words.at[i], "td") && !spice_is(card->words.at[i], "r")))
+                    s->why = import_text(s->import, "%s= of it can't be taken", card->words.at[i]);
             if (s->why == NULL)
                 (void)spice_source(s->import, name, values.at, values.count, &times, &given,
                                    &s->why);

@@ -32,16 +32,21 @@ typedef struct Spice {
     Names *model_names;
     LIST(ParameterCard) parameters;
     Names *parameter_names;
-    int depth;         /* of parameters that need others */
-    SpiceTimes times;  /* of .tran */
-    const Card *tran;  /* NULL: none */
-    bool uses_initial; /* uic: it starts from given values, not from an operating point */
-    const char *why;   /* the last value could not be read */
+    int depth;                   /* of parameters that need others */
+    SpiceTimes times;            /* of .tran */
+    const Card *tran;            /* NULL: none */
+    bool uses_initial;           /* uic: it starts from given values, not from an operating point */
+    double temperature, nominal; /* temp and tnom of the circuit, degrees Celsius */
+    const char *why;             /* the last value could not be read */
     Diag *diag;
 } Spice;
 
 /* a value; false: s->why tells */
 bool spice_read(Spice *s, const char *text, SpiceValue *out);
+/* a number given in words or, where `text` is NULL or empty, `other` */
+bool spice_value_or(Spice *s, const char *text, const char *other, SpiceValue *out);
+SpiceValue spice_times(Spice *s, SpiceValue a, SpiceValue b);
+const char *spice_lower(Import *import, const char *word);
 const char *spice_node(Spice *s, const char *name);
 void spice_give_initial(Spice *s, int line, const char *variable, SpiceValue v);
 
@@ -55,6 +60,31 @@ void spice_name_elements(Spice *s);
 void spice_say_elements(Spice *s);
 /* whether an element stands on the node, or but reads its voltage */
 bool spice_stands_on(const Spice *s, const char *node);
+
+enum { MODEL_KEYS = 3 }; /* the first word of a model that may be a key */
+/* the model of that name and type, or NULL and why */
+const DeviceModel *spice_find_model(Spice *s, const char *name, const char *type, const char **why);
+bool spice_model_value(Spice *s, const DeviceModel *model, const char *name, const char *other,
+                       SpiceValue *out);
+
+/* what a key of an element or of a model does here; rows of an array end with name NULL */
+typedef struct SpiceKey {
+    const char *name;
+    enum { TAKEN, WITHOUT_EFFECT, REFUSED_UNLESS_ZERO, REFUSED } effect;
+    const char *meaning; /* of what is refused */
+} SpiceKey;
+
+/* False: a key of the card changes values and isn't taken, and the element is left out. Keys
+ * without effect are remarked. */
+bool spice_check_keys(Spice *s, const Card *element, const Card *card, int first,
+                      const SpiceKey *keys);
+
+/* What R, L or C (`model` or NULL) is multiplied by at its temperature; Is and n of a diode there.
+ * False: s->why tells. */
+bool spice_temperature_factor(Spice *s, const Card *card, const DeviceModel *model,
+                              SpiceValue *out);
+bool spice_heat_diode(Spice *s, const Card *card, const DeviceModel *model, SpiceValue *is,
+                      SpiceValue *n);
 
 /* the first word from `first` on that is a key, or says that keys follow; nodes and names end there
  */

@@ -156,9 +156,10 @@ static const char *make_pieces(Given *g)
 
 static const struct {
     const char *name;
+    int most; /* values that it takes; 0: any number */
     const char *(*make)(Given *given);
-} sources[] = {{"sin", make_sine},        {"sine", make_sine},      {"pulse", make_pulse},
-               {"exp", make_exponential}, {"sffm", make_modulated}, {"pwl", make_pieces}};
+} sources[] = {{"sin", 6, make_sine},        {"sine", 6, make_sine},      {"pulse", 8, make_pulse},
+               {"exp", 6, make_exponential}, {"sffm", 7, make_modulated}, {"pwl", 0, make_pieces}};
 
 static int find(const char *word)
 {
@@ -178,7 +179,14 @@ bool spice_source(Import *import, const char *name, const SpiceValue *values, in
 {
     Given given = {.import = import, .at = values, .count = count, .times = times};
 
-    *out = sources[find(name)].make(&given);
+    const int row = find(name);
+
+    if (sources[row].most > 0 && count > sources[row].most) {
+        *why =
+            import_text(import, "%s takes %d values here, not %d", name, sources[row].most, count);
+        return false;
+    }
+    *out = sources[row].make(&given);
     *why = given.why;
     return *out != NULL;
 }

@@ -87,6 +87,29 @@ try 'what an expression does not close
 R1 a 0 {1+(2}'
 try 'of no statement
 R1 a 0 {1+}'
+echo '--- what changes values is taken or refused'
+said() { # card...: those that are left out, after a source
+    printf '%s\n' 'a title' 'V1 a 0 1' "$@" >said.cir
+    cotree -e 'import spice "said.cir" > "said.ct"' 2>&1 && grep -v '^#' said.ct | tail -n +3
+}
+said 'R1 a b 1k tc1=0.03125' 'R2 b 0 1k' '.temp 91'
+said '.param k=0.01' 'R1 a 0 1k tc={k},1e-4 dtemp=10' 'C1 a 0 1u tc1=0.5 temp=29 m=2'
+said 'D1 a 0 dz' '.model dz d bv=5.1 ibv=1m'
+said 'D1 a 0 dc' '.model dc d cjo=4p vj=0.7'
+said 'D1 a 0 d0' '.model d0 d cjo=0 vj=0.7 tt=0'
+said 'D1 a 0 dd' '.model dd d gain=3'
+said 'D1 a 0 dd ic=0.5' '.model dd d'
+said 'R1 a 0 rm l=10u w=1u' '.model rm r rsh=50'
+said 'R1 a 0 rm' '.model rm r rsh=50 r=1'
+said 'R1 a 0 1k 3' 'R2 a 0 1k no'
+said 'L1 a 0 1m rser=0.1' 'L2 a 0 1m rser=0'
+said 'S1 a 0 a 0 sw' '.model sw sw vt=0.5 von=1'
+said 'V2 b 0 pulse(0 1 0 1u 1u 1m 2m) rser=1' 'R1 b 0 1'
+said 'V2 b 0 sin(0 1 1k 0 0 0 3)' 'R1 b 0 1'
+said 'R1 a 0 1' '.temp 0 27'
+said 'R1 a 0 1' '.temp hot'
+said 'R1 a 0 1' '.options reltol=1e-6 gmin=1e-12 rshunt=1e9'
+said 'R1 a 0 1' '.if (1)' '.print tran v(a)'
 echo '--- files'
 cotree -q -e 'import spice "nowhere.cir"' 2>&1
 cotree -q -e 'import foo "whole.cir"' 2>&1
