@@ -210,48 +210,6 @@ Status session_prepare(ct_session *session, Need need, View *view, Diag *diag)
                                   : OK;
 }
 
-/* full turns of the start, of each sum of angles; new */
-static int *turns_of_start(const System *system, const Result *start)
-{
-    const int count = system_whole_turns_count(system);
-    int *turns = NEW_ARRAY(int, count);
-
-    for (int i = 0; i < count; i++)
-        turns[i] = result_full_turns(start, system_whole_turns(system, i)->symbol);
-    return turns;
-}
-
-Status session_prepare_formulas(ct_session *session, Need need, View *view, Diag *diag)
-{
-    Diag why = {0};
-    Run *start = NULL;
-    int *turns = NULL;
-    Status status;
-
-    TRY(session_prepare(session, need, view, diag));
-    if (view->system == NULL || !system_reads_turns(view->system))
-        return OK;
-    status = session_start(session, &start, &why);
-    if (status == E_STOPPED || status == E_MEMORY)
-        return diag_set(diag, status, "%s", why.message);
-    session_begin(session); /* the report is that of what is written */
-    TRY(session_prepare(session, need, view, diag));
-    if (status == OK)
-        turns = turns_of_start(view->system, start->result);
-    else
-        session_remark(session, "full turns of angles are left out: there is no start that chooses "
-                                "them");
-    system_show_turns(view->system, turns);
-    mem_free(turns);
-    return OK;
-}
-
-void session_end_formulas(const View *view)
-{
-    if (view->system != NULL && system_whole_turns_count(view->system) > 0)
-        system_show_turns(view->system, NULL);
-}
-
 void session_note_freedoms(ct_session *session, const Result *result)
 {
     if (system_revision(result_system(result)) != model_revision(session->model))
