@@ -1,13 +1,15 @@
 /* session_figures.c: functions of a whole run: max(h8), mean, rms, final, first, settling, period
  *
- * Extremes are those of the rows that were asked for, as the csv has them. The others are of the
- * motion: the course of the argument is read between rows from the dense output, in pieces as short
- * as the integrator's steps and never across an event. Means are quadratures, halved until halves
- * agree; instants are closed in on. */
+ * All are of the motion: the course of the argument is read between rows from the dense output, in
+ * pieces as short as the integrator's steps and never across an event. Means are quadratures,
+ * halved until halves agree; extremes are searched about the largest samples and rows; instants are
+ * closed in on.
+ */
 #include "session/session_impl.h"
 
 #include <assert.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum {
@@ -16,7 +18,11 @@ enum {
     MOST = 40000,  /* pieces */
     HALVINGS = 10, /* of a piece; a kink within is then some 1e-3 of it, */
     SHORT = 5,     /* these pieces are short, and what kinks and jumps within add up to is less */
-    CLOSER = 16    /* rounds of SAMPLES instants for an instant, each a tenth as long */
+    CLOSER = 16,   /* rounds of SAMPLES instants for an instant, each a tenth as long */
+    PEAKS = 8,     /* that an extreme is searched in, */
+    PASSES = 4,    /* so often, */
+    ABOUT = 16     /* with so many instants each, evenly spaced, and those of a parabola's top and a
+                      corner */
 };
 #define INSIDE 1e-9  /* of a piece: how far within it its ends are taken */
 #define AGREE  1e-12 /* of the mean size: halves of a piece that differ by less agree */
@@ -25,6 +31,8 @@ enum {
 #define WEIGHS 1e-3  /* and to so much of the whole, */
 #define NARROW 1e-2  /* within so little of the span; */
 #define NOISY  0.25  /* what is rough in so much of it, in short pieces, is rounding of what is 0 */
+#define POLAR  2     /* times as large in each pass: a pole */
+#define APART  1e-6  /* of its neighbour's: so short an interval spans a corner */
 #define EVEN   0.1   /* crossings that are further from even tell no period */
 
 static const double nodes[POINTS] = {
@@ -164,7 +172,7 @@ static Status refuse_pole(const Course *course, const Pieces *halves, Diag *diag
     (void)diag_at(diag, E_VALUE, course->call->place,
                   "near t = %.6g s it grows without bound, and has no mean",
                   (most->a + most->b) / 2);
-    diag_hint(diag, "'max' and 'min' are those of the rows; if(.., .., ..) leaves an instant out");
+    diag_hint(diag, "if(.., .., ..) leaves an instant out");
     return E_VALUE;
 }
 
@@ -246,22 +254,206 @@ static Status figure_rms(const Course *course, double band, double *out, Diag *d
 
 /* --- extremes --- */
 
-/* The largest of sign * value among the rows, which hold both sides of an event: an extreme is what
- * the table and the csv show. NAN where a row has no value. */
-static Status extreme(const Course *course, double sign, double *out, Diag *diag)
+/* f(t) of a peak at three instants, the middle one the largest; f has the sign for which the
+ * extreme is the largest. `reach` is the top of the parabola through them, which is at `top`. */
+typedef struct Peak {
+    double t[3], f[3];
+    double top, reach;
+    double corner; /* where lines from both sides meet; t[1]: unknown */
+} Peak;
+
+typedef struct Peaks { /* those that reach highest, falling */
+    Peak at[PEAKS];
+    int count;
+} Peaks;
+
+/* From t_1, with d_k = t_k - t_1 and s_k = (f_k - f_1)/d_k, k = 0, 2: f = f_1 + b x + c x^2 with
+ * c = (s_2 - s_0)/(d_2 - d_0) and b = s_0 - c d_0; at the top x = -b/(2 c), f - f_1 = -b^2/(4 c).
+ */
+static void peak_fit(Peak *peak)
 {
-    const int rows = result_rows(course->grid->result);
-    double *values = NEW_ARRAY(double, rows), best = -INFINITY;
+    const double before = peak->t[0] - peak->t[1], after = peak->t[2] - peak->t[1];
+    const double rise = (peak->f[0] - peak->f[1]) / before;
+    const double fall = (peak->f[2] - peak->f[1]) / after;
+    const double c = (fall - rise) / (after - before), b = rise - c * before;
+
+    peak->top = peak->corner = peak->t[1];
+    peak->reach = peak->f[1];
+    if (before < 0 && after > 0 && c < 0) {
+        peak->top = fmin(fmax(peak->t[1] - b / (2 * c), peak->t[0]), peak->t[2]);
+        peak->reach -= b * b / (4 * c);
+    }
+}
+
+static void peaks_add(Peaks *peaks, const Peak *peak)
+{
+    int k = peaks->count;
+
+    for (; k > 0 && peaks->at[k - 1].reach < peak->reach; k--)
+        if (k < PEAKS)
+            peaks->at[k] = peaks->at[k - 1];
+    if (k < PEAKS)
+        peaks->at[k] = *peak;
+    peaks->count = peaks->count < PEAKS ? peaks->count + 1 : PEAKS;
+}
+
+/* f about f_k, no less than its neighbours; of two instants at a corner the further one counts */
+static void peak_about(const double *t, const double *f, int count, int k, Peak *peak)
+{
+    int before = k > 0 ? k - 1 : k, after = k < count - 1 ? k + 1 : k;
+
+    if (before > 0 && t[k] - t[before] < APART * (t[before] - t[before - 1]) &&
+        f[before - 1] <= f[k])
+        before--;
+    if (after < count - 1 && t[after] - t[k] < APART * (t[after + 1] - t[after]) &&
+        f[after + 1] <= f[k])
+        after++;
+    *peak = (Peak){.t = {t[before], t[k], t[after]}, .f = {f[before], f[k], f[after]}};
+    peak_fit(peak);
+}
+
+/* where the lines through f_{k-2}, f_{k-1} and through f_{k+1}, f_{k+2} meet between those */
+static void peak_find_corner(Peak *peak, const double *t, const double *f, int count, int k)
+{
+    double rise, fall, corner;
+
+    if (k < 2 || k + 2 >= count)
+        return;
+    rise = (f[k - 1] - f[k - 2]) / (t[k - 1] - t[k - 2]);
+    fall = (f[k + 2] - f[k + 1]) / (t[k + 2] - t[k + 1]);
+    corner = t[k - 1] + (f[k + 1] - f[k - 1] - fall * (t[k + 1] - t[k - 1])) / (rise - fall);
+    if (corner > peak->t[0] && corner < peak->t[2])
+        peak->corner = corner;
+}
+
+static int compare_times(const void *a, const void *b)
+{
+    const double one = *(const double *)a, other = *(const double *)b;
+
+    return (one > other) - (one < other);
+}
+
+/* rising instants within all peaks; how many */
+static int peaks_times(const Peaks *peaks, double *times)
+{
+    int count = 0, kept = 0;
+
+    for (int k = 0; k < peaks->count; k++) {
+        const Peak *peak = &peaks->at[k];
+
+        for (int i = 1; i <= ABOUT; i++)
+            times[count++] = peak->t[0] + (peak->t[2] - peak->t[0]) * i / (ABOUT + 1);
+        times[count++] = peak->top;
+        times[count++] = peak->corner;
+    }
+    qsort(times, (size_t)count, sizeof *times, compare_times);
+    for (int i = 0; i < count; i++)
+        if (kept == 0 || times[i] > times[kept - 1])
+            times[kept++] = times[i];
+    return kept;
+}
+
+/* A peak, about its largest value among those at `times`. */
+static void peak_narrow(Peak *peak, const double *times, const double *values, int count)
+{
+    double t[PEAKS * (ABOUT + 2) + 3], f[PEAKS * (ABOUT + 2) + 3];
+    int length = 0, k = 0;
+
+    t[length] = peak->t[0];
+    f[length++] = peak->f[0];
+    for (int i = 0; i < count; i++)
+        if (times[i] > peak->t[0] && times[i] < peak->t[2]) {
+            t[length] = times[i];
+            f[length++] = values[i];
+        }
+    t[length] = peak->t[2];
+    f[length++] = peak->f[2];
+    for (int i = 0; i < length; i++)
+        k = f[i] > f[k] ? i : k;
+    if (f[k] >= peak->f[1]) {
+        peak_about(t, f, length, k, peak);
+        peak_find_corner(peak, t, f, length, k);
+    }
+}
+
+/* one pass over the course within all peaks */
+static Status peaks_search(const Course *course, double sign, Peaks *peaks, Diag *diag)
+{
+    double times[PEAKS * (ABOUT + 2)], values[PEAKS * (ABOUT + 2)];
+    const int count = peaks_times(peaks, times);
+
+    TRY(course_at(course, times, count, values, diag));
+    for (int i = 0; i < count; i++)
+        values[i] *= sign;
+    for (int k = 0; k < peaks->count; k++)
+        peak_narrow(&peaks->at[k], times, values, count);
+    return OK;
+}
+
+/* The largest of sign * value among the rows, which hold both sides of an event, and the samples;
+ * and where the samples have peaks. NAN where a row or a sample has no value. */
+static Status sampled_extreme(const Course *course, double sign, double *best, Peaks *peaks,
+                              Diag *diag)
+{
+    const int rows = result_rows(course->grid->result), count = course->values.count;
+    double *values = NEW_ARRAY(double, rows), *f = NEW_ARRAY(double, count);
     Status status;
 
+    *best = -INFINITY;
     CHECK(formula_rows(course->session, course->formula, 1, course->grid, course->source, NULL,
                        rows, values, 1, 0, diag));
-    for (int i = 0; i < rows && !isnan(best); i++)
-        best = isnan(values[i]) ? NAN : fmax(best, sign * values[i]);
-    *out = sign * best;
+    for (int i = 0; i < rows && !isnan(*best); i++)
+        *best = isnan(values[i]) ? NAN : fmax(*best, sign * values[i]);
+    for (int i = 0; i < count && !isnan(*best); i++) {
+        f[i] = sign * course->values.at[i];
+        *best = isnan(f[i]) ? NAN : fmax(*best, f[i]);
+    }
+    for (int i = 0; i < count && !isnan(*best); i++) {
+        Peak peak;
+
+        if ((i > 0 && f[i - 1] >= f[i]) || (i < count - 1 && f[i + 1] > f[i]))
+            continue;
+        peak_about(course->times.at, f, count, i, &peak);
+        if (peak.f[0] < peak.f[1] || peak.f[2] < peak.f[1])
+            peaks_add(peaks, &peak);
+    }
 done:
-    mem_free(values);
+    MEM_FREE(values, f);
     return status;
+}
+
+static Status refuse_growth(const Course *course, double t, Diag *diag)
+{
+    (void)diag_at(diag, E_VALUE, course->call->place,
+                  "near t = %.6g s it grows without bound, and has no extreme", t);
+    diag_hint(diag, "if(.., .., ..) leaves an instant out");
+    return E_VALUE;
+}
+
+/* the largest of sign * value, times sign; NAN where a row or a sample has no value */
+static Status extreme(const Course *course, double sign, double *out, Diag *diag)
+{
+    Peaks peaks = {0};
+    bool grows[PEAKS];
+    double best;
+
+    TRY(sampled_extreme(course, sign, &best, &peaks, diag));
+    memset(grows, true, sizeof grows);
+    for (int pass = 0; pass < PASSES && peaks.count > 0 && isfinite(best); pass++) {
+        const Peaks before = peaks;
+
+        TRY(peaks_search(course, sign, &peaks, diag));
+        for (int k = 0; k < peaks.count; k++)
+            grows[k] =
+                grows[k] && before.at[k].f[1] > 0 && peaks.at[k].f[1] > POLAR * before.at[k].f[1];
+    }
+    for (int k = 0; k < peaks.count && isfinite(best); k++) {
+        if (grows[k] && peaks.at[k].f[1] > best)
+            return refuse_growth(course, peaks.at[k].t[1], diag);
+        best = fmax(best, peaks.at[k].f[1]);
+    }
+    *out = sign * best;
+    return OK;
 }
 
 static Status figure_max(const Course *course, double band, double *out, Diag *diag)
@@ -403,15 +595,13 @@ static Status figure_period(const Course *course, double band, double *out, Diag
 typedef struct Figure {
     const char *name;
     int args;
-    bool samples; /* of the motion, not of its rows alone */
     Status (*value)(const Course *course, double band, double *out, Diag *diag);
 } Figure;
 
 static const Figure figures[] = {
-    {"min", 1, false, figure_min},      {"max", 1, false, figure_max},
-    {"mean", 1, true, figure_mean},     {"rms", 1, true, figure_rms},
-    {"final", 1, true, figure_final},   {"first", 1, true, figure_first},
-    {"period", 1, true, figure_period}, {"settling", 2, true, figure_settling},
+    {"min", 1, figure_min},       {"max", 1, figure_max},           {"mean", 1, figure_mean},
+    {"rms", 1, figure_rms},       {"final", 1, figure_final},       {"first", 1, figure_first},
+    {"period", 1, figure_period}, {"settling", 2, figure_settling},
 };
 
 static const Figure *find_figure(const Syntax *syntax)
@@ -439,8 +629,7 @@ Status figure_value(ct_session *session, const Syntax *call, const Formula *argu
     *out = NAN;
     if (result_rows(course.grid->result) == 0)
         return OK;
-    if (figure->samples)
-        CHECK(course_sample(&course, diag));
+    CHECK(course_sample(&course, diag));
     CHECK(figure->value(&course, band, out, diag));
 done:
     course_free(&course);

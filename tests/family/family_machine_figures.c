@@ -1,8 +1,8 @@
 /* family_machine_figures.c: figures taken over runs of machines, and rows that are written of them,
  * against equations of another kind
  *
- * Of machines of machine_draw.h: mean, rms, final of the motion, min and max of its rows, the first
- * instant at which something holds, and csv, against Simpson's rule and samples of the oracle of
+ * Of machines of machine_draw.h: mean, rms, final, min and max of the motion, the first instant
+ * at which something holds, and csv, against Simpson's rule and samples of the oracle of
  * machine.h. Runs have few rows, so that what is of the motion can't be of the rows. */
 #include "machine_whole.h"
 
@@ -90,21 +90,35 @@ static bool means_are(Member *member, Kit *kit, const Samples *s, int i, int oth
     return figure_is(member, kit, text, product, both, 1e-5 + 2 * open_product);
 }
 
+/* The largest of sign times samples of a motion between them: that of the parabolas through each
+ * three, and with every second sample alone, which differs by what they leave open. */
+static double largest_of(const double *x, double sign, int apart)
+{
+    double most = fmax(sign * x[0], sign * x[SAMPLES]);
+
+    for (int k = apart; k + apart <= SAMPLES; k += apart) {
+        const double a = sign * x[k - apart], b = sign * x[k], c = sign * x[k + apart];
+
+        most = fmax(most, b);
+        if (b >= a && b >= c && 2 * b > a + c)
+            most = fmax(most, b + (c - a) * (c - a) / (8 * (2 * b - a - c)));
+    }
+    return most;
+}
+
 static bool extremes_are(Member *member, Kit *kit, const Samples *s, int i)
 {
-    double least = INFINITY, most = -INFINITY;
+    const double *x = s->at[i];
     char text[100];
 
-    for (int k = 0; k <= SAMPLES; k += ROWS_APART) {
-        least = fmin(least, s->at[i][k]);
-        most = fmax(most, s->at[i][k]);
+    for (int sign = -1; sign <= 1; sign += 2) {
+        const double most = largest_of(x, sign, 1);
+        const double open = fabs(most - largest_of(x, sign, 2)) / s->scale[i];
+
+        (void)snprintf(text, sizeof text, "%s(%s)", sign < 0 ? "min" : "max", s->name[i]);
+        if (!figure_is(member, kit, text, sign * most, s->scale[i], 1e-5 + 2 * open))
+            return false;
     }
-    (void)snprintf(text, sizeof text, "min(%s)", s->name[i]);
-    if (!figure_is(member, kit, text, least, s->scale[i], 1e-5))
-        return false;
-    (void)snprintf(text, sizeof text, "max(%s)", s->name[i]);
-    if (!figure_is(member, kit, text, most, s->scale[i], 1e-5))
-        return false;
     (void)snprintf(text, sizeof text, "final(%s)", s->name[i]);
     return figure_is(member, kit, text, s->at[i][SAMPLES], s->scale[i], 1e-5);
 }
