@@ -16,7 +16,7 @@ static void the_cause_is_named_at_its_place(void)
         {SWINGS "simulate 1\nbody b mass=1 inertia=1\n", "table h b.x", 9, "'b.x' came after the run", "next run"},
         {SWINGS "simulate 1\nbody b mass=1 inertia=1\n", "plot h (2*b.x)", 11, "'b.x' came after the run", "next run"},
         {SWINGS "simulate 1\nbody b mass=1 inertia=1\n", "linearize at=0.5 outputs=[h, b.x]", 30, "'b.x' came after the run", "next run"},
-        {SWINGS "simulate 1\nsimulate 2\n", "print max(run1.h - run2.h)", 7, "run1 has no value at t = 1.004 s: it goes from 0 to 1 s", "the last of them"},
+        {SWINGS "simulate 1\nsimulate 2\n", "print max(run1.h - run2.h)", 7, "run1 has no value at t = 1.0", "the last of them"},
         {SWINGS "simulate 1\nsimulate 2\n", "table run2.h run1.h", 14, "run1 has no value at t = 1.004 s", "the last of them"},
         {"scene planar\nbody m1 mass=1\nrevolute h1 ground m1\n", "simulate 1", 1, "what h1 moves has no mass or inertia", "inertia=0.1"},
         {"body m1 mass=1\nrevolute h1 ground m1\n", "simulate 1", 1, "what h1 moves has no mass or inertia", "inertia=[0.1, 0.2, 0.2]"},
@@ -109,9 +109,16 @@ static void drivers_that_lead_too_far_are_named(void)
  * is named, and a way out. */
 static void what_limits_the_step_is_named(void)
 {
-    static const char *const names[] = {"dop853", "radau", "bdf", "adams", "ida"};
+    static const char limit[] = "the error of s' limits it, F pushes hardest";
+    static const struct {
+        const char *name, *message, *hint;
+    } methods[] = {{"dop853", limit, "rtol="},
+                   {"radau", "below what rounding leaves of the accelerations", "method=bdf"},
+                   {"bdf", limit, "rtol="},
+                   {"adams", limit, "rtol="},
+                   {"ida", limit, "rtol="}};
 
-    for (int i = 0; i < COUNT(names); i++) {
+    for (int i = 0; i < COUNT(methods); i++) {
         Kit kit = kit_new();
         char run[60];
 
@@ -120,10 +127,10 @@ static void what_limits_the_step_is_named(void)
                           "prismatic s ground b axis=x\n"
                           "actuator F s force=-1e2*abs(s)^-0.5*tanh(1e16*s)\n"
                           "init s = 0.3, s' = 0.1\n");
-        (void)snprintf(run, sizeof run, "simulate 5 method=%s", names[i]);
+        (void)snprintf(run, sizeof run, "simulate 5 method=%s", methods[i].name);
         EXPECT(kit_do(&kit, run) != CT_OK);
-        EXPECT_HOLDS(kit.error.message, "the error of s' limits it, F pushes hardest");
-        EXPECT_HOLDS(kit.error.hint, "rtol=");
+        EXPECT_HOLDS(kit.error.message, methods[i].message);
+        EXPECT_HOLDS(kit.error.hint, methods[i].hint);
         kit_free(&kit);
     }
 }

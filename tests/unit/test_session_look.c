@@ -410,7 +410,7 @@ static void info_tells_what_can_be_asked_of_a_part(void)
     static const struct {
         const char *line, *asked;
     } parts[] = {
-        {"info M1", "M1.v [V], M1.i [A], M1.power [W], M1.torque [N*m]\n"},
+        {"info M1", "M1.v [V], M1.i [A], M1.power [W], M1.torque [N*m]"},
         {"info V1", "V1.v [V], V1.i [A], V1.power [W]\n"},
         {"info S1", "S1.effort [N*m]\n"},
         {"info S2", "S2.effort [N]\n"},

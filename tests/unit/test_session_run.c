@@ -366,7 +366,7 @@ static void csv_has_a_header_and_reads_back_to_the_last_bit(void)
     ct_free(text);
     ct_statement_free(statement);
     /* from the assembled start one row */
-    EXPECT_DONE(&kit, "init h = 0.5\nexport csv");
+    EXPECT_DONE(&kit, "init h = 0.5\nexport csv start");
     EXPECT_TEXT(kit.text, "t,h,h'\n0,0.5,0\n");
     kit_free(&kit);
 }

@@ -81,7 +81,7 @@ static void energy_does_not_creep(void)
                           "keep once = max(energy.total) - min(energy.total)\n"
                           "simulate 500 every=0.1 method=symplectic step=0.05\n"
                           "expect max(energy.total) - min(energy.total) < 3*once\n"
-                          "expect once < 1e-6");
+                          "expect once < 1e-5");
         kit_free(&kit);
     }
 }

@@ -64,12 +64,13 @@ static int expect_members(const Model *model, const Instance *part)
                                  ? part->coord_count > 0 && part->coord_kind[0] == COORDINATE_ANGLE
                                  : part->on_angle;
         const char *unit = is_effort ? (is_turn ? "N*m" : "N") : member->unit;
-        char name[100];
+        char name[100], chosen[60];
 
         if (unit == NULL)
             continue;
+        choose_unit(chosen, sizeof chosen, unit, part->on_angle);
         (void)snprintf(name, sizeof name, "%s.%s", part->name, member->name);
-        expect_variable(model, name, unit, member->primes);
+        expect_variable(model, name, chosen, member->primes);
         known++;
     }
     return known;

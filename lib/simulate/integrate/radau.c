@@ -80,9 +80,9 @@ typedef struct Radau {
     double contraction;
     bool was_rejected;
     /* of Newton's method with a Jacobian at each stage; NULL until one is needed */
-    Lu *whole;         /* 3n x 3n */
+    Lu *whole, *end;   /* 3n x 3n; n x n: g/h - J_3 */
     double *jacobians; /* 3 x all x n: rows of y' by n */
-    bool is_turning;   /* the simplified one failed: it isn't taken again until a restart */
+    bool is_turning;   /* the simplified one failed: this one is taken first */
 } Radau;
 
 typedef enum StepOutcome { CONVERGED, DIVERGED, UNDEFINED } StepOutcome;
@@ -116,6 +116,7 @@ static void destroy(Stepper *stepper)
     if (stepper != NULL) {
         shifted_free(((Radau *)stepper)->shifted);
         lu_free(((Radau *)stepper)->whole);
+        lu_free(((Radau *)stepper)->end);
     }
     stepper_free(stepper);
 }
@@ -299,6 +300,7 @@ static StepOutcome solve_stages_whole(Radau *r, double h, int *used)
 
     if (r->whole == NULL) {
         r->whole = lu_new(3 * n);
+        r->end = lu_new(n);
         r->jacobians = stepper_numbers(&r->base, 3 * all * n);
     }
     for (int it = 1; it <= ITERATIONS; it++) {
@@ -410,6 +412,33 @@ static double step_error(Radau *r, double h)
     return fmax(size / stepper_blur(&r->base), 1e-10);
 }
 
+/* The same by J_3: where stiff forces turn, J at the start filters out what isn't stiff at the end.
+ */
+static double error_at_end(Radau *r, double h)
+{
+    const int n = r->n;
+    double *a;
+
+    if (!r->is_turning)
+        return 0;
+    a = lu_matrix(r->end);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++)
+            a[i * n + j] = (i == j ? EIGENVALUE / h : 0) -
+                           r->jacobians[(ptrdiff_t)2 * r->all * n + (ptrdiff_t)i * n + j];
+    if (!lu_factor(r->end))
+        return HUGE_VAL;
+    for (int i = 0; i < n; i++) {
+        double sum = 0;
+
+        for (int k = 0; k < 3; k++)
+            sum += embedded[k] * r->z[k * r->all + i];
+        r->error[i] = r->old_rate[i] + sum / h;
+    }
+    lu_solve(r->end, r->error);
+    return scaled_norm(r, r->error, 1) / stepper_blur(&r->base);
+}
+
 /* Error of the cubic that is read within the step, in units of the tolerance. The embedded formula
  * hardly sees stiff parts, which are right at the stages whatever the step; between these the cubic
  * misses y(4)/24 s (s - c1) (s - c2) (s - 1) h^4, and y(4) is what the slopes of two cubics differ
@@ -510,7 +539,8 @@ static bool try_step(Radau *r, double *h, double end, int *failures)
         *h = (outcome == UNDEFINED ? RETREAT : 0.5) * tried;
         return false;
     }
-    error = fmax(step_error(r, tried), reading_error(r, tried) / READ);
+    error =
+        fmax(fmax(step_error(r, tried), error_at_end(r, tried)), reading_error(r, tried) / READ);
     factor_of = SAFETY * (2.0 * ITERATIONS + 1) / (2.0 * ITERATIONS + used) * pow(error, -0.25);
     factor_of = fmin(r->was_rejected ? 1 : GROW, fmax(SHRINK, factor_of));
     if (!(error < 1)) {

@@ -338,7 +338,9 @@ static void add_limiting(RunEnd *e, Stepper *stepper, const char *hardest, Diag 
         add_cause(diag, ", ", hardest, "pushes hardest");
     if (diag->hint[0] != '\0')
         return;
-    if (stepper->method != stiff)
+    if (stepper->method->has_fixed_step)
+        (void)snprintf(other, sizeof other, "a shorter step= or ");
+    else if (stepper->method != stiff)
         (void)snprintf(other, sizeof other, "method=%s or ", stiff->name);
     diag_hint(diag,
               "%sa larger rtol= may get further; else look at what acts on %s: a law that jumps or "
