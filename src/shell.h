@@ -33,7 +33,7 @@ typedef struct Shell {
     int unmet;
     int unsolved;     /* of the statements that failed: those whose computation did */
     bool is_unsolved; /* the last one that failed */
-    int dropping; /* line of the definition whose first line failed, up to its 'end'; 0: none */
+    int dropping;     /* line of the definition whose first line failed, up to its 'end'; 0: none */
 } Shell;
 
 void shell_open(Shell *shell);

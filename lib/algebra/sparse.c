@@ -8,10 +8,11 @@
 #include <math.h>
 #include <string.h>
 
-#define SMALL 12   /* up to here dense factors are faster (make bench: algebra.sparse_*) */
-#define WORN  1e-3 /* of what they were chosen for: growth that gives up an earlier matrix' pivots \
-                    */
-#define OFTEN 4    /* solutions with the same factors, from which on they are unpacked */
+#define SMALL 12 /* up to here dense factors are faster (make bench: algebra.sparse_*) */
+#define WORN                                                                                       \
+    1e-3        /* of what they were chosen for: growth that gives up an earlier matrix' pivots    \
+                 */
+#define OFTEN 4 /* solutions with the same factors, from which on they are unpacked */
 
 /* KLU's factors for many solutions, LU + F = P (R \ A) Q: it keeps them so that they are found
  * fast, with a division an unknown and all blocks apart. Here rows: of L, and of F before them, and

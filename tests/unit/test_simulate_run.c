@@ -697,7 +697,6 @@ static void a_long_line_of_resistors_is_handed_over(void)
     script_close(&script);
 }
 
-
 static void every_method_has_a_line_of_help(void)
 {
     const char *brief = NULL;

@@ -256,7 +256,10 @@ bool phase_states(Phase *phase, double t, const double *y, int count, RowValues 
     return true;
 }
 
-bool phase_driven_row(Phase *phase, double t, const double *y, const double *driven, RowValues *out)
+/* The same at a row of a driven run, where x', z, u', lambda and efforts are known: its block, or
+ * NULL to solve. */
+static bool driven_row(Phase *phase, double t, const double *y, const double *driven,
+                       RowValues *out)
 {
     const Layout *l = phase->layout;
 
@@ -305,7 +308,7 @@ void phase_probe_at(Phase *phase, Probe *probe, double t, const double *y, const
         phase_enter(phase);
         row = row_of_state(phase->layout, t, y);
         memcpy(out, probe_values(probe, &row), (size_t)count * sizeof(double));
-    } else if (phase_driven_row(phase, t, y, driven, &row))
+    } else if (driven_row(phase, t, y, driven, &row))
         memcpy(out, probe_values(probe, &row), (size_t)count * sizeof(double));
     else
         probe_unsolved(phase, probe, t, y, count, out);

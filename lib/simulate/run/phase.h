@@ -70,10 +70,6 @@ MUST_USE Status phase_choose_method(const Phase *phase, double t, const double *
                                     const Control *control, const Method **method, Diag *diag);
 /* Everything at (t, y). False: no solution. */
 bool phase_row(Phase *phase, double t, const double *y, RowValues *out);
-/* The same at a row of a driven run, where x', z, u', lambda and efforts are known: its block, or
- * NULL to solve. */
-bool phase_driven_row(Phase *phase, double t, const double *y, const double *driven,
-                      RowValues *out);
 /* The values of a probe there, `count` of them: NAN where the equations have no solution. */
 void phase_probe_at(Phase *phase, Probe *probe, double t, const double *y, const double *driven,
                     int count, double *out);
