@@ -141,7 +141,7 @@ static void add_parts(Machine *m, Text *text)
     if (m->is_in_use)
         text_add(text, "subsystem s\n");
     for (int i = 0; i < m->count; i++) {
-        char tail[8], name[8];
+        char tail[16], name[16];
 
         text_addf(text, "body m%d mass=1 inertia=%s\n", i,
                   m->is_held_at_centre ? "[0.4, 0.4, 0.4]" : "[0.3, 0.4, 0.5]");

@@ -128,7 +128,7 @@ static const char *across(const Net *net)
     return net->hydraulic ? "p" : "v";
 }
 
-static void node_name(char out[8], int node)
+static void node_name(char out[32], int node)
 {
     (void)snprintf(out, 8, node == 0 ? "0" : "n%d", node);
 }
@@ -147,7 +147,7 @@ static void write_model(const Net *net, Script *s)
         write_line(s, "%s C%d n%d 0 C=%.17g", water ? "tank" : "capacitor", k, k, net->C[k]);
     for (int k = 0; k < net->links; k++) {
         const Link *link = &net->link[k];
-        char to[8];
+        char to[32];
 
         node_name(to, link->to);
         if (link->is_coil)
@@ -174,7 +174,7 @@ static void write_model(const Net *net, Script *s)
 /* a spanning tree of the edges in random order; node NODES + 1 is the source's */
 static void write_tree(Member *m, const Net *net, Script *s)
 {
-    char name[EDGES][8];
+    char name[EDGES][32];
     int ends[EDGES][2], order[EDGES], joined[NODES + 2], count = 0;
 
 #define EDGE(from, to, ...)                                                                        \
@@ -214,7 +214,7 @@ static bool states_agree(Member *m, Kit *kit, const Net *net, const double *righ
                          const char *what)
 {
     double off = fabs(kit_value(kit, "h") - right[net->nodes + net->links]);
-    char name[16];
+    char name[32];
 
     off = fmax(off, fabs(kit_value(kit, "h'") - right[net->nodes + net->links + 1]));
     for (int k = 0; k < net->nodes; k++) {
