@@ -243,7 +243,7 @@ static bool find_argument(const MeasureWalk *w, const char *name, Measure *out)
 
 static const Definition *find_definition(const State *state, const char *name)
 {
-    const Thing *thing = state_thing(state, name);
+    const Thing *thing = state_value_thing(state, name);
 
     return thing != NULL && thing->kind == THING_DEFINITION ? &state->definitions.at[thing->index]
                                                             : NULL;

@@ -374,7 +374,7 @@ int model_parameter_count(const Model *model)
 
 Expr model_parameter(const Model *model, int i, Expr *definition)
 {
-    const Definition *d = &model->state->definitions.at[model->state->parameters.at[i]];
+    const Definition *d = &model->state->definitions.at[model->state->parameters.at[i].index];
 
     if (definition != NULL)
         *definition = d->body;
@@ -384,15 +384,14 @@ Expr model_parameter(const Model *model, int i, Expr *definition)
 static double symbol_value(void *context, Expr symbol)
 {
     State *state = context;
-    const Thing *thing;
+    const Definition *d;
 
     if (expr_name(symbol)[0] == '#')
         return state_literal(state, expr_name(symbol));
-    thing = state_thing(state, expr_name(symbol));
-    if (expr_symbol_kind(symbol) != SYMBOL_PARAMETER || thing == NULL ||
-        thing->kind != THING_DEFINITION)
+    d = definition_find(state, expr_name(symbol), DEFINES_PARAMETER);
+    if (expr_symbol_kind(symbol) != SYMBOL_PARAMETER || d == NULL)
         return (double)NAN;
-    return definition_value(state, thing->index);
+    return definition_value(state, definition_index(state, d));
 }
 
 double model_parameter_value(const Model *model, Expr symbol)

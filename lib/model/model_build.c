@@ -450,6 +450,7 @@ Status apply_component(State **state, const Statement *statement, Outcome *outco
     own_coordinates(&draft);
     if (draft.coordinate_names != NULL)
         CHECK(rename_coordinates(&draft));
+    CHECK(part_can_share(*state, draft.part, statement->operands.at[0].place, diag));
     CHECK(part_check_plane(*state, draft.part, direction_place(&draft), diag));
     status = part_check(draft.state, draft.part, &outcome->remarks, diag);
     if (status != OK && diag != NULL && diag->place.line == 0)

@@ -84,7 +84,10 @@ int definition_add(State *state, Definition d, const char *text, const Scope *sc
     d.name = state_text(state, d.name);
     d.line = line_add(state, text, index, -1, scope);
     LIST_PUSH(state->definitions, d);
-    state_name(state, d.name, THING_DEFINITION, index, 0);
+    if (d.kind == DEFINES_PARAMETER)
+        state_name_parameter(state, d.name, index);
+    else
+        state_name(state, d.name, THING_DEFINITION, index, 0);
     return index;
 }
 
@@ -93,7 +96,8 @@ static Status check_new_name(const State *state, const char *name, DefinitionKin
 {
     if (kind != DEFINES_PARAMETER && names_find(state->terminals, name) >= 0)
         return diag_at(diag, E_NAME, place, "'%s' is already a terminal", name);
-    return name_is_free(state, name, place, diag);
+    return kind == DEFINES_PARAMETER ? name_is_free_for_parameter(state, name, place, diag)
+                                     : name_is_free(state, name, place, diag);
 }
 
 /* The line of a definition says something new: make the state anew from its lines. On failure
@@ -229,15 +233,14 @@ Status apply_parameter(State **state, const Statement *statement, Outcome *outco
         status = change_parameter(state, d, body, measure, statement, &scope, text, outcome, diag);
         goto done;
     }
-    LIST_PUSH(s->parameters,
-              definition_add(
-                  s,
-                  (Definition){.kind = DEFINES_PARAMETER,
-                               .name = statement->name,
-                               .symbol = expr_symbol(s->arena, statement->name, SYMBOL_PARAMETER),
-                               .body = body,
-                               .measure = measure},
-                  text, &scope));
+    (void)definition_add(
+        s,
+        (Definition){.kind = DEFINES_PARAMETER,
+                     .name = statement->name,
+                     .symbol = expr_symbol(s->arena, statement->name, SYMBOL_PARAMETER),
+                     .body = body,
+                     .measure = measure},
+        text, &scope);
 done:
     LIST_FREE(scope.uses);
     mem_free(text);

@@ -135,8 +135,10 @@ typedef struct State {
     Expr gravity[3];
     const char *title;
     Graph *graph;
-    Names *names;
+    Names *names;       /* of all but parameters: a part may have a parameter's name */
     LIST(Thing) things; /* by number in `names` */
+    Names *parameter_names;
+    LIST(Thing) parameters; /* definitions, by number in `parameter_names`, in order of making */
     Names *terminals;
     NumberList terminal_nodes;
     int datum[DOMAIN_COUNT]; /* nodes; -1 until needed */
@@ -144,8 +146,7 @@ typedef struct State {
     NumberList couplings; /* of parts, among these */
     NumberList edge_owner;
     LIST(Definition) definitions;
-    NumberList parameters; /* definitions, in order of making */
-    NumberList outputs;
+    NumberList outputs; /* definitions, in order of making */
     NumberList events;
     LIST(Line) lines;
     Choice choices[TREE_KINDS];
@@ -167,7 +168,7 @@ typedef struct State {
     int number;           /* how many the model had before this one */
 } State;
 
-/* what a statement changed */
+/* what a statement changed, from little to much */
 typedef enum Effect { EFFECT_NONE, EFFECT_VALUES, EFFECT_EQUATIONS } Effect;
 
 typedef struct Outcome {
@@ -184,12 +185,16 @@ void state_free(State *state); /* with those before it; NULL is fine */
 Apply state_apply;
 /* a copy in the state's pool */
 const char *state_text(State *state, const char *text);
-const Thing *state_thing(const State *state, const char *name); /* NULL */
+/* What a name stands for where a part may: a part before a parameter of its name; NULL: nothing. */
+const Thing *state_thing(const State *state, const char *name);
+/* what the bare name stands for in an expression: the parameter before a part of its name */
+const Thing *state_value_thing(const State *state, const char *name);
 const Instance *state_part(const State *state, const char *name);
 /* the part that a dotted name begins with, the first dot that ends one counting; what stands behind
  * the dot, or "", in *member. NULL: no part. */
 const Instance *state_owner(const State *state, const char *path, const char **member);
 void state_name(State *state, const char *name, ThingKind kind, int index, int coordinate);
+void state_name_parameter(State *state, const char *name, int definition);
 /* Put another state in the place of *state, which stays before it. */
 void state_replace(State **state, State *next);
 /* The graph or a choice changed. */
@@ -234,6 +239,13 @@ void state_place_start(State *state, int name, int place);
 const char *syntax_name(const Syntax *syntax);
 /* whether `name` can become a new name; `taken_as` is what it would be ("a parameter") */
 MUST_USE Status name_is_free(const State *state, const char *name, Place place, Diag *diag);
+/* the same of a new parameter, which may have the name of a part: unless that is a value, too */
+MUST_USE Status name_is_free_for_parameter(const State *state, const char *name, Place place,
+                                           Diag *diag);
+/* whether expressions take the bare name of the part for a variable, or easily could */
+bool part_is_value(const Instance *part);
+/* whether a new part, its coordinates known, can have its name where a parameter has it */
+MUST_USE Status part_can_share(const State *state, const Instance *part, Place place, Diag *diag);
 /* the node of a terminal; of a new name, a new one */
 int state_terminal(State *state, const char *name, Domain domain);
 Domain terminal_domain(const State *state, const char *name); /* of one that there is */

@@ -249,6 +249,7 @@ static void trim(State *state, const StateMark *mark)
     state->couplings.count = mark->couplings;
     state->edge_owner.count = mark->edge_owners;
     state->definitions.count = mark->definitions;
+    names_trim(state->parameter_names, mark->parameters);
     state->parameters.count = mark->parameters;
     state->outputs.count = mark->outputs;
     state->events.count = mark->events;
@@ -320,6 +321,7 @@ static void free_one(State *state)
     state_forget_trees(state);
     graph_free(state->graph);
     names_free(state->names);
+    names_free(state->parameter_names);
     names_free(state->terminals);
     names_free(state->start_names);
     LIST_FREE(state->things);

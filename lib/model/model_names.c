@@ -82,12 +82,12 @@ void name_describe(const State *state, const Thing *thing, Text *text)
 
 const char *state_name_at(const State *state, int i)
 {
-    int count = names_count(state->names);
+    const Names *const all[] = {state->parameter_names, state->names, state->terminals};
 
-    if (i < count)
-        return names_get(state->names, i);
-    return i - count < names_count(state->terminals) ? names_get(state->terminals, i - count)
-                                                     : NULL;
+    for (int k = 0; k < COUNT(all); i -= names_count(all[k++]))
+        if (i < names_count(all[k]))
+            return names_get(all[k], i);
+    return NULL;
 }
 
 Status name_unknown(const State *state, const char *what, const char *name, Place place, Diag *diag)
@@ -120,16 +120,21 @@ Status name_unknown(const State *state, const char *what, const char *name, Plac
     return E_NAME;
 }
 
+static Status check_reserved(const char *name, Place place, Diag *diag)
+{
+    if (!name_is_reserved(name))
+        return OK;
+    (void)diag_at(diag, E_NAME, place, "'%s' has a meaning of its own", name);
+    diag_hint(diag, "take another name");
+    return E_NAME;
+}
+
 Status name_is_free(const State *state, const char *name, Place place, Diag *diag)
 {
     const Thing *thing = state_thing(state, name);
     Text what = {0};
 
-    if (name_is_reserved(name)) {
-        (void)diag_at(diag, E_NAME, place, "'%s' has a meaning of its own", name);
-        diag_hint(diag, "take another name");
-        return E_NAME;
-    }
+    TRY(check_reserved(name, place, diag));
     if (thing == NULL)
         return OK;
     name_describe(state, thing, &what);
@@ -140,6 +145,45 @@ Status name_is_free(const State *state, const char *name, Place place, Diag *dia
         diag_hint(diag, "take another name, or: delete %s", name);
     text_free(&what);
     return E_NAME;
+}
+
+bool part_is_value(const Instance *part)
+{
+    return part->row->family == FAMILY_JOINT || part->row == &component_unknown ||
+           part->coord_count == 1;
+}
+
+static Status refuse_shared(const char *name, const char *is, const char *other, Place place,
+                            Diag *diag)
+{
+    Text what = {0};
+
+    article(&what, is);
+    text_add(&what, ", and ");
+    article(&what, other);
+    (void)diag_at(diag, E_NAME, place, "'%s' is already %s can't have the same name", name,
+                  what.at);
+    diag_hint(diag, "in an expression %s could be either; take another name, or: delete %s", name,
+              name);
+    text_free(&what);
+    return E_NAME;
+}
+
+Status name_is_free_for_parameter(const State *state, const char *name, Place place, Diag *diag)
+{
+    const Instance *part = state_part(state, name);
+
+    if (part == NULL)
+        return name_is_free(state, name, place, diag);
+    return part_is_value(part) ? refuse_shared(name, part->row->name, "parameter", place, diag)
+                               : OK;
+}
+
+Status part_can_share(const State *state, const Instance *part, Place place, Diag *diag)
+{
+    return part_is_value(part) && definition_find(state, part->name, DEFINES_PARAMETER) != NULL
+               ? refuse_shared(part->name, "parameter", part->row->name, place, diag)
+               : OK;
 }
 
 /* --- variables --- */

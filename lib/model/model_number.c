@@ -7,7 +7,8 @@
 
 Definition *definition_find(const State *state, const char *name, DefinitionKind kind)
 {
-    const Thing *thing = state_thing(state, name);
+    const Thing *thing =
+        kind == DEFINES_PARAMETER ? state_value_thing(state, name) : state_thing(state, name);
     Definition *d = thing != NULL && thing->kind == THING_DEFINITION
                         ? &state->definitions.at[thing->index]
                         : NULL;
@@ -95,7 +96,7 @@ double definition_value(State *state, int definition)
 void definitions_forget_values(State *state)
 {
     for (int i = 0; i < state->parameters.count; i++) {
-        Definition *d = &state->definitions.at[state->parameters.at[i]];
+        Definition *d = &state->definitions.at[state->parameters.at[i].index];
 
         if (!d->is_known)
             continue;

@@ -2,7 +2,8 @@
  *
  * What an instance leg1 makes is called leg1.NAME everywhere in the model, so that no other
  * part of cotree knows of subsystems. A name inside is, in this order: a law's argument, a word
- * of the language, a port, a name of its own, a parameter or law of the model. */
+ * of the language, a port, a name of its own, a parameter or law of the model. The bare name of a
+ * part that is no value leaves it to a parameter, its own or the model's. */
 #include "language/verbs.h"
 #include "model/model_impl.h"
 
@@ -16,7 +17,8 @@ typedef struct Renaming {
     const Statement *statement; /* a law's arguments hide other names */
     bool gives;                 /* it is of equations: efforts at ports are names of the inside */
     Diag *diag;
-    bool along; /* x is the place along a part */
+    bool along;  /* x is the place along a part */
+    bool places; /* names are those of parts, not of values */
 } Renaming;
 
 static const Use *use_of(const Renaming *r)
@@ -156,6 +158,15 @@ static bool is_models(const State *state, const char *name)
            definition_find(state, name, DEFINES_LAW) != NULL;
 }
 
+/* whether the bare name, which is known inside, can be that of a value */
+static bool is_value(const State *state, const char *name)
+{
+    const Thing *thing = state_value_thing(state, name);
+
+    return thing != NULL &&
+           (thing->kind != THING_PART || part_is_value(state->parts.at[thing->index]));
+}
+
 /* `first` is a path's first name, `rest` what follows it, with its dot */
 static Status path_of_port(const Renaming *r, int port, const char *rest, const char **out,
                            const char **number)
@@ -190,6 +201,7 @@ static Status rename_path(const Renaming *r, const char *path, Place place, cons
     const size_t length = strcspn(path, ".");
     const char *first = pool_text(r->pool, path, length);
     const int port = subsystem_port(use_of(r)->subsystem, first);
+    const char *own;
 
     *out = path;
     *number = NULL;
@@ -197,7 +209,9 @@ static Status rename_path(const Renaming *r, const char *path, Place place, cons
         return OK;
     if (port >= 0)
         return path_of_port(r, port, path + length, out, number);
-    if (is_known(r->state, own_name(r, first))) {
+    own = own_name(r, first);
+    if (is_known(r->state, own) && (r->places || path[length] != '\0' || is_value(r->state, own) ||
+                                    !is_models(r->state, path))) {
         *out = own_name(r, path);
         return OK;
     }
@@ -237,6 +251,14 @@ static bool is_axis(const Syntax *syntax)
            syntax->text[1] == '\0';
 }
 
+static Status rename_places(const Renaming *r, Syntax *syntax)
+{
+    Renaming places = *r;
+
+    places.places = true;
+    return rename_in(&places, syntax);
+}
+
 static Status rename_value(const Renaming *r, const Param *param, Syntax *syntax)
 {
     const ParamKind kind = param != NULL ? param->kind : PARAM_SCALAR;
@@ -260,7 +282,7 @@ static Status rename_terminal(const Renaming *r, Syntax *syntax)
     if (name == NULL || strcmp(name, "gnd") == 0 || strcmp(name, "ground") == 0)
         return OK;
     if (strchr(name, '.') != NULL)
-        return rename_in(r, syntax);
+        return rename_places(r, syntax);
     if (port >= 0)
         TRY(port_place(r, port, &place));
     syntax->text = place != NULL ? place : own_name(r, name);
@@ -295,10 +317,27 @@ static Status check_made_first(const Renaming *r, const Operand *name)
 
 /* --- statements --- */
 
+/* how many frames, joints or parts follow the name; values may come after them */
+static int named_places(const Component *row)
+{
+    switch (row->places) {
+    case PLACES_FROM:
+    case PLACES_ON:
+    case PLACES_TRANSDUCER:
+        return 1;
+    case PLACES_FRAMES:
+    case PLACES_LINK:
+    case PLACES_PARTS:
+        return 2;
+    default:
+        return 0;
+    }
+}
+
 static Status rename_component(const Renaming *r, Statement *s)
 {
     const Component *row = s->row.component;
-    const int terminals = component_terminals(row);
+    const int terminals = component_terminals(row), places = named_places(row);
     const int before = row->places == PLACES_TRANSDUCER || row->places == PLACES_SENSED ? 2 : 1;
     const bool has_terminals = before == 2 || row->places == PLACES_TERMINALS;
 
@@ -311,7 +350,7 @@ static Status rename_component(const Renaming *r, Statement *s)
         } else if (has_terminals && i >= before && i < before + terminals)
             TRY(rename_terminal(r, value));
         else
-            TRY(rename_in(r, value));
+            TRY(i <= places ? rename_places(r, value) : rename_in(r, value));
     }
     for (int i = 0; i < s->pairs.count; i++) {
         Pair *pair = &s->pairs.at[i];
@@ -322,7 +361,11 @@ static Status rename_component(const Renaming *r, Statement *s)
             rename_new(r, pair->value);
             continue;
         }
-        if (row->places == PLACES_COORDINATE && strcmp(pair->name, "by") != 0)
+        if (row->places == PLACES_COORDINATE && strcmp(pair->name, "by") == 0) {
+            TRY(rename_places(r, pair->value));
+            continue;
+        }
+        if (row->places == PLACES_COORDINATE)
             TRY(rename_path(r, pair->name, pair->name_place, &pair->name, &number));
         TRY(rename_value(r, param >= 0 ? &row->params[param] : NULL, pair->value));
     }
@@ -344,7 +387,7 @@ static Status rename_use(const Renaming *r, Statement *s)
         const bool is_terminal = port >= 0 && !inner->ports[port].is_frame;
 
         if (!is_terminal)
-            TRY(rename_in(r, value));
+            TRY(port >= 0 ? rename_places(r, value) : rename_in(r, value));
         else if (value->kind != SYNTAX_VECTOR)
             TRY(rename_terminal(r, value));
         for (int k = 0; is_terminal && value->kind == SYNTAX_VECTOR && k < value->count; k++)
@@ -388,7 +431,7 @@ static Status rename_verb(const Renaming *r, Statement *s)
         if (is_event)
             rename_new(r, value);
         else if (value->kind != SYNTAX_VARIABLE || !words_hold(s->row.words, value->text))
-            TRY(rename_in(r, value));
+            TRY(rename_places(r, value));
     }
     for (int i = 0; i < s->pairs.count; i++) {
         Pair *pair = &s->pairs.at[i];

@@ -254,6 +254,25 @@ static Status keeps_coordinates(const State *state, const Instance *part, const 
     return status;
 }
 
+/* set k = 3: what k = 3 does */
+static Status set_parameter(State **state, const Pair *pair, Outcome *outcome, Diag *diag)
+{
+    Text text = {0};
+    Status status;
+
+    text_addf(&text, "%s = ", pair->name);
+    syntax_print(&text, pair->value);
+    status = apply_parameter(state,
+                             &(Statement){.kind = STATEMENT_PARAMETER,
+                                          .text = text.at,
+                                          .name = pair->name,
+                                          .name_place = pair->name_place,
+                                          .value = pair->value},
+                             outcome, diag);
+    text_free(&text);
+    return status;
+}
+
 static Status set_pair(State **state, const Pair *pair, Outcome *outcome, Diag *diag)
 {
     State *s = *state;
@@ -266,9 +285,9 @@ static Status set_pair(State **state, const Pair *pair, Outcome *outcome, Diag *
     int line;
     Status status = OK;
 
-    if (pair->primes == 0 && state_use_around(s, pair->name) >= 0 &&
-        definition_find(s, pair->name, DEFINES_PARAMETER) != NULL)
-        return set_inside_parameter(s, pair, outcome, diag);
+    if (pair->primes == 0 && definition_find(s, pair->name, DEFINES_PARAMETER) != NULL)
+        return state_use_around(s, pair->name) >= 0 ? set_inside_parameter(s, pair, outcome, diag)
+                                                    : set_parameter(state, pair, outcome, diag);
     CHECK(find_key(s, pair, &part, &index, diag));
     assert(part != NULL && index >= 0);
     scope.own = part;
@@ -490,6 +509,8 @@ Status apply_delete(State **state, const Statement *statement, Outcome *outcome,
         goto done;
     }
     outcome->effect = (*state)->lines.at[line].definition >= 0 ? EFFECT_NONE : EFFECT_EQUATIONS;
+    if (definition_find(next, name, DEFINES_PARAMETER) != NULL)
+        text_addf(&outcome->remarks, "the parameter %s is still there\n", name);
     state_replace(state, next);
     next = NULL;
 done:

@@ -15,6 +15,7 @@ State *state_new(Arena *arena)
     state->inside = -1;
     state->graph = graph_new();
     state->names = names_new();
+    state->parameter_names = names_new();
     state->terminals = names_new();
     state->start_names = names_new();
     for (int i = 0; i < DOMAIN_COUNT; i++)
@@ -39,11 +40,25 @@ const char *state_text(State *state, const char *text)
     return pool_text(state->pool, text, strlen(text));
 }
 
+static const Thing *find_parameter(const State *state, const char *name)
+{
+    const int number = names_find(state->parameter_names, name);
+
+    return number >= 0 ? &state->parameters.at[number] : NULL;
+}
+
 const Thing *state_thing(const State *state, const char *name)
 {
-    int number = names_find(state->names, name);
+    const int number = names_find(state->names, name);
 
-    return number >= 0 ? &state->things.at[number] : NULL;
+    return number >= 0 ? &state->things.at[number] : find_parameter(state, name);
+}
+
+const Thing *state_value_thing(const State *state, const char *name)
+{
+    const Thing *parameter = find_parameter(state, name);
+
+    return parameter != NULL ? parameter : state_thing(state, name);
 }
 
 const Instance *state_part(const State *state, const char *name)
@@ -76,6 +91,12 @@ void state_name(State *state, const char *name, ThingKind kind, int index, int c
 {
     (void)names_add(state->names, name);
     LIST_PUSH(state->things, (Thing){kind, index, coordinate});
+}
+
+void state_name_parameter(State *state, const char *name, int definition)
+{
+    (void)names_add(state->parameter_names, name);
+    LIST_PUSH(state->parameters, (Thing){THING_DEFINITION, definition, 0});
 }
 
 void name_list_add(NameList *list, const char *name)

@@ -75,7 +75,7 @@ char *state_store(const State *state, const char *name)
 const char *state_definition_like(const State *state, const Statement *s, bool *same)
 {
     const char *name = s->kind == STATEMENT_VERB ? s->operands.at[0].value->text : s->name;
-    const Thing *thing = state_thing(state, name);
+    const Thing *thing = state_value_thing(state, name);
     const char *text;
     char *own;
 

@@ -207,7 +207,7 @@ static void learn(State *state, int use, Subsystem *out)
         if (out->ports[i].is_frame)
             out->ports[i].is_through = u->bound[i] == NULL;
     for (int i = 0; i < state->parameters.count; i++) {
-        const char *name = state->definitions.at[state->parameters.at[i]].name;
+        const char *name = state->definitions.at[state->parameters.at[i].index].name;
 
         if (name_is_inside(name, u->name) && strchr(name + prefix, '.') == NULL)
             out->parameters[out->parameter_count++] =

@@ -70,7 +70,8 @@ Status part_draft_read_name(PartDraft *draft)
         return diag_at(draft->diag, E_NAME, place, "a new name has no dot");
     if (names_find(draft->state->terminals, name) >= 0)
         return diag_at(draft->diag, E_NAME, place, "'%s' is already a terminal", name);
-    TRY(name_is_free(draft->state, name, place, draft->diag));
+    if (definition_find(draft->state, name, DEFINES_PARAMETER) == NULL)
+        TRY(name_is_free(draft->state, name, place, draft->diag));
     draft->part->name = state_text(draft->state, name);
     return OK;
 }

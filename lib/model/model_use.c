@@ -125,10 +125,11 @@ static Status check_allowed(const State *state, int use, const Statement *s, Dia
 static Status check_new(const State *state, const Statement *renamed, const Statement *statement,
                         Diag *diag)
 {
-    const Thing *thing = state_thing(state, renamed->name);
+    const Thing *thing = state_value_thing(state, renamed->name);
     Text what = {0};
 
-    if (thing == NULL)
+    /* a parameter may have the name of a part */
+    if (thing == NULL || (statement->kind == STATEMENT_PARAMETER && thing->kind == THING_PART))
         return OK;
     name_describe(state, thing, &what);
     (void)diag_at(diag, E_NAME, statement->name_place, "'%s' is already %s of this definition",

@@ -241,7 +241,7 @@ static Status name_value(Scope *scope, const Syntax *syntax, Expr *out, Diag *di
         *out = expr_pi(state->arena, 1);
         return OK;
     }
-    thing = state_thing(state, name);
+    thing = state_value_thing(state, name);
     if (thing != NULL && thing->kind == THING_DEFINITION)
         return definition_name(scope, syntax, thing->index, out, diag);
     if (scope->kind == SCOPE_ASK && dot != NULL &&

@@ -1,6 +1,7 @@
 /* info.c: everything about one name */
 #include "present/info.h"
 
+#include "base/names.h"
 #include "component/given.h"
 #include "present/show.h"
 
@@ -362,6 +363,7 @@ static bool print_use(Text *out, const View *view, const char *name)
 {
     const Use *use = model_find_use(view->model, name);
     const size_t length = strlen(name);
+    Names *listed; /* a part and a parameter of one name once */
     Text inside = {0};
     const char *own;
 
@@ -377,9 +379,13 @@ static bool print_use(Text *out, const View *view, const char *name)
         else
             text_addf(out, "is reached as %s.%s\n", name, port->name);
     }
+    listed = names_new();
     for (int i = 0; (own = model_name(view->model, i)) != NULL; i++)
-        if (strncmp(own, name, length) == 0 && own[length] == '.')
+        if (strncmp(own, name, length) == 0 && own[length] == '.' && names_find(listed, own) < 0) {
+            (void)names_add(listed, own);
             text_addf(&inside, "%s%s", inside.length > 0 ? " " : "", own);
+        }
+    names_free(listed);
     layout_words(out, view->page.columns, "  inside: ", inside.at != NULL ? inside.at : "nothing");
     text_free(&inside);
     return true;
@@ -445,6 +451,7 @@ Status info_print(const View *view, const char *name, Place place, Text *out, Di
 
     if (instance != NULL) {
         print_instance(out, view, instance);
+        (void)print_parameter(out, view, name);
         return OK;
     }
     if (print_parameter(out, view, name) || print_law(out, view, name) ||

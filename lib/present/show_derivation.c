@@ -162,6 +162,12 @@ static void tell_edge(Story *story, int edge)
 }
 
 /* a variable: the edge it is of, and the formula it is computed by */
+/* an expression that is the bare name of one */
+static bool is_parameter(Expr e)
+{
+    return expr_kind(e) == EXPR_SYMBOL && expr_symbol_kind(e) == SYMBOL_PARAMETER;
+}
+
 static Status tell_variable(Story *story, const Syntax *item, Diag *diag)
 {
     const View *view = story->view;
@@ -192,7 +198,7 @@ static Status tell_variable(Story *story, const Syntax *item, Diag *diag)
     story_title(story, &title);
     if (edge >= 0)
         tell_edge(story, edge);
-    if (status == OK) {
+    if (status == OK && (edge < 0 || !is_parameter(user))) {
         story_say(story->out, view, "formula", "");
         status = show_expression(view, item, 0, story->out, diag);
     } else {

@@ -135,14 +135,16 @@ static Status read_input(const Model *model, const Syntax *syntax, Asked *asked,
 {
     Suggest suggest = suggest_for(syntax->text);
     bool is_name = syntax->kind == SYNTAX_VARIABLE && syntax->primes == 0;
+    const Instance *part = is_name ? model_find(model, syntax->text) : NULL;
     Expr definition;
 
-    if (is_name && is_parameter(model, syntax->text)) {
-        LIST_PUSH(asked->inputs, (LinearInput){syntax->text, NULL});
+    /* a source before a parameter of its name: the parameter may be its amplitude alone */
+    if (part != NULL && (instance_input(part) >= 0 || !is_parameter(model, syntax->text))) {
+        LIST_PUSH(asked->inputs, (LinearInput){syntax->text, syntax->text});
         return OK;
     }
-    if (is_name && model_find(model, syntax->text) != NULL) {
-        LIST_PUSH(asked->inputs, (LinearInput){syntax->text, syntax->text});
+    if (is_name && is_parameter(model, syntax->text)) {
+        LIST_PUSH(asked->inputs, (LinearInput){syntax->text, NULL});
         return OK;
     }
     for (int i = 0; i < model_parameter_count(model); i++)

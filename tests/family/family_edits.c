@@ -8,6 +8,9 @@
  * Large models hold numbers of parts as parameters of the equations: they move as those do whose
  * numbers are the user's parameters.
  *
+ * A parameter may have the name of a part: then the model moves, costs and is saved as with names
+ * of their own, in either order of the two.
+ *
  * Instances come and go beside others that stay, of which nothing is derived again: then, too, each
  * model moves as the one made of the same statements in a session that is asked for the first time.
  */
@@ -18,6 +21,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 
+#include <ctype.h>
 #include <math.h>
 
 enum { MOST_BODIES = 20, EDITS = 6 };
@@ -300,6 +304,166 @@ static Verdict literals_are_parameters(Member *member)
     return isnan(seen[0][0][0]) ? REFUSED : AGREES;
 }
 
+/* --- parameters with the names of parts --- */
+
+enum { MOST_NAMED = 512 };
+
+/* what the parameters are called: p1, p2 ... or, of some of them, as parts are */
+typedef struct Called {
+    char name[MOST_NAMED][8];
+    bool at_use; /* a parameter stands before its first use, not before all parts */
+    bool is_made[MOST_NAMED];
+} Called;
+
+static void call_as_parts(Draft *draft, Called *called)
+{
+    static const char kinds[] = {'b', 'h', 't', 's'};
+    int free[MOST_NAMED];
+    const int count = draft->named < MOST_NAMED - 1 ? draft->named : MOST_NAMED - 1;
+
+    for (int k = 1; k <= count; k++)
+        free[k - 1] = k;
+    for (int n = 0; n < COUNT(kinds) * draft->bodies && n < count; n++) {
+        const int other = n + below(draft, count - n), k = free[other];
+
+        free[other] = free[n];
+        (void)snprintf(called->name[k], sizeof called->name[k], "%c%d", kinds[n % COUNT(kinds)],
+                       n / COUNT(kinds));
+    }
+}
+
+/* the text, up to its end or `end`, with the parameters called so */
+static void write_called(const char *text, size_t length, const Called *called, Text *out)
+{
+    for (size_t i = 0; i < length; i++) {
+        const int k =
+            text[i] == 'p' && isdigit((unsigned char)text[i + 1]) ? atoi(text + i + 1) : 0;
+
+        if (k == 0 || (i > 0 && isalnum((unsigned char)text[i - 1]))) {
+            text_char(out, text[i]);
+            continue;
+        }
+        text_add(out, called->name[k]);
+        i += strspn(text + i + 1, "0123456789");
+    }
+}
+
+/* the lines that make the parameters of one line which are not yet there */
+static void write_parameters(const Draft *draft, const char *line, size_t length, Called *called,
+                             Text *out)
+{
+    for (size_t i = 0; i < length; i++) {
+        const int k =
+            line[i] == 'p' && isdigit((unsigned char)line[i + 1]) ? atoi(line + i + 1) : 0;
+        const char *made = draft->parameters.at;
+
+        if (k == 0 || (i > 0 && isalnum((unsigned char)line[i - 1])) || called->is_made[k])
+            continue;
+        called->is_made[k] = true;
+        for (int skip = 1; skip < k; skip++)
+            made = strchr(made, '\n') + 1;
+        write_called(made, strcspn(made, "\n") + 1, called, out);
+    }
+}
+
+static void write_model(const Draft *draft, const char *lines, Called *called, Text *out)
+{
+    if (!called->at_use)
+        write_called(draft->parameters.at, draft->parameters.length, called, out);
+    for (const char *line = lines; *line != '\0';) {
+        const size_t length = strcspn(line, "\n") + 1;
+
+        if (called->at_use)
+            write_parameters(draft, line, length, called, out);
+        write_called(line, length, called, out);
+        line += length;
+    }
+}
+
+/* counts, where they aren't too long, then x and vy of each body after a run; whether there was one
+ */
+static bool see(const Draft *draft, const char *text, Kit *kit, Text *counts, double *values)
+{
+    const bool ran = kit_do(kit, text) == CT_OK && kit_do(kit, "simulate 0.02\n") == CT_OK;
+
+    if (!ran)
+        tell(draft->member, "%s\n", kit->error.message);
+    text_add(counts, "counts\n");
+    if (draft->bodies <= 4 && kit_do(kit, "count") == CT_OK)
+        text_add(counts, kit->text);
+    for (int i = 0; i < 2 * draft->bodies; i++) {
+        char what[40];
+
+        (void)snprintf(what, sizeof what, i % 2 == 0 ? "b%d.x" : "b%d.vy", i / 2);
+        values[i] = kit_value(kit, what);
+    }
+    return ran;
+}
+
+static Verdict shared_names_change_nothing(Member *member)
+{
+    enum { OWN, SHARED, READ_BACK, CASES };
+    Draft draft = {.member = member, .is_named = true};
+    static Called own, shared;
+    Text lines = {0}, texts[CASES] = {{0}}, counts[CASES] = {{0}};
+    double values[CASES][2 * MOST_BODIES];
+    Verdict verdict = AGREES;
+    bool ran[CASES];
+
+    add_model(&draft, &lines);
+    text_add(&lines, draft.planar ? "arm far ground [3, 2]\n" : "arm far ground [3, 2, 1]\n");
+    for (int i = 0; i < draft.bodies; i++) {
+        text_addf(&lines, "spring s%d far h%d k=", i, i);
+        add_number(&draft, &lines, 1, 9);
+        text_add(&lines, " length=");
+        add_number(&draft, &lines, 0.1, 0.4);
+        text_char(&lines, '\n');
+    }
+    own = (Called){.at_use = member_one_of(member, 2) == 0};
+    for (int k = 1; k < MOST_NAMED; k++)
+        (void)snprintf(own.name[k], sizeof own.name[k], "p%d", k);
+    shared = own;
+    call_as_parts(&draft, &shared);
+    write_model(&draft, lines.at, &own, &texts[OWN]);
+    write_model(&draft, lines.at, &shared, &texts[SHARED]);
+    tell(member, "%s", texts[SHARED].at);
+    for (int c = OWN; c < CASES; c++) {
+        Kit kit = kit_new();
+
+        ran[c] = see(&draft, texts[c].at, &kit, &counts[c], values[c]);
+        if (c == SHARED) {
+            char *saved = ct_save(kit.session);
+
+            text_add(&texts[READ_BACK], saved);
+            ct_free(saved);
+        }
+        kit_free(&kit);
+    }
+    for (int c = SHARED; c < CASES; c++)
+        if (ran[c] != ran[OWN] || strcmp(counts[c].at, counts[OWN].at) != 0) {
+            tell(member, "case %d:\n%s%s", c, counts[c].at, counts[OWN].at);
+            verdict = DISAGREES;
+        }
+    for (int i = 0; i < 2 * draft.bodies; i++) {
+        const double a = values[OWN][i], b = values[SHARED][i];
+
+        /* sums take their terms in an order of names */
+        if (isnan(a) != isnan(b) || fabs(a - b) > 1e-9 * (1 + fabs(a)) ||
+            memcmp(&values[READ_BACK][i], &b, sizeof b) != 0) {
+            tell(member, "value %d: %a with names of their own, %a shared, %a read back\n", i, a, b,
+                 values[READ_BACK][i]);
+            verdict = DISAGREES;
+        }
+    }
+    text_free(&lines);
+    text_free(&draft.parameters);
+    for (int c = OWN; c < CASES; c++) {
+        text_free(&texts[c]);
+        text_free(&counts[c]);
+    }
+    return verdict == AGREES && !ran[OWN] ? REFUSED : verdict;
+}
+
 /* --- instances that come and go --- */
 
 enum { SLOTS = 12, CHANGES = 8 };
@@ -499,6 +663,8 @@ static const Family families[] = {
      literals_are_parameters},
     {"a model edited between its equations is the one made so at once", 30, 0, 0,
      edits_leave_no_trace},
+    {"a parameter with the name of a part is one with a name of its own", 8, 0.2, 0,
+     shared_names_change_nothing},
     {"instances come and go as in a model made so at once", 10, 0.3, 0, instances_leave_no_trace},
 };
 

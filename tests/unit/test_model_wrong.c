@@ -22,7 +22,7 @@ static const Wrong wrong[] = {
     /* names */
     {"body h1 mass=1",               6, "'h1' is already a revolute", "delete h1 first"},
     {"body phi mass=1",              6, "'phi' is already a coordinate of h1", ""},
-    {"body k1 mass=1",               6, "'k1' is already a parameter", "take another name"},
+    {"revolute k1 m1 m2",           10, "'k1' is already a parameter", "take another name"},
     {"body f mass=1",                6, "'f' is already a law", ""},
     {"body a mass=1",                6, "'a' is already a terminal", ""},
     {"revolute h3 m1 m2 coord=h2",  25, "'h2' is already a revolute", ""},

@@ -143,7 +143,7 @@ static void what_is_kept_is_a_number_with_its_unit(void)
     EXPECT_NEAR(kit_value(&kit, "A"), 7, 0);
     EXPECT_FAILS(&kit, "keep B = 2, C = 1/0", "division by zero");
     EXPECT_FAILS(&kit, "print B", "unknown name");
-    EXPECT_FAILS(&kit, "keep B = 2, b = 3", "b");
+    EXPECT_FAILS(&kit, "keep B = 2, h = 3", "h");
     EXPECT_FAILS(&kit, "print B", "unknown name");
     EXPECT_FAILS(&kit, "keep h' = 3", "primes");
     EXPECT_DONE(&kit, "show runs");

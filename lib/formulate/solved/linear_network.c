@@ -15,6 +15,14 @@ static bool is_source(const Instance *instance, int param)
            (expr_kinds(instance->values[param].at[0]) & ~constant_kinds) == 0;
 }
 
+static bool is_parameter(const Scene *scene, const char *name)
+{
+    for (int i = 0; i < scene->parameters.count; i++)
+        if (strcmp(expr_name(scene->parameters.at[i].symbol), name) == 0)
+            return true;
+    return false;
+}
+
 static void find_sources(LinearNetwork *s)
 {
     for (int i = 0; i < s->scene->instance_count; i++) {
@@ -27,6 +35,9 @@ static void find_sources(LinearNetwork *s)
                 continue;
             LIST_PUSH(s->sources, instance);
             text_add(&name, instance->name);
+            /* a parameter may have the name, and need not be the source's value */
+            if (is_parameter(s->scene, instance->name))
+                text_addf(&name, ".%s", instance->row->params[p].name);
             for (int order = 0; order < INPUT_ORDERS; order++) {
                 LIST_PUSH(s->symbols, expr_symbol(s->arena, name.at, SYMBOL_PARAMETER));
                 text_char(&name, '\'');
