@@ -134,7 +134,8 @@ ct_status ct_store(ct_session *session, const ct_statement *statement, char **te
  * or written by another program is refused. */
 ct_status ct_load(ct_session *session, const ct_statement *statement, ct_error *error);
 /* Build: what the model takes (components, parameters, init, tree, ...). CT_NOT_MINE, with nothing
- * done and no error, for other verbs. On failure the model is as it was. */
+ * done and no error, for other verbs; but a name alone, which is printed, fails as a mistyped verb
+ * where nothing has it. On failure the model is as it was. */
 ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error *error);
 const char *
 ct_remarks(const ct_session *session); /* lines that the last call had to say to the user; "". Those

@@ -140,8 +140,11 @@ static ct_status command_print(Call *call, ct_error *error)
 {
     int count = ct_operand_count(call->statement);
     Printed *lines = copy_check(calloc((size_t)count + 1, sizeof *lines));
-    ct_status status = CT_OK;
+    ct_status status = ct_apply(call->session, call->statement, error);
 
+    /* a name alone may be a mistyped verb */
+    if (status == CT_NOT_MINE)
+        status = CT_OK;
     for (int i = 0; i < count && status == CT_OK; i++) {
         const ct_expression *expression = ct_operand(call->statement, i);
 

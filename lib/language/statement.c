@@ -53,26 +53,34 @@ static bool is_assignment(const Parser *parser)
                                     sign->text[0] != '\0' && token_is(parser_peek(parser, 2), "="));
 }
 
-static Status unknown_verb(const Parser *parser, const Token *token)
+/* which verb it may have been meant for, as a hint; false: none */
+static bool hint_verb(const Parser *parser, const Token *token, Diag *diag)
 {
     Suggest suggest = suggest_for(token->text);
     const Token *behind = parser_peek(parser, 1);
     Verb verb;
 
-    (void)diag_at(parser->diag, E_NAME, token->place, "unknown command '%s'", token->text);
     for (int i = 0; verb_any(i, &verb); i++)
         suggest_offer(&suggest, verb.name);
     if (is_assignment(parser))
-        diag_hint(parser->diag, "a parameter is written %s = ...", token->text);
+        diag_hint(diag, "a parameter is written %s = ...", token->text);
     else if (habit_hint(HABIT_VERB, token->text) != NULL)
-        diag_hint(parser->diag, "%s", habit_hint(HABIT_VERB, token->text));
+        diag_hint(diag, "%s", habit_hint(HABIT_VERB, token->text));
     else if (behind->kind == TOKEN_SYMBOL && strcmp(behind->text, "(") == 0 && !behind->touches)
-        diag_hint(parser->diag, "the bracket of a law touches its name: %s(x) = ...", token->text);
+        diag_hint(diag, "the bracket of a law touches its name: %s(x) = ...", token->text);
     else if (!parser->options.shortened && find_shortened(token->text, &verb) == 1)
-        diag_hint(parser->diag, "a script spells words out: '%s'", verb.name);
+        diag_hint(diag, "a script spells words out: '%s'", verb.name);
     else if (suggest.best != NULL)
-        diag_hint(parser->diag, "did you mean '%s'?", suggest.best);
+        diag_hint(diag, "did you mean '%s'?", suggest.best);
     else
+        return false;
+    return true;
+}
+
+static Status unknown_verb(const Parser *parser, const Token *token)
+{
+    (void)diag_at(parser->diag, E_NAME, token->place, "unknown command '%s'", token->text);
+    if (!hint_verb(parser, token, parser->diag))
         diag_hint(parser->diag, "'help' lists the commands; to see a value: print %s", token->text);
     return E_NAME;
 }
@@ -282,6 +290,65 @@ static Status refuse_pair(Parser *parser)
     return E_SYNTAX;
 }
 
+/* --- an expression alone, which is printed --- */
+
+/* What follows a word that is no command: it goes on as an expression does. */
+static bool sees_rest_of_expression(const Parser *parser)
+{
+    static const char *const signs[] = {"+",  "-",  "*",  "/",  "^",  "<", ">",
+                                        "<=", ">=", "!=", "&&", "||", ",", "["};
+    const Token *next = parser_peek(parser, 1);
+    bool any = next->kind == TOKEN_END || next->kind == TOKEN_PRIMES ||
+               (next->kind == TOKEN_PATH && strcmp(next->text, "at") == 0) ||
+               (token_is(next, "(") && next->touches);
+
+    for (int i = 0; !any && i < COUNT(signs); i++)
+        any = token_is(next, signs[i]);
+    return any && !is_assignment(parser);
+}
+
+static bool sees_expression(const Parser *parser)
+{
+    const Token *first = parser_token(parser);
+    Verb verb;
+
+    if (parser->at > 0) /* `time` and `sweep` run statements */
+        return false;
+    if (first->kind != TOKEN_PATH)
+        return first->kind == TOKEN_NUMBER || token_is(first, "(") || token_is(first, "-");
+    if (strchr(first->text, '.') != NULL)
+        return true;
+    return !verb_find(first->text, &verb) && sees_rest_of_expression(parser) &&
+           !(parser->options.shortened && find_shortened(first->text, &verb) == 1);
+}
+
+static Status parse_printed(Parser *parser, Statement *statement)
+{
+    const Token *first = parser_token(parser);
+    Diag *const diag = parser->diag;
+
+    /* a mistyped command is a name, too: the model knows */
+    if (first->kind == TOKEN_PATH && strchr(first->text, '.') == NULL &&
+        !token_is(parser_peek(parser, 1), "(") && !name_is_reserved(first->text)) {
+        Diag *unknown = pool_alloc(parser->pool, sizeof *unknown);
+        Verb verb;
+
+        *unknown = (Diag){0};
+        parser->diag = unknown;
+        (void)find_verb(parser, first, &verb);
+        parser->diag = diag;
+        if (!hint_verb(parser, first, NULL) &&
+            !(parser->options.shortened && find_shortened(first->text, &verb) > 1))
+            unknown->hint[0] = '\0';
+        statement->unknown = unknown;
+    }
+    statement->kind = STATEMENT_VERB;
+    statement->row = verb_row(VERB_print);
+    statement->verb = statement->row.name;
+    statement->verb_place = first->place;
+    return parse_pattern(parser, statement);
+}
+
 static Status refuse_start(Parser *parser)
 {
     (void)diag_at(parser->diag, E_SYNTAX, parser_token(parser)->place,
@@ -299,7 +366,7 @@ static Status parse_statement(Parser *parser, Statement *statement)
 
     if (parser_sees(parser, "?"))
         TRY(parse_question(parser, statement));
-    else if (first->kind != TOKEN_PATH)
+    else if (first->kind != TOKEN_PATH && !sees_expression(parser))
         TRY(refuse_start(parser));
     else if (parser_sees_pair(parser)) {
         if (strchr(first->text, '.') != NULL || parser_peek(parser, 1)->kind == TOKEN_PRIMES)
@@ -307,6 +374,8 @@ static Status parse_statement(Parser *parser, Statement *statement)
         TRY(parse_parameter(parser, statement));
     } else if (law_length(parser) > 0)
         TRY(parse_law(parser, statement));
+    else if (sees_expression(parser))
+        TRY(parse_printed(parser, statement));
     else
         TRY(parse_verb(parser, statement));
 

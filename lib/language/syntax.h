@@ -176,8 +176,11 @@ typedef struct Statement {
     const char *as; /* show X as WORD */
     Place as_place;
     struct Statement *rest; /* sweep ... : STATEMENT */
-    const char *body;       /* of a subsystem that was read whole: its lines; else NULL */
-    const char *redirect;   /* file of > or >> */
+    /* of a name alone, which is printed: what it is where nothing has it, with a hint where it is
+     * near a verb; else NULL */
+    const Diag *unknown;
+    const char *body;     /* of a subsystem that was read whole: its lines; else NULL */
+    const char *redirect; /* file of > or >> */
     bool append;
     Place redirect_place;
     const char

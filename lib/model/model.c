@@ -713,6 +713,12 @@ bool model_can_go(const Model *model, const char *name)
     return thing != NULL && thing->kind != THING_COORDINATE;
 }
 
+bool model_has_name(const Model *model, const char *name)
+{
+    return state_thing(model->state, name) != NULL ||
+           names_find(model->state->terminals, name) >= 0;
+}
+
 const char *model_name(const Model *model, int i)
 {
     return state_name_at(model->state, i);

@@ -217,6 +217,8 @@ MUST_USE Status model_check_variable(const Model *model, const char *path, int p
                                      Diag *diag);
 /* whether a name is one that `delete` takes: neither a coordinate nor a terminal */
 bool model_can_go(const Model *model, const char *name);
+/* whether it is the name of anything, of a terminal too */
+bool model_has_name(const Model *model, const char *name);
 /* every name that could follow, for completion: call with 0, 1, ... until NULL */
 const char *model_name(const Model *model, int i);
 

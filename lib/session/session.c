@@ -302,6 +302,17 @@ static Status try_network(ct_session *session, const Statement *s, int before, D
     return status;
 }
 
+/* whether a bare name that would be printed is a command's that was mistyped */
+static bool is_unknown(const Model *model, const Statement *s)
+{
+    const Syntax *first = s->unknown != NULL ? s->operands.at[0].value : NULL;
+
+    while (first != NULL && first->kind == SYNTAX_BINARY)
+        first = first->args[0];
+    return first != NULL && (model_defining(model) != NULL ||
+                             (s->unknown->hint[0] != '\0' && !model_has_name(model, first->text)));
+}
+
 ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error *error)
 {
     SESSION_WORK(session, error);
@@ -316,6 +327,8 @@ ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error 
     session_begin(session);
     if (s->kind == STATEMENT_EMPTY)
         return session_report(OK, &diag, error);
+    if (is_unknown(session->model, s))
+        return session_report(s->unknown->status, s->unknown, error);
     if (model_defining(session->model) != NULL) {
         status = model_apply(session->model, s, &diag);
         return session_report(status, &diag, error);

@@ -397,9 +397,16 @@ static void words_are_shortened_at_the_prompt_only(void)
     statement_free(s);
     s = NULL;
     expect_fault("simul 5", E_NAME, 1, 1, 5);
-    EXPECT(statement_parse("re", 1, prompt, &next, &s, &diag) == E_NAME);
+    EXPECT(statement_parse("re r1", 1, prompt, &next, &s, &diag) == E_NAME);
     EXPECT(strstr(diag.message, "ambiguous") != NULL && strstr(diag.message, "resistor") != NULL);
     EXPECT(next == 0 && s == NULL);
+    /* alone it may be a name */
+    EXPECT(statement_parse("re", 1, prompt, &next, &s, &diag) == OK);
+    EXPECT(s != NULL && strcmp(s->verb, "print") == 0 && s->unknown != NULL &&
+           strstr(s->unknown->message, "ambiguous") != NULL);
+    statement_free(s);
+    s = NULL;
+    next = 0;
 }
 
 /* --- lines --- */
