@@ -266,7 +266,7 @@ static void add_side(const Bode *bode, Root root, double sign, Frequencies *out)
 {
     const double ratio = pow(bode->to / bode->from, 1.0 / (bode->points - 1));
     const double damping = damping_of(root);
-    double offset = 0, f = root.imaginary / (2 * M_PI);
+    double offset = 0, f;
 
     for (;;) {
         const double step = CLOSE * hypot(damping, offset);

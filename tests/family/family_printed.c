@@ -356,11 +356,9 @@ static double read_product(Reader *r)
         skip_blanks(r);
         if (strncmp(r->at, "**", 2) == 0)
             return NAN;
-        if (starts(r, "*"))
-            value *= read_power(r);
-        else if (starts(r, "/"))
+        if (starts(r, "/"))
             value /= read_power(r);
-        else if (another_factor(r))
+        else if (starts(r, "*") || another_factor(r))
             value *= read_power(r);
         else
             return is_negative ? -value : value;

@@ -96,7 +96,8 @@ static Verdict walks_leave_no_trace(Member *member)
         for (int k = 1; k < 3; k++) {
             const double other = kit_value(kits[k], place->asked[i]);
 
-            if (memcmp(&value, &other, sizeof value) != 0 && !(isnan(value) && isnan(other))) {
+            if ((value != other || signbit(value) != signbit(other)) &&
+                !(isnan(value) && isnan(other))) {
                 tell(member, "%s: %a, %s %a\n", place->asked[i], value,
                      k == 1 ? "without looks" : "from the saved text", other);
                 verdict = DISAGREES;

@@ -190,8 +190,12 @@ static void descend_along_loops(Nearest *n)
     const size_t bytes = (size_t)n->s.rows.length * sizeof(double);
 
     memcpy(n->s.p->c, n->best, bytes);
-    for (double weight = NARROWER; weight > NARROW / 2; weight *= NARROWER)
+    double weight = 1;
+
+    while (weight > 1.5 * NARROW) {
+        weight *= NARROWER;
         minimise(n, weight, NULL);
+    }
     /* a minimum of the sum may have left the loops */
     if (!(find_distance(n) <= n->distance))
         memcpy(n->s.p->c, n->best, bytes);

@@ -282,7 +282,7 @@ static void move(void *context, double *v, const double *step)
 double place_missed(Placing *p, int number, bool *is_length)
 {
     const Ask asked = {ASK_WISH, number};
-    LinkRow rows[LINK_ROWS];
+    LinkRow rows[LINK_ROWS] = {0};
     int tail, head;
 
     (void)ask_rows(p, &asked, rows, &tail, &head);

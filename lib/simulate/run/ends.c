@@ -327,7 +327,7 @@ static void add_limiting(RunEnd *e, Stepper *stepper, const char *hardest, Diag 
     const double last = e->t - stepper->before;
     const double h = fmax(last, fmax(FIRST * e->span, 4 * DBL_EPSILON * fabs(e->t)));
     const int which = find_limiting(e, stepper, h);
-    const Method *stiff = method_for((MethodNeed){.stiff = true});
+    const Method *alternative = method_for((MethodNeed){.stiff = true});
     char other[80] = "";
 
     if (which < 0)
@@ -340,8 +340,8 @@ static void add_limiting(RunEnd *e, Stepper *stepper, const char *hardest, Diag 
         return;
     if (stepper->method->has_fixed_step)
         (void)snprintf(other, sizeof other, "a shorter step= or ");
-    else if (stepper->method != stiff)
-        (void)snprintf(other, sizeof other, "method=%s or ", stiff->name);
+    else if (stepper->method != alternative)
+        (void)snprintf(other, sizeof other, "method=%s or ", alternative->name);
     diag_hint(diag,
               "%sa larger rtol= may get further; else look at what acts on %s: a law that jumps or "
               "grows without bound, or a part with hardly any mass or inertia; an event with "
