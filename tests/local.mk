@@ -1,5 +1,5 @@
 # unit tests: tests/unit/test_NAME.c, linked with all of lib/
-unit_ldadd = libcore.la
+unit_ldadd = libcore.la $(TEST_LDFLAGS)
 
 # what tests that run the program get: the program, the sources, and what it takes to build more
 AM_TESTS_ENVIRONMENT = COTREE='$(abs_builddir)/cotree'; TOP_SRCDIR='$(abs_srcdir)'; \
