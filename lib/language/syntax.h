@@ -93,7 +93,8 @@ typedef enum Offers {
     OFFERS_EVENTS,
     OFFERS_RUNS,
     OFFERS_METHODS,
-    OFFERS_SUBSYSTEMS
+    OFFERS_SUBSYSTEMS,
+    OFFERS_EXPORTED
 } Offers;
 
 typedef struct VerbKey {

@@ -113,6 +113,20 @@ static void offer_subsystems(TypedLine *line)
         offer_key(line, key);
 }
 
+/* behind a format: which of its rows, or which code, besides the items */
+static void offer_exported(TypedLine *line)
+{
+    static const struct {
+        const char *format, *word;
+    } all[] = {{"csv", "start"},     {"csv", "modes"},       {"mat", "start"},
+               {"c", "inverse"},     {"fortran", "inverse"}, {"matlab", "inverse"},
+               {"python", "inverse"}};
+
+    for (int i = 0; line->before.count == 2 && i < COUNT(all); i++)
+        if (strcmp(line->before.at[1], all[i].format) == 0)
+            offer(line, all[i].word);
+}
+
 static bool is_event(const Model *model, const char *name)
 {
     for (int i = 0; i < model_event_count(model); i++)
@@ -385,6 +399,7 @@ static const struct {
     [OFFERS_RUNS] = {offer_runs, true, true},
     [OFFERS_METHODS] = {offer_methods, true},
     [OFFERS_SUBSYSTEMS] = {offer_subsystems, false},
+    [OFFERS_EXPORTED] = {offer_exported, false},
 };
 
 /* the place-th place of a component */

@@ -15,6 +15,10 @@ complete expect mass1.x ~ 2
 complete plot mass1.x v
 complete set mass1.mass = 2 k
 complete help ener
+complete export csv st
+complete export csv mass1.x st
+complete export c inv
+complete export cs
 END
 cotree model.ct
 cotree -e complete | grep -x plot
