@@ -273,3 +273,13 @@ FAMILIES += family_edges
 family_edges_SOURCES = tests/family/family_edges.c tests/family/family.h tests/family/script.h \
 	tests/random.h tests/unit/session_kit.h tests/unit/test.h
 family_edges_LDADD = libcotree.la $(unit_ldadd)
+
+FAMILIES += family_tanks
+family_tanks_SOURCES = tests/family/family_tanks.c tests/family/family.h tests/family/script.h \
+	tests/random.h tests/unit/session_kit.h tests/unit/test.h
+family_tanks_LDADD = libcotree.la $(unit_ldadd)
+
+FAMILIES += family_thermostats
+family_thermostats_SOURCES = tests/family/family_thermostats.c tests/family/family.h \
+	tests/family/script.h tests/random.h tests/unit/session_kit.h tests/unit/test.h
+family_thermostats_LDADD = libcotree.la $(unit_ldadd)

@@ -425,6 +425,14 @@ bool events_begin(Events *events, double t, const double *y)
     return stop;
 }
 
+bool events_have_begun(const Events *events)
+{
+    for (int i = 0; i < events_count(events); i++)
+        if (events->items.at[i].course.is_known)
+            return true;
+    return false;
+}
+
 bool events_would_happen(const Events *events, const int *sides)
 {
     for (int i = 0; i < events->items.count; i++)

@@ -66,6 +66,8 @@ void events_settle(Events *events, double t, double span, const double *y, int r
 /* Begin at (t, y): conditions that hold there are noted, and don't happen until they have been
  * false. True where one of them ends the run at once. */
 bool events_begin(Events *events, double t, const double *y);
+/* whether events_begin() has seen where the run starts, here or in a segment before this one */
+bool events_have_begun(const Events *events);
 /* The sides are these now: notes which events no longer hold. True where others become true. */
 bool events_follow(Events *events, const int *sides);
 /* whether they would, were the sides these */

@@ -130,7 +130,8 @@ static Status enter(Integration *m, const Segment *segment, double t, const doub
     memcpy(m->stepper->y, y, (size_t)m->length * sizeof(double));
     m->stepper->t = t;
     *changed = false;
-    if (events_count(m->ev) > 0)
+    /* the mode of the start is found before the events' own start */
+    if (events_have_begun(m->ev))
         TRY(integration_resume_events(m, changed, diag));
     return OK;
 }
