@@ -186,10 +186,10 @@ static void combine(int n, const double matrix[3][3], const double *from, double
                              matrix[k][2] * from[2 * n + i];
 }
 
-/* A step of Newton's: (A^-1/h x 1 - 1 x J) delta = f - A^-1/h z */
-static void correct_stages(Radau *r, double h)
+/* Residual of the stages, into delta: f - (A^-1/h x 1) z (3 x n) */
+static void find_residual(Radau *r, double h)
 {
-    int n = r->n, all = r->all;
+    const int n = r->n, all = r->all;
 
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < n; i++)
@@ -197,6 +197,14 @@ static void correct_stages(Radau *r, double h)
                 r->f[k * all + i] - (inverse[k][0] * r->z[i] + inverse[k][1] * r->z[all + i] +
                                      inverse[k][2] * r->z[2 * all + i]) /
                                         h;
+}
+
+/* A step of Newton's: (A^-1/h x 1 - 1 x J) delta = f - A^-1/h z */
+static void correct_stages(Radau *r, double h)
+{
+    const int n = r->n;
+
+    find_residual(r, h);
     combine(n, split, r->delta, r->part);
     shifted_solve(r->shifted, r->part);
     shifted_solve_pair(r->shifted, r->part + n, r->part + 2 * n);
@@ -310,12 +318,7 @@ static StepOutcome solve_stages_whole(Radau *r, double h, int *used)
             return UNDEFINED;
         if (!factored && !factor_whole(r, h))
             return UNDEFINED;
-        for (int k = 0; k < 3; k++)
-            for (int i = 0; i < n; i++)
-                r->delta[k * n + i] =
-                    r->f[k * all + i] - (inverse[k][0] * r->z[i] + inverse[k][1] * r->z[all + i] +
-                                         inverse[k][2] * r->z[2 * all + i]) /
-                                            h;
+        find_residual(r, h);
         lu_solve(r->whole, r->delta);
         size = scaled_norm(r, r->delta, 3);
         if (!isfinite(size))
@@ -380,6 +383,19 @@ static StepOutcome confirm_stages(Radau *r, double h, int *used)
     return outcome == CONVERGED ? DIVERGED : outcome;
 }
 
+/* Residual of the embedded formula, into error (n): rate + (1/h) sum_k e_k z_k. rate (n): a value
+ * of y' where the step starts. Units of y'. */
+static void compare_embedded(Radau *r, const double *rate, double h)
+{
+    for (int i = 0; i < r->n; i++) {
+        double sum = 0;
+
+        for (int k = 0; k < 3; k++)
+            sum += embedded[k] * r->z[k * r->all + i];
+        r->error[i] = rate[i] + sum / h;
+    }
+}
+
 /* error of the embedded formula, in units of the tolerance */
 static double step_error(Radau *r, double h)
 {
@@ -391,13 +407,7 @@ static double step_error(Radau *r, double h)
          * mass in a hard wall doesn't, so longer steps are shortened instead. */
         const double *rate = pass == 0 ? r->old_rate : r->column;
 
-        for (int i = 0; i < r->n; i++) {
-            double sum = 0;
-
-            for (int k = 0; k < 3; k++)
-                sum += embedded[k] * r->z[k * r->all + i];
-            r->error[i] = rate[i] + sum / h;
-        }
+        compare_embedded(r, rate, h);
         shifted_solve(r->shifted, r->error);
         size = scaled_norm(r, r->error, 1);
         if (size < 1 || !(r->was_rejected || r->step == 0) || pass == 1 ||
@@ -428,13 +438,7 @@ static double error_at_end(Radau *r, double h)
                            r->jacobians[(ptrdiff_t)2 * r->all * n + (ptrdiff_t)i * n + j];
     if (!lu_factor(r->end))
         return HUGE_VAL;
-    for (int i = 0; i < n; i++) {
-        double sum = 0;
-
-        for (int k = 0; k < 3; k++)
-            sum += embedded[k] * r->z[k * r->all + i];
-        r->error[i] = r->old_rate[i] + sum / h;
-    }
+    compare_embedded(r, r->old_rate, h);
     lu_solve(r->end, r->error);
     return scaled_norm(r, r->error, 1) / stepper_blur(&r->base);
 }
@@ -449,13 +453,9 @@ static double reading_error(Radau *r, double h)
 
     if (r->step == 0)
         return 0;
-    for (int i = 0; i < r->n; i++) {
-        double sum = 0;
-
-        for (int k = 0; k < 3; k++)
-            sum += embedded[k] * r->z[k * r->all + i];
-        r->error[i] = (r->slope[i] + sum / h) * BETWEEN * h * h * h * h / meet;
-    }
+    compare_embedded(r, r->slope, h);
+    for (int i = 0; i < r->n; i++)
+        r->error[i] = r->error[i] * BETWEEN * h * h * h * h / meet;
     return scaled_norm(r, r->error, 1) / stepper_blur(&r->base);
 }
 
