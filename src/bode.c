@@ -18,7 +18,7 @@ typedef struct Response {
     char **names;
 } Response;
 
-static void put_data(FILE *out, const Response *response)
+static void write_data(FILE *out, const Response *response)
 {
     fputs("$response << end\n", out);
     for (int i = 0; i < response->rows; i++)
@@ -43,14 +43,14 @@ static char *pair_name(const char *name)
     return copy_piece(first, (size_t)(strrchr(name, '[') - first) - 1);
 }
 
-static void put_curves(FILE *out, const Response *response, int offset)
+static void write_curves(FILE *out, const Response *response, int offset)
 {
     for (int j = 1; j < response->columns; j += 2) {
         char *name = pair_name(response->names[j]);
 
         fprintf(out, "%s$response using 1:%d with lines title ", j == 1 ? "plot " : ", ",
                 j + offset + 1);
-        put_quoted(out, name);
+        write_quoted(out, name);
         fprintf(out, " noenhanced linewidth 1.5 linecolor rgb '%s'", drawing_color(j / 2));
         free(name);
     }
@@ -59,7 +59,7 @@ static void put_curves(FILE *out, const Response *response, int offset)
 
 /* The first of some steps that gives an axis no more than six parts. What spans less than a step is
  * left to gnuplot. */
-static void put_axis(FILE *out, const Response *response, int first, const double steps[6])
+static void write_axis(FILE *out, const Response *response, int first, const double steps[6])
 {
     double least = INFINITY, most = -INFINITY;
     int i = 0;
@@ -100,14 +100,14 @@ static bool find_crossing(const Response *response, int j, double level, int oth
     return false;
 }
 
-static void put_margin(FILE *out, const char *name, double value, const char *unit,
-                       double frequency, double row)
+static void write_margin(FILE *out, const char *name, double value, const char *unit,
+                         double frequency, double row)
 {
     char text[96];
 
     (void)snprintf(text, sizeof text, "%s margin %.3g %s at %.3g Hz", name, value, unit, frequency);
     fputs("set label ", out);
-    put_quoted(out, text);
+    write_quoted(out, text);
     fprintf(out, " at graph 0.02, graph %g noenhanced textcolor rgb '#606060'\n", row);
     fprintf(out,
             "set arrow from first %.17g, graph 0 to first %.17g, graph 1 nohead back linecolor rgb "
@@ -117,26 +117,26 @@ static void put_margin(FILE *out, const char *name, double value, const char *un
 
 /* How far a loop of one curve is from where it would swing on: at the gain 1, and where the phase
  * is that of a change of sign. */
-static void put_margins(FILE *out, const Response *response)
+static void write_margins(FILE *out, const Response *response)
 {
     double frequency, value;
 
     if (find_crossing(response, 1, 0, 2, &frequency, &value))
-        put_margin(out, "phase", remainder(value + 180, 360), "deg", frequency, 0.18);
+        write_margin(out, "phase", remainder(value + 180, 360), "deg", frequency, 0.18);
     if (find_crossing(response, 2, -180, 1, &frequency, &value))
-        put_margin(out, "gain", -value, "dB", frequency, 0.08);
+        write_margin(out, "gain", -value, "dB", frequency, 0.08);
 }
 
-static void put_commands(FILE *out, const Drawing *drawing)
+static void write_commands(FILE *out, const Drawing *drawing)
 {
     const Response *response = drawing->of;
     bool is_alone = response->columns == 3;
     static const double decibels[6] = {5, 10, 20, 40, 60, 100};
     static const double degrees[6] = {15, 45, 90, 180, 360, 720};
 
-    put_data(out, response);
+    write_data(out, response);
     fputs("set multiplot layout 2,1\n", out);
-    put_title(out, drawing->title);
+    write_title(out, drawing->title);
     fprintf(out, "set logscale x\nset xrange [%.17g:%.17g]\nset lmargin 10\n", response->values[0],
             response->values[(response->rows - 1) * response->columns]);
     fputs("set border 3\nset tics nomirror\nset grid linetype 1 linecolor '#e0e0e0' linewidth "
@@ -144,15 +144,15 @@ static void put_commands(FILE *out, const Drawing *drawing)
           out);
     fputs(is_alone ? "set key off\n" : "set key inside bottom left Left reverse\n", out);
     if (is_alone)
-        put_margins(out, response);
+        write_margins(out, response);
     fputs("set ylabel 'gain [dB]'\n", out);
-    put_axis(out, response, 1, decibels);
-    put_curves(out, response, 0);
-    put_axis(out, response, 2, degrees);
+    write_axis(out, response, 1, decibels);
+    write_curves(out, response, 0);
+    write_axis(out, response, 2, degrees);
     fputs("unset label\nset xlabel 'frequency [Hz]'\nunset title\nset key off\n"
           "set ylabel 'phase [deg]'\n",
           out);
-    put_curves(out, response, 1);
+    write_curves(out, response, 1);
     fputs("unset multiplot\n", out);
 }
 
@@ -161,8 +161,8 @@ static char *draw_text(const Drawing *drawing, int columns, int rows, bool unico
 {
     const Response *response = drawing->of;
     const int count = (response->columns - 1) / 2;
-    ct_curve *curves = copy_check(calloc((size_t)count * 2 + 1, sizeof *curves));
-    char **names = copy_check(calloc((size_t)count + 1, sizeof *names));
+    ct_curve *curves = check_allocated(calloc((size_t)count * 2 + 1, sizeof *curves));
+    char **names = check_allocated(calloc((size_t)count + 1, sizeof *names));
     ct_chart charts[2];
 
     for (int i = 0; i < count; i++)
@@ -223,8 +223,10 @@ static bool has_curve(const Response *response)
 static ct_status command_bode(Call *call, ct_error *error)
 {
     Response response = {0};
-    const Drawing drawing = {
-        .put = put_commands, .text = draw_text, .of = &response, .title = ct_title(call->session)};
+    const Drawing drawing = {.put = write_commands,
+                             .text = draw_text,
+                             .of = &response,
+                             .title = ct_title(call->session)};
     bool append = false;
     const char *path = ct_redirect(call->statement, &append);
     ct_status status;

@@ -23,7 +23,7 @@ const Command *command_find(const ct_statement *statement)
     return ct_carrier(statement) == CT_SESSION ? &run : NULL;
 }
 
-void put_text(FILE *out, const char *text)
+void write_text(FILE *out, const char *text)
 {
     size_t length = strlen(text);
 

@@ -37,7 +37,7 @@ typedef struct Command {
 const Command *command_find(const ct_statement *statement);
 
 /* print lines; an end of line is added where it is missing */
-void put_text(FILE *out, const char *text);
+void write_text(FILE *out, const char *text);
 /* What of a csv goes to where the statement says: below rows of the file behind `>>`, which has to
  * have the same header, all but that. */
 ct_status csv_rows(const Call *call, const char *text, const char **rows, ct_error *error);

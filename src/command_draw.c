@@ -60,7 +60,7 @@ static ct_status check_file(const Call *call, const char *types, const char **pa
 
 /* --- the mechanism --- */
 
-static ct_paper text_paper(void)
+static ct_paper text_output_buffer(void)
 {
     ct_paper paper = {.format = "text", .columns = 79, .rows = 30};
 
@@ -76,7 +76,7 @@ typedef struct Frames {
     char **texts; /* gnuplot's commands of each, ended by NULL */
 } Frames;
 
-static void put_frames(FILE *out, const Drawing *drawing)
+static void write_frames(FILE *out, const Drawing *drawing)
 {
     const Frames *frames = drawing->of;
 
@@ -90,12 +90,12 @@ static void put_frames(FILE *out, const Drawing *drawing)
 }
 
 /* What the library drew, on the paper it was drawn for, to where it is to go. */
-static ct_status put_drawn(Call *call, const ct_paper *paper, char *drawn, const char *path,
-                           ct_error *error)
+static ct_status write_drawn(Call *call, const ct_paper *paper, char *drawn, const char *path,
+                             ct_error *error)
 {
     char *texts[2] = {drawn, NULL};
     const Frames frames = {texts};
-    const Drawing drawing = {.put = put_frames,
+    const Drawing drawing = {.put = write_frames,
                              .of = &frames,
                              .title = "",
                              .width = paper->width,
@@ -105,7 +105,7 @@ static ct_status put_drawn(Call *call, const ct_paper *paper, char *drawn, const
         return drawing_make(call, &drawing, path, error);
     if (path != NULL)
         return write_file(call, path, drawn, strlen(drawn), error);
-    put_text(call->out, drawn);
+    write_text(call->out, drawn);
     return CT_OK;
 }
 
@@ -122,7 +122,7 @@ static ct_status command_draw(Call *call, ct_error *error)
         return status;
 
     const char *type = path != NULL ? file_extension(path) : "";
-    ct_paper paper = text_paper();
+    ct_paper paper = text_output_buffer();
 
     /* the whole graph is text on a screen, which tells its trees best */
     if (is_one_of(type, "dot gv"))
@@ -133,7 +133,7 @@ static ct_status command_draw(Call *call, ct_error *error)
         paper.format = "gnuplot";
     status = ct_draw(call->session, call->statement, &paper, &drawn, error);
     if (status == CT_OK)
-        status = put_drawn(call, &paper, drawn, path, error);
+        status = write_drawn(call, &paper, drawn, path, error);
     ct_free(drawn);
     return status;
 }
@@ -166,7 +166,7 @@ static bool terminal_moves(void)
 
 static bool fits(const ct_paper *paper)
 {
-    const ct_paper now = text_paper();
+    const ct_paper now = text_output_buffer();
 
     return now.columns == paper->columns && now.rows == paper->rows;
 }
@@ -194,7 +194,7 @@ static int show_frames(Call *call, char *const *frames, const ct_paper *paper, i
             break;
     }
     interrupt_clear();
-    put_text(call->out, last);
+    write_text(call->out, last);
     return -1;
 }
 
@@ -209,7 +209,7 @@ static ct_status command_animate(Call *call, ct_error *error)
         return status;
 
     const char *type = path != NULL ? file_extension(path) : "";
-    ct_paper paper = text_paper();
+    ct_paper paper = text_output_buffer();
 
     if (is_one_of(type, "html svg"))
         paper.format = type;
@@ -220,7 +220,7 @@ static ct_status command_animate(Call *call, ct_error *error)
         return status;
     if (strcmp(paper.format, "gnuplot") == 0) {
         const Frames frames = {texts};
-        const Drawing drawing = {.put = put_frames,
+        const Drawing drawing = {.put = write_frames,
                                  .of = &frames,
                                  .title = "",
                                  .width = paper.width,
@@ -237,7 +237,7 @@ static ct_status command_animate(Call *call, ct_error *error)
             ct_words_free(texts);
             texts = NULL;
             fputs("\r\033[J", stdout);
-            paper = text_paper();
+            paper = text_output_buffer();
             status = ct_animate(call->session, call->statement, &paper, &texts, &interval, error);
             if (status == CT_OK)
                 next = show_frames(call, texts, &paper, next, interval);

@@ -8,7 +8,7 @@
 static ct_status put(Call *call, ct_status status, char *text)
 {
     if (status == CT_OK)
-        put_text(call->out, text);
+        write_text(call->out, text);
     ct_free(text);
     return status;
 }

@@ -19,7 +19,7 @@ ct_status command_run(Call *call, ct_error *error)
 
         if (text == NULL)
             return ct_error_at(call->statement, NULL, error, "out of memory");
-        put_text(call->out, text);
+        write_text(call->out, text);
         ct_free(text);
     }
     return status;
@@ -54,7 +54,7 @@ static bool is_literal(const char *text, const char *end)
 /* `h8 [deg]` is `h8 = 45 deg` */
 static void name_printed(Printed *line, const ct_expression *expression)
 {
-    char *text = copy_check(ct_expression_text(expression));
+    char *text = check_allocated(ct_expression_text(expression));
     char *open = strrchr(text, '[');
     size_t length = strlen(text);
 
@@ -78,7 +78,7 @@ static int write_number(char out[NUMBER_SIZE], int digits, double value)
     return snprintf(out, NUMBER_SIZE, "%.*g", digits, value == 0 ? 0.0 : value);
 }
 
-static void put_number(FILE *out, int width, int digits, double value)
+static void write_figure(FILE *out, int width, int digits, double value)
 {
     char number[NUMBER_SIZE];
 
@@ -86,7 +86,7 @@ static void put_number(FILE *out, int width, int digits, double value)
     fprintf(out, "%*s", width, number);
 }
 
-static void put_printed(const Call *call, const Printed *lines, int count)
+static void write_printed(const Call *call, const Printed *lines, int count)
 {
     int widest = 0;
 
@@ -104,7 +104,7 @@ static void put_printed(const Call *call, const Printed *lines, int count)
             continue;
         }
         fprintf(call->out, "%-*s = ", widest, name);
-        put_number(call->out, 0, call->shell->settings.digits, lines[i].value);
+        write_figure(call->out, 0, call->shell->settings.digits, lines[i].value);
         fprintf(call->out, "%s%s\n", lines[i].unit != NULL ? " " : "",
                 lines[i].unit != NULL ? lines[i].unit : "");
     }
@@ -139,7 +139,7 @@ static ct_status round_printed(const Call *call, const ct_expression *expression
 static ct_status command_print(Call *call, ct_error *error)
 {
     int count = ct_operand_count(call->statement);
-    Printed *lines = copy_check(calloc((size_t)count + 1, sizeof *lines));
+    Printed *lines = check_allocated(calloc((size_t)count + 1, sizeof *lines));
     ct_status status = ct_apply(call->session, call->statement, error);
 
     /* a name alone may be a mistyped verb */
@@ -159,7 +159,7 @@ static ct_status command_print(Call *call, ct_error *error)
             show_in_unit(call, expression, &lines[i]);
     }
     if (status == CT_OK)
-        put_printed(call, lines, count);
+        write_printed(call, lines, count);
     for (int i = 0; i < count; i++) {
         free(lines[i].name);
         free(lines[i].unit);
@@ -181,7 +181,7 @@ typedef struct TableColumns {
 /* a column is as wide as its widest entry; new */
 static int *column_widths(const TableColumns *table, int digits)
 {
-    int *widths = copy_check(calloc((size_t)table->columns + 1, sizeof *widths));
+    int *widths = check_allocated(calloc((size_t)table->columns + 1, sizeof *widths));
 
     for (int j = 0; j < table->columns; j++) {
         widths[j] = (int)strlen(table->labels[j]);
@@ -209,8 +209,8 @@ static int block_end(const Call *call, const TableColumns *table, const int *wid
 }
 
 /* the first column, and those from `from` up to `to` */
-static void put_block(const Call *call, const TableColumns *table, const int *widths, int from,
-                      int to)
+static void write_block(const Call *call, const TableColumns *table, const int *widths, int from,
+                        int to)
 {
     fprintf(call->out, "%*s", widths[0], table->labels[0]);
     for (int j = from; j < to; j++)
@@ -219,17 +219,17 @@ static void put_block(const Call *call, const TableColumns *table, const int *wi
     for (int i = 0; i < table->rows; i++) {
         const double *row = table->values + (size_t)i * (size_t)table->columns;
 
-        put_number(call->out, widths[0], call->shell->settings.digits, row[0]);
+        write_figure(call->out, widths[0], call->shell->settings.digits, row[0]);
         for (int j = from; j < to; j++) {
             fputs("  ", call->out);
-            put_number(call->out, widths[j], call->shell->settings.digits, row[j]);
+            write_figure(call->out, widths[j], call->shell->settings.digits, row[j]);
         }
         fputc('\n', call->out);
     }
 }
 
 /* in blocks of columns where it is wider than the screen, each with the first one */
-static void put_table(const Call *call, const TableColumns *table)
+static void write_table(const Call *call, const TableColumns *table)
 {
     int *widths = column_widths(table, call->shell->settings.digits);
     int from = 1;
@@ -239,7 +239,7 @@ static void put_table(const Call *call, const TableColumns *table)
 
         if (from > 1)
             fputc('\n', call->out);
-        put_block(call, table, widths, from, to);
+        write_block(call, table, widths, from, to);
         from = to;
     } while (from < table->columns);
     free(widths);
@@ -249,7 +249,7 @@ static void put_table(const Call *call, const TableColumns *table)
 static void label_columns(const Call *call, const ct_expression *const *items, int count,
                           TableColumns *table)
 {
-    table->labels = copy_check(calloc((size_t)table->columns + 1, sizeof *table->labels));
+    table->labels = check_allocated(calloc((size_t)table->columns + 1, sizeof *table->labels));
     for (int j = 0; j < table->columns; j++) {
         const char *name = table->names[j];
         const bool is_asked = j > 0 && j <= count && name[strlen(name) - 1] != ']';
@@ -355,7 +355,7 @@ static ct_status command_table(Call *call, ct_error *error)
     if (status != CT_OK)
         return status;
 
-    const ct_expression **items = copy_check(calloc((size_t)count + 1, sizeof *items));
+    const ct_expression **items = check_allocated(calloc((size_t)count + 1, sizeof *items));
 
     for (int i = 0; i < count; i++)
         items[i] = ct_operand(statement, i);
@@ -364,7 +364,7 @@ static ct_status command_table(Call *call, ct_error *error)
     if (status == CT_OK && count == 0 && (named = asked_by_name(table.names)) != NULL) {
         count = ct_operand_count(named);
         free(items);
-        items = copy_check(calloc((size_t)count + 1, sizeof *items));
+        items = check_allocated(calloc((size_t)count + 1, sizeof *items));
         for (int i = 0; i < count; i++)
             items[i] = ct_operand(named, i);
     }
@@ -374,7 +374,7 @@ static ct_status command_table(Call *call, ct_error *error)
         status = round_column(call, items[j - 1], &table, j, error);
     if (status == CT_OK) {
         label_columns(call, items, count, &table);
-        put_table(call, &table);
+        write_table(call, &table);
         for (int j = 0; j < table.columns; j++)
             free(table.labels[j]);
         free(table.labels);
@@ -427,7 +427,7 @@ static ct_status command_export(Call *call, ct_error *error)
     if (status == CT_OK && format != NULL && strcmp(format, "csv") == 0)
         status = csv_rows(call, text, &rows, error);
     if (status == CT_OK)
-        put_text(call->out, rows != NULL ? rows : text);
+        write_text(call->out, rows != NULL ? rows : text);
     ct_free(text);
     return status;
 }

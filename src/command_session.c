@@ -51,7 +51,7 @@ static ct_status command_source(Call *call, ct_error *error)
 
     /* a model that a file makes alone is in that file */
     if (status == CT_OK && is_first)
-        unsaved_settle(shell->unsaved, call->session);
+        autosave_settle(shell->unsaved, call->session);
     if (status != CT_OK && inner.message[0] == '\0')
         *error = inner;
     else if (status != CT_OK)
@@ -72,7 +72,8 @@ static ct_status read_switch(const Call *call, const char *key, bool *on, ct_err
     return ct_error_at(call->statement, value, error, "%s is on or off", key);
 }
 
-static ct_status tell_unwritten(const Call *call, int operand, const ct_error *why, ct_error *error)
+static ct_status report_unwritten(const Call *call, int operand, const ct_error *why,
+                                  ct_error *error)
 {
     const ct_status status = ct_error_at(call->statement, ct_operand(call->statement, operand),
                                          error, "%s", why->message);
@@ -99,9 +100,9 @@ static ct_status command_save(Call *call, ct_error *error)
     if (script == NULL)
         return ct_error_at(call->statement, NULL, error, "out of memory");
     if (saved_write(path, script, overwrite, &why) != CT_OK) {
-        status = tell_unwritten(call, 0, &why, error);
+        status = report_unwritten(call, 0, &why, error);
     } else if (stat(path, &info) == 0 && S_ISREG(info.st_mode))
-        unsaved_settle(call->shell->unsaved, call->session);
+        autosave_settle(call->shell->unsaved, call->session);
     ct_free(script);
     return status;
 }
@@ -120,7 +121,7 @@ static ct_status command_store(Call *call, ct_error *error)
     if (status == CT_OK)
         status = ct_store(call->session, call->statement, &text, error);
     if (status == CT_OK && stored_write(path, text, overwrite, &why) != CT_OK)
-        status = tell_unwritten(call, 1, &why, error);
+        status = report_unwritten(call, 1, &why, error);
     ct_free(text);
     return status;
 }
@@ -139,7 +140,7 @@ static ct_status command_import(Call *call, ct_error *error)
     ct_status status = ct_import(call->session, call->statement, is_written ? &text : NULL, error);
 
     if (status == CT_OK && is_written)
-        put_text(call->out, text);
+        write_text(call->out, text);
     ct_free(text);
     return status;
 }
@@ -187,7 +188,7 @@ static int apply_leftover(Shell *shell, const Leftover *leftover, FILE *file)
         line[length - 1] = '\0';
         origin.line++;
 
-        const char *folder = unsaved_folder(line);
+        const char *folder = autosave_folder(line);
 
         if (folder != NULL) {
             free(script);
@@ -222,7 +223,7 @@ static ct_status recover(Call *call, Leftover *leftover, ct_error *error)
     shell->depth--;
     fclose(file);
     ct_end_group(call->session, group, "recover");
-    unsaved_follow(shell->unsaved, call->session, shell->script);
+    autosave_follow(shell->unsaved, call->session, shell->script);
     if (failed > 0) {
         ct_error_at(call->statement, NULL, error, "%d of its %d statements failed", failed,
                     leftover->statements);
@@ -233,7 +234,7 @@ static ct_status recover(Call *call, Leftover *leftover, ct_error *error)
            leftover->statements == 1 ? "" : "s", leftover->when);
 
     /* the file goes when this session keeps the same */
-    unsaved_drop(leftover, unsaved_is_kept(shell->unsaved));
+    autosave_drop(leftover, autosave_is_kept(shell->unsaved));
     return CT_OK;
 }
 
@@ -244,11 +245,11 @@ static ct_status command_recover(Call *call, ct_error *error)
     const char *word = call_word(call, 0);
     const int steps = ct_step_count(call->session);
     int count;
-    Leftover *leftovers = unsaved_find(&count);
+    Leftover *leftovers = autosave_find(&count);
     ct_status status = CT_OK;
 
     if (count == 0 && word != NULL) {
-        put_text(call->out, "nothing was left unsaved");
+        write_text(call->out, "nothing was left unsaved");
     } else if (count == 0) {
         status = ct_error_at(call->statement, NULL, error, "nothing was left unsaved");
     } else if (word != NULL && strcmp(word, "list") == 0) {
@@ -257,15 +258,15 @@ static ct_status command_recover(Call *call, ct_error *error)
                     leftovers[i].statements, leftovers[i].statements == 1 ? "" : "s",
                     leftovers[i].path);
     } else if (word != NULL) {
-        unsaved_drop_all(leftovers, count, true);
+        autosave_drop_all(leftovers, count, true);
         return CT_OK;
-    } else if (unsaved_is_kept(shell->unsaved) || (shell->unsaved == NULL && steps > 0)) {
+    } else if (autosave_is_kept(shell->unsaved) || (shell->unsaved == NULL && steps > 0)) {
         status = ct_error_at(call->statement, NULL, error, "the model that is here is not saved");
         error_hint(error, "save \"model.ct\" or clear, then recover");
     } else {
         status = recover(call, &leftovers[0], error);
     }
-    unsaved_drop_all(leftovers, count, false);
+    autosave_drop_all(leftovers, count, false);
     return status;
 }
 
@@ -310,7 +311,7 @@ static ct_status command_set(Call *call, ct_error *error)
     const ct_status status = settings_apply(&call->shell->settings, call->statement, error);
 
     if (status == CT_OK && !call->shell->quiet)
-        settings_tell_dropped(&old, &call->shell->settings);
+        settings_report_dropped(&old, &call->shell->settings);
     return status;
 }
 

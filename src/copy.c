@@ -1,28 +1,28 @@
 /* copy.c: strings of the shell's own */
 #include "copy.h"
 
-#include "memory_end.h"
+#include "out_of_memory.h"
 
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
-void *copy_check(void *piece)
+void *check_allocated(void *piece)
 {
     if (piece == NULL) {
-        memory_end();
+        out_of_memory();
     }
     return piece;
 }
 
 char *copy_text(const char *text)
 {
-    return copy_check(strdup(text));
+    return check_allocated(strdup(text));
 }
 
 char *copy_piece(const char *text, size_t length)
 {
-    return copy_check(strndup(text, length));
+    return check_allocated(strndup(text, length));
 }
 
 char *copy_format(const char *format, ...)
@@ -34,21 +34,21 @@ char *copy_format(const char *format, ...)
     if (vasprintf(&text, format, args) < 0)
         text = NULL;
     va_end(args);
-    return copy_check(text);
+    return check_allocated(text);
 }
 
-void paper_open(Paper *paper)
+void output_buffer_open(OutputBuffer *paper)
 {
-    *paper = (Paper){0};
-    paper->out = copy_check(open_memstream(&paper->text, &paper->length));
+    *paper = (OutputBuffer){0};
+    paper->out = check_allocated(open_memstream(&paper->text, &paper->length));
 }
 
-char *paper_close(Paper *paper)
+char *output_buffer_close(OutputBuffer *paper)
 {
     fclose(paper->out);
     paper->out = NULL;
 
-    char *text = copy_check(paper->text);
+    char *text = check_allocated(paper->text);
 
     paper->text = NULL;
     return text;

@@ -88,7 +88,7 @@ int drawing_dash(int i)
 /* Between double quotes a backslash begins an escape, a backquote a command of a system's shell and
  * an @ the name of a macro, before anything else is looked at: what isn't harmless everywhere goes
  * by its number. In single quotes two primes in a row can't be told from one. */
-void put_quoted(FILE *out, const char *text)
+void write_quoted(FILE *out, const char *text)
 {
     fputc('"', out);
     for (; *text != '\0'; text++) {
@@ -104,18 +104,18 @@ void put_quoted(FILE *out, const char *text)
     fputc('"', out);
 }
 
-void put_title(FILE *out, const char *title)
+void write_title(FILE *out, const char *title)
 {
     if (*title == '\0')
         return;
     fputs("set title ", out);
-    put_quoted(out, title);
+    write_quoted(out, title);
     fputs(" noenhanced\n", out);
 }
 
 /* --- where to --- */
 
-static void say_warnings(const Shell *shell, char *warnings)
+static void write_warnings(const Shell *shell, char *warnings)
 {
     /* a curve that doesn't change is no news */
     if (warnings != NULL && *warnings != '\0' && strncmp(warnings, "Warning: empty", 14) != 0 &&
@@ -128,10 +128,10 @@ static void say_warnings(const Shell *shell, char *warnings)
 static ct_status draw_on(Call *call, const Drawing *drawing, const char *terminal, const char *path,
                          char **printed, ct_error *error)
 {
-    Paper paper;
+    OutputBuffer paper;
     char *warnings = NULL;
 
-    paper_open(&paper);
+    output_buffer_open(&paper);
     fprintf(paper.out, "reset\nundefine $*\nset terminal %s\n", terminal);
     if (path != NULL) {
         fputs("set output ", paper.out);
@@ -139,29 +139,29 @@ static ct_status draw_on(Call *call, const Drawing *drawing, const char *termina
         /* a name that begins with a bar would be a program */
         char *safe = copy_format("%s%s", path[0] == '/' ? "" : "./", path);
 
-        put_quoted(paper.out, safe);
+        write_quoted(paper.out, safe);
         fputc('\n', paper.out);
         free(safe);
     }
     drawing->put(paper.out, drawing);
 
-    char *commands = paper_close(&paper);
+    char *commands = output_buffer_close(&paper);
     ct_status status = gnuplot_do(call->shell->gnuplot, commands, printed, &warnings, error);
 
     free(commands);
-    say_warnings(call->shell, warnings);
+    write_warnings(call->shell, warnings);
     return status;
 }
 
 static ct_status draw_script(const Drawing *drawing, const char *path, ct_error *error)
 {
-    Paper paper;
+    OutputBuffer paper;
 
-    paper_open(&paper);
+    output_buffer_open(&paper);
     fputs("# gnuplot -p draws this\nset encoding utf8\n", paper.out);
     drawing->put(paper.out, drawing);
 
-    char *commands = paper_close(&paper);
+    char *commands = output_buffer_close(&paper);
     ct_status status = file_write(path, commands, paper.length, false, error);
 
     free(commands);
@@ -176,7 +176,7 @@ static ct_status draw_file(Call *call, const Drawing *drawing, const char *path,
     const PictureFormat *format = find_format(call->shell->gnuplot, extension);
 
     if (format == NULL) {
-        error_say(error, "this gnuplot can't write '.%s'", extension);
+        error_set(error, "this gnuplot can't write '.%s'", extension);
         error_hint(error, "svg works everywhere; gnuplot-nox has png, pdf and eps as well");
         return CT_FAILED;
     }
@@ -190,7 +190,7 @@ static ct_status draw_file(Call *call, const Drawing *drawing, const char *path,
 
     status = draw_on(call, drawing, terminal, place, &printed, error);
     if (status == CT_OK && !file_has_content(place) && strcmp(place, path) != 0)
-        status = error_say(error, "gnuplot drew nothing");
+        status = error_set(error, "gnuplot drew nothing");
     if (status == CT_OK)
         status = file_settle(place, path, true, error);
     else
@@ -227,9 +227,9 @@ static void draw_text(Call *call, const Drawing *drawing)
         columns--;
     }
 
-    char *text = copy_check(drawing->text(drawing, columns, rows, call->shell->unicode));
+    char *text = check_allocated(drawing->text(drawing, columns, rows, call->shell->unicode));
 
-    put_text(call->out, text);
+    write_text(call->out, text);
     ct_free(text);
 }
 
@@ -237,7 +237,7 @@ static ct_status draw_text_file(const Call *call, const Drawing *drawing, const 
                                 ct_error *error)
 {
     enum { COLUMNS = 100, ROWS = 30 };
-    char *text = copy_check(drawing->text(drawing, COLUMNS, ROWS, call->shell->unicode));
+    char *text = check_allocated(drawing->text(drawing, COLUMNS, ROWS, call->shell->unicode));
     ct_status status = file_write(path, text, strlen(text), false, error);
 
     ct_free(text);
@@ -267,7 +267,7 @@ static ct_status draw_screen(Call *call, const Drawing *drawing, ct_error *error
         terminal = copy_format("%s%s", window_terminal, call->shell->interactive ? "" : " persist");
         free(window_terminal);
     } else if (is_wanted(call, "window")) {
-        error_say(error, "this gnuplot has no windows");
+        error_set(error, "this gnuplot has no windows");
         error_hint(error, "apt install gnuplot-qt, or set terminal text");
         return CT_FAILED;
     } else {
@@ -277,7 +277,7 @@ static ct_status draw_screen(Call *call, const Drawing *drawing, ct_error *error
     ct_status status = draw_on(call, drawing, terminal, NULL, &printed, error);
 
     if (status == CT_OK)
-        put_text(call->out, printed + strspn(printed, "\f\n"));
+        write_text(call->out, printed + strspn(printed, "\f\n"));
     else if (error->hint[0] == '\0')
         error_hint(error, "set terminal text draws without a display");
     free(printed);

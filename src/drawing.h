@@ -26,9 +26,9 @@ bool drawing_in_window(const Call *call);
 ct_status drawing_make(Call *call, const Drawing *drawing, const char *path, ct_error *error);
 
 /* a string of gnuplot's, in quotes */
-void put_quoted(FILE *out, const char *text);
+void write_quoted(FILE *out, const char *text);
 /* `set title`, where there is a title */
-void put_title(FILE *out, const char *title);
+void write_title(FILE *out, const char *title);
 /* of the i-th curve: "#0072b2"; where colours repeat the dashes, 1 and on, differ */
 const char *drawing_color(int i);
 int drawing_dash(int i);

@@ -1,8 +1,8 @@
 /* file.c: whole files, written at once or not at all; names of files */
 #include "file.h"
 
-#include "complain.h"
 #include "copy.h"
+#include "report_error.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -13,7 +13,7 @@
 
 static ct_status say(ct_error *error, const char *what, const char *path)
 {
-    error_say(error, "can't %s '%s': %s", what, path, strerror(errno));
+    error_set(error, "can't %s '%s': %s", what, path, strerror(errno));
     return CT_FAILED;
 }
 
@@ -62,7 +62,7 @@ ct_status file_may_read(const char *path, ct_error *error)
         status = say(error, "read", path);
     } else if (confined.folder == NULL || !is_below(real, confined.folder)) {
         status =
-            error_say(error, "'%s' may not be read: it lies outside the script's folder", path);
+            error_set(error, "'%s' may not be read: it lies outside the script's folder", path);
         error_hint(error, "--safe keeps to that folder");
     }
     free(real);
@@ -73,7 +73,7 @@ ct_status file_may_write(const char *path, ct_error *error)
 {
     if (!confined.on)
         return CT_OK;
-    error_say(error, "'%s' is not written: this is a --safe session", path);
+    error_set(error, "'%s' is not written: this is a --safe session", path);
     return CT_FAILED;
 }
 

@@ -4,9 +4,9 @@
  * when it is done and whether it was content, without waiting for a time. */
 #include "gnuplot.h"
 
-#include "complain.h"
 #include "config.h"
 #include "process.h"
+#include "report_error.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -39,7 +39,7 @@ ct_status gnuplot_start(Gnuplot **gnuplot, ct_error *error)
     gnuplot_close(*gnuplot);
     *gnuplot = NULL;
 
-    Gnuplot *new = copy_check(calloc(1, sizeof *new));
+    Gnuplot *new = check_allocated(calloc(1, sizeof *new));
     char *program = copy_text(find_program());
     char *argv[] = {program, NULL};
     char *printed = NULL, *warnings = NULL;
@@ -106,9 +106,9 @@ static char *find_message(const char *said)
 /* what it says without failing, free of blank lines and indentation */
 static char *gather_warnings(const char *said)
 {
-    Paper paper;
+    OutputBuffer paper;
 
-    paper_open(&paper);
+    output_buffer_open(&paper);
     while (*said != '\0') {
         said += strspn(said, " \t\n");
 
@@ -118,28 +118,28 @@ static char *gather_warnings(const char *said)
             fprintf(paper.out, "%s%.*s", ftell(paper.out) > 0 ? "\n" : "", (int)length, said);
         said += length;
     }
-    return paper_close(&paper);
+    return output_buffer_close(&paper);
 }
 
 ct_status gnuplot_do(Gnuplot *gnuplot, const char *commands, char **printed, char **warnings,
                      ct_error *error)
 {
     char *all = copy_format("reset errors\n%s%s", commands, CLOSING);
-    Paper out, err;
+    OutputBuffer out, err;
     ct_error why;
 
-    paper_open(&out);
-    paper_open(&err);
+    output_buffer_open(&out);
+    output_buffer_open(&err);
 
     ct_status status =
         process_exchange(&gnuplot->process, all, strlen(all), MARK, &out, &err, &why);
-    char *said = paper_close(&err);
+    char *said = output_buffer_close(&err);
 
-    *printed = paper_close(&out);
+    *printed = output_buffer_close(&out);
     *warnings = NULL;
     free(all);
     if (status == CT_FAILED) {
-        error_say(error, "gnuplot: %s", why.message);
+        error_set(error, "gnuplot: %s", why.message);
         error_hint(error, "the next plot starts another one");
     } else if (status != CT_OK) {
         /* it was in the middle of something: start afresh */
@@ -148,7 +148,7 @@ ct_status gnuplot_do(Gnuplot *gnuplot, const char *commands, char **printed, cha
     } else if (take_errors(said) != 0) {
         char *message = find_message(said);
 
-        status = error_say(error, "gnuplot: %s", message);
+        status = error_set(error, "gnuplot: %s", message);
         free(message);
     } else {
         *warnings = gather_warnings(said);

@@ -2,10 +2,10 @@
  * compiler of $CC, or cc, makes one of them */
 #include "library.h"
 
-#include "complain.h"
 #include "copy.h"
 #include "file.h"
 #include "process.h"
+#include "report_error.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -16,11 +16,11 @@
 
 enum { SOURCES = 16, PATIENCE = 100 }; /* ms */
 
-typedef struct Making {
+typedef struct LibraryBuilder {
     char *folder;
     char *paths[SOURCES]; /* of files in it */
     int count;
-} Making;
+} LibraryBuilder;
 
 static ct_status write_file(const char *path, const char *bytes, size_t length, ct_error *error)
 {
@@ -29,10 +29,10 @@ static ct_status write_file(const char *path, const char *bytes, size_t length, 
 
     if (file != NULL)
         is_written = fclose(file) == 0 && is_written;
-    return is_written ? CT_OK : error_say(error, "can't write '%s': %s", path, strerror(errno));
+    return is_written ? CT_OK : error_set(error, "can't write '%s': %s", path, strerror(errno));
 }
 
-static ct_status write_sources(Making *making, const ct_archive *archive, ct_error *error)
+static ct_status write_sources(LibraryBuilder *making, const ct_archive *archive, ct_error *error)
 {
     static const char below[] = "sources/";
     const char *name, *bytes;
@@ -51,7 +51,7 @@ static ct_status write_sources(Making *making, const ct_archive *archive, ct_err
 }
 
 /* CT_OK with *made false: there is no compiler */
-static ct_status compile(const Making *making, char *target, bool *made, ct_error *error)
+static ct_status compile(const LibraryBuilder *making, char *target, bool *made, ct_error *error)
 {
     static const char *const options[] = {"-std=c99",          "-O2",     "-fPIC",
                                           "-ffp-contract=off", "-shared", "-fvisibility=hidden"};
@@ -60,7 +60,7 @@ static ct_status compile(const Making *making, char *target, bool *made, ct_erro
     char ending[40];
     int count = 0;
     Process process = {0};
-    Paper out, err;
+    OutputBuffer out, err;
     ct_error unused;
     ct_status status;
 
@@ -77,15 +77,15 @@ static ct_status compile(const Making *making, char *target, bool *made, ct_erro
     *made = process_start(&process, argv, &unused) == CT_OK;
     status = CT_OK;
     if (*made) {
-        paper_open(&out);
-        paper_open(&err);
+        output_buffer_open(&out);
+        output_buffer_open(&err);
         status = process_exchange(&process, "", 0, NULL, &out, &err, error);
         process_end(&process, PATIENCE);
-        free(paper_close(&out));
-        char *said = paper_close(&err);
+        free(output_buffer_close(&out));
+        char *said = output_buffer_close(&err);
 
         if (status == CT_OK && process.ended != 0)
-            status = error_say(error, "the compiler '%s' failed (%s): %.200s", compiler,
+            status = error_set(error, "the compiler '%s' failed (%s): %.200s", compiler,
                                process_ending(process.ended, ending), said);
         free(said);
     }
@@ -101,12 +101,12 @@ static ct_status read_file(const char *path, char **bytes, size_t *length, ct_er
     ct_status status = CT_OK;
 
     if (file == NULL || fstat(fileno(file), &about) != 0)
-        status = error_say(error, "can't read '%s': %s", path, strerror(errno));
+        status = error_set(error, "can't read '%s': %s", path, strerror(errno));
     if (status == CT_OK) {
         *length = (size_t)about.st_size;
-        *bytes = copy_check(malloc(*length + 1));
+        *bytes = check_allocated(malloc(*length + 1));
         if (fread(*bytes, 1, *length, file) != *length)
-            status = error_say(error, "can't read '%s'", path);
+            status = error_set(error, "can't read '%s'", path);
     }
     if (file != NULL)
         fclose(file);
@@ -116,7 +116,8 @@ static ct_status read_file(const char *path, char **bytes, size_t *length, ct_er
 ct_status library_of(const ct_archive *archive, char **bytes, size_t *length, ct_error *error)
 {
     const char *folder = getenv("TMPDIR");
-    Making making = {.folder = copy_format("%s/cotree-XXXXXX", folder != NULL ? folder : "/tmp")};
+    LibraryBuilder making = {.folder =
+                                 copy_format("%s/cotree-XXXXXX", folder != NULL ? folder : "/tmp")};
     char *target = NULL;
     bool made = false;
     ct_status status = CT_OK;
@@ -126,7 +127,7 @@ ct_status library_of(const ct_archive *archive, char **bytes, size_t *length, ct
         goto done;
     }
     if (mkdtemp(making.folder) == NULL) {
-        status = error_say(error, "can't make '%s': %s", making.folder, strerror(errno));
+        status = error_set(error, "can't make '%s': %s", making.folder, strerror(errno));
         goto done;
     }
     target = copy_format("%s/library.so", making.folder);

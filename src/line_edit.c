@@ -63,7 +63,7 @@ static char **complete_file(const char *typed)
 
     rl_filename_completion_desired = 1;
     while ((word = rl_filename_completion_function(typed, count == 0 ? 0 : 1)) != NULL) {
-        words = copy_check(realloc(words, (count + 2) * sizeof *words));
+        words = check_allocated(realloc(words, (count + 2) * sizeof *words));
         words[count++] = word;
         words[count] = NULL;
     }
@@ -92,7 +92,7 @@ static void list_words(char **words, size_t shared)
     while (words[count] != NULL)
         count++;
 
-    char **all = copy_check(calloc((size_t)count + 2, sizeof *all));
+    char **all = check_allocated(calloc((size_t)count + 2, sizeof *all));
 
     all[0] = copy_piece(words[0], shared);
     for (int i = 0; i < count; i++) {
@@ -216,14 +216,14 @@ static int on_paste(int count, int key)
 {
     static const char end[] = "\033[201~";
     const size_t end_length = sizeof end - 1;
-    Paper paper;
+    OutputBuffer paper;
     size_t length = 0;
     int c = 0;
     bool is_whole = false;
 
     (void)count;
     (void)key;
-    paper_open(&paper);
+    output_buffer_open(&paper);
     while (!is_whole && wait_for_key() && (c = rl_read_key()) > 0) {
         putc(c, paper.out);
         length++;
@@ -232,7 +232,7 @@ static int on_paste(int count, int key)
                        memcmp(paper.text + length - end_length, end, end_length) == 0;
     }
 
-    char *text = paper_close(&paper);
+    char *text = output_buffer_close(&paper);
 
     if (is_whole)
         text[length - end_length] = '\0';

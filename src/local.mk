@@ -4,7 +4,7 @@ cotree_SOURCES = \
     src/bode.c \
     src/command.c src/command.h \
     src/command_draw.c src/command_look.c src/command_run.c src/command_session.c \
-    src/complain.c src/complain.h \
+    src/report_error.c src/report_error.h \
     src/copy.c src/copy.h \
     src/drawing.c src/drawing.h \
     src/file.c src/file.h \
@@ -13,7 +13,7 @@ cotree_SOURCES = \
     src/library.c src/library.h \
     src/line_edit.c src/line_edit.h \
     src/main.c \
-    src/memory_end.c src/memory_end.h \
+    src/out_of_memory.c src/out_of_memory.h \
     src/pager.c src/pager.h \
     src/plot.c src/plot.h src/plot_commands.c src/plot_text.c \
     src/process.c src/process.h \
@@ -24,6 +24,6 @@ cotree_SOURCES = \
     src/settings.c src/settings.h src/settings.def \
     src/shell.c src/shell.h \
     src/terminal.c src/terminal.h \
-    src/unsaved.c src/unsaved.h
+    src/autosave.c src/autosave.h
 cotree_CPPFLAGS = $(AM_CPPFLAGS) $(READLINE_CFLAGS)
 cotree_LDADD = libcotree.la $(READLINE_LIBS)

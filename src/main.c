@@ -1,11 +1,11 @@
 /* main.c: options, and which lines are run: files, -e, standard input, the prompt */
-#include "complain.h"
 #include "copy.h"
 #include "file.h"
 #include "interrupt.h"
 #include "line_edit.h"
-#include "memory_end.h"
+#include "out_of_memory.h"
 #include "replay.h"
+#include "report_error.h"
 #include "shell.h"
 
 #include <errno.h>
@@ -105,7 +105,7 @@ static void request_free(Invocation *request)
     free(request->sources);
 }
 
-static int say_usage(const char *format, const char *what)
+static int write_usage(const char *format, const char *what)
 {
     fputs("cotree: ", stderr);
     fprintf(stderr, format, what);
@@ -124,7 +124,7 @@ static int print_reference(const char *format)
     char *text = ct_reference(format);
 
     if (text == NULL)
-        return say_usage("there is no reference as '%s': texinfo, man or words", format);
+        return write_usage("there is no reference as '%s': texinfo, man or words", format);
 
     int status = print_and_leave(text);
 
@@ -137,7 +137,7 @@ static int read_options(Invocation *request, int argc, char **argv)
 {
     int option;
 
-    request->sources = copy_check(calloc((size_t)argc + 1, sizeof *request->sources));
+    request->sources = check_allocated(calloc((size_t)argc + 1, sizeof *request->sources));
     opterr = 0;
 
     /* "-" hands files over where they stand, so that they keep their order among -e */
@@ -175,9 +175,9 @@ static int read_options(Invocation *request, int argc, char **argv)
         case OPTION_HELP:
             return print_and_leave(usage);
         case ':':
-            return say_usage("option '%s' needs a value", argv[optind - 1]);
+            return write_usage("option '%s' needs a value", argv[optind - 1]);
         default:
-            return say_usage("unknown option '%s'", argv[optind - 1]);
+            return write_usage("unknown option '%s'", argv[optind - 1]);
         }
     }
     for (; optind < argc; optind++)
@@ -208,10 +208,10 @@ static void run_init_file(Shell *shell)
     free(path);
 }
 
-static void tell_leftovers(void)
+static void report_leftovers(void)
 {
     int count;
-    Leftover *leftovers = unsaved_find(&count);
+    Leftover *leftovers = autosave_find(&count);
     const int statements = count > 0 ? leftovers[0].statements : 0;
 
     if (count > 0)
@@ -219,7 +219,7 @@ static void tell_leftovers(void)
                leftovers[0].when, statements, statements == 1 ? "" : "s");
     if (count > 1)
         remark("recover list tells the %d that there are", count);
-    unsaved_drop_all(leftovers, count, false);
+    autosave_drop_all(leftovers, count, false);
 }
 
 static void run_prompt(Shell *shell, bool no_init)
@@ -231,14 +231,14 @@ static void run_prompt(Shell *shell, bool no_init)
                ct_version());
     if (!no_init)
         run_init_file(shell);
-    shell->unsaved = unsaved_open(shell->session);
-    memory_end_note(shell->unsaved);
+    shell->unsaved = autosave_open(shell->session);
+    out_of_memory_note(shell->unsaved);
     if (!shell->quiet)
-        tell_leftovers();
+        report_leftovers();
     line_edit_open(shell->session);
     replay(shell, reader_of_prompt());
     line_edit_close();
-    if (unsaved_is_kept(shell->unsaved) && !shell->quiet)
+    if (autosave_is_kept(shell->unsaved) && !shell->quiet)
         remark("the model was not saved: it is kept, and recover brings it back");
 }
 
@@ -281,7 +281,7 @@ static int run(const Invocation *request)
 
     if (bad_seed) {
         shell_close(&shell);
-        return say_usage("--seed: %s", error.message);
+        return write_usage("--seed: %s", error.message);
     }
     run_sources(&shell, request);
     if (typed && !shell.quitting)

@@ -21,7 +21,7 @@ static bool is_name_letter(char c)
 /* the run that an expression names: new; "" when none */
 static char *find_run(const ct_expression *expression)
 {
-    char *text = copy_check(ct_expression_text(expression));
+    char *text = check_allocated(ct_expression_text(expression));
     char *run = NULL;
 
     for (const char *at = strstr(text, "run"); at != NULL && run == NULL;
@@ -38,7 +38,7 @@ static char *find_run(const ct_expression *expression)
 /* data of a file, drawn as they were measured */
 static bool is_measured(const ct_expression *expression)
 {
-    char *text = copy_check(ct_expression_text(expression));
+    char *text = check_allocated(ct_expression_text(expression));
     bool is_table = strncmp(text + strspn(text, "("), "table(", 6) == 0;
 
     ct_free(text);
@@ -51,8 +51,8 @@ static void lay_out_curves(Plot *plot, const ct_statement *statement)
     int bars = 0;
 
     plot->count = ct_operand_count(statement);
-    plot->curves = copy_check(calloc((size_t)plot->count + 1, sizeof *plot->curves));
-    plot->blocks = copy_check(calloc((size_t)plot->count + 1, sizeof *plot->blocks));
+    plot->curves = check_allocated(calloc((size_t)plot->count + 1, sizeof *plot->curves));
+    plot->blocks = check_allocated(calloc((size_t)plot->count + 1, sizeof *plot->blocks));
     for (int i = 0; i < plot->count; i++) {
         char *run = find_run(ct_operand(statement, i));
         const bool measured = is_measured(ct_operand(statement, i));
@@ -74,7 +74,7 @@ static void lay_out_curves(Plot *plot, const ct_statement *statement)
 /* What has no unit behind it is in that of its dimension, where this is known. */
 static void label_columns(const Call *call, PlotBlock *block, const ct_expression *const *items)
 {
-    block->labels = copy_check(calloc((size_t)block->columns + 1, sizeof *block->labels));
+    block->labels = check_allocated(calloc((size_t)block->columns + 1, sizeof *block->labels));
     for (int j = 0; j < block->columns; j++) {
         const char *name = j == 1 && block->caption != NULL ? block->caption : block->names[j];
         double size = 1;
@@ -86,7 +86,7 @@ static void label_columns(const Call *call, PlotBlock *block, const ct_expressio
 
         for (int i = 0; i < block->rows && size != 1; i++)
             block->values[i * block->columns + j] /= size;
-        block->labels[j] = copy_check(malloc(room));
+        block->labels[j] = check_allocated(malloc(room));
         (void)snprintf(block->labels[j], room, unit != NULL ? "%s [%s]" : "%s", name, unit);
         ct_free(unit);
     }
@@ -120,7 +120,7 @@ static ct_status take_measured(const Call *call, const ct_expression *item, Plot
 static ct_status fill_block(const Call *call, Plot *plot, int number, ct_error *error)
 {
     PlotBlock *block = &plot->blocks[number];
-    const ct_expression **items = copy_check(calloc((size_t)plot->count + 2, sizeof *items));
+    const ct_expression **items = check_allocated(calloc((size_t)plot->count + 2, sizeof *items));
     int count = 0;
 
     for (int i = 0; i < plot->count; i++)
@@ -290,7 +290,7 @@ static ct_status plot(Call *call, const char *path, ct_error *error)
     if (status == CT_OK) {
         plot_lay_out(&plot);
 
-        const Drawing drawing = {.put = plot_put,
+        const Drawing drawing = {.put = plot_write,
                                  .text = plot_text,
                                  .of = &plot,
                                  .title = plot.keys.title,

@@ -54,7 +54,7 @@ char *plot_axis_label(const Plot *plot, int panel, bool right);
 bool plot_event(const Plot *plot, const PlotBlock *block, int i, const char **name,
                 const double **times, int *count);
 /* gnuplot's commands, data included, and characters: a Drawing's `put` and `text` */
-void plot_put(FILE *out, const Drawing *drawing);
+void plot_write(FILE *out, const Drawing *drawing);
 char *plot_text(const Drawing *drawing, int columns, int rows, bool unicode);
 
 #endif

@@ -115,10 +115,10 @@ enum { LONGEST = 34 }; /* characters of the names at an axis */
 /* Names of an axis's curves that have a unit, or have none that is known: new; "" none. */
 static char *join_names(const Plot *plot, int panel, bool right, bool known)
 {
-    Paper names;
+    OutputBuffer names;
     int count = 0;
 
-    paper_open(&names);
+    output_buffer_open(&names);
     for (int i = 0; i < plot->count; i++) {
         const char *label = plot_label(plot, i);
         const PlotCurve *curve = &plot->curves[i];
@@ -130,7 +130,7 @@ static char *join_names(const Plot *plot, int panel, bool right, bool known)
             length--;
         fprintf(names.out, "%s%.*s", count++ > 0 ? ", " : "", (int)length, label);
     }
-    return paper_close(&names);
+    return output_buffer_close(&names);
 }
 
 static const char *unit_of_axis(const Plot *plot, int panel, bool right)
@@ -170,13 +170,13 @@ static int curves_of(const Plot *plot, int panel)
     return count;
 }
 
-static void put_axis_label(FILE *out, const Plot *plot, int panel, bool right)
+static void write_axis_label(FILE *out, const Plot *plot, int panel, bool right)
 {
     char *label = plot_axis_label(plot, panel, right);
 
     fprintf(out, label != NULL ? "set %slabel " : "unset %slabel\n", right ? "y2" : "y");
     if (label != NULL) {
-        put_quoted(out, label);
+        write_quoted(out, label);
         fputs(" noenhanced\n", out);
     }
     if (right)
@@ -185,7 +185,7 @@ static void put_axis_label(FILE *out, const Plot *plot, int panel, bool right)
     free(label);
 }
 
-static void put_range(FILE *out, const char *axis, const double range[2])
+static void write_range(FILE *out, const char *axis, const double range[2])
 {
     if (isnan(range[0]))
         fprintf(out, "set autoscale %s\n", axis);
@@ -207,7 +207,7 @@ const char *plot_x_label(const Plot *plot)
     return plot->versus != NULL ? block->labels[plot_x_column(plot, block)] : plot->time_label;
 }
 
-static void put_blocks(FILE *out, const Plot *plot)
+static void write_blocks(FILE *out, const Plot *plot)
 {
     for (int b = 0; b < plot->blocks_count; b++) {
         const PlotBlock *block = &plot->blocks[b];
@@ -279,7 +279,7 @@ static double part_of_axis(const EventNames *names, double t)
 }
 
 /* Where it covers no other name, at the left of its line where there is no room at the right. */
-static void put_name(FILE *out, const Plot *plot, EventNames *names, const char *name, double t)
+static void write_name(FILE *out, const Plot *plot, EventNames *names, const char *name, double t)
 {
     const double at = part_of_axis(names, t), wide = LETTER * ((double)strlen(name) + 2);
     const bool left = at + wide > 1;
@@ -296,7 +296,7 @@ static void put_name(FILE *out, const Plot *plot, EventNames *names, const char 
     names->latest[row] = name;
     names->end[row] = from + wide;
     fputs("set label ", out);
-    put_quoted(out, name);
+    write_quoted(out, name);
     fprintf(out,
             " at first %.17g, graph %.3g %s offset %s0.5,0 noenhanced textcolor rgb '#606060'\n", t,
             0.98 - ROW_HIGH * row * plot->panels, left ? "right" : "left", left ? "-" : "");
@@ -315,7 +315,7 @@ static int compare_marks(const void *a, const void *b)
 }
 
 /* A line at each instant; the first of each event of a run is named, from left to right. */
-static void put_events(FILE *out, const Plot *plot, bool named)
+static void write_events(FILE *out, const Plot *plot, bool named)
 {
     EventNames names = names_over(plot);
     Mark *marks = NULL;
@@ -333,26 +333,26 @@ static void put_events(FILE *out, const Plot *plot, bool named)
                         times[k] * plot->time_scale, times[k] * plot->time_scale);
             if (count == 0)
                 continue;
-            marks = copy_check(realloc(marks, (size_t)(all + 1) * sizeof *marks));
+            marks = check_allocated(realloc(marks, (size_t)(all + 1) * sizeof *marks));
             marks[all++] = (Mark){times[0] * plot->time_scale, name};
         }
     if (all > 0)
         qsort(marks, (size_t)all, sizeof *marks, compare_marks);
     for (int i = 0; named && i < all; i++)
-        put_name(out, plot, &names, marks[i].name, marks[i].t);
+        write_name(out, plot, &names, marks[i].name, marks[i].t);
     free(marks);
 }
 
 /* --- panels as commands --- */
 
-static void put_curve(FILE *out, const Plot *plot, int i)
+static void write_curve(FILE *out, const Plot *plot, int i)
 {
     const PlotCurve *curve = &plot->curves[i];
     const int x = plot_x_column(plot, &plot->blocks[curve->block]) + 1;
 
     fprintf(out, "$block%d using %d:%d axes x1y%d with %s title ", curve->block, x,
             curve->column + 1, curve->right ? 2 : 1, curve->measured ? "points" : "lines");
-    put_quoted(out, plot_label(plot, i));
+    write_quoted(out, plot_label(plot, i));
     fprintf(out, " linecolor rgb '%s'", drawing_color(i));
     if (curve->measured)
         fputs(" pointtype 6 pointsize 0.8", out);
@@ -360,7 +360,7 @@ static void put_curve(FILE *out, const Plot *plot, int i)
         fprintf(out, " linewidth 1.5 dashtype %d", drawing_dash(i));
 }
 
-static void put_panel(FILE *out, const Plot *plot, int panel)
+static void write_panel(FILE *out, const Plot *plot, int panel)
 {
     bool last = panel == plot->panels - 1, first = true;
 
@@ -368,28 +368,28 @@ static void put_panel(FILE *out, const Plot *plot, int panel)
               ? "set key noenhanced outside top left horizontal Left reverse samplen 2\n"
               : "unset key\n",
           out);
-    put_events(out, plot, panel == 0);
+    write_events(out, plot, panel == 0);
     fputs(last ? "set xlabel " : "unset xlabel\n", out);
     if (last) {
-        put_quoted(out, plot_x_label(plot));
+        write_quoted(out, plot_x_label(plot));
         fputs(" noenhanced\n", out);
     }
-    put_axis_label(out, plot, panel, false);
-    put_axis_label(out, plot, panel, true);
+    write_axis_label(out, plot, panel, false);
+    write_axis_label(out, plot, panel, true);
     for (int i = 0; i < plot->count; i++) {
         if (plot->curves[i].panel != panel)
             continue;
         fputs(first ? "plot " : ", ", out);
-        put_curve(out, plot, i);
+        write_curve(out, plot, i);
         first = false;
     }
     fputc('\n', out);
 }
 
-static void put_scales(FILE *out, const Plot *plot)
+static void write_scales(FILE *out, const Plot *plot)
 {
-    put_range(out, "x", plot->keys.x);
-    put_range(out, "y", plot->keys.y);
+    write_range(out, "x", plot->keys.x);
+    write_range(out, "y", plot->keys.y);
     if (plot->versus == NULL && isnan(plot->keys.x[0]))
         fputs("set autoscale xfix\n", out);
     if (plot->keys.x_is_log)
@@ -429,15 +429,15 @@ static int margin_for(const Plot *plot, bool right)
     return margin;
 }
 
-void plot_put(FILE *out, const Drawing *drawing)
+void plot_write(FILE *out, const Drawing *drawing)
 {
     const Plot *plot = drawing->of;
     const int right = margin_for(plot, true);
 
-    put_blocks(out, plot);
+    write_blocks(out, plot);
     if (plot->panels == 1)
-        put_title(out, drawing->title);
-    put_scales(out, plot);
+        write_title(out, drawing->title);
+    write_scales(out, plot);
     fputs(
         "set border 3\nset tics nomirror\nset grid linetype 1 linecolor '#e0e0e0' linewidth 0.7\n",
         out);
@@ -445,7 +445,7 @@ void plot_put(FILE *out, const Drawing *drawing)
         fprintf(out, "set multiplot layout %d,1", plot->panels);
         if (*drawing->title != '\0') {
             fputs(" title ", out);
-            put_quoted(out, drawing->title);
+            write_quoted(out, drawing->title);
             fputs(" noenhanced", out);
         }
         /* the panels' axes of time stand above one another */
@@ -453,7 +453,7 @@ void plot_put(FILE *out, const Drawing *drawing)
                 right > 0 ? right : 3);
     }
     for (int i = 0; i < plot->panels; i++)
-        put_panel(out, plot, i);
+        write_panel(out, plot, i);
     if (plot->panels > 1)
         fputs("unset multiplot\n", out);
 }

@@ -15,7 +15,7 @@ typedef struct Panel {
 
 static void add_curves(const Plot *plot, int number, Panel *panel, ct_chart *chart)
 {
-    panel->curves = copy_check(calloc((size_t)plot->count + 1, sizeof *panel->curves));
+    panel->curves = check_allocated(calloc((size_t)plot->count + 1, sizeof *panel->curves));
     for (int i = 0; i < plot->count; i++) {
         const PlotCurve *curve = &plot->curves[i];
         const PlotBlock *block = &plot->blocks[curve->block];
@@ -44,8 +44,8 @@ static void add_marks(const Plot *plot, int number, Panel *panel, ct_chart *char
     for (int b = 0; b < plot->blocks_count; b++)
         for (int i = 0; plot_event(plot, &plot->blocks[b], i, &name, &times, &count); i++)
             all += count;
-    panel->marks = copy_check(calloc((size_t)all + 1, sizeof *panel->marks));
-    panel->names = copy_check(calloc((size_t)all + 1, sizeof *panel->names));
+    panel->marks = check_allocated(calloc((size_t)all + 1, sizeof *panel->marks));
+    panel->names = check_allocated(calloc((size_t)all + 1, sizeof *panel->names));
     for (int b = 0; b < plot->blocks_count; b++)
         for (int i = 0; plot_event(plot, &plot->blocks[b], i, &name, &times, &count); i++)
             for (int k = 0; k < count; k++) {
@@ -59,8 +59,8 @@ static void add_marks(const Plot *plot, int number, Panel *panel, ct_chart *char
 char *plot_text(const Drawing *drawing, int columns, int rows, bool unicode)
 {
     const Plot *plot = drawing->of;
-    ct_chart *charts = copy_check(calloc((size_t)plot->panels + 1, sizeof *charts));
-    Panel *panels = copy_check(calloc((size_t)plot->panels + 1, sizeof *panels));
+    ct_chart *charts = check_allocated(calloc((size_t)plot->panels + 1, sizeof *charts));
+    Panel *panels = check_allocated(calloc((size_t)plot->panels + 1, sizeof *panels));
 
     for (int i = 0; i < plot->panels; i++) {
         ct_chart *chart = &charts[i];

@@ -1,8 +1,8 @@
 /* process.c: a program beside us, with pipes to its input, output and complaints */
 #include "process.h"
 
-#include "complain.h"
 #include "interrupt.h"
+#include "report_error.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -80,7 +80,7 @@ ct_status process_start(Process *process, char *const argv[], ct_error *error)
     close_one(&process->in);
     close_one(&process->out);
     close_one(&process->err);
-    return error_say(error, "can't start '%s': %s", argv[0], strerror(reason));
+    return error_set(error, "can't start '%s': %s", argv[0], strerror(reason));
 }
 
 bool process_lives(Process *process)
@@ -95,7 +95,7 @@ bool process_lives(Process *process)
 }
 
 /* Take down what is there to read; false at the end of the stream. */
-static bool take(int file, Paper *paper)
+static bool take(int file, OutputBuffer *paper)
 {
     char piece[8192];
     ssize_t got = read(file, piece, sizeof piece);
@@ -106,7 +106,7 @@ static bool take(int file, Paper *paper)
 }
 
 /* whether the text ends with the marked line; what stands before may lack its end of line */
-static bool is_marked(Paper *paper, const char *mark)
+static bool is_marked(OutputBuffer *paper, const char *mark)
 {
     size_t length = mark != NULL ? strlen(mark) : 0;
 
@@ -118,7 +118,7 @@ static bool is_marked(Paper *paper, const char *mark)
     return strncmp(tail, mark, length) == 0 && tail[length] == '\n';
 }
 
-static void remove_mark(Paper *paper, const char *mark)
+static void remove_mark(OutputBuffer *paper, const char *mark)
 {
     fseek(paper->out, -(long)strlen(mark) - 1, SEEK_END);
     fflush(paper->out);
@@ -137,14 +137,14 @@ static bool send_more(Process *process, const char **input, size_t *length)
 }
 
 ct_status process_exchange(Process *process, const char *input, size_t length, const char *mark,
-                           Paper *out, Paper *err, ct_error *error)
+                           OutputBuffer *out, OutputBuffer *err, ct_error *error)
 {
     bool out_open = true, err_open = true;
     bool out_done = false, err_done = false;
 
     while ((out_open && !out_done) || (err_open && !err_done)) {
         if (interrupt_asked()) {
-            error_say(error, "stopped");
+            error_set(error, "stopped");
             return error->status = CT_STOPPED;
         }
         if (length == 0 && mark == NULL)
@@ -178,7 +178,7 @@ ct_status process_exchange(Process *process, const char *input, size_t length, c
     char how[40];
 
     process_end(process, 500);
-    return error_say(error, "it ended on its own (%s)", process_ending(process->ended, how));
+    return error_set(error, "it ended on its own (%s)", process_ending(process->ended, how));
 }
 
 int process_end(Process *process, int patience)

@@ -26,7 +26,7 @@ bool process_lives(Process *process);
  * an end of line (NULL: until both end, the input being closed). The marks are left out.
  * CT_STOPPED after Ctrl-C; CT_FAILED when it ended before the marks. */
 ct_status process_exchange(Process *process, const char *input, size_t length, const char *mark,
-                           Paper *out, Paper *err, ct_error *error);
+                           OutputBuffer *out, OutputBuffer *err, ct_error *error);
 
 /* Close the pipes and wait up to `patience` milliseconds, then end it the hard way. Returns its
  * wait status. */

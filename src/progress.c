@@ -18,7 +18,7 @@ void progress_begin(Progress *progress, bool allowed)
     progress->began = progress->phase_began = ct_clock();
 }
 
-static void put_duration(double seconds)
+static void write_duration(double seconds)
 {
     if (seconds < 60)
         fprintf(stderr, "%.0f s", seconds);
@@ -49,11 +49,11 @@ void progress_show(Progress *progress, const char *phase, double fraction)
         fprintf(stderr, "%.*f %%", fraction < 0.1 ? 1 : 0, 100 * fraction);
         if (fraction > 1e-6) {
             fputs(", ", stderr);
-            put_duration((now - progress->phase_began) * (1 - fraction) / fraction);
+            write_duration((now - progress->phase_began) * (1 - fraction) / fraction);
             fputs(" to go", stderr);
         }
     } else {
-        put_duration(now - progress->began);
+        write_duration(now - progress->began);
     }
     fputs(" (Ctrl-C stops)", stderr);
     fflush(stderr);

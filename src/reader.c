@@ -25,7 +25,7 @@ struct Reader {
 
 Reader *reader_of_file(FILE *file, const char *name)
 {
-    Reader *reader = copy_check(calloc(1, sizeof *reader));
+    Reader *reader = check_allocated(calloc(1, sizeof *reader));
 
     reader->file = file;
     reader->name = name;
@@ -34,7 +34,7 @@ Reader *reader_of_file(FILE *file, const char *name)
 
 Reader *reader_of_text(const char *text, const char *name)
 {
-    Reader *reader = copy_check(calloc(1, sizeof *reader));
+    Reader *reader = check_allocated(calloc(1, sizeof *reader));
 
     reader->text = text;
     reader->name = name;
@@ -43,7 +43,7 @@ Reader *reader_of_text(const char *text, const char *name)
 
 Reader *reader_of_prompt(void)
 {
-    return copy_check(calloc(1, sizeof(Reader)));
+    return check_allocated(calloc(1, sizeof(Reader)));
 }
 
 void reader_free(Reader *reader)
@@ -70,7 +70,7 @@ bool reader_is_file(const Reader *reader)
 
 static ReadResult fail_long(ct_error *error)
 {
-    error_say(error, "the line is longer than %d MB", LONGEST >> 20);
+    error_set(error, "the line is longer than %d MB", LONGEST >> 20);
     error_hint(error, "is it a script? Many numbers go into a file: table(\"data.csv\", x)");
     return READ_FAILED;
 }
@@ -91,7 +91,7 @@ static char *line_room(char *line, size_t length, size_t *room)
     if (length + 1 < *room)
         return line;
     *room = 2 * *room + 80;
-    return copy_check(realloc(line, *room));
+    return check_allocated(realloc(line, *room));
 }
 
 /* The characters up to the end of a line, which may be a newline, a carriage return or both; the
@@ -114,7 +114,7 @@ static ReadResult read_file(Reader *reader, char **line, ct_error *error)
         if (c == '\n' || c == '\r')
             break;
         if (c == '\0') {
-            error_say(error, "the line holds a zero byte, so this is no script");
+            error_set(error, "the line holds a zero byte, so this is no script");
             result = READ_FAILED;
             break;
         }
@@ -128,7 +128,7 @@ static ReadResult read_file(Reader *reader, char **line, ct_error *error)
     if (c == EOF && interrupt_asked()) {
         result = READ_CLEARED;
     } else if (c == EOF && ferror(reader->file)) {
-        error_say(error, "can't read: %s", strerror(errno));
+        error_set(error, "can't read: %s", strerror(errno));
         result = READ_FAILED;
     } else if (c == EOF && length == 0) {
         result = READ_END;
@@ -235,7 +235,7 @@ static size_t mark_length(const Reader *reader, const char *line)
 }
 
 /* Physical lines up to one that does not go on, onto `paper`. */
-static ReadResult read_logical(Reader *reader, const char *prefix, Paper *paper, int *prompt,
+static ReadResult read_logical(Reader *reader, const char *prefix, OutputBuffer *paper, int *prompt,
                                ct_error *error)
 {
     ReadResult result;
@@ -264,17 +264,17 @@ static ReadResult read_logical(Reader *reader, const char *prefix, Paper *paper,
 ReadResult reader_next(Reader *reader, const char *prefix, char **text, Origin *origin,
                        ct_error *error)
 {
-    Paper paper;
+    OutputBuffer paper;
     int prompt = 0;
 
     if (reader_is_prompt(reader) && reader->pasted == NULL)
         reader->line = 0;
     *origin = (Origin){reader->name, reader->line + 1, 0};
-    paper_open(&paper);
+    output_buffer_open(&paper);
 
     ReadResult result = read_logical(reader, prefix, &paper, &prompt, error);
 
-    *text = paper_close(&paper);
+    *text = output_buffer_close(&paper);
     if (result != READ_LINE) {
         free(*text);
         *text = NULL;

@@ -6,7 +6,7 @@
 #ifndef COTREE_SRC_READER_H
 #define COTREE_SRC_READER_H
 
-#include "complain.h"
+#include "report_error.h"
 
 #include <stdio.h>
 

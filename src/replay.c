@@ -39,9 +39,9 @@ static ct_status stopped(Shell *shell, const Origin *origin)
 {
     ct_error error;
 
-    error_say(&error, "stopped before this line");
+    error_set(&error, "stopped before this line");
     error.status = CT_STOPPED;
-    complain(origin, "", &error);
+    report_error(origin, "", &error);
     shell->failed++;
     return CT_STOPPED;
 }
@@ -110,16 +110,16 @@ static ct_status end_of_lines(Shell *shell, const Reader *reader, const Origin *
     if (!reader_is_file(reader))
         return CT_OK;
     if (shell->dropping > 0) {
-        error_say(&error, "the definition that begins in line %d has no 'end'", shell->dropping);
-        complain(origin, "", &error);
+        error_set(&error, "the definition that begins in line %d has no 'end'", shell->dropping);
+        report_error(origin, "", &error);
         shell->dropping = 0;
         shell->failed++;
         return CT_FAILED;
     }
     if (ct_defining(shell->session) == NULL || opened)
         return CT_OK;
-    error_say(&error, "the definition of %s has no 'end'", ct_defining(shell->session));
-    complain(origin, "", &error);
+    error_set(&error, "the definition of %s has no 'end'", ct_defining(shell->session));
+    report_error(origin, "", &error);
     ct_drop_definition(shell->session);
     shell->failed++;
     shell->stopped_at = origin->line;
@@ -148,7 +148,7 @@ ct_status replay(Shell *shell, Reader *reader)
             break;
         }
         if (result == READ_FAILED) {
-            complain(&origin, "", &error);
+            report_error(&origin, "", &error);
             shell->failed++;
             status = CT_FAILED;
         } else if (typed && result == READ_LINE) {
@@ -215,10 +215,10 @@ ct_status replay_file(Shell *shell, const char *path, ct_error *error)
     FILE *file = piped ? stdin : fopen(path, "re");
 
     if (file == NULL)
-        return error_say(error, "can't read '%s': %s", path, strerror(errno));
+        return error_set(error, "can't read '%s': %s", path, strerror(errno));
     if (!piped && fstat(fileno(file), &info) == 0 && S_ISDIR(info.st_mode)) {
         fclose(file);
-        return error_say(error, "can't read '%s': it is a folder", path);
+        return error_set(error, "can't read '%s': it is a folder", path);
     }
     const char *outer = shell->script;
 

@@ -1,9 +1,9 @@
 /* saved.c: files that `save` writes, and knows again */
 #include "saved.h"
 
-#include "complain.h"
 #include "copy.h"
 #include "file.h"
+#include "report_error.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -56,14 +56,14 @@ static ct_status check_replaceable(const char *path, const Kind *kind, ct_error 
     FILE *file = fopen(path, "re");
 
     if (file == NULL)
-        return error_say(error, "can't see what '%s' holds: %s", path, strerror(errno));
+        return error_set(error, "can't see what '%s' holds: %s", path, strerror(errno));
 
     const bool ours = is_ours(file, kind);
 
     fclose(file);
     if (ours)
         return CT_OK;
-    error_say(error, "'%s' is there, and is not as '%s' wrote it", path, kind->verb);
+    error_set(error, "'%s' is there, and is not as '%s' wrote it", path, kind->verb);
     error_hint(error, "%s%s \"%s\" overwrite=on replaces it", kind->verb, kind->operand, path);
     return CT_FAILED;
 }

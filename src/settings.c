@@ -1,8 +1,8 @@
 /* settings.c: what the user can set about the shell itself, one row a setting */
 #include "settings.h"
 
-#include "complain.h"
 #include "copy.h"
+#include "report_error.h"
 
 #include <stddef.h>
 #include <stdlib.h>
@@ -23,7 +23,7 @@ static ct_status set_number(const SettingRow *row, void *value, const char *text
     const long got = strtol(text, &end, 10);
 
     if (end == text || *end != '\0' || got < row->low || got > row->high)
-        return error_say(error, "'%s' is no whole number from %d to %d", text, row->low, row->high);
+        return error_set(error, "'%s' is no whole number from %d to %d", text, row->low, row->high);
     *(int *)value = (int)got;
     return CT_OK;
 }
@@ -37,7 +37,7 @@ static ct_status set_word(const SettingRow *row, void *value, const char *text, 
 {
     if (strlen(text) >= SETTING_WORD ||
         text[strspn(text, "abcdefghijklmnopqrstuvwxyz0123456789")] != '\0')
-        return error_say(error, "%s takes a word, not '%s'", row->words[0], text);
+        return error_set(error, "%s takes a word, not '%s'", row->words[0], text);
     memcpy(value, text, strlen(text) + 1);
     return CT_OK;
 }
@@ -51,7 +51,7 @@ static ct_status set_units(const SettingRow *row, void *value, const char *text,
 {
     (void)row;
     if (strlen(text) >= SETTING_UNITS)
-        return error_say(error, "that are too many units");
+        return error_set(error, "that are too many units");
     if (strcmp(text, "SI") != 0 && ct_check_units(text, error) != CT_OK)
         return CT_FAILED;
     memcpy(value, text, strlen(text) + 1);
@@ -61,7 +61,7 @@ static ct_status set_units(const SettingRow *row, void *value, const char *text,
 static ct_status set_switch(const SettingRow *row, void *value, const char *text, ct_error *error)
 {
     if (strcmp(text, "on") != 0 && strcmp(text, "off") != 0)
-        return error_say(error, "%s is on or off, not '%s'", row->words[0], text);
+        return error_set(error, "%s is on or off, not '%s'", row->words[0], text);
     *(bool *)value = strcmp(text, "on") == 0;
     return CT_OK;
 }
@@ -137,7 +137,7 @@ static char *value_text(const ct_statement *statement, const ct_expression *valu
     char *text = copy_text("");
 
     for (int i = 1; value != NULL && i <= count; i++) {
-        char *next = copy_check(ct_expression_text(value));
+        char *next = check_allocated(ct_expression_text(value));
         char *both = copy_format("%s%s%s", text, i > 1 ? " " : "", next);
 
         ct_free(next);
@@ -148,7 +148,7 @@ static char *value_text(const ct_statement *statement, const ct_expression *valu
     return text;
 }
 
-void settings_tell_dropped(const Settings *old, const Settings *settings)
+void settings_report_dropped(const Settings *old, const Settings *settings)
 {
     const char *before = old->units, *after = settings->units;
     char *both = copy_text(strcmp(after, "SI") != 0 ? after : "");

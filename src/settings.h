@@ -23,7 +23,7 @@ bool settings_own(const ct_statement *statement);
 ct_status settings_apply(Settings *settings, const ct_statement *statement, ct_error *error);
 /* remark what was shown in a unit of the user's choice and no longer is: the last choice is all
  * there is */
-void settings_tell_dropped(const Settings *old, const Settings *settings);
+void settings_report_dropped(const Settings *old, const Settings *settings);
 /* one by its name; CT_FAILED when the value is none for it */
 ct_status settings_set(Settings *settings, const char *name, const char *value, ct_error *error);
 /* the words of the i-th: its name, the values that are words, NULL; NULL: no more */

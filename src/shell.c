@@ -9,7 +9,7 @@
 #include "copy.h"
 #include "file.h"
 #include "interrupt.h"
-#include "memory_end.h"
+#include "out_of_memory.h"
 #include "pager.h"
 #include "terminal.h"
 
@@ -71,7 +71,7 @@ void shell_open(Shell *shell)
 {
     *shell = (Shell){.unicode = terminal_is_utf8()};
     settings_start(&shell->settings);
-    shell->session = copy_check(ct_session_new(NULL));
+    shell->session = check_allocated(ct_session_new(NULL));
     set_width(shell, 0);
 }
 
@@ -83,8 +83,8 @@ void shell_close(Shell *shell)
         free(shell->history[i]);
     free(shell->history);
     free(shell->last_plot);
-    memory_end_note(NULL);
-    unsaved_close(shell->unsaved);
+    out_of_memory_note(NULL);
+    autosave_close(shell->unsaved);
     gnuplot_close(shell->gnuplot);
     ct_session_free(shell->session);
 }
@@ -110,8 +110,8 @@ static ct_status write_redirect(const ct_statement *statement, const char *text,
     return ct_error_at(statement, NULL, error, "%s", why.message);
 }
 
-static ct_status put_on_screen(Shell *shell, const char *text, size_t length, bool paged,
-                               ct_error *error)
+static ct_status write_on_screen(Shell *shell, const char *text, size_t length, bool paged,
+                                 ct_error *error)
 {
     pager_show(text, length, paged);
     if (fflush(stdout) == 0 && !ferror(stdout))
@@ -124,7 +124,7 @@ static ct_status put_on_screen(Shell *shell, const char *text, size_t length, bo
         shell->failed++;
         return CT_OK;
     }
-    return error_say(error, "can't write the results: %s", strerror(errno));
+    return error_set(error, "can't write the results: %s", strerror(errno));
 }
 
 /* --- one statement --- */
@@ -147,24 +147,24 @@ static ct_status command(Shell *shell, const Command *row, const ct_statement *s
                          ct_error *error)
 {
     const char *file = find_redirect(statement);
-    Paper paper;
+    OutputBuffer paper;
     int rows, columns;
 
     /* lines are broken for a screen only: files and pipes are for programs */
     terminal_size(&rows, &columns);
     columns = file == NULL && isatty(STDOUT_FILENO) ? columns : 0;
     set_width(shell, columns);
-    paper_open(&paper);
+    output_buffer_open(&paper);
 
     Call call = {shell, shell->session, statement, paper.out, columns};
     ct_status status = row->run(&call, error);
-    char *text = paper_close(&paper);
+    char *text = output_buffer_close(&paper);
 
     progress_end(&shell->progress);
     if (status == CT_OK && file != NULL && (row->flags & WRITES) == 0)
         status = write_redirect(statement, text, paper.length, error);
     else if (status == CT_OK && paper.length > 0)
-        status = put_on_screen(
+        status = write_on_screen(
             shell, text, paper.length,
             shell->interactive && shell->settings.pager && (row->flags & UNPAGED) == 0, error);
     free(text);
@@ -172,7 +172,7 @@ static ct_status command(Shell *shell, const Command *row, const ct_statement *s
 }
 
 /* a line at a time; in quiet sessions warnings alone */
-static void say_remarks(const Shell *shell)
+static void write_remarks(const Shell *shell)
 {
     static const char warning[] = "warning: ";
 
@@ -191,7 +191,7 @@ static ct_status keep(Shell *shell, const ct_statement *statement, ct_error *err
     const char *text = ct_statement_text(statement);
     size_t room = sizeof *shell->history * ((size_t)shell->history_count + 1);
 
-    shell->history = copy_check(realloc(shell->history, room));
+    shell->history = check_allocated(realloc(shell->history, room));
     shell->history[shell->history_count++] = copy_text(text);
     if (shell->record == NULL)
         return CT_OK;
@@ -201,7 +201,7 @@ static ct_status keep(Shell *shell, const ct_statement *statement, ct_error *err
     /* the statement itself took effect */
     fclose(shell->record);
     shell->record = NULL;
-    return error_say(error, "can't record any more: %s", strerror(errno));
+    return error_set(error, "can't record any more: %s", strerror(errno));
 }
 
 /* what helps, or leaves, at any time */
@@ -228,8 +228,8 @@ static ct_status carry_out(Shell *shell, const ct_statement *statement, ct_error
 
     progress_end(&shell->progress);
     if ((status == CT_OK || status == CT_STOPPED) && (row == NULL || (row->flags & OWN) == 0))
-        say_remarks(shell);
-    unsaved_follow(shell->unsaved, shell->session, shell->script);
+        write_remarks(shell);
+    autosave_follow(shell->unsaved, shell->session, shell->script);
     if (status == CT_OK && depth == 0 && (row == NULL || (row->flags & FORGOTTEN) == 0))
         status = keep(shell, statement, error);
     return status;
@@ -255,7 +255,7 @@ static ct_status command_complete(Call *call, ct_error *error)
 
     (void)error;
     for (int i = 0; words != NULL && words[i] != NULL; i++)
-        put_text(call->out, words[i]);
+        write_text(call->out, words[i]);
     ct_words_free(words);
     return CT_OK;
 }
@@ -282,7 +282,7 @@ static ct_status run_next(Shell *shell, const Origin *origin, ct_cursor *line, b
     /* what happened in another file was told there: here is the way to it */
     if (status != CT_OK && error.message[0] != '\0') {
         shell->is_unsolved = error.is_unsolved;
-        complain(origin, line->text, &error);
+        report_error(origin, line->text, &error);
     }
     if (status != CT_OK && error.message[0] == '\0' && origin->name != NULL)
         remark("%s:%d: in %s", origin->name, origin->line, ct_statement_text(statement));
@@ -295,9 +295,9 @@ static ct_status stop_line(const Origin *origin, const char *text)
 {
     ct_error error;
 
-    error_say(&error, "the rest of the line was not run");
+    error_set(&error, "the rest of the line was not run");
     error.status = CT_STOPPED;
-    complain(origin, text, &error);
+    report_error(origin, text, &error);
     return CT_STOPPED;
 }
 

@@ -2,12 +2,12 @@
 #ifndef COTREE_SRC_SHELL_H
 #define COTREE_SRC_SHELL_H
 
-#include "complain.h"
+#include "autosave.h"
 #include "cotree.h"
 #include "gnuplot.h"
 #include "progress.h"
+#include "report_error.h"
 #include "settings.h"
-#include "unsaved.h"
 
 #include <stdio.h>
 
@@ -15,10 +15,10 @@ typedef struct Shell {
     ct_session *session;
     Settings settings;
     Progress progress;
-    Gnuplot *gnuplot; /* NULL until something is drawn */
-    FILE *record;     /* NULL: nothing is recorded */
-    Unsaved *unsaved; /* NULL: what is typed isn't kept */
-    char **history;   /* accepted statements */
+    Gnuplot *gnuplot;  /* NULL until something is drawn */
+    FILE *record;      /* NULL: nothing is recorded */
+    Autosave *unsaved; /* NULL: what is typed isn't kept */
+    char **history;    /* accepted statements */
     int history_count;
     char *last_plot;    /* the statement that drew last; NULL */
     const char *script; /* name of the file being replayed; NULL */

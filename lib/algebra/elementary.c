@@ -5,7 +5,7 @@
  * only those digits of 2/pi count that don't give whole turns), or by powers of 2. */
 #include "algebra/elementary.h"
 
-#include "algebra/wide.h"
+#include "algebra/double_double.h"
 
 #include <float.h>
 #include <math.h>
@@ -135,7 +135,7 @@ static void sincos_far(double x, double *sine, double *cosine);
 enum { DIGITS = 7 }; /* 224 bits of 2 / pi are enough for any double */
 
 /* |x| * 2 / pi: whole quarters of a turn (mod 4), and what is left, half a quarter at most */
-static unsigned far_quarters(double x, Wide *left)
+static unsigned far_quarters(double x, DoubleDouble *left)
 {
     int exponent;
     const uint64_t m = (uint64_t)ldexp(frexp(fabs(x), &exponent), 53);
@@ -160,23 +160,23 @@ static unsigned far_quarters(double x, Wide *left)
 #define BIT(i) (product[(i) / 32] >> (i) % 32 & 1U)
     quarters = BIT(point) | BIT(point + 1) << 1;
     up = BIT(point - 1) != 0; /* the next quarter is nearer */
-    *left = wide_of(0);
+    *left = dd_of(0);
     for (int i = (point - 1) / 32; i >= 0; i--) {
         uint32_t digit = product[i];
 
         if (i == point / 32)
             digit &= (1U << point % 32) - 1;
-        *left = wide_add(*left, wide_of(ldexp(digit, 32 * i - point)));
+        *left = dd_add(*left, dd_of(ldexp(digit, 32 * i - point)));
         if (i == (point - 1) / 32 && up)
-            *left = wide_sub(*left, wide_of(1));
+            *left = dd_sub(*left, dd_of(1));
     }
-    *left = wide_mul(*left, (Wide){0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54});
+    *left = dd_mul(*left, (DoubleDouble){0x1.921fb54442d18p+0, 0x1.1a62633145c07p-54});
     return quarters + up;
 }
 
 static void sincos_far(double x, double *sine, double *cosine)
 {
-    Wide left;
+    DoubleDouble left;
     Doubles_2 s, c;
     unsigned quarters;
 

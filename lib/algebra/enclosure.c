@@ -20,7 +20,7 @@
 /* --- in doubles --- */
 
 /* Values and vectors; false where the iteration doesn't come to an end, or GSL has no room. */
-static bool francis(const Wide *a, Enclosure *e)
+static bool francis(const DoubleDouble *a, Enclosure *e)
 {
     const size_t count = (size_t)e->n;
     gsl_matrix *matrix = dense_matrix(count, count);
@@ -73,10 +73,10 @@ static void copy_mirror(double complex *matrix, int n, int k)
 }
 
 /* A X - X L */
-static void find_residual(const Wide *a, const Enclosure *e, double complex *out)
+static void find_residual(const DoubleDouble *a, const Enclosure *e, double complex *out)
 {
     const int n = e->n;
-    WideComplex *sum = NEW_ARRAY(WideComplex, n);
+    DoubleDoubleComplex *sum = NEW_ARRAY(DoubleDoubleComplex, n);
 
     for (int k = 0; k < n; k++) {
         if (is_mirror(e, k)) {
@@ -84,20 +84,20 @@ static void find_residual(const Wide *a, const Enclosure *e, double complex *out
             continue;
         }
         for (int i = 0; i < n; i++) {
-            const WideComplex x = wide_from(e->right[i * n + k]);
+            const DoubleDoubleComplex x = dd_from(e->right[i * n + k]);
 
-            sum[i] = wide_cneg(wide_cmul(wide_from(e->value[k]), x));
+            sum[i] = dd_cneg(dd_cmul(dd_from(e->value[k]), x));
             for (int j = 0; j < n; j++) {
-                const Wide entry = a[i * n + j];
+                const DoubleDouble entry = a[i * n + j];
                 const double complex other = e->right[j * n + k];
 
                 if (entry.high == 0)
                     continue;
-                sum[i].re = wide_add(sum[i].re, wide_times(entry, creal(other)));
+                sum[i].re = dd_add(sum[i].re, dd_times(entry, creal(other)));
                 if (cimag(e->value[k]) != 0)
-                    sum[i].im = wide_add(sum[i].im, wide_times(entry, cimag(other)));
+                    sum[i].im = dd_add(sum[i].im, dd_times(entry, cimag(other)));
             }
-            out[i * n + k] = wide_to(sum[i]);
+            out[i * n + k] = dd_to(sum[i]);
         }
     }
     mem_free(sum);
@@ -154,8 +154,8 @@ static bool find_sizes(const Enclosure *e, const double complex *residual,
     for (int i = 0; i < n * n; i++)
         e->turn_left[i] = 2 * (cabs(unity[i]) + 4 * n * UNIT * left);
     for (int k = 0; k < n; k++) {
-        const double rounded =
-            left * (4 * n * UNIT * largest_of_column(residual, n, k) + 4 * n * WIDE_UNIT * norm);
+        const double rounded = left * (4 * n * UNIT * largest_of_column(residual, n, k) +
+                                       4 * n * DOUBLE_DOUBLE_ROUNDING * norm);
         const double off = rounded + 2 * inexact * (largest_of_column(beside, n, k) + rounded);
 
         for (int i = 0; i < n; i++)
@@ -243,7 +243,7 @@ static bool bound(const Enclosure *e, const double *size)
 
 /* --- an enclosure --- */
 
-static bool correct(const Wide *a, Enclosure *e)
+static bool correct(const DoubleDouble *a, Enclosure *e)
 {
     const int n = e->n;
     double complex *residual = mem_array((size_t)n * (size_t)n, sizeof *residual);
@@ -279,7 +279,7 @@ static bool correct(const Wide *a, Enclosure *e)
     return sound;
 }
 
-bool enclosure_find(const Wide *a, int n, Enclosure *out)
+bool enclosure_find(const DoubleDouble *a, int n, Enclosure *out)
 {
     *out = (Enclosure){n,
                        mem_array((size_t)n, sizeof *out->value),

@@ -5,7 +5,7 @@
 #ifndef COTREE_ALGEBRA_ENCLOSURE_H
 #define COTREE_ALGEBRA_ENCLOSURE_H
 
-#include "algebra/wide.h"
+#include "algebra/double_double.h"
 
 #include <stdbool.h>
 
@@ -22,7 +22,7 @@ typedef struct Enclosure {
 
 /* The matrix stands row by row, balanced. False where the discs can't be proved to lie apart. Free
  * with enclosure_free() in either case. O(n^3). */
-bool enclosure_find(const Wide *a, int n, Enclosure *out);
+bool enclosure_find(const DoubleDouble *a, int n, Enclosure *out);
 void enclosure_free(Enclosure *enclosure);
 
 #endif

@@ -139,7 +139,7 @@ double gram_rounding(const Gram *p)
     return products * width * DBL_EPSILON;
 }
 
-bool gram_factor(Gram *p, double added, double least, const Watch *watch)
+bool gram_factor(Gram *p, double added, double least, const CallMonitor *watch)
 {
     for (int i = 0; i < p->m; i++)
         ldl_entries(p->ldl)[p->place_of[i]] = p->diagonal[i] + added;

@@ -3,7 +3,7 @@
 #define COTREE_ALGEBRA_GRAM_H
 
 #include "algebra/pattern.h"
-#include "base/watch.h"
+#include "base/call_monitor.h"
 
 #include <stdbool.h>
 
@@ -21,7 +21,7 @@ double gram_largest(const Gram *gram); /* on the diagonal */
 double gram_rounding(const Gram *gram);
 /* Factors of it with `added` on its diagonal, without exchange. False where a pivot isn't more than
  * `least` of its diagonal entry, or the watch says stop. */
-bool gram_factor(Gram *gram, double added, double least, const Watch *watch);
+bool gram_factor(Gram *gram, double added, double least, const CallMonitor *watch);
 void gram_solve(const Gram *gram, double *b); /* b becomes the solution */
 
 #endif

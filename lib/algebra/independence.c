@@ -40,7 +40,7 @@ static double norm_of(const double *row, int count)
 }
 
 /* `gram`, of rows of unit size, is given */
-static bool is_definite(Gram *gram, double threshold, const Watch *watch)
+static bool is_definite(Gram *gram, double threshold, const CallMonitor *watch)
 {
     const double shift = fmax(SAFE * gram_rounding(gram), 4 * threshold * threshold);
     const bool is = gram_factor(gram, -shift, 0, watch);
@@ -49,7 +49,8 @@ static bool is_definite(Gram *gram, double threshold, const Watch *watch)
     return is;
 }
 
-bool rows_are_independent(const double *matrix, int m, int nu, double threshold, const Watch *watch)
+bool rows_are_independent(const double *matrix, int m, int nu, double threshold,
+                          const CallMonitor *watch)
 {
     double *norm = NEW_ARRAY(double, m);
     bool independent = m <= nu;
@@ -63,7 +64,7 @@ bool rows_are_independent(const double *matrix, int m, int nu, double threshold,
 }
 
 bool columns_are_independent(const Pattern *pattern, const double *values, double threshold,
-                             const Watch *watch)
+                             const CallMonitor *watch)
 {
     const int m = pattern->columns;
     double *norm = NEW_ARRAY(double, m);

@@ -3,7 +3,7 @@
 #define COTREE_ALGEBRA_INDEPENDENCE_H
 
 #include "algebra/pattern.h"
-#include "base/watch.h"
+#include "base/call_monitor.h"
 
 #include <stdbool.h>
 
@@ -12,9 +12,9 @@
  * or the watch says stop. O(m nu) and what the factors of rows times rows take, which is little
  * where rows share few columns. */
 bool rows_are_independent(const double *matrix, int m, int nu, double threshold,
-                          const Watch *watch);
+                          const CallMonitor *watch);
 /* The same of rows that stand as columns of a pattern, without the O(m nu). */
 bool columns_are_independent(const Pattern *pattern, const double *values, double threshold,
-                             const Watch *watch);
+                             const CallMonitor *watch);
 
 #endif

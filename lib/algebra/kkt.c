@@ -29,17 +29,17 @@
 #define ROUNDED                                                                                    \
     1e-14 /* of speeds, once over a pivot: what rounding of positions leaves of them               \
            */
-#define MOST_BLUR   1e-8  /* what epsilon makes of that */
-#define INEXACT     1e-2  /* d / p below which a sweep of refinement is due, */
-#define SETTLED     1e-11 /* and another where it corrects more than this */
-#define LOST        1e-11 /* d / p that may be rounding for a good part */
-#define NO_MASS     1e-12 /* a pivot of M over its diagonal that may be rounding, */
-#define UNSOLVABLE  1e-14 /* and least over largest of all that is */
-#define LEAST_MASS  1e-9  /* of the heaviest: what is less borrows from its neighbours */
-#define SWEEPS      2     /* of refinement at least, */
-#define MOST_SWEEPS 30    /* and as long as each leaves less than */
-#define CONTRACTION 0.3   /* of the correction before: what is slower, epsilon is to hold back */
-#define ROUNDING    1e-15
+#define MOST_ROUNDING 1e-8  /* what epsilon makes of that */
+#define INEXACT       1e-2  /* d / p below which a sweep of refinement is due, */
+#define SETTLED       1e-11 /* and another where it corrects more than this */
+#define LOST          1e-11 /* d / p that may be rounding for a good part */
+#define NO_MASS       1e-12 /* a pivot of M over its diagonal that may be rounding, */
+#define UNSOLVABLE    1e-14 /* and least over largest of all that is */
+#define LEAST_MASS    1e-9  /* of the heaviest: what is less borrows from its neighbours */
+#define SWEEPS        2     /* of refinement at least, */
+#define MOST_SWEEPS   30    /* and as long as each leaves less than */
+#define CONTRACTION   0.3   /* of the correction before: what is slower, epsilon is to hold back */
+#define ROUNDING      1e-15
 /* Pivots of G G^T over the norm of their row: less than DETERMINED, the row isn't left to its own
  * speeds; with a new order those are that have FIRMLY more. Both are beyond NEAR. */
 #define DETERMINED 1.5e-2
@@ -61,7 +61,7 @@ struct Kkt {
     bool is_factored;
     LdlOrder *order;
     Ldl *factors, *geometry;
-    const Watch *watch;
+    const CallMonitor *watch;
     KktSizes sizes;
     bool is_measured;                  /* with these rows */
     Triangular *groups;                /* of the rows in use; NULL: there are none, or a border */
@@ -71,11 +71,11 @@ struct Kkt {
     double angle;                      /* least d / p; of rows exchanged, least over largest */
     double pivot;                      /* of the last configuration: how independent its rows are */
     bool regularised;
-    bool is_told_by_groups; /* that pivot */
-    Sparse *exchanging;     /* rows exchanged; NULL: not needed yet */
-    bool is_exchanging;     /* the last factors are those */
-    double *scale;          /* unknown = scale * its unknown */
-    double *values;         /* its entries, those across behind */
+    bool is_independent_by_groups; /* that pivot */
+    Sparse *exchanging;            /* rows exchanged; NULL: not needed yet */
+    bool is_exchanging;            /* the last factors are those */
+    double *scale;                 /* unknown = scale * its unknown */
+    double *values;                /* its entries, those across behind */
 };
 
 /* --- the order --- */
@@ -191,7 +191,7 @@ Kkt *kkt_new(const Pattern *mass, const Pattern *constraints, const int *rows, i
     return kkt;
 }
 
-void kkt_set_watch(Kkt *kkt, const Watch *watch)
+void kkt_set_watch(Kkt *kkt, const CallMonitor *watch)
 {
     kkt->watch = watch;
 }
@@ -366,8 +366,8 @@ static double least_pivot_at_most(Kkt *kkt, const double *phi_u)
 
         measure(kkt, phi_u);
         rest = rest_of_groups(kkt, phi_u);
-        kkt->is_told_by_groups = rest > NEAR;
-        if (kkt->is_told_by_groups)
+        kkt->is_independent_by_groups = rest > NEAR;
+        if (kkt->is_independent_by_groups)
             return rest;
     }
     return !kkt->is_exchanging && kkt->angle > FOUND ? kkt->angle : least_pivot(kkt, phi_u);
@@ -388,14 +388,14 @@ double kkt_independence_of_groups(Kkt *kkt, const double *phi_u, const int *rows
     return sqrt(rest_of_groups(kkt, phi_u));
 }
 
-void kkt_keep_sizes(Kkt *kkt)
+void kkt_store_sizes(Kkt *kkt)
 {
-    kkt_sizes_keep(&kkt->sizes, false);
+    kkt_sizes_store(&kkt->sizes, false);
 }
 
 void kkt_return_sizes(Kkt *kkt)
 {
-    kkt_sizes_keep(&kkt->sizes, true);
+    kkt_sizes_store(&kkt->sizes, true);
 }
 
 /* --- rows exchanged --- */
@@ -438,7 +438,7 @@ static void choose_scale(Kkt *kkt)
 
         size[kkt->column[e]] += entry * entry / (mass > 0 ? mass : 1);
     }
-    least = kkt_sizes_keep_most(&kkt->sizes, kkt->rows, kkt->m, size + kkt->nu);
+    least = kkt_sizes_store_most(&kkt->sizes, kkt->rows, kkt->m, size + kkt->nu);
     for (int k = 0; k < kkt->m; k++)
         size[kkt->nu + k] = kkt_sizes_reference(&kkt->sizes, kkt->rows[k], least);
     for (int i = 0; i < kkt->size; i++)
@@ -498,7 +498,7 @@ static void measure_rows(Kkt *kkt)
         if (kkt->class[kkt->row[e]] == CLASS_BORDER)
             size[kkt->column[e]] += entries[kkt->place[e]] * entries[kkt->place[e]] /
                                     entries[kkt->place_of[kkt->row[e]]];
-    least = kkt_sizes_keep_most(&kkt->sizes, kkt->rows, kkt->m, size + kkt->nu);
+    least = kkt_sizes_store_most(&kkt->sizes, kkt->rows, kkt->m, size + kkt->nu);
     for (int k = 0; k < kkt->m; k++)
         kkt->reference[kkt->place_of[kkt->nu + k]] =
             kkt_sizes_reference(&kkt->sizes, kkt->rows[k], least);
@@ -593,7 +593,7 @@ static bool factor(Kkt *kkt, const double *mass, const double *phi_u)
     if (!ldl_factor(kkt->factors, NULL, kkt->watch))
         return false;
     regular = mass_is_regular(kkt);
-    kkt->is_told_by_groups = kkt->is_exchanging = false;
+    kkt->is_independent_by_groups = kkt->is_exchanging = false;
     kkt->angle = 0;
     if (regular) {
         measure_rows(kkt);
@@ -628,7 +628,7 @@ double kkt_products(const Kkt *kkt)
 bool kkt_is_plain(const Kkt *kkt)
 {
     return kkt->m > 0 && !kkt->is_exchanging &&
-           kkt->angle > (kkt->is_told_by_groups ? OWN : SUSPECT);
+           kkt->angle > (kkt->is_independent_by_groups ? OWN : SUSPECT);
 }
 
 /* Whether all groups are independent in columns of their own, by sizes as they were measured where
@@ -651,7 +651,7 @@ bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const doub
             return false;
     if (kkt_sizes_are_sound(&kkt->sizes, pivot, taken, rows, kkt->m, enough))
         return true;
-    least = kkt_sizes_keep_most(&kkt->sizes, rows, kkt->m, taken);
+    least = kkt_sizes_store_most(&kkt->sizes, rows, kkt->m, taken);
     for (int k = 0; k < kkt->m; k++) {
         const double reference = kkt_sizes_reference(&kkt->sizes, rows[k], least);
 
@@ -664,19 +664,19 @@ bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const doub
     return true;
 }
 
-static double blur_of(double pivot)
+static double rounding_error_of(double pivot)
 {
-    return pivot < NEAR ? fmin(MOST_BLUR, ROUNDED / (pivot + 1e-300)) : 0;
+    return pivot < NEAR ? fmin(MOST_ROUNDING, ROUNDED / (pivot + 1e-300)) : 0;
 }
 
-double kkt_blur(const Kkt *kkt)
+double kkt_rounding_error(const Kkt *kkt)
 {
-    return blur_of(kkt->pivot);
+    return rounding_error_of(kkt->pivot);
 }
 
-double kkt_blur_at(double independence)
+double kkt_rounding_error_at(double independence)
 {
-    return blur_of(independence * independence);
+    return rounding_error_of(independence * independence);
 }
 
 bool kkt_is_regularised(const Kkt *kkt)

@@ -15,7 +15,7 @@
 #define COTREE_ALGEBRA_KKT_H
 
 #include "algebra/pattern.h"
-#include "base/watch.h"
+#include "base/call_monitor.h"
 
 #include <stdbool.h>
 
@@ -25,7 +25,7 @@ typedef struct Kkt Kkt;
  * column each. m of them will be in use, these at first. */
 Kkt *kkt_new(const Pattern *mass, const Pattern *constraints, const int *rows, int m);
 /* who may stop kkt_factor(), borrowed; NULL: nobody */
-void kkt_set_watch(Kkt *kkt, const Watch *watch);
+void kkt_set_watch(Kkt *kkt, const CallMonitor *watch);
 void kkt_free(Kkt *kkt); /* NULL is fine */
 /* Factor, from the values of the patterns' places; borrowed during the call. Where `rows` are
  * others than before, their order of elimination is found first. False when no solution can be had
@@ -40,18 +40,19 @@ double kkt_products(const Kkt *kkt);
 /* of the last kkt_factor(): whether a singular configuration is so near that epsilon is there */
 bool kkt_is_regularised(const Kkt *kkt);
 /* relative size of what rounding may leave of speeds and accelerations there; 0: as elsewhere */
-double kkt_blur(const Kkt *kkt);
+double kkt_rounding_error(const Kkt *kkt);
 /* How independent the rows are, without M: the root of the least of those pivots, 1 at most. It
  * falls to 0 as the distance to a singular configuration does. */
 double kkt_independence(Kkt *kkt, const double *phi_u, const int *rows);
-double kkt_blur_at(double independence); /* kkt_blur() where rows are as independent */
+double
+kkt_rounding_error_at(double independence); /* kkt_rounding_error() where rows are as independent */
 /* How independent they are by the rows of each group of a block triangular form alone
  * (triangular.h), which is less work: the rows are independent as long as it isn't small. 0: they
  * have no such form. */
 double kkt_independence_of_groups(Kkt *kkt, const double *phi_u, const int *rows);
 /* What is next to nothing is told by how large it has been. Sizes as they are now are kept, and
  * come back where a step that was tried and given up has seen what the motion never does. */
-void kkt_keep_sizes(Kkt *kkt);
+void kkt_store_sizes(Kkt *kkt);
 void kkt_return_sizes(Kkt *kkt);
 /* of the last kkt_factor(): whether it needs neither epsilon, refinement nor rows exchanged */
 bool kkt_is_plain(const Kkt *kkt);

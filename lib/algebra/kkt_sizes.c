@@ -62,7 +62,7 @@ void kkt_sizes_measure(KktSizes *sizes, const double *phi_u, const int *rows, in
     }
 }
 
-double kkt_sizes_keep_most(KktSizes *sizes, const int *rows, int m, const double *size)
+double kkt_sizes_store_most(KktSizes *sizes, const int *rows, int m, const double *size)
 {
     double largest = 0;
 
@@ -131,7 +131,7 @@ bool kkt_sizes_are_sound(KktSizes *sizes, const double *pivot, const double *tak
     return all.holds && all.least > LEAST_NORM * LEAST_NORM * all.largest;
 }
 
-void kkt_sizes_keep(KktSizes *sizes, bool back)
+void kkt_sizes_store(KktSizes *sizes, bool back)
 {
     double *arrays[] = {sizes->reach, sizes->norm, sizes->most}, *kept = sizes->kept;
 

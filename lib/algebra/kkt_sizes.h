@@ -28,7 +28,7 @@ void kkt_sizes_see(KktSizes *sizes, const double *phi_u, const int *rows, int m)
 void kkt_sizes_measure(KktSizes *sizes, const double *phi_u, const int *rows, int m);
 /* Keeps the largest p that each row in use has been, of size[], a number a row, and tells what
  * counts of a row at least. */
-double kkt_sizes_keep_most(KktSizes *sizes, const int *rows, int m, const double *size);
+double kkt_sizes_store_most(KktSizes *sizes, const int *rows, int m, const double *size);
 /* that or the least of p, for a row */
 static inline double kkt_sizes_reference(const KktSizes *sizes, int row, double least)
 {
@@ -39,7 +39,7 @@ static inline double kkt_sizes_reference(const KktSizes *sizes, int row, double 
 bool kkt_sizes_are_sound(KktSizes *sizes, const double *pivot, const double *taken, const int *rows,
                          int m, double part);
 /* Keep them as they are now; or bring back what was kept. */
-void kkt_sizes_keep(KktSizes *sizes, bool back);
+void kkt_sizes_store(KktSizes *sizes, bool back);
 
 /* A speed without mass of its own takes the mass that gives it the same weight in its constraints
  * as its heaviest-felt neighbour has: M_i = max_k G_ki^2 / max_j (G_kj^2 / M_j). mass[]: of speeds

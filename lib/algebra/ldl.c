@@ -244,7 +244,7 @@ static double find_row(Ldl *ldl, int k)
     return d;
 }
 
-bool ldl_factor(Ldl *ldl, const double *reference, const Watch *watch)
+bool ldl_factor(Ldl *ldl, const double *reference, const CallMonitor *watch)
 {
     const LdlOrder *o = ldl->order;
     const double *over = ldl->entries + o->n;
@@ -258,7 +258,7 @@ bool ldl_factor(Ldl *ldl, const double *reference, const Watch *watch)
         if (reference != NULL && fabs(d) < LDL_SMALL * reference[k])
             d -= LDL_HOLD * reference[k];
         ldl->inverse[k] = d != 0 ? 1 / d : 0;
-        if (k % POLLED == POLLED - 1 && poll(watch) != OK)
+        if (k % POLLED == POLLED - 1 && monitor_poll(watch) != OK)
             return false;
     }
     return true;

@@ -9,7 +9,7 @@
 #ifndef COTREE_ALGEBRA_LDL_H
 #define COTREE_ALGEBRA_LDL_H
 
-#include "base/watch.h"
+#include "base/call_monitor.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -36,7 +36,7 @@ double *ldl_entries(Ldl *ldl);       /* by place; all 0 at first. Factors leave 
  * the watch says stop. O(products of pairs in columns of L). */
 #define LDL_SMALL 1e-5
 #define LDL_HOLD  1e-8
-bool ldl_factor(Ldl *ldl, const double *reference, const Watch *watch);
+bool ldl_factor(Ldl *ldl, const double *reference, const CallMonitor *watch);
 /* By place, of the last ldl_factor(): pivots, those that are held as they would be, and p. */
 const double *ldl_pivots(const Ldl *ldl);
 const double *ldl_taken(const Ldl *ldl);

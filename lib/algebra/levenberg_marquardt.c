@@ -181,7 +181,7 @@ static void descend(Least *l, double tolerance)
 
         evaluate(l, l->v, l->residual, true);
         before = norm_of(l->residual, m);
-        if (before == 0 || poll(l->rows->watch) != OK || !find_step(l, mu * before))
+        if (before == 0 || monitor_poll(l->rows->watch) != OK || !find_step(l, mu * before))
             return;
         take(l);
         after = norm_of(l->trial, m);

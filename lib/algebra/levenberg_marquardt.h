@@ -7,7 +7,7 @@
 #define COTREE_ALGEBRA_LEVENBERG_MARQUARDT_H
 
 #include "algebra/pattern.h"
-#include "base/watch.h"
+#include "base/call_monitor.h"
 
 #include <stdbool.h>
 
@@ -22,7 +22,7 @@ typedef struct Rows {
     void (*evaluate)(void *context, const double *v, double *residual, double *jacobian);
     /* v moved by `step` (columns); NULL: v += step, length == columns */
     void (*move)(void *context, double *v, const double *step);
-    const Watch *watch; /* NULL: never stops */
+    const CallMonitor *watch; /* NULL: never stops */
 } Rows;
 
 /* The same with the jacobian in full, rows x columns. */

@@ -100,7 +100,7 @@ bool lu_factor(Lu *lu)
     return lu_factor_watched(lu, NULL);
 }
 
-bool lu_factor_watched(Lu *lu, const Watch *watch)
+bool lu_factor_watched(Lu *lu, const CallMonitor *watch)
 {
     int n = lu->n;
     double least = INFINITY, largest = 0;
@@ -109,7 +109,7 @@ bool lu_factor_watched(Lu *lu, const Watch *watch)
     for (int k = 0; k < n; k++) {
         double pivot;
 
-        if (poll(watch) != OK)
+        if (monitor_poll(watch) != OK)
             return false;
         exchange(lu, k, largest_below(lu, k));
         pivot = fabs(lu->a[k * n + k]);

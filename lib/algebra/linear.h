@@ -8,7 +8,7 @@
 #ifndef COTREE_ALGEBRA_LINEAR_H
 #define COTREE_ALGEBRA_LINEAR_H
 
-#include "base/watch.h"
+#include "base/call_monitor.h"
 
 #include <stdbool.h>
 
@@ -20,7 +20,7 @@ double *lu_matrix(Lu *lu); /* n x n; overwritten by lu_factor() */
 /* Factor in place with row exchanges (Gauss). False when a pivot is 0 or not finite. O(n^3). */
 bool lu_factor(Lu *lu);
 /* the same, false when the watch says stop, too */
-bool lu_factor_watched(Lu *lu, const Watch *watch);
+bool lu_factor_watched(Lu *lu, const CallMonitor *watch);
 /* least over largest pivot in size, of the last lu_factor(); 0 when singular */
 double lu_pivot_ratio(const Lu *lu);
 void lu_solve(const Lu *lu, double *b); /* b becomes the solution; O(n^2) */

@@ -1,7 +1,7 @@
 libcore_la_SOURCES += \
 	lib/algebra/anderson.c lib/algebra/anderson.h \
-  lib/algebra/blocks.c \
-  lib/algebra/blocks.h \
+  lib/algebra/block_triangular.c \
+  lib/algebra/block_triangular.h \
   lib/algebra/dense.c \
   lib/algebra/dense.h \
   lib/algebra/elementary.c \
@@ -9,8 +9,8 @@ libcore_la_SOURCES += \
   lib/algebra/elementary_kernel.def \
   lib/algebra/enclosure.c \
   lib/algebra/enclosure.h \
-  lib/algebra/follow.c \
-  lib/algebra/follow.h \
+  lib/algebra/row_closure.c \
+  lib/algebra/row_closure.h \
   lib/algebra/gram.c \
   lib/algebra/gram.h \
   lib/algebra/hessenberg_form.c \
@@ -44,8 +44,8 @@ libcore_la_SOURCES += \
   lib/algebra/polynomial.h \
   lib/algebra/rank.c \
   lib/algebra/rank.h \
-  lib/algebra/remainders.c \
-  lib/algebra/remainders.h \
+  lib/algebra/markov_parameters.c \
+  lib/algebra/markov_parameters.h \
   lib/algebra/roots.c \
   lib/algebra/roots.h \
   lib/algebra/schur.c \
@@ -56,8 +56,8 @@ libcore_la_SOURCES += \
   lib/algebra/perron.h \
   lib/algebra/spectrum.c \
   lib/algebra/spectrum.h \
-  lib/algebra/square.c \
-  lib/algebra/square.h \
+  lib/algebra/verified_solve.c \
+  lib/algebra/verified_solve.h \
   lib/algebra/triangular.c \
   lib/algebra/triangular.h \
-  lib/algebra/wide.h
+  lib/algebra/double_double.h

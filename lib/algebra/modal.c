@@ -5,11 +5,11 @@
  * corrected by first order as in Ogita and Aishima (2018). */
 #include "algebra/modal.h"
 
-#include "algebra/blocks.h"
+#include "algebra/block_triangular.h"
 #include "algebra/dense.h"
+#include "algebra/double_double.h"
 #include "algebra/linear.h"
 #include "algebra/schur.h"
-#include "algebra/wide.h"
 #include "base/four.h"
 #include "base/memory.h"
 
@@ -28,8 +28,8 @@ enum { CORRECTIONS = 2, MOST = 4000 /* n, that bounds allow for */ };
 /* --- products --- */
 
 /* sum += f b, exact but for 2^-104 of it and the second order of rounding */
-AS_WIDE_AS_CAN_BE static void add_wide(double f, const double *restrict b, double *restrict high,
-                                       double *restrict low, int n)
+AS_WIDE_AS_CAN_BE static void add_dd(double f, const double *restrict b, double *restrict high,
+                                     double *restrict low, int n)
 {
     const double split = 134217729, ft = split * f, fh = ft - (ft - f), fl = f - fh;
     int j = 0;
@@ -44,7 +44,7 @@ AS_WIDE_AS_CAN_BE static void add_wide(double f, const double *restrict b, doubl
         *(Four *)(low + j) += ((sum - (next - other)) + (p - other)) + off;
     }
     for (; j < n; j++) {
-        const Wide p = wide_product(f, b[j]), s = wide_sum(high[j], p.high);
+        const DoubleDouble p = dd_product(f, b[j]), s = dd_sum(high[j], p.high);
 
         high[j] = s.high;
         low[j] += s.low + p.low;
@@ -52,8 +52,8 @@ AS_WIDE_AS_CAN_BE static void add_wide(double f, const double *restrict b, doubl
 }
 
 /* out_high + out_low = a b, rows x n times n x columns */
-static void multiply_wide(const double *a, const double *b, int rows, int n, int columns,
-                          double *out_high, double *out_low)
+static void multiply_dd(const double *a, const double *b, int rows, int n, int columns,
+                        double *out_high, double *out_low)
 {
     for (int i = 0; i < rows; i++) {
         double *high = out_high + (ptrdiff_t)i * columns, *low = out_low + (ptrdiff_t)i * columns;
@@ -62,7 +62,7 @@ static void multiply_wide(const double *a, const double *b, int rows, int n, int
         memset(low, 0, (size_t)columns * sizeof *low);
         for (int k = 0; k < n; k++)
             if (a[i * n + k] != 0)
-                add_wide(a[i * n + k], b + (ptrdiff_t)k * columns, high, low, columns);
+                add_dd(a[i * n + k], b + (ptrdiff_t)k * columns, high, low, columns);
     }
 }
 
@@ -284,7 +284,7 @@ static bool find_vectors(const Vectors *v, BoundedMatrix mass, BoundedMatrix sti
 {
     const int n = v->n;
     bool *pattern = NEW_ARRAY(bool, n *n), *meets = NEW_ARRAY(bool, n), sound = true;
-    Blocks blocks;
+    BlockTriangular blocks;
 
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
@@ -296,13 +296,13 @@ static bool find_vectors(const Vectors *v, BoundedMatrix mass, BoundedMatrix sti
                 (damping != NULL && is_there(*damping, i * n + j)))
                 pattern[i * n + j] = pattern[j * n + i] = true;
         }
-    blocks = blocks_find(pattern, n);
+    blocks = block_triangular_find(pattern, n);
     for (int b = 0; b < blocks.count && sound; b++)
         sound = solve_some(v, blocks.order + blocks.start[b], blocks.start[b + 1] - blocks.start[b],
                            meets);
     if (sound)
         normalise(v);
-    blocks_free(&blocks);
+    block_triangular_free(&blocks);
     MEM_FREE(pattern, meets);
     return sound;
 }
@@ -335,16 +335,16 @@ static void find_residuals(const Modal *m, const double *mass, const double *sti
     const int n = m->n;
     double *low = NEW_ARRAY(double, n *n), *moved_low = NEW_ARRAY(double, n *n);
 
-    multiply_wide(mass, m->vector, n, n, n, r->moved, moved_low);
-    multiply_wide(stiffness, m->vector, n, n, n, r->rest, low);
+    multiply_dd(mass, m->vector, n, n, n, r->moved, moved_low);
+    multiply_dd(stiffness, m->vector, n, n, n, r->rest, low);
     for (int i = 0; i < n; i++)
         for (int k = 0; k < n; k++) {
             const int at = i * n + k;
-            const Wide y = wide_tidy(r->moved[at], moved_low[at]);
+            const DoubleDouble y = dd_tidy(r->moved[at], moved_low[at]);
 
             r->rest[at] =
-                wide_double(wide_sub(wide_tidy(r->rest[at], low[at]), wide_times(y, m->square[k])));
-            r->moved[at] = wide_double(y);
+                dd_double(dd_sub(dd_tidy(r->rest[at], low[at]), dd_times(y, m->square[k])));
+            r->moved[at] = dd_double(y);
         }
     multiply(CblasTrans, m->vector, r->rest, n, n, r->beside);
     multiply(CblasTrans, m->vector, r->moved, n, n, r->gram);
@@ -538,7 +538,7 @@ void modal_transform(const Modal *m, BoundedMatrix b, int columns, double *out, 
     for (int i = 0; i < n; i++)
         for (int k = 0; k < n; k++)
             across[k * n + i] = m->vector[i * n + k];
-    multiply_wide(across, b.at, n, n, columns, out, low);
+    multiply_dd(across, b.at, n, n, columns, out, low);
     for (int i = 0; i < n * n; i++)
         across[i] = fabs(across[i]);
     multiply(CblasNoTrans, across, off, n, columns, out_error);
@@ -556,7 +556,7 @@ void modal_move(const Modal *m, BoundedMatrix b, int rows, double *out, double *
     double *x = sizes(m->vector, n * n), *low = NEW_ARRAY(double, rows *n);
     double *off = entry_errors(b, rows * n);
 
-    multiply_wide(b.at, m->vector, rows, n, n, out, low);
+    multiply_dd(b.at, m->vector, rows, n, n, out, low);
     multiply_some(CblasNoTrans, off, x, rows, n, n, out_error);
     for (int i = 0; i < rows * n; i++) {
         out[i] += low[i];

@@ -23,7 +23,7 @@ static void close_ring(void *object)
     cleanup_close(&ring->cleanup);
 }
 
-Ring *ring_new(int variables, int most, const Watch *watch)
+Ring *ring_new(int variables, int most, const CallMonitor *watch)
 {
     Ring *ring = NEW(Ring);
 
@@ -408,7 +408,7 @@ Multinomial *multinomial_times(const Multinomial *p, const Multinomial *q)
         if (mpz_sgn(*sum) != 0)
             grow(out, *sum, power);
         if (k % POLL_TERMS == 0 && ring->status == OK)
-            ring->status = poll(ring->watch);
+            ring->status = monitor_poll(ring->watch);
     }
     merge_free(&m);
     return out;
@@ -463,7 +463,7 @@ Multinomial *multinomial_quotient(const Multinomial *p, const Multinomial *q)
         if (ring->status == OK)
             open_row(&m, power, 1);
         if (out->count % POLL_TERMS == 0 && ring->status == OK)
-            ring->status = poll(ring->watch);
+            ring->status = monitor_poll(ring->watch);
     }
     merge_free(&m);
     if (divides)

@@ -8,8 +8,8 @@
 #ifndef COTREE_ALGEBRA_MULTINOMIAL_H
 #define COTREE_ALGEBRA_MULTINOMIAL_H
 
+#include "base/call_monitor.h"
 #include "base/memory.h"
-#include "base/watch.h"
 
 #include <gmp.h>
 #include <stdint.h>
@@ -19,8 +19,8 @@ typedef struct Multinomial Multinomial;
 typedef LIST(Multinomial *) MultinomialList;
 
 /* no polynomial of more than `most` terms */
-Ring *ring_new(int variables, int most, const Watch *watch); /* new; ring_free() */
-void ring_free(Ring *ring);                                  /* NULL is fine */
+Ring *ring_new(int variables, int most, const CallMonitor *watch); /* new; ring_free() */
+void ring_free(Ring *ring);                                        /* NULL is fine */
 Status ring_status(const Ring *ring); /* OK, E_MEMORY: beyond the bound, E_STOPPED */
 
 Multinomial *multinomial_integer(Ring *ring, const mpz_t value);

@@ -322,7 +322,7 @@ static Multinomial *core_gcd(const Multinomial *p, const Multinomial *q)
     Multinomial *out = NULL;
 
     if (ring->status == OK)
-        ring->status = poll(ring->watch);
+        ring->status = monitor_poll(ring->watch);
     if (ring->status != OK || multinomial_is_number(p) || multinomial_is_number(q))
         return multinomial_small(ring, 1);
     if (multinomial_equal(p, q))

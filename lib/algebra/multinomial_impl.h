@@ -19,7 +19,7 @@ struct Multinomial {
 
 struct Ring {
     int variables, words, most;
-    const Watch *watch;
+    const CallMonitor *watch;
     Status status;
     Multinomial all;           /* head of the ring of all */
     Cleanup cleanup;           /* of the integers, which are GMP's */

@@ -121,7 +121,7 @@ static void apply(const Pivoted *p, int k, const int *filled, int count, double 
 }
 
 /* E_STOPPED leaves the rest as it is. O(rows columns least), less for what is 0. */
-static Status factor(Pivoted *p, double threshold, const Watch *watch)
+static Status factor(Pivoted *p, double threshold, const CallMonitor *watch)
 {
     double *square = NEW_ARRAY(double, p->columns); /* of the remainder of each column, */
     double *fresh = NEW_ARRAY(double, p->columns);  /* and when it was last computed */
@@ -132,7 +132,7 @@ static Status factor(Pivoted *p, double threshold, const Watch *watch)
     for (int k = 0; k < p->least; k++) {
         int count;
 
-        CHECK(poll(watch));
+        CHECK(monitor_poll(watch));
         exchange(p, k, square, fresh);
         count = reflect(p, k);
         for (int j = k + 1; j < p->columns; j++) {
@@ -207,7 +207,7 @@ static void take_all(int m, int *order)
 
 /* by pivots of the largest size */
 static Status rank_written(const double *matrix, int m, int nu, double threshold,
-                           const Watch *watch, int *rank, int *order)
+                           const CallMonitor *watch, int *rank, int *order)
 {
     Pivoted p = unit_rows(matrix, nu, NULL, m, 0);
     Status status = OK;
@@ -222,7 +222,7 @@ done:
     return status;
 }
 
-Status rank_rows(const double *matrix, int m, int nu, double threshold, const Watch *watch,
+Status rank_rows(const double *matrix, int m, int nu, double threshold, const CallMonitor *watch,
                  int *rank, int *order)
 {
     *rank = 0;
@@ -236,7 +236,7 @@ Status rank_rows(const double *matrix, int m, int nu, double threshold, const Wa
 }
 
 Status rank_columns(const Pattern *pattern, const double *values, double threshold,
-                    const Watch *watch, int *rank, int *order)
+                    const CallMonitor *watch, int *rank, int *order)
 {
     const int m = pattern->columns;
     double *matrix;

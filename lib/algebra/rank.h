@@ -3,19 +3,19 @@
 #define COTREE_ALGEBRA_RANK_H
 
 #include "algebra/pattern.h"
-#include "base/watch.h"
+#include "base/call_monitor.h"
 
 /* Rank of the m x nu matrix by QR with pivoting of its transpose, rows brought to unit size first;
  * what is below `threshold` of the largest counts as 0. order[0..rank-1] are independent rows,
  * rising; the rest, rising too, depend on them. E_STOPPED when the watch says so. O(nu m^2), less
  * for entries that are 0. Golub and Van Loan (2013), 5.4.2. */
-MUST_USE Status rank_rows(const double *matrix, int m, int nu, double threshold, const Watch *watch,
-                          int *rank, int *order);
+MUST_USE Status rank_rows(const double *matrix, int m, int nu, double threshold,
+                          const CallMonitor *watch, int *rank, int *order);
 
 /* The same of rows that stand as columns of a pattern; where many are independent beyond doubt they
  * aren't written out. */
 MUST_USE Status rank_columns(const Pattern *pattern, const double *values, double threshold,
-                             const Watch *watch, int *rank, int *order);
+                             const CallMonitor *watch, int *rank, int *order);
 
 /* The `count` rows that are the least dependent on each other, rising, and what is told of them is
  * rank_ratio(). O(nu m count). */

@@ -51,7 +51,7 @@ double disturbance(int i, int j)
 
 /* --- groups --- */
 
-typedef struct Groups {
+typedef struct RootsGroups {
     const double complex *value;
     int count;
     int *group, *partner; /* of a root; the conjugate one, itself where real */
@@ -60,10 +60,10 @@ typedef struct Groups {
     int *members; /* room */
     GroupError *error_of;
     void *context;
-} Groups;
+} RootsGroups;
 
 /* Real ones are those that are farther from every other's conjugate than from their own. */
-static void find_partners(Groups *g)
+static void find_partners(RootsGroups *g)
 {
     for (int i = 0; i < g->count; i++)
         g->partner[i] = -1;
@@ -85,7 +85,7 @@ static void find_partners(Groups *g)
     }
 }
 
-static int members_of(const Groups *g, int group)
+static int members_of(const RootsGroups *g, int group)
 {
     int count = 0;
 
@@ -95,7 +95,7 @@ static int members_of(const Groups *g, int group)
     return count;
 }
 
-static void measure(Groups *g, int group)
+static void measure(RootsGroups *g, int group)
 {
     const int count = members_of(g, group);
     bool is_real = true;
@@ -117,7 +117,7 @@ static void measure(Groups *g, int group)
     g->error[mirror] = g->error[group];
 }
 
-static int unite(Groups *g, int one, int other)
+static int unite(RootsGroups *g, int one, int other)
 {
     const int kept = one < other ? one : other, gone = one < other ? other : one;
 
@@ -128,7 +128,7 @@ static int unite(Groups *g, int one, int other)
 }
 
 /* the two groups about within each other's errors that are closest */
-static bool closest_groups(const Groups *g, int *one, int *other)
+static bool closest_groups(const RootsGroups *g, int *one, int *other)
 {
     double best = INFINITY;
 
@@ -151,15 +151,15 @@ static bool closest_groups(const Groups *g, int *one, int *other)
 void roots_join(const double complex *value, const double *error, int count, GroupError *error_of,
                 void *context, Root *out)
 {
-    Groups g = {value,
-                count,
-                NEW_ARRAY(int, count),
-                NEW_ARRAY(int, count),
-                mem_array((size_t)count, sizeof(double complex)),
-                NEW_ARRAY(double, count),
-                NEW_ARRAY(int, count),
-                error_of,
-                context};
+    RootsGroups g = {value,
+                     count,
+                     NEW_ARRAY(int, count),
+                     NEW_ARRAY(int, count),
+                     mem_array((size_t)count, sizeof(double complex)),
+                     NEW_ARRAY(double, count),
+                     NEW_ARRAY(int, count),
+                     error_of,
+                     context};
     int one = 0, other = 0;
 
     find_partners(&g);

@@ -32,23 +32,24 @@ void matrix_balance(const double *size, int n, double *scale)
 
 /* --- Hessenberg form --- */
 
-void wide_reflect(Wide *at, int n, int stride, int from, const Wide *v, Wide beta)
+void dd_reflect(DoubleDouble *at, int n, int stride, int from, const DoubleDouble *v,
+                DoubleDouble beta)
 {
-    Wide along = wide_of(0);
+    DoubleDouble along = dd_of(0);
 
     for (int i = from; i < n; i++)
-        along = wide_add(along, wide_mul(v[i], at[(ptrdiff_t)i * stride]));
-    along = wide_mul(along, beta);
+        along = dd_add(along, dd_mul(v[i], at[(ptrdiff_t)i * stride]));
+    along = dd_mul(along, beta);
     for (int i = from; i < n && along.high != 0; i++)
-        at[(ptrdiff_t)i * stride] = wide_sub(at[(ptrdiff_t)i * stride], wide_mul(along, v[i]));
+        at[(ptrdiff_t)i * stride] = dd_sub(at[(ptrdiff_t)i * stride], dd_mul(along, v[i]));
 }
 
 /* v and beta that turn column k below its diagonal into one entry; false: it is one already */
-static bool reflection(const Wide *a, int n, int k, Wide *v, Wide *beta)
+static bool reflection(const DoubleDouble *a, int n, int k, DoubleDouble *v, DoubleDouble *beta)
 {
-    Wide square = wide_of(0);
+    DoubleDouble square = dd_of(0);
     double largest = 0;
-    Wide head, norm;
+    DoubleDouble head, norm;
 
     for (int i = k + 2; i < n; i++)
         largest = fmax(largest, fabs(a[i * n + k].high));
@@ -56,35 +57,34 @@ static bool reflection(const Wide *a, int n, int k, Wide *v, Wide *beta)
         return false;
     largest = fmax(largest, fabs(a[(k + 1) * n + k].high));
     for (int i = k + 1; i < n; i++) {
-        v[i] = wide_times(a[i * n + k], ldexp(1, -ilogb(largest)));
-        square = wide_add(square, wide_mul(v[i], v[i]));
+        v[i] = dd_times(a[i * n + k], ldexp(1, -ilogb(largest)));
+        square = dd_add(square, dd_mul(v[i], v[i]));
     }
-    norm = wide_sqrt(square);
+    norm = dd_sqrt(square);
     head = v[k + 1];
-    v[k + 1] = head.high > 0 ? wide_add(head, norm) : wide_sub(head, norm);
+    v[k + 1] = head.high > 0 ? dd_add(head, norm) : dd_sub(head, norm);
     /* v^T v = 2 norm (norm + |head|) */
-    *beta = wide_div(wide_of(1),
-                     wide_mul(norm, head.high > 0 ? wide_add(norm, head) : wide_sub(norm, head)));
+    *beta = dd_div(dd_of(1), dd_mul(norm, head.high > 0 ? dd_add(norm, head) : dd_sub(norm, head)));
     return true;
 }
 
-void matrix_hessenberg(Wide *a, int n, Wide *q)
+void matrix_hessenberg(DoubleDouble *a, int n, DoubleDouble *q)
 {
-    Wide *v = NEW_ARRAY(Wide, n), beta;
+    DoubleDouble *v = NEW_ARRAY(DoubleDouble, n), beta;
 
     for (int i = 0; i < n * n && q != NULL; i++)
-        q[i] = wide_of(i % (n + 1) == 0 ? 1 : 0);
+        q[i] = dd_of(i % (n + 1) == 0 ? 1 : 0);
     for (int k = 0; k + 2 < n; k++) {
         if (!reflection(a, n, k, v, &beta))
             continue;
         for (int j = k; j < n; j++)
-            wide_reflect(a + j, n, n, k + 1, v, beta);
+            dd_reflect(a + j, n, n, k + 1, v, beta);
         for (int i = 0; i < n; i++)
-            wide_reflect(a + (ptrdiff_t)i * n, n, 1, k + 1, v, beta);
+            dd_reflect(a + (ptrdiff_t)i * n, n, 1, k + 1, v, beta);
         for (int i = 0; i < n && q != NULL; i++)
-            wide_reflect(q + (ptrdiff_t)i * n, n, 1, k + 1, v, beta);
+            dd_reflect(q + (ptrdiff_t)i * n, n, 1, k + 1, v, beta);
         for (int i = k + 2; i < n; i++)
-            a[i * n + k] = wide_of(0);
+            a[i * n + k] = dd_of(0);
     }
     mem_free(v);
 }
@@ -93,83 +93,84 @@ void matrix_hessenberg(Wide *a, int n, Wide *q)
 
 /* [c s; -conj(s) c] (a, b) = (r, 0) */
 typedef struct Givens {
-    Wide c;
-    WideComplex s;
+    DoubleDouble c;
+    DoubleDoubleComplex s;
 } Givens;
 
-static Wide square_of(WideComplex a)
+static DoubleDouble square_of(DoubleDoubleComplex a)
 {
-    return wide_add(wide_mul(a.re, a.re), wide_mul(a.im, a.im));
+    return dd_add(dd_mul(a.re, a.re), dd_mul(a.im, a.im));
 }
 
-static Givens turn_for(WideComplex a, WideComplex b)
+static Givens turn_for(DoubleDoubleComplex a, DoubleDoubleComplex b)
 {
-    const double largest = fmax(wide_size(a), wide_size(b));
-    Givens turn = {wide_of(1), wide_real(wide_of(0))};
-    Wide size, root;
+    const double largest = fmax(dd_size(a), dd_size(b));
+    Givens turn = {dd_of(1), dd_real(dd_of(0))};
+    DoubleDouble size, root;
 
-    if (wide_size(b) == 0)
+    if (dd_size(b) == 0)
         return turn;
-    a = wide_ctimes(a, wide_of(ldexp(1, -ilogb(largest))));
-    b = wide_ctimes(b, wide_of(ldexp(1, -ilogb(largest))));
-    size = wide_sqrt(square_of(a));
-    root = wide_sqrt(wide_add(square_of(a), square_of(b)));
+    a = dd_ctimes(a, dd_of(ldexp(1, -ilogb(largest))));
+    b = dd_ctimes(b, dd_of(ldexp(1, -ilogb(largest))));
+    size = dd_sqrt(square_of(a));
+    root = dd_sqrt(dd_add(square_of(a), square_of(b)));
     if (size.high == 0) {
-        turn.c = wide_of(0);
-        turn.s = wide_ctimes(wide_conj(b), wide_div(wide_of(1), root));
+        turn.c = dd_of(0);
+        turn.s = dd_ctimes(dd_conj(b), dd_div(dd_of(1), root));
         return turn;
     }
-    turn.c = wide_div(size, root);
+    turn.c = dd_div(size, root);
     /* s = a/|a| conj(b)/r */
-    turn.s = wide_ctimes(wide_cmul(a, wide_conj(b)), wide_div(wide_of(1), wide_mul(size, root)));
+    turn.s = dd_ctimes(dd_cmul(a, dd_conj(b)), dd_div(dd_of(1), dd_mul(size, root)));
     return turn;
 }
 
-static void turn_rows(const Givens *turn, WideComplex *upper, WideComplex *lower, int from, int to)
+static void turn_rows(const Givens *turn, DoubleDoubleComplex *upper, DoubleDoubleComplex *lower,
+                      int from, int to)
 {
     for (int j = from; j < to; j++) {
-        const WideComplex x = upper[j], y = lower[j];
+        const DoubleDoubleComplex x = upper[j], y = lower[j];
 
-        upper[j] = wide_cadd(wide_ctimes(x, turn->c), wide_cmul(turn->s, y));
-        lower[j] = wide_csub(wide_ctimes(y, turn->c), wide_cmul(wide_conj(turn->s), x));
+        upper[j] = dd_cadd(dd_ctimes(x, turn->c), dd_cmul(turn->s, y));
+        lower[j] = dd_csub(dd_ctimes(y, turn->c), dd_cmul(dd_conj(turn->s), x));
     }
 }
 
 /* columns k and k + 1 by the conjugate transpose */
-static void turn_columns(const Givens *turn, WideComplex *at, int n, int k, int rows)
+static void turn_columns(const Givens *turn, DoubleDoubleComplex *at, int n, int k, int rows)
 {
     for (int i = 0; i < rows; i++) {
-        WideComplex *left = at + (ptrdiff_t)i * n + k, *right = left + 1;
-        const WideComplex x = *left, y = *right;
+        DoubleDoubleComplex *left = at + (ptrdiff_t)i * n + k, *right = left + 1;
+        const DoubleDoubleComplex x = *left, y = *right;
 
-        *left = wide_cadd(wide_ctimes(x, turn->c), wide_cmul(y, wide_conj(turn->s)));
-        *right = wide_csub(wide_ctimes(y, turn->c), wide_cmul(x, turn->s));
+        *left = dd_cadd(dd_ctimes(x, turn->c), dd_cmul(y, dd_conj(turn->s)));
+        *right = dd_csub(dd_ctimes(y, turn->c), dd_cmul(x, turn->s));
     }
 }
 
 /* the eigenvalue of the last 2 x 2 that is closer to its last entry (Wilkinson) */
-static WideComplex shift_of(const WideComplex *t, int n, int last)
+static DoubleDoubleComplex shift_of(const DoubleDoubleComplex *t, int n, int last)
 {
-    const WideComplex a = t[(last - 1) * n + last - 1], d = t[last * n + last];
-    const WideComplex bc = wide_cmul(t[(last - 1) * n + last], t[last * n + last - 1]);
-    const WideComplex half = wide_ctimes(wide_csub(a, d), wide_of(0.5));
-    const WideComplex root = wide_csqrt(wide_cadd(wide_cmul(half, half), bc));
-    const WideComplex plus = wide_cadd(half, root), minus = wide_csub(half, root);
-    const WideComplex larger = wide_size(plus) > wide_size(minus) ? plus : minus;
+    const DoubleDoubleComplex a = t[(last - 1) * n + last - 1], d = t[last * n + last];
+    const DoubleDoubleComplex bc = dd_cmul(t[(last - 1) * n + last], t[last * n + last - 1]);
+    const DoubleDoubleComplex half = dd_ctimes(dd_csub(a, d), dd_of(0.5));
+    const DoubleDoubleComplex root = dd_csqrt(dd_cadd(dd_cmul(half, half), bc));
+    const DoubleDoubleComplex plus = dd_cadd(half, root), minus = dd_csub(half, root);
+    const DoubleDoubleComplex larger = dd_size(plus) > dd_size(minus) ? plus : minus;
 
     /* d - bc/larger */
-    return wide_size(larger) > 0 ? wide_csub(d, wide_cdiv(bc, larger)) : d;
+    return dd_size(larger) > 0 ? dd_csub(d, dd_cdiv(bc, larger)) : d;
 }
 
-static void sweep(WideComplex *t, int n, int first, int last, WideComplex shift, WideComplex *z,
-                  Givens *turns)
+static void sweep(DoubleDoubleComplex *t, int n, int first, int last, DoubleDoubleComplex shift,
+                  DoubleDoubleComplex *z, Givens *turns)
 {
     for (int i = first; i <= last; i++)
-        t[i * n + i] = wide_csub(t[i * n + i], shift);
+        t[i * n + i] = dd_csub(t[i * n + i], shift);
     for (int k = first; k < last; k++) {
         turns[k] = turn_for(t[k * n + k], t[(k + 1) * n + k]);
         turn_rows(&turns[k], t + (ptrdiff_t)k * n, t + (ptrdiff_t)(k + 1) * n, k, n);
-        t[(k + 1) * n + k] = wide_real(wide_of(0));
+        t[(k + 1) * n + k] = dd_real(dd_of(0));
     }
     for (int k = first; k < last; k++) {
         turn_columns(&turns[k], t, n, k, k + 2);
@@ -177,32 +178,32 @@ static void sweep(WideComplex *t, int n, int first, int last, WideComplex shift,
             turn_columns(&turns[k], z, n, k, n);
     }
     for (int i = first; i <= last; i++)
-        t[i * n + i] = wide_cadd(t[i * n + i], shift);
+        t[i * n + i] = dd_cadd(t[i * n + i], shift);
 }
 
 /* where the part that ends at `last` begins: behind an entry that is rounding beside its
  * neighbours, which becomes 0 */
-static int part_begin(WideComplex *t, int n, int last, double norm)
+static int part_begin(DoubleDoubleComplex *t, int n, int last, double norm)
 {
     int first = last;
 
     for (; first > 0; first--) {
-        WideComplex *below = t + (ptrdiff_t)first * n + first - 1;
-        double beside = wide_size(below[1]) + wide_size(t[(first - 1) * n + first - 1]);
+        DoubleDoubleComplex *below = t + (ptrdiff_t)first * n + first - 1;
+        double beside = dd_size(below[1]) + dd_size(t[(first - 1) * n + first - 1]);
 
         if (beside == 0)
             beside = norm;
-        if (wide_size(*below) <= WIDE_UNIT * beside || wide_size(*below) < 1e-290) {
-            *below = wide_real(wide_of(0));
+        if (dd_size(*below) <= DOUBLE_DOUBLE_ROUNDING * beside || dd_size(*below) < 1e-290) {
+            *below = dd_real(dd_of(0));
             break;
         }
     }
     return first;
 }
 
-bool schur(const Wide *a, int n, WideComplex *t, WideComplex *z)
+bool schur(const DoubleDouble *a, int n, DoubleDoubleComplex *t, DoubleDoubleComplex *z)
 {
-    Wide *h = NEW_ARRAY(Wide, n * n), *q = NEW_ARRAY(Wide, n * n);
+    DoubleDouble *h = NEW_ARRAY(DoubleDouble, n * n), *q = NEW_ARRAY(DoubleDouble, n * n);
     Givens *turns = NEW_ARRAY(Givens, n);
     double norm = 0;
     int sweeps = 0;
@@ -210,14 +211,14 @@ bool schur(const Wide *a, int n, WideComplex *t, WideComplex *z)
     memcpy(h, a, (size_t)(n * n) * sizeof *h);
     matrix_hessenberg(h, n, q);
     for (int i = 0; i < n * n; i++) {
-        t[i] = wide_real(h[i]);
+        t[i] = dd_real(h[i]);
         norm = fmax(norm, fabs(h[i].high));
         if (z != NULL)
-            z[i] = wide_real(q[i]);
+            z[i] = dd_real(q[i]);
     }
     for (int last = n - 1; last > 0 && sweeps < MOST_SWEEPS; sweeps++) {
         const int first = part_begin(t, n, last, norm);
-        WideComplex shift;
+        DoubleDoubleComplex shift;
 
         if (first == last) {
             last--;
@@ -226,7 +227,7 @@ bool schur(const Wide *a, int n, WideComplex *t, WideComplex *z)
         }
         shift = shift_of(t, n, last);
         if (sweeps % 10 == 9) /* now and then another, against circling */
-            shift = wide_cadd(shift, wide_ctimes(t[last * n + last - 1], wide_of(0.75)));
+            shift = dd_cadd(shift, dd_ctimes(t[last * n + last - 1], dd_of(0.75)));
         sweep(t, n, first, last, shift, z, turns);
     }
     MEM_FREE(h, q, turns);
@@ -236,59 +237,61 @@ bool schur(const Wide *a, int n, WideComplex *t, WideComplex *z)
 /* --- vectors --- */
 
 /* t_kk - t_ii, or what rounding would make of 0 */
-static WideComplex apart(const WideComplex *t, int n, int k, int i, double least)
+static DoubleDoubleComplex apart(const DoubleDoubleComplex *t, int n, int k, int i, double least)
 {
-    const WideComplex between = wide_csub(t[k * n + k], t[i * n + i]);
+    const DoubleDoubleComplex between = dd_csub(t[k * n + k], t[i * n + i]);
 
-    return wide_size(between) > least ? between : wide_real(wide_of(least));
+    return dd_size(between) > least ? between : dd_real(dd_of(least));
 }
 
 /* column k of V, T V = V diag(T), with 1 on its diagonal */
-static void vector_of(const WideComplex *t, int n, int k, double least, WideComplex *v)
+static void vector_of(const DoubleDoubleComplex *t, int n, int k, double least,
+                      DoubleDoubleComplex *v)
 {
-    v[k * n + k] = wide_real(wide_of(1));
+    v[k * n + k] = dd_real(dd_of(1));
     for (int i = k - 1; i >= 0; i--) {
-        WideComplex sum = wide_real(wide_of(0));
+        DoubleDoubleComplex sum = dd_real(dd_of(0));
 
         for (int j = i + 1; j <= k; j++)
-            sum = wide_cadd(sum, wide_cmul(t[i * n + j], v[j * n + k]));
-        v[i * n + k] = wide_cdiv(sum, apart(t, n, k, i, least));
+            sum = dd_cadd(sum, dd_cmul(t[i * n + j], v[j * n + k]));
+        v[i * n + k] = dd_cdiv(sum, apart(t, n, k, i, least));
     }
 }
 
 /* column k of the inverse of V, which has ones on its diagonal */
-static void inverse_of(const WideComplex *v, int n, int k, WideComplex *out)
+static void inverse_of(const DoubleDoubleComplex *v, int n, int k, DoubleDoubleComplex *out)
 {
-    out[k * n + k] = wide_real(wide_of(1));
+    out[k * n + k] = dd_real(dd_of(1));
     for (int i = k - 1; i >= 0; i--) {
-        WideComplex sum = wide_real(wide_of(0));
+        DoubleDoubleComplex sum = dd_real(dd_of(0));
 
         for (int j = i + 1; j <= k; j++)
-            sum = wide_csub(sum, wide_cmul(v[i * n + j], out[j * n + k]));
+            sum = dd_csub(sum, dd_cmul(v[i * n + j], out[j * n + k]));
         out[i * n + k] = sum;
     }
 }
 
-void schur_vectors(const WideComplex *t, const WideComplex *z, int n, WideComplex *right,
-                   WideComplex *left)
+void schur_vectors(const DoubleDoubleComplex *t, const DoubleDoubleComplex *z, int n,
+                   DoubleDoubleComplex *right, DoubleDoubleComplex *left)
 {
-    WideComplex *v = NEW_ARRAY(WideComplex, n * n), *w = NEW_ARRAY(WideComplex, n * n);
+    DoubleDoubleComplex *v = NEW_ARRAY(DoubleDoubleComplex, n * n),
+                        *w = NEW_ARRAY(DoubleDoubleComplex, n * n);
     double norm = 0;
 
     for (int i = 0; i < n * n; i++)
-        norm = fmax(norm, wide_size(t[i]));
+        norm = fmax(norm, dd_size(t[i]));
     for (int k = 0; k < n; k++)
-        vector_of(t, n, k, fmax(WIDE_UNIT * norm, 1e-290), v);
+        vector_of(t, n, k, fmax(DOUBLE_DOUBLE_ROUNDING * norm, 1e-290), v);
     for (int k = 0; k < n; k++)
         inverse_of(v, n, k, w);
     for (int i = 0; i < n; i++)
         for (int k = 0; k < n; k++) {
-            WideComplex x = wide_real(wide_of(0)), y = x;
+            DoubleDoubleComplex x = dd_real(dd_of(0)), y = x;
 
             for (int j = 0; j <= k; j++)
-                x = wide_cadd(x, wide_cmul(z[i * n + j], v[j * n + k]));
+                x = dd_cadd(x, dd_cmul(z[i * n + j], v[j * n + k]));
             for (int j = i; j < n; j++)
-                y = wide_cadd(y, wide_cmul(w[i * n + j], wide_conj(z[k * n + j])));
+                y = dd_cadd(y, dd_cmul(w[i * n + j], dd_conj(z[k * n + j])));
             right[i * n + k] = x;
             left[i * n + k] = y;
         }

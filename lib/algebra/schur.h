@@ -5,7 +5,7 @@
 #ifndef COTREE_ALGEBRA_SCHUR_H
 #define COTREE_ALGEBRA_SCHUR_H
 
-#include "algebra/wide.h"
+#include "algebra/double_double.h"
 
 /* Scale states by powers of 2 so that columns are as large as rows, in the sum of sizes off the
  * diagonal: scale[i] a[i][j]/scale[j] is balanced (Parlett and Reinsch 1969). `size`: n x n. */
@@ -13,19 +13,20 @@ void matrix_balance(const double *size, int n, double *scale);
 
 /* (I - v v^T beta) at, entries from..n-1 of it, `stride` apart: a reflection where beta is 2/v^T v
  */
-void wide_reflect(Wide *at, int n, int stride, int from, const Wide *v, Wide beta);
+void dd_reflect(DoubleDouble *at, int n, int stride, int from, const DoubleDouble *v,
+                DoubleDouble beta);
 
 /* Turn a into Q^T a Q, 0 below the first subdiagonal, by reflections; q (NULL: not wanted) becomes
  * Q. Of 10/3 n^3 products. */
-void matrix_hessenberg(Wide *a, int n, Wide *q);
+void matrix_hessenberg(DoubleDouble *a, int n, DoubleDouble *q);
 
 /* t = Z^H a Z, upper triangular, and z = Z (NULL: not wanted). False where the iteration doesn't
  * come to an end. By the QR method with single shifts (Francis 1961, Kublanovskaya 1961). */
-bool schur(const Wide *a, int n, WideComplex *t, WideComplex *z);
+bool schur(const DoubleDouble *a, int n, DoubleDoubleComplex *t, DoubleDoubleComplex *z);
 
 /* Right eigenvectors of a as columns of `right`, and the inverse, whose rows are the left ones:
  * from its Schur form. Eigenvalues that are equal are taken as apart by rounding. O(n^3). */
-void schur_vectors(const WideComplex *t, const WideComplex *z, int n, WideComplex *right,
-                   WideComplex *left);
+void schur_vectors(const DoubleDoubleComplex *t, const DoubleDoubleComplex *z, int n,
+                   DoubleDoubleComplex *right, DoubleDoubleComplex *left);
 
 #endif

@@ -208,13 +208,13 @@ static void make_room(Sparse *s, int lower, int upper)
 }
 
 /* One of KLU's matrices by columns. */
-typedef struct Columns {
+typedef struct SparseColumns {
     int *start, *row;
     double *value;
-} Columns;
+} SparseColumns;
 
 /* how many entries off the diagonal each row has, two places on */
-static void count_rows(int n, const Columns *from, int *start)
+static void count_rows(int n, const SparseColumns *from, int *start)
 {
     for (int c = 0; c < n; c++)
         for (int k = from->start[c]; k < from->start[c + 1]; k++)
@@ -223,7 +223,7 @@ static void count_rows(int n, const Columns *from, int *start)
 }
 
 /* Rows where `start`, one place on, says that each goes on; diagonals go to their place. */
-static void bring_rows(int n, const Columns *from, int *start, int *column, double *value,
+static void bring_rows(int n, const SparseColumns *from, int *start, int *column, double *value,
                        double *diagonal)
 {
     for (int c = 0; c < n; c++)
@@ -240,7 +240,7 @@ static void bring_rows(int n, const Columns *from, int *start, int *column, doub
 }
 
 /* F's part of a row comes before L's: what it takes off are blocks that are solved earlier. */
-static void merge(Sparse *s, const Columns *l, const Columns *u, const Columns *f)
+static void merge(Sparse *s, const SparseColumns *l, const SparseColumns *u, const SparseColumns *f)
 {
     Unpacked *to = &s->unpacked;
     const size_t bytes = (size_t)(s->n + 1) * sizeof(int);
@@ -269,8 +269,8 @@ static bool unpack(Sparse *s)
     int *places = NEW_ARRAY(int, 4 * (n + 1) + lower + upper + off);
     double *numbers = NEW_ARRAY(double, lower + upper + off);
     int *blocks = places, *start = blocks + n + 1, *row = start + 3 * (n + 1);
-    Columns l = {start, row, numbers}, u = {start + n + 1, row + lower, numbers + lower},
-            f = {start + 2 * (n + 1), u.row + upper, u.value + upper};
+    SparseColumns l = {start, row, numbers}, u = {start + n + 1, row + lower, numbers + lower},
+                  f = {start + 2 * (n + 1), u.row + upper, u.value + upper};
     bool sound;
 
     make_room(s, lower + off, upper);

@@ -1,10 +1,11 @@
 /* spectrum.c: eigenvalues block by block, and how far each may be off
  *
- * A matrix is put into blocks that don't act back (blocks.h); a block is balanced. Eigenvalues that
- * doubles tell apart, and far better than its entries do, are taken from these (enclosure.h). Else
- * they and their vectors are found in numbers of twice the digits. The matrix is then disturbed by
- * what its entries may be off before, so that multiple eigenvalues split as far as they would under
- * errors, and no farther; its first order is taken back from the eigenvalues at the end.
+ * A matrix is put into blocks that don't act back (block_triangular.h); a block is balanced.
+ * Eigenvalues that doubles tell apart, and far better than its entries do, are taken from these
+ * (enclosure.h). Else they and their vectors are found in numbers of twice the digits. The matrix
+ * is then disturbed by what its entries may be off before, so that multiple eigenvalues split as
+ * far as they would under errors, and no farther; its first order is taken back from the
+ * eigenvalues at the end.
  *
  * With A = sum lambda_k x_k y_k^T an eigenvalue is off by |y|^T |dA| |x| (Stewart and Sun 1990).
  * Of a group c about mu, which can't be told apart, none is farther from mu than r where the sum
@@ -12,7 +13,7 @@
  * c of (lambda_k - mu)^j x_k y_k^T: the resolvent's principal part (Kato 1995, I.5). */
 #include "algebra/spectrum.h"
 
-#include "algebra/blocks.h"
+#include "algebra/block_triangular.h"
 #include "algebra/enclosure.h"
 #include "algebra/linear.h"
 #include "algebra/perron.h"
@@ -29,7 +30,7 @@
 typedef struct SpectrumPart {
     int size;
     const int *state;
-    WideComplex *right, *left;
+    DoubleDoubleComplex *right, *left;
     double *error; /* size x size */
     int first;     /* its first root */
 } SpectrumPart;
@@ -37,7 +38,7 @@ typedef struct SpectrumPart {
 struct Spectrum {
     int n;
     double *a;
-    Blocks blocks;
+    BlockTriangular blocks;
     SpectrumPart *part;
     Root *root;
     double complex *value; /* of each root before groups were joined */
@@ -62,9 +63,9 @@ typedef struct Grouping {
     const double *scale;
 } Grouping;
 
-static double size_of(WideComplex a)
+static double size_of(DoubleDoubleComplex a)
 {
-    return cabs(wide_to(a));
+    return cabs(dd_to(a));
 }
 
 /* out = sum of |lambda_k - mu|^j |x_k| |y_k^T| v */
@@ -122,22 +123,22 @@ static void find_sum(const Grouping *g)
 {
     const SpectrumPart *part = g->part;
     const int n = part->size;
-    WideComplex *by = NEW_ARRAY(WideComplex, g->count); /* (lambda_k - mu)^j */
+    DoubleDoubleComplex *by = NEW_ARRAY(DoubleDoubleComplex, g->count); /* (lambda_k - mu)^j */
 
     for (int k = 0; k < g->count; k++) {
-        by[k] = wide_real(wide_of(1));
+        by[k] = dd_real(dd_of(1));
         for (int p = 0; p < g->power; p++)
-            by[k] = wide_cmul(by[k], wide_from(g->value[g->members[k]] - g->mean));
+            by[k] = dd_cmul(by[k], dd_from(g->value[g->members[k]] - g->mean));
     }
     for (int i = 0; i < n; i++) {
-        WideComplex *sum = NEW_ARRAY(WideComplex, n);
+        DoubleDoubleComplex *sum = NEW_ARRAY(DoubleDoubleComplex, n);
 
         for (int k = 0; k < g->count; k++) {
             const int m = g->members[k];
-            const WideComplex x = wide_cmul(part->right[i * n + m], by[k]);
+            const DoubleDoubleComplex x = dd_cmul(part->right[i * n + m], by[k]);
 
             for (int j = 0; j < n; j++)
-                sum[j] = wide_cadd(sum[j], wide_cmul(x, part->left[m * n + j]));
+                sum[j] = dd_cadd(sum[j], dd_cmul(x, part->left[m * n + j]));
         }
         for (int j = 0; j < n; j++)
             g->size[i * n + j] = size_of(sum[j]);
@@ -209,8 +210,8 @@ static double single_error(const SpectrumPart *part, int k)
 
         for (int j = 0; j < n; j++)
             if (part->error[i * n + j] > 0)
-                size += part->error[i * n + j] * cabs(wide_to(part->right[j * n + k]));
-        sum += cabs(wide_to(part->left[k * n + i])) * size;
+                size += part->error[i * n + j] * cabs(dd_to(part->right[j * n + k]));
+        sum += cabs(dd_to(part->left[k * n + i])) * size;
     }
     return sum;
 }
@@ -225,8 +226,8 @@ static double complex moved_by(const SpectrumPart *part, int k, const double *di
         double complex row = 0;
 
         for (int j = 0; j < n; j++)
-            row += disturbed[i * n + j] * wide_to(part->right[j * n + k]);
-        moved += wide_to(part->left[k * n + i]) * row;
+            row += disturbed[i * n + j] * dd_to(part->right[j * n + k]);
+        moved += dd_to(part->left[k * n + i]) * row;
     }
     return moved;
 }
@@ -244,10 +245,10 @@ static double method_error(const SpectrumPart *part, const double *block, const 
         for (int j = 0; j < n; j++)
             row += fabs(block[i * n + j]) * scale[i] / scale[j];
         norm = fmax(norm, row);
-        x = fmax(x, scale[i] * cabs(wide_to(part->right[i * n + k])));
-        y += cabs(wide_to(part->left[k * n + i])) / scale[i];
+        x = fmax(x, scale[i] * cabs(dd_to(part->right[i * n + k])));
+        y += cabs(dd_to(part->left[k * n + i])) / scale[i];
     }
-    return n * WIDE_UNIT * norm * x * y;
+    return n * DOUBLE_DOUBLE_ROUNDING * norm * x * y;
 }
 
 /* eigenvalues and vectors of the block as it is scaled and disturbed */
@@ -255,23 +256,24 @@ static bool decompose(const SpectrumPart *part, const double *block, const doubl
                       const double *scale, double complex *value)
 {
     const int n = part->size;
-    Wide *a = NEW_ARRAY(Wide, n * n);
-    WideComplex *t = NEW_ARRAY(WideComplex, n * n), *z = NEW_ARRAY(WideComplex, n * n);
+    DoubleDouble *a = NEW_ARRAY(DoubleDouble, n * n);
+    DoubleDoubleComplex *t = NEW_ARRAY(DoubleDoubleComplex, n * n),
+                        *z = NEW_ARRAY(DoubleDoubleComplex, n * n);
     bool sound;
 
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
             a[i * n + j] =
-                wide_times(wide_sum(block[i * n + j], disturbed[i * n + j]), scale[i] / scale[j]);
+                dd_times(dd_sum(block[i * n + j], disturbed[i * n + j]), scale[i] / scale[j]);
     sound = schur(a, n, t, z);
     if (sound)
         schur_vectors(t, z, n, part->right, part->left);
     for (int i = 0; i < n && sound; i++) {
-        value[i] = wide_to(t[i * n + i]);
+        value[i] = dd_to(t[i * n + i]);
         sound = isfinite(cabs(value[i]));
         for (int k = 0; k < n; k++) {
-            part->right[i * n + k] = wide_ctimes(part->right[i * n + k], wide_of(1 / scale[i]));
-            part->left[k * n + i] = wide_ctimes(part->left[k * n + i], wide_of(scale[i]));
+            part->right[i * n + k] = dd_ctimes(part->right[i * n + k], dd_of(1 / scale[i]));
+            part->left[k * n + i] = dd_ctimes(part->left[k * n + i], dd_of(scale[i]));
         }
     }
     MEM_FREE(a, t, z);
@@ -287,13 +289,13 @@ static void normalise(const SpectrumPart *part)
         double largest = 0, scale;
 
         for (int i = 0; i < n; i++)
-            largest = fmax(largest, wide_size(part->right[i * n + k]));
+            largest = fmax(largest, dd_size(part->right[i * n + k]));
         if (!(largest > 0 && isfinite(largest)))
             continue;
         scale = ldexp(1, -ilogb(largest));
         for (int i = 0; i < n; i++) {
-            part->right[i * n + k] = wide_ctimes(part->right[i * n + k], wide_of(scale));
-            part->left[k * n + i] = wide_ctimes(part->left[k * n + i], wide_of(1 / scale));
+            part->right[i * n + k] = dd_ctimes(part->right[i * n + k], dd_of(scale));
+            part->left[k * n + i] = dd_ctimes(part->left[k * n + i], dd_of(1 / scale));
         }
     }
 }
@@ -306,7 +308,7 @@ static void place_on_axis(const SpectrumPart *part, const double *block, Root *r
 
     for (int i = 0; i < n * n; i++)
         pattern[i] = block[i] != 0 || part->error[i] != 0;
-    if (blocks_alternate(pattern, n))
+    if (block_triangular_alternate(pattern, n))
         for (int k = 0; k < n; k++) {
             /* mirrored about the axis it would be another within its error */
             near = 0;
@@ -356,8 +358,8 @@ static void take_vectors(const SpectrumPart *part, const Enclosure *e, const dou
 
     for (int i = 0; i < n; i++)
         for (int k = 0; k < n; k++) {
-            part->right[i * n + k] = wide_from(e->right[i * n + k] / scale[i]);
-            part->left[k * n + i] = wide_from(e->left[k * n + i] * scale[i]);
+            part->right[i * n + k] = dd_from(e->right[i * n + k] / scale[i]);
+            part->left[k * n + i] = dd_from(e->left[k * n + i] * scale[i]);
         }
 }
 
@@ -375,7 +377,7 @@ static bool solve_in_doubles(const SpectrumPart *part, const double *block, cons
                              double complex *value, Root *root)
 {
     const int n = part->size;
-    Wide *a = NEW_ARRAY(Wide, n * n);
+    DoubleDouble *a = NEW_ARRAY(DoubleDouble, n * n);
     double *error = NEW_ARRAY(double, n), *open = NEW_ARRAY(double, n);
     double *left_open = NEW_ARRAY(double, n), *moved = NEW_ARRAY(double, n *n);
     Grouping grouping = {.part = part, .value = value, .open = open, .scale = scale};
@@ -384,7 +386,7 @@ static bool solve_in_doubles(const SpectrumPart *part, const double *block, cons
 
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
-            a[i * n + j] = wide_of(block[i * n + j] * (scale[i] / scale[j]));
+            a[i * n + j] = dd_of(block[i * n + j] * (scale[i] / scale[j]));
             moved[i * n + j] = part->error[i * n + j] * scale[i] / scale[j];
         }
     sound = enclosure_find(a, n, &e);
@@ -466,8 +468,8 @@ static bool fill_part(Spectrum *s, const double *error, int b, int first)
 
     *part = (SpectrumPart){size,
                            s->blocks.order + s->blocks.start[b],
-                           NEW_ARRAY(WideComplex, size * size),
-                           NEW_ARRAY(WideComplex, size * size),
+                           NEW_ARRAY(DoubleDoubleComplex, size * size),
+                           NEW_ARRAY(DoubleDoubleComplex, size * size),
                            NEW_ARRAY(double, size *size),
                            first};
     for (int i = 0; i < size; i++)
@@ -478,7 +480,7 @@ static bool fill_part(Spectrum *s, const double *error, int b, int first)
     if (size == 1) {
         s->value[first] = block[0];
         s->root[first] = root_make(block[0], part->error[0]);
-        part->right[0] = part->left[0] = wide_real(wide_of(1));
+        part->right[0] = part->left[0] = dd_real(dd_of(1));
     } else {
         sound = solve_part(part, block, s->value + first, s->root + first);
     }
@@ -536,7 +538,7 @@ Spectrum *spectrum_new(const double *a, const double *error, int n)
         pattern[i] = a[i] != 0 || error[i] != 0;
         sound = sound && isfinite(a[i]) && isfinite(error[i]);
     }
-    s->blocks = blocks_find(pattern, n);
+    s->blocks = block_triangular_find(pattern, n);
     s->part = NEW_ARRAY(SpectrumPart, s->blocks.count);
     for (int b = 0; b < s->blocks.count && sound; b++) {
         sound = fill_part(s, error, b, s->blocks.start[b]);
@@ -557,7 +559,7 @@ void spectrum_free(Spectrum *spectrum)
     for (int b = 0; b < spectrum->blocks.count; b++) {
         MEM_FREE(spectrum->part[b].right, spectrum->part[b].left, spectrum->part[b].error);
     }
-    blocks_free(&spectrum->blocks);
+    block_triangular_free(&spectrum->blocks);
     MEM_FREE(spectrum->part, spectrum->a, spectrum->root, spectrum->value, spectrum->column,
              spectrum->part_of, spectrum);
 }
@@ -569,29 +571,29 @@ const Root *spectrum_roots(const Spectrum *spectrum)
 
 /* --- vectors --- */
 
-static void shrink(WideComplex *x, int n)
+static void shrink(DoubleDoubleComplex *x, int n)
 {
     double largest = 0;
 
     for (int i = 0; i < n; i++)
-        largest = fmax(largest, wide_size(x[i]));
+        largest = fmax(largest, dd_size(x[i]));
     if (largest > 0 && isfinite(largest))
         for (int i = 0; i < n; i++)
-            x[i] = wide_ctimes(x[i], wide_of(ldexp(1, -ilogb(largest))));
+            x[i] = dd_ctimes(x[i], dd_of(ldexp(1, -ilogb(largest))));
 }
 
 /* Carry x on into a part that root k's acts on: (lambda - A) x = what acts on it. */
-static void carry_on(const Spectrum *s, const SpectrumPart *part, int k, WideComplex *x)
+static void carry_on(const Spectrum *s, const SpectrumPart *part, int k, DoubleDoubleComplex *x)
 {
     const int m = part->size;
-    WideComplex *force = NEW_ARRAY(WideComplex, m);
+    DoubleDoubleComplex *force = NEW_ARRAY(DoubleDoubleComplex, m);
     bool moves = false;
 
     for (int i = 0; i < m; i++)
         for (int j = 0; j < s->n; j++)
-            if (wide_size(x[j]) > 0 && s->a[part->state[i] * s->n + j] != 0) {
-                force[i] = wide_cadd(force[i],
-                                     wide_ctimes(x[j], wide_of(s->a[part->state[i] * s->n + j])));
+            if (dd_size(x[j]) > 0 && s->a[part->state[i] * s->n + j] != 0) {
+                force[i] =
+                    dd_cadd(force[i], dd_ctimes(x[j], dd_of(s->a[part->state[i] * s->n + j])));
                 moves = true;
             }
     for (int r = 0; r < m && moves; r++) {
@@ -599,14 +601,14 @@ static void carry_on(const Spectrum *s, const SpectrumPart *part, int k, WideCom
         const double least =
             fmax(fmax(s->root[k].error + s->root[other].error, 1e-100), UNIT * cabs(s->value[k]));
         const double complex off = s->value[k] - s->value[other];
-        WideComplex share = wide_real(wide_of(0));
+        DoubleDoubleComplex share = dd_real(dd_of(0));
 
         for (int i = 0; i < m; i++)
-            share = wide_cadd(share, wide_cmul(part->left[column * m + i], force[i]));
-        share = wide_cdiv(share, wide_from(cabs(off) > least ? off : least));
+            share = dd_cadd(share, dd_cmul(part->left[column * m + i], force[i]));
+        share = dd_cdiv(share, dd_from(cabs(off) > least ? off : least));
         for (int i = 0; i < m; i++)
             x[part->state[i]] =
-                wide_cadd(x[part->state[i]], wide_cmul(part->right[i * m + column], share));
+                dd_cadd(x[part->state[i]], dd_cmul(part->right[i * m + column], share));
     }
     if (moves)
         shrink(x, s->n);
@@ -616,13 +618,13 @@ static void carry_on(const Spectrum *s, const SpectrumPart *part, int k, WideCom
 void spectrum_vector(const Spectrum *s, int k, double complex *out)
 {
     const SpectrumPart *own = &s->part[s->part_of[k]];
-    WideComplex *x = NEW_ARRAY(WideComplex, s->n);
+    DoubleDoubleComplex *x = NEW_ARRAY(DoubleDoubleComplex, s->n);
 
     for (int i = 0; i < own->size; i++)
         x[own->state[i]] = own->right[i * own->size + s->column[k]];
     for (int b = s->part_of[k] + 1; b < s->blocks.count; b++)
         carry_on(s, &s->part[b], k, x);
     for (int i = 0; i < s->n; i++)
-        out[i] = wide_to(x[i]);
+        out[i] = dd_to(x[i]);
     mem_free(x);
 }

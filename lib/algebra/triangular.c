@@ -11,41 +11,42 @@
 
 enum { MOST_ROWS = 6, MOST_OWN = 24 }; /* of a group: those of a joint, and what one body has */
 
-typedef LIST(int) Numbers;
+typedef LIST(int) TriangularIndices;
 
 struct Triangular {
     const Pattern *pattern;
     const int *rows;
-    int *group_of;  /* of the k-th row */
-    Numbers start;  /* of a group, in what follows: of `member`, and of `own` */
-    Numbers member; /* rows, by their numbers k */
-    Numbers own_start, own;
-    Numbers entry_start, entry; /* places of a group's rows in its own columns; -1: none */
+    int *group_of;            /* of the k-th row */
+    TriangularIndices start;  /* of a group, in what follows: of `member`, and of `own` */
+    TriangularIndices member; /* rows, by their numbers k */
+    TriangularIndices own_start, own;
+    TriangularIndices entry_start,
+        entry; /* places of a group's rows in its own columns; -1: none */
 };
 
-typedef struct Search {
+typedef struct TriangularSearch {
     const Pattern *pattern;
     const int *rows;
-    int *first, *at; /* rows of a column, by k */
-    int *left;       /* of them, in no group yet */
-    int *hits;       /* of them, in the group that is tried */
-    Numbers waiting; /* columns to look at, the last one first */
-    Numbers touched; /* columns of the group that is tried */
+    int *first, *at;           /* rows of a column, by k */
+    int *left;                 /* of them, in no group yet */
+    int *hits;                 /* of them, in the group that is tried */
+    TriangularIndices waiting; /* columns to look at, the last one first */
+    TriangularIndices touched; /* columns of the group that is tried */
     Triangular *form;
-} Search;
+} TriangularSearch;
 
-static int start_of_row(const Search *s, int k)
+static int start_of_row(const TriangularSearch *s, int k)
 {
     return s->pattern->start[s->rows[k]];
 }
 
-static int end_of_row(const Search *s, int k)
+static int end_of_row(const TriangularSearch *s, int k)
 {
     return s->pattern->start[s->rows[k] + 1];
 }
 
 /* rows of each column */
-static void list_rows(Search *s, int m)
+static void list_rows(TriangularSearch *s, int m)
 {
     const int columns = s->pattern->rows;
 
@@ -66,7 +67,7 @@ static void list_rows(Search *s, int m)
 
 /* Those with few rows are looked at first: the fewer a group has, the less they take from each
  * other. */
-static void wait_for(Search *s, const int *columns, int count)
+static void wait_for(TriangularSearch *s, const int *columns, int count)
 {
     for (int rows = MOST_ROWS; rows > 0; rows--)
         for (int i = 0; i < count; i++) {
@@ -78,7 +79,7 @@ static void wait_for(Search *s, const int *columns, int count)
 }
 
 /* the rows of a column that are in no group, as a group to try; how many */
-static int gather(Search *s, int column)
+static int gather(TriangularSearch *s, int column)
 {
     Triangular *form = s->form;
     const int before = form->member.count;
@@ -100,7 +101,7 @@ static int gather(Search *s, int column)
     return form->member.count - before;
 }
 
-static void list_entries(Search *s, int first, int first_own)
+static void list_entries(TriangularSearch *s, int first, int first_own)
 {
     Triangular *form = s->form;
 
@@ -119,7 +120,7 @@ static void list_entries(Search *s, int first, int first_own)
     }
 }
 
-static void close_group(Search *s, int first, int first_own)
+static void close_group(TriangularSearch *s, int first, int first_own)
 {
     Triangular *form = s->form;
 
@@ -132,7 +133,7 @@ static void close_group(Search *s, int first, int first_own)
         s->left[s->touched.at[i]] -= s->hits[s->touched.at[i]];
 }
 
-static void try_column(Search *s, int column)
+static void try_column(TriangularSearch *s, int column)
 {
     Triangular *form = s->form;
     const int first = form->member.count, first_own = form->own.count;
@@ -161,12 +162,12 @@ Triangular *triangular_new(const Pattern *pattern, const int *rows, int m)
 {
     const int columns = pattern->rows;
     Triangular *form = NEW(Triangular);
-    Search s = {.pattern = pattern,
-                .rows = rows,
-                .first = NEW_ARRAY(int, columns + 1),
-                .left = NEW_ARRAY(int, columns),
-                .hits = NEW_ARRAY(int, columns),
-                .form = form};
+    TriangularSearch s = {.pattern = pattern,
+                          .rows = rows,
+                          .first = NEW_ARRAY(int, columns + 1),
+                          .left = NEW_ARRAY(int, columns),
+                          .hits = NEW_ARRAY(int, columns),
+                          .form = form};
 
     form->pattern = pattern;
     form->rows = rows;

@@ -31,7 +31,7 @@ enum {
 };
 #define HIDDEN ((uint64_t)1 << (DBL_MANT_DIG - 1)) /* the bit of a mantissa that isn't stored */
 
-typedef unsigned __int128 Wide;
+typedef unsigned __int128 DecimalWide;
 
 /* digits * 10^(exponent - 16), and a rest of them */
 typedef struct Decimal {
@@ -84,7 +84,7 @@ static const uint64_t fine_powers[FINE] = {
 };
 
 /* The first 126 bits or more of 10^n / 2^(*binary), and 0 behind them where it has no more. */
-static Wide power_of_ten(int n, int *binary)
+static DecimalWide power_of_ten(int n, int *binary)
 {
     /* of 10^(FINE * (FIRST + i)) the first 128 bits, cut off */
     static const uint64_t coarse[COARSE][2] = {
@@ -119,22 +119,23 @@ static Wide power_of_ten(int n, int *binary)
     const uint64_t by = fine_powers[fine];
 
     *binary = binary_exponent(n - fine) + binary_exponent(fine) - 126;
-    return (Wide)coarse[place][0] * by + (uint64_t)((Wide)coarse[place][1] * by >> 64);
+    return (DecimalWide)coarse[place][0] * by +
+           (uint64_t)((DecimalWide)coarse[place][1] * by >> 64);
 }
 
 /* mantissa * 10^n / 2^(*binary), and the first bits of 10^n / 2^(*binary - 64) */
-static Wide scale(uint64_t mantissa, int n, uint64_t *power, int *binary)
+static DecimalWide scale(uint64_t mantissa, int n, uint64_t *power, int *binary)
 {
     if (n >= 0 && n < FINE) {
         *power = fine_powers[n];
         *binary = binary_exponent(n) - 63;
-        return (Wide)mantissa * *power;
+        return (DecimalWide)mantissa * *power;
     }
-    const Wide whole = power_of_ten(n, binary);
+    const DecimalWide whole = power_of_ten(n, binary);
 
     *power = (uint64_t)(whole >> 64);
     *binary += 64;
-    return (Wide)mantissa * *power + ((Wide)mantissa * (uint64_t)whole >> 64);
+    return (DecimalWide)mantissa * *power + ((DecimalWide)mantissa * (uint64_t)whole >> 64);
 }
 
 /* floor(log10) of a normal number, or one off next to a power of ten: log2 is taken for straight
@@ -163,7 +164,7 @@ static bool take_apart(double size, Decimal *out)
     for (int tries = 0; tries < 3; tries++) {
         uint64_t power;
         int of_power;
-        const Wide product =
+        const DecimalWide product =
             scale(mantissa << LEADING, DECIMAL_EXACT - 1 - out->exponent, &power, &of_power);
         /* 69 to 74 of its places are behind the point */
         const int behind = LEADING + DBL_MANT_DIG - 1 - binary - of_power - 64;
@@ -269,21 +270,22 @@ static inline uint64_t eight_digits(uint32_t number)
 /* Digits as characters, held as a number until they are stored once, where they belong: what has
  * just been stored in parts takes long to be read whole. */
 typedef struct Spelled {
-    Wide digits; /* sixteen, the first lowest */
-    char before; /* one more, before these */
-    int zeros;   /* that end all seventeen */
+    DecimalWide digits; /* sixteen, the first lowest */
+    char before;        /* one more, before these */
+    int zeros;          /* that end all seventeen */
 } Spelled;
 
 /* zeros before a number that has less than 17 */
 static Spelled spell(uint64_t number)
 {
-    const Wide noughts = (Wide)0x3030303030303030U << 64 | 0x3030303030303030U; /* '0' each */
+    const DecimalWide noughts =
+        (DecimalWide)0x3030303030303030U << 64 | 0x3030303030303030U; /* '0' each */
     const uint32_t most = 100000000;
     const uint64_t high = number / most;
     const uint64_t last = eight_digits((uint32_t)(number % most));
     const uint64_t middle = eight_digits((uint32_t)(high % most));
 
-    return (Spelled){.digits = ((Wide)last << 64 | middle) + noughts,
+    return (Spelled){.digits = ((DecimalWide)last << 64 | middle) + noughts,
                      .before = (char)('0' + high / most),
                      .zeros = last != 0     ? __builtin_clzll(last) / 8
                               : middle != 0 ? 8 + __builtin_clzll(middle) / 8
@@ -291,7 +293,7 @@ static Spelled spell(uint64_t number)
 }
 
 /* sixteen characters */
-static void put(char *text, Wide digits)
+static void put(char *text, DecimalWide digits)
 {
     uint64_t halves[2] = {(uint64_t)digits, (uint64_t)(digits >> 64)};
 
@@ -321,8 +323,8 @@ static char *lay_out(char *text, const Spelled *s, int n, int length, int expone
 {
     const bool is_plain = exponent >= PLAIN && exponent < n;
     const int point = is_plain ? exponent + 1 : 1;
-    const Wide first = n == DECIMAL_EXACT ? s->digits << 8 | (unsigned char)s->before
-                                          : s->digits >> 8 * (DECIMAL_EXACT - 1 - n);
+    const DecimalWide first = n == DECIMAL_EXACT ? s->digits << 8 | (unsigned char)s->before
+                                                 : s->digits >> 8 * (DECIMAL_EXACT - 1 - n);
 
     if (point <= 0) {
         memcpy(text, "0.0000", sizeof "0.0000");

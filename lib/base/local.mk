@@ -7,4 +7,4 @@ libcore_la_SOURCES += \
 	lib/base/text.c lib/base/text.h \
 	lib/base/threads.c lib/base/threads.h \
 	lib/base/transaction.c lib/base/transaction.h \
-	lib/base/watch.h
+	lib/base/call_monitor.h

@@ -197,7 +197,7 @@ void pool_release(Pool *pool, PoolMark mark)
         pool->used = pool->floor_at;
 }
 
-void pool_keep(Pool *pool, void *at, size_t size)
+void pool_retain(Pool *pool, void *at, size_t size)
 {
     const Chunk *chunk = pool->newest;
     const uintptr_t where = (uintptr_t)at;

@@ -75,7 +75,7 @@ char *pool_text(Pool *pool, const char *text, size_t length);
 PoolMark pool_mark(const Pool *pool);
 void pool_release(Pool *pool, PoolMark mark); /* frees what came after the mark */
 /* Before `size` bytes at `at`, a piece of the pool's, are changed in place: mem_keep_part(). */
-void pool_keep(Pool *pool, void *at, size_t size);
+void pool_retain(Pool *pool, void *at, size_t size);
 size_t pool_bytes(const Pool *pool); /* held from the system */
 
 #endif

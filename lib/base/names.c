@@ -6,15 +6,15 @@
 #include <stdint.h>
 #include <string.h>
 
-typedef struct Named {
+typedef struct NameEntry {
     const char *text;
     char *own; /* a copy; NULL: it is borrowed */
     uint32_t hash;
-} Named;
+} NameEntry;
 
 struct Names {
     bool borrows;
-    LIST(Named) list;
+    LIST(NameEntry) list;
     int *slots; /* number + 1, or 0 where free */
     int size;   /* a power of two */
 };
@@ -35,7 +35,7 @@ static int slot_of(const Names *names, uint32_t key, const char *name, size_t le
     int slot = (int)(key & (uint32_t)(names->size - 1));
 
     for (; names->slots[slot] != 0; slot = (slot + 1) & (names->size - 1)) {
-        const Named *other = &names->list.at[names->slots[slot] - 1];
+        const NameEntry *other = &names->list.at[names->slots[slot] - 1];
 
         if (other->hash == key && strncmp(other->text, name, length) == 0 &&
             other->text[length] == '\0')
@@ -97,7 +97,7 @@ Names *names_borrowing_from(const Names *from, const char *const *texts)
     LIST_ROOM(names->list, from->list.count);
     for (int i = 0; i < from->list.count; i++)
         names->list.at[names->list.count++] =
-            (Named){.text = texts[i], .hash = from->list.at[i].hash};
+            (NameEntry){.text = texts[i], .hash = from->list.at[i].hash};
     return names;
 }
 
@@ -145,7 +145,7 @@ int names_add(Names *names, const char *name)
     const size_t length = strlen(name);
     const uint32_t key = hash(name, length);
     int slot = slot_of(names, key, name, length);
-    Named named = {.text = name, .hash = key};
+    NameEntry named = {.text = name, .hash = key};
 
     if (names->slots[slot] != 0)
         return names->slots[slot] - 1;
@@ -166,7 +166,7 @@ void names_trim(Names *names, int count)
 {
     mem_keep(names);
     while (names->list.count > count) {
-        const Named last = names->list.at[names->list.count - 1];
+        const NameEntry last = names->list.at[names->list.count - 1];
 
         set_slot(names, slot_of(names, last.hash, last.text, strlen(last.text)), 0);
         names->list.count--;

@@ -53,7 +53,7 @@ static bool take_piece(Threads *t)
     return true;
 }
 
-static void stay_awake(Threads *t)
+static void keep_spinning(Threads *t)
 {
     const double until = clock_now() + AWAKE;
 
@@ -85,7 +85,7 @@ static void *work(void *context)
     while (!atomic_load(&t->is_over)) {
         while (take_piece(t))
             ;
-        stay_awake(t);
+        keep_spinning(t);
         if (atomic_load(&t->left) == 0)
             sleep_until_work(t);
     }

@@ -11,7 +11,8 @@
  * - nothing else outlives a call: no global variables, no caches outside of pieces.
  *
  * A call is left the same way where its caller wants it to stop: allocations ask, so that long work
- * needn't know of it. Work whose first part is an answer of its own ends that, and polls (watch.h).
+ * needn't know of it. Work whose first part is an answer of its own ends that, and polls
+ * (call_monitor.h).
  *
  * Pieces made in the call need none of this. A build with --enable-faults tries every call with
  * allocations that fail and compares all pieces afterwards (faults.c): a change that nobody

@@ -23,10 +23,10 @@ struct Jacobian {
 
 /* --- pattern --- */
 
-typedef struct Terms {
+typedef struct JacobianTerms {
     LIST(int) row;
     LIST(int) column;
-} Terms;
+} JacobianTerms;
 
 /* what a bit says of an input, of all that is made from it */
 static void reach(const Program *program, uint64_t *mask)
@@ -48,7 +48,7 @@ static void reach(const Program *program, uint64_t *mask)
     }
 }
 
-static void find_terms(const Jacobian *j, int rows, int first, uint64_t *mask, Terms *terms)
+static void find_terms(const Jacobian *j, int rows, int first, uint64_t *mask, JacobianTerms *terms)
 {
     const Program *program = j->program;
 
@@ -71,7 +71,7 @@ static void find_terms(const Jacobian *j, int rows, int first, uint64_t *mask, T
 static void find_pattern(Jacobian *j, int rows, int columns)
 {
     uint64_t *mask = mem_array((size_t)j->program->slot_count, sizeof *mask);
-    Terms terms = {0};
+    JacobianTerms terms = {0};
     int *place;
 
     for (int first = 0; first < columns; first += BITS)
@@ -168,7 +168,7 @@ static void carry(Jacobian *j, int first, const double *by, double *out)
         const int lane = j->colour[c] - first;
 
         for (int i = j->first_move[c];
-             i < j->first_move[c + 1] && lane >= 0 && lane < TANGENT_LANES; i++) {
+             i < j->first_move[c + 1] && lane >= 0 && lane < TANGENT_BATCH; i++) {
             const int k = j->by_column[i];
 
             tangents_move(j->tangents, lane, j->moves[k].input, by != NULL ? by[k] : 1, 0);
@@ -178,7 +178,7 @@ static void carry(Jacobian *j, int first, const double *by, double *out)
     for (int c = 0; c < p->columns; c++) {
         const int lane = j->colour[c] - first;
 
-        for (int k = p->start[c]; k < p->start[c + 1] && lane >= 0 && lane < TANGENT_LANES; k++)
+        for (int k = p->start[c]; k < p->start[c + 1] && lane >= 0 && lane < TANGENT_BATCH; k++)
             out[k] = tangents_root(j->tangents, p->row[k], lane, NULL);
     }
 }
@@ -188,6 +188,6 @@ void jacobian_at(Jacobian *j, const double *inputs, const double *by, double *ou
     if (j->tangents == NULL)
         j->tangents = tangents_new(j->program);
     tangents_at(j->tangents, inputs, NULL);
-    for (int first = 0; first < j->colours; first += TANGENT_LANES)
+    for (int first = 0; first < j->colours; first += TANGENT_BATCH)
         carry(j, first, by, out);
 }

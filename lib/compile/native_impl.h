@@ -38,12 +38,12 @@ typedef enum StepCode {
     STEP_CALL   /* result: number of the call */
 } StepCode;
 
-typedef struct Step {
+typedef struct NativeStep {
     uint8_t code;
     uint8_t operands;
     uint32_t result; /* a value, but for the last two */
     uint32_t args[MOST_OPERANDS];
-} Step;
+} NativeStep;
 
 /* functions of one kind, whose arguments stand in memory one behind the other */
 typedef struct StepCall {
@@ -54,7 +54,7 @@ typedef struct StepCall {
 } StepCall;
 
 typedef struct SectionSteps {
-    LIST(Step) steps;
+    LIST(NativeStep) steps;
     LIST(StepCall) calls;
     LIST(uint32_t) results; /* values, NO_HOME where nobody needs one */
     uint32_t value_count;   /* slots, fixed ones, what is new here */

@@ -180,7 +180,7 @@ static bool dies_in_register(const Registers *r, uint32_t value)
 }
 
 /* operands that are needed no more give their registers away, before the result takes one */
-static void let_go(Registers *r, const Step *step)
+static void let_go(Registers *r, const NativeStep *step)
 {
     for (int k = 0; k < step->operands; k++)
         if (dies_in_register(r, step->args[k])) {
@@ -197,7 +197,7 @@ static X86Operand in_register(int reg)
 }
 
 /* The register of the result, holding the first operand if two-operand instructions ask for it. */
-static int result_of_first(Registers *r, const Step *step, int first)
+static int result_of_first(Registers *r, const NativeStep *step, int first)
 {
     int to;
 
@@ -219,7 +219,7 @@ static bool commutes(int code)
     return code == STEP_ADD || code == STEP_MUL;
 }
 
-static int emit_binary(Registers *r, Step *step)
+static int emit_binary(Registers *r, NativeStep *step)
 {
     uint32_t *args = step->args;
     X86Operand second;
@@ -239,7 +239,7 @@ static int emit_binary(Registers *r, Step *step)
     return to;
 }
 
-static int emit_root(Registers *r, const Step *step)
+static int emit_root(Registers *r, const NativeStep *step)
 {
     const X86Operand of = operand(r, step->args[0]);
     int to;
@@ -250,7 +250,7 @@ static int emit_root(Registers *r, const Step *step)
     return to;
 }
 
-static int emit_compare(Registers *r, const Step *step)
+static int emit_compare(Registers *r, const NativeStep *step)
 {
     const X86Compare how = (X86Compare)(step->code - STEP_COMPARE);
     const X86Operand one = home_operand(r->width, FIXED | FIXED_ONE);
@@ -266,7 +266,7 @@ static int emit_compare(Registers *r, const Step *step)
     return to;
 }
 
-static int emit_select(Registers *r, const Step *step)
+static int emit_select(Registers *r, const NativeStep *step)
 {
     const X86Operand zero = home_operand(r->width, FIXED | FIXED_ZERO);
     const int condition = bring(r, step->args[0]), yes = bring(r, step->args[1]),
@@ -291,7 +291,7 @@ static int emit_select(Registers *r, const Step *step)
 }
 
 /* to = first * second + to, and the like; either factor in a register */
-static int fused_onto_addend(Registers *r, const Step *step, X86Fused kind, int to)
+static int fused_onto_addend(Registers *r, const NativeStep *step, X86Fused kind, int to)
 {
     uint32_t a = step->args[0], b = step->args[1];
     int first;
@@ -308,7 +308,8 @@ static int fused_onto_addend(Registers *r, const Step *step, X86Fused kind, int 
 }
 
 /* `to`, which holds a factor, by the other one, with the addend; one of these in a register */
-static int fused_onto_factor(Registers *r, const Step *step, X86Fused kind, uint32_t factor, int to)
+static int fused_onto_factor(Registers *r, const NativeStep *step, X86Fused kind, uint32_t factor,
+                             int to)
 {
     const uint32_t addend = step->args[2];
 
@@ -326,7 +327,7 @@ static int fused_onto_factor(Registers *r, const Step *step, X86Fused kind, uint
 
 /* The result takes the register of an operand that dies; else one that has to be loaded is loaded
  * there; else one is copied. */
-static int emit_fused(Registers *r, const Step *step)
+static int emit_fused(Registers *r, const NativeStep *step)
 {
     const X86Fused kind = (X86Fused)(step->code - STEP_MULADD);
     const uint32_t a = step->args[0], b = step->args[1], c = step->args[2];
@@ -358,7 +359,7 @@ static int emit_fused(Registers *r, const Step *step)
     return fused_onto_factor(r, step, kind, a, to);
 }
 
-static void emit_store(Registers *r, const Step *step)
+static void emit_store(Registers *r, const NativeStep *step)
 {
     const int from = bring(r, step->args[0]);
 
@@ -389,7 +390,7 @@ static void native_function(const double *arguments, double *results, int count,
         }
 }
 
-static void emit_call(Registers *r, const Step *step, const Program *program)
+static void emit_call(Registers *r, const NativeStep *step, const Program *program)
 {
     const StepCall *call = &r->steps->calls.at[step->result];
     const int results = call->code == CODE_SINCOS ? 2 : 1;
@@ -430,7 +431,7 @@ static void emit_call(Registers *r, const Step *step, const Program *program)
     }
 }
 
-static void emit_step(Registers *r, Step step, const Program *program)
+static void emit_step(Registers *r, NativeStep step, const Program *program)
 {
     int to;
 
@@ -467,7 +468,7 @@ static void emit_step(Registers *r, Step step, const Program *program)
 }
 
 /* what is used no more leaves its register and its place in the frame */
-static void forget(Registers *r, const Step *step)
+static void forget(Registers *r, const NativeStep *step)
 {
     const Home first_spill = FRAME | r->steps->frame;
 

@@ -158,7 +158,7 @@ void section_steps_free(SectionSteps *steps)
 static void add_step(StepMaker *m, int code, uint32_t result, int operands, uint32_t a, uint32_t b,
                      uint32_t c)
 {
-    LIST_PUSH(m->out->steps, (Step){(uint8_t)code, (uint8_t)operands, result, {a, b, c}});
+    LIST_PUSH(m->out->steps, (NativeStep){(uint8_t)code, (uint8_t)operands, result, {a, b, c}});
 }
 
 static void add_store(StepMaker *m, uint32_t value, Home place)
@@ -320,7 +320,7 @@ static int compare(const void *a, const void *b)
 }
 
 /* arguments of one operand each that are slots of before, one behind the other */
-static bool stand_together(const StepMaker *m, const Calleds *calls, int operands, int section)
+static bool are_adjacent(const StepMaker *m, const Calleds *calls, int operands, int section)
 {
     for (int i = 0; i < calls->count; i++)
         if (operands != 1 || calls->at[i].argument >= first_slot(m, section) ||
@@ -342,7 +342,7 @@ static void add_call(StepMaker *m, Opcode code, Calleds *calls, int section)
 
     if (operands == 1)
         qsort(calls->at, (size_t)calls->count, sizeof *calls->at, compare);
-    if (stand_together(m, calls, operands, section)) {
+    if (are_adjacent(m, calls, operands, section)) {
         call.arguments = calls->at[0].argument;
     } else {
         call.arguments = FRAME | out->frame;

@@ -79,19 +79,19 @@ static inline int section_end(const Program *program, int section)
                                                  : program->runs.count;
 }
 
-/* --- apart.c --- */
+/* --- independent_blocks.c --- */
 
 /* How the values of a stage stand apart: first what is of no block, alone, then parts, then what
- * joins them, alone, and so on (apart.c). */
+ * joins them, alone, and so on (independent_blocks.c). */
 enum { PHASES = 5 };
-typedef struct Apart {
+typedef struct IndependentBlocks {
     int parts;
     uint8_t *phase, *part; /* of each value; phases 1 and 3 are in parts */
     bool is_split[STAGE_COUNT];
-} Apart;
-/* Find it, from values that are fused already; free with apart_free(). */
-Apart apart_find(const Lowered *lowered, const ProgramBlocks *blocks);
-void apart_free(Apart *apart);
+} IndependentBlocks;
+/* Find it, from values that are fused already; free with independent_blocks_free(). */
+IndependentBlocks independent_blocks_find(const Lowered *lowered, const ProgramBlocks *blocks);
+void independent_blocks_free(IndependentBlocks *apart);
 
 /* --- interpret.c --- */
 

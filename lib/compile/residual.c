@@ -19,7 +19,7 @@ struct Residual {
     int parameter_count;
 };
 
-typedef LIST(Expr) Roots;
+typedef LIST(Expr) ResidualRoots;
 
 /* by numbers of symbols: which unknown it is; -1: none */
 typedef struct Numbering {
@@ -69,7 +69,7 @@ static int *unknowns_in(Expr row, const Numbering *numbering, int *count)
     return out;
 }
 
-static Status differentiate(const ResidualOrder *order, Residual *r, Roots *roots)
+static Status differentiate(const ResidualOrder *order, Residual *r, ResidualRoots *roots)
 {
     const Numbering numbering = number_unknowns(order);
     Status status = OK;
@@ -81,7 +81,7 @@ static Status differentiate(const ResidualOrder *order, Residual *r, Roots *root
         for (int k = 0; k < count && status == OK; k++) {
             Expr slope = expr_diff(order->arena, order->roots[i], order->unknowns[in_row[k]]);
 
-            status = poll(order->watch);
+            status = monitor_poll(order->watch);
             if (expr_is_zero(slope))
                 continue;
             LIST_PUSH(r->slopes, (Slope){i, in_row[k], expr_kinds(slope)});
@@ -206,7 +206,7 @@ static int *blocks_of(const ResidualOrder *order, int count)
 static Status make(const ResidualOrder *order, Residual **out, Diag *diag)
 {
     Residual *r = NEW(Residual);
-    Roots roots = {0};
+    ResidualRoots roots = {0};
     Lowered lowered = {0};
     int *blocks = NULL;
     Status status = OK;

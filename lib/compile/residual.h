@@ -6,7 +6,7 @@
 #ifndef COTREE_COMPILE_RESIDUAL_H
 #define COTREE_COMPILE_RESIDUAL_H
 
-#include "base/watch.h"
+#include "base/call_monitor.h"
 #include "compile/program.h"
 
 typedef struct Residual Residual;
@@ -30,7 +30,7 @@ typedef struct ResidualOrder {
     ProgramBlocks blocks;                     /* of these inputs; a parameter is of none */
     Expr (*put)(const void *context, Expr e); /* what is compiled for a root or slope; NULL: it */
     const void *context;
-    const Watch *watch; /* may be NULL */
+    const CallMonitor *watch; /* may be NULL */
 } ResidualOrder;
 
 /* New; residual_free(). Fails as program_new() does, or with E_STOPPED. O(nodes), and a derivative

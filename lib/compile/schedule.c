@@ -3,7 +3,8 @@
  * A product that only one sum of its stage needs is fused with it, two roundings as
  * before. Then, stage by stage, list scheduling: of the operations whose operands are
  * there, those of the most frequent opcode make the next run, and what becomes ready
- * on the way joins it. Where blocks stand apart (apart.c) so does each section of a stage. O(values
+ * on the way joins it. Where blocks stand apart (independent_blocks.c) so does each section of a
+ * stage. O(values
  * * opcodes) at worst, O(values) where runs are long. */
 #include "compile/program_impl.h"
 
@@ -33,7 +34,7 @@ typedef struct Plan {
     Opcode codes[CODES]; /* those there are, rising */
     int code_count;
     int work[STAGE_COUNT]; /* instructions that aren't on the tape yet */
-    Apart apart;
+    IndependentBlocks apart;
     int phase, part; /* of the section that is being put on the tape */
 } Plan;
 
@@ -330,7 +331,7 @@ void program_schedule(Program *program, Lowered *lowered, const ProgramBlocks *b
     };
 
     fuse(lowered);
-    plan.apart = apart_find(lowered, blocks);
+    plan.apart = independent_blocks_find(lowered, blocks);
     plan.slot = NEW_ARRAY(uint32_t, plan.count);
     plan.pending = NEW_ARRAY(uint32_t, plan.count);
     plan.first_user = NEW_ARRAY(uint32_t, (size_t)plan.count + 1);
@@ -354,5 +355,5 @@ void program_schedule(Program *program, Lowered *lowered, const ProgramBlocks *b
     place_roots(&plan, lowered);
 
     MEM_FREE(plan.slot, plan.pending, plan.users, plan.first_user, plan.next);
-    apart_free(&plan.apart);
+    independent_blocks_free(&plan.apart);
 }

@@ -5,14 +5,14 @@
  * derivative is of the same kind as that of a value (rounding.c), whose bounds it goes on from. */
 #include "compile/tangents.h"
 
-#include "algebra/wide.h"
+#include "algebra/double_double.h"
 #include "compile/program_impl.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-enum { LANES = TANGENT_LANES };
+enum { LANES = TANGENT_BATCH };
 
 /* the derivatives of a function by its arguments, as a program of these */
 typedef struct Rule {
@@ -275,8 +275,8 @@ void tangents_move(Tangents *tangents, int lane, int input, double by, double er
 static inline void add(double partial, double partial_error, double by, double by_error,
                        double *out, double *error)
 {
-    const Wide product = wide_product(partial, by);
-    const Wide total = wide_sum(*out, product.high);
+    const DoubleDouble product = dd_product(partial, by);
+    const DoubleDouble total = dd_sum(*out, product.high);
 
     *out = total.high;
     *error += fabs(product.low) + fabs(total.low) + fabs(partial) * by_error +

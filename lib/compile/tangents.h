@@ -8,7 +8,7 @@
 
 #include "compile/program.h"
 
-enum { TANGENT_LANES = 8 };
+enum { TANGENT_BATCH = 8 };
 
 typedef struct Tangents Tangents;
 

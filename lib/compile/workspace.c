@@ -35,12 +35,12 @@ enum { TRIES = 16, PATIENCE = 10000 };
 #define FASTER 0.95
 
 /* of the stages from one to another */
-typedef struct Trial {
+typedef struct ThreadTrial {
     int runs;
     double alone, together; /* s: of the tries, but for the longest of each */
     double longest[2];
     bool by_threads;
-} Trial;
+} ThreadTrial;
 
 typedef struct NativePart {
     long interpreted;     /* instructions, until they have paid for native code; -1: they have */
@@ -55,7 +55,7 @@ struct Workspace {
     Threads *threads;
     int parts; /* sections that may run at the same time, at most */
     NativePart single, joined;
-    Trial (*trials)[STAGE_COUNT]; /* of stages from and to; NULL: there is one part */
+    ThreadTrial (*trials)[STAGE_COUNT]; /* of stages from and to; NULL: there is one part */
 };
 
 Workspace *workspace_new(const Program *program)
@@ -176,7 +176,7 @@ static void run_sections(const Workspace *workspace, const NativePart *part, Thr
     }
 }
 
-static void take_time(Trial *trial, bool by_threads, double took)
+static void take_time(ThreadTrial *trial, bool by_threads, double took)
 {
     double *sum = by_threads ? &trial->together : &trial->alone;
     double *longest = &trial->longest[by_threads];
@@ -187,9 +187,10 @@ static void take_time(Trial *trial, bool by_threads, double took)
         trial->by_threads = trial->together < FASTER * trial->alone;
 }
 
-static void run_apart(Workspace *workspace, const NativePart *part, Stage from, Stage to)
+static void run_independent_blocks(Workspace *workspace, const NativePart *part, Stage from,
+                                   Stage to)
 {
-    Trial *trial = &workspace->trials[from][to];
+    ThreadTrial *trial = &workspace->trials[from][to];
     const bool by_threads = trial->runs < TRIES ? trial->runs % 2 == 1 : trial->by_threads;
     const double began = trial->runs < TRIES ? clock_now() : 0;
 
@@ -198,7 +199,7 @@ static void run_apart(Workspace *workspace, const NativePart *part, Stage from, 
     if (trial->runs <= TRIES)
         take_time(trial, by_threads, clock_now() - began);
     else if (trial->runs > PATIENCE)
-        *trial = (Trial){0};
+        *trial = (ThreadTrial){0};
 }
 
 static void run(Workspace *workspace, NativePart *part, Stage from, Stage to)
@@ -207,7 +208,7 @@ static void run(Workspace *workspace, NativePart *part, Stage from, Stage to)
     double *slots = workspace->slots;
 
     if (workspace->parts > 1)
-        run_apart(workspace, part, from, to);
+        run_independent_blocks(workspace, part, from, to);
     else if (part->native != NULL)
         native_run(part->native, from, to, slots, part->frames[0]);
     else

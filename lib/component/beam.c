@@ -230,8 +230,8 @@ static void doubt(const Instance *instance, bool planar, Text *out)
 }
 
 static const Deforming deforming = {
-    shape_count,  shape_coordinate, beam_unit,    beam_load_powers,
-    beam_station, beam_inertia,     beam_section,
+    shape_count,        shape_coordinate, beam_unit,    beam_load_powers,
+    beam_section_frame, beam_inertia,     beam_section,
 };
 
 const Component component_beam = {

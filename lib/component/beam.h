@@ -56,8 +56,8 @@ Expr beam_number(Arena *arena, const mpq_t value);
 Polynomial beam_shortening(const BeamShape *a, const BeamShape *b);
 bool beam_bends(const BeamShape *shape);
 
-void beam_station(const Instance *instance, Arena *arena, bool planar, Expr at,
-                  const ShapeState *state, Station *out);
+void beam_section_frame(const Instance *instance, Arena *arena, bool planar, Expr at,
+                        const ShapeState *state, SectionFrame *out);
 void beam_inertia(const Instance *instance, Arena *arena, bool planar, Expr from,
                   const ShapeState *state, ShapeInertia *out);
 double beam_unit(const Instance *instance, bool planar, int i);

@@ -10,7 +10,7 @@ typedef struct Fields {
     Graded (*move)[3];             /* d p/d q, of each shape */
 } Fields;
 
-static void add_shape(const Along *along, Fields *f, int i)
+static void add_shape(const GradedShapes *along, Fields *f, int i)
 {
     static const int shifted[SHAPE_FAMILIES] = {0, 1, 2, -1};
     const BeamShape *shape = &along->beam->shapes[i];
@@ -24,7 +24,7 @@ static void add_shape(const Along *along, Fields *f, int i)
 }
 
 /* int_0^x N_i' N_j', of shapes of one family: into -d s/d q of both, and what is left of -s'' */
-static void shorten_pair(const Along *along, Fields *f, int i, int j)
+static void shorten_pair(const GradedShapes *along, Fields *f, int i, int j)
 {
     Arena *arena = along->arena;
     const Beam *beam = along->beam;
@@ -38,12 +38,13 @@ static void shorten_pair(const Along *along, Fields *f, int i, int j)
     parts_add(along, &f->move[i][0].at[1], parts, expr_mul(arena, scale, q[j]));
     if (j < i)
         parts_add(along, &f->move[j][0].at[1], parts, expr_mul(arena, scale, q[i]));
-    parts_add(along, &f->left[0].at[2], parts,
-              expr_hold(arena, expr_mul(arena, twice, expr_mul(arena, rate[i], rate[j]))));
+    parts_add(
+        along, &f->left[0].at[2], parts,
+        expr_name_temporary(arena, expr_mul(arena, twice, expr_mul(arena, rate[i], rate[j]))));
 }
 
 /* -s = q.(-ds/dq)/2, -s' = q'.(-ds/dq) */
-static void shorten(const Along *along, Fields *f)
+static void shorten(const GradedShapes *along, Fields *f)
 {
     const Beam *beam = along->beam;
     Expr *way = NULL;
@@ -63,7 +64,7 @@ static void shorten(const Along *along, Fields *f)
 }
 
 /* where no order is cut, there need be but one */
-static Graded merged(const Along *along, Graded g)
+static Graded merged(const GradedShapes *along, Graded g)
 {
     Graded sum = {{NULL}};
 
@@ -73,7 +74,7 @@ static Graded merged(const Along *along, Graded g)
     return graded_hold(along, sum);
 }
 
-static Fields fields_of(const Along *along)
+static Fields fields_of(const GradedShapes *along)
 {
     Polynomial x = polynomial_power(1);
     Fields f = {.move = pool_alloc(along->pool, (size_t)along->beam->count * sizeof(Graded[3]))};
@@ -93,7 +94,7 @@ static Fields fields_of(const Along *along)
 }
 
 /* w x a, of the root's angular velocity */
-static void spun(const Along *along, const Graded a[3], Graded out[3])
+static void spun(const GradedShapes *along, const Graded a[3], Graded out[3])
 {
     const Expr *w = along->state->w;
 
@@ -106,7 +107,7 @@ static void spun(const Along *along, const Graded a[3], Graded out[3])
 }
 
 /* R^T(p'' of a point) where root and shapes don't accelerate: w x (w x p) + 2 w x p' + left */
-static void bias_of(const Along *along, const Fields *f, Graded out[3])
+static void bias_of(const GradedShapes *along, const Fields *f, Graded out[3])
 {
     const Expr two = expr_int(along->arena, 2);
     Graded turned[3], twice[3];
@@ -121,13 +122,15 @@ static void bias_of(const Along *along, const Fields *f, Graded out[3])
 
 /* --- integrals --- */
 
-static void weigh(const Along *along, const Weights *weights, const Graded a[3], Graded out[3])
+static void weigh(const GradedShapes *along, const Weights *weights, const Graded a[3],
+                  Graded out[3])
 {
     for (int k = 0; k < 3; k++)
         out[k] = graded_weighed(along, weights, a[k]);
 }
 
-static Expr cross(const Along *along, const Graded weighed[3], const Graded b[3], int i, int most)
+static Expr cross(const GradedShapes *along, const Graded weighed[3], const Graded b[3], int i,
+                  int most)
 {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
 
@@ -136,18 +139,18 @@ static Expr cross(const Along *along, const Graded weighed[3], const Graded b[3]
 }
 
 /* the first polynomial, which is 1, with all that a density that varies leaves beside it */
-static Expr whole(const Along *along, const Weights *weights, Graded g, int most)
+static Expr whole(const GradedShapes *along, const Weights *weights, Graded g, int most)
 {
     Expr sum = expr_int(along->arena, 0);
 
     for (int d = 0; d < ORDERS && d <= most; d++)
         for (int l = 0; g.at[d] != NULL && l <= weights->band && l < along->length; l++)
             sum = expr_add(along->arena, sum, expr_mul(along->arena, weights->at[l], g.at[d][l]));
-    return expr_hold(along->arena, expr_mul(along->arena, along->beam->length, sum));
+    return expr_name_temporary(along->arena, expr_mul(along->arena, along->beam->length, sum));
 }
 
 /* int (p.p 1 - p p') */
-static void add_tensor(const Along *along, const Graded weighed[3], const Graded p[3],
+static void add_tensor(const GradedShapes *along, const Graded weighed[3], const Graded p[3],
                        const Weights *weights, ShapeInertia *out)
 {
     Expr product[3][3];
@@ -167,7 +170,7 @@ static void add_tensor(const Along *along, const Graded weighed[3], const Graded
         }
 }
 
-static void add_shapes(const Along *along, const Fields *f, const Graded weighed[3],
+static void add_shapes(const GradedShapes *along, const Fields *f, const Graded weighed[3],
                        const Graded bias[3], const Weights *weights, ShapeInertia *out)
 {
     const int count = along->beam->count;
@@ -192,7 +195,7 @@ static void add_shapes(const Along *along, const Fields *f, const Graded weighed
 }
 
 /* what a load of xi^power does by 1 per length */
-static void add_load(const Along *along, const Fields *f, int power, ShapeInertia *out)
+static void add_load(const GradedShapes *along, const Fields *f, int power, ShapeInertia *out)
 {
     const int count = along->beam->count;
     Powers density = {.count = power + 1};
@@ -210,7 +213,7 @@ static void add_load(const Along *along, const Fields *f, int power, ShapeInerti
     }
 }
 
-void beam_add_axis(const Along *along, const Powers *density, ShapeInertia *out)
+void beam_add_axis(const GradedShapes *along, const Powers *density, ShapeInertia *out)
 {
     const Fields f = fields_of(along);
     const Weights weights = weights_of(along, density);

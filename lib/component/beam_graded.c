@@ -6,7 +6,7 @@
 #include <gsl/gsl_integration.h>
 
 /* the points of a Gauss rule and their weights, from where integrals begin to the end */
-static void take_points(Along *along)
+static void take_points(GradedShapes *along)
 {
     const size_t count = (size_t)along->point_count;
     const Expr share = expr_sub(along->arena, expr_int(along->arena, 1), along->from);
@@ -26,7 +26,7 @@ static void take_points(Along *along)
 }
 
 /* P_0 .. P_most at each point: (n + 1) next = (2 n + 1) z this - n before, z = 2 xi - 1 */
-static void take_legendre(Along *along, int most)
+static void take_legendre(GradedShapes *along, int most)
 {
     Arena *arena = along->arena;
     const Expr one = expr_int(arena, 1), two = expr_int(arena, 2);
@@ -35,13 +35,13 @@ static void take_legendre(Along *along, int most)
         pool_alloc(along->pool, (size_t)along->point_count * (size_t)(most + 1) * sizeof(Expr));
     for (int k = 0; k < along->point_count; k++) {
         Expr *p = along->legendre + (ptrdiff_t)k * (most + 1);
-        const Expr z =
-            expr_hold(arena, expr_sub(arena, expr_mul(arena, two, along->points[k]), one));
+        const Expr z = expr_name_temporary(
+            arena, expr_sub(arena, expr_mul(arena, two, along->points[k]), one));
 
         p[0] = one;
         p[most > 0 ? 1 : 0] = most > 0 ? z : one;
         for (int n = 1; n < most; n++)
-            p[n + 1] = expr_hold(
+            p[n + 1] = expr_name_temporary(
                 arena,
                 expr_sub(arena,
                          expr_product(arena,
@@ -50,17 +50,17 @@ static void take_legendre(Along *along, int most)
     }
 }
 
-Along along_of(const Beam *beam, Expr from, const ShapeState *state, Pool *pool, Basis basis,
-               int degree, int varies)
+GradedShapes along_of(const Beam *beam, Expr from, const ShapeState *state, Pool *pool, Basis basis,
+                      int degree, int varies)
 {
     const bool is_whole = expr_is_zero(from);
-    Along along = {.beam = beam,
-                   .arena = beam->arena,
-                   .pool = pool,
-                   .basis = basis,
-                   .state = state,
-                   .from = from,
-                   .length = degree + 1};
+    GradedShapes along = {.beam = beam,
+                          .arena = beam->arena,
+                          .pool = pool,
+                          .basis = basis,
+                          .state = state,
+                          .from = from,
+                          .length = degree + 1};
 
     for (int k = 0; k < 3; k++)
         along.limit[k] = beam->limit == LIMITLESS ? LIMITLESS : beam->limit - k;
@@ -77,7 +77,8 @@ Along along_of(const Beam *beam, Expr from, const ShapeState *state, Pool *pool,
     return along;
 }
 
-static Expr at_point(const Along *along, const Polynomial *legendre, const Polynomial *p, int k)
+static Expr at_point(const GradedShapes *along, const Polynomial *legendre, const Polynomial *p,
+                     int k)
 {
     const Expr *values = along->legendre + (ptrdiff_t)k * (along->degree + 1);
     Expr sum = expr_int(along->arena, 0);
@@ -91,7 +92,7 @@ static Expr at_point(const Along *along, const Polynomial *legendre, const Polyn
     return sum;
 }
 
-static Expr *parts_new(const Along *along)
+static Expr *parts_new(const GradedShapes *along)
 {
     Expr *parts = pool_alloc(along->pool, (size_t)along->length * sizeof *parts);
 
@@ -100,7 +101,7 @@ static Expr *parts_new(const Along *along)
     return parts;
 }
 
-Expr *parts_of(const Along *along, const Polynomial *p)
+Expr *parts_of(const GradedShapes *along, const Polynomial *p)
 {
     Expr *parts = parts_new(along);
     Polynomial legendre = {0};
@@ -120,7 +121,7 @@ Expr *parts_of(const Along *along, const Polynomial *p)
     return parts;
 }
 
-void parts_add(const Along *along, Expr **to, const Expr *parts, Expr scale)
+void parts_add(const GradedShapes *along, Expr **to, const Expr *parts, Expr scale)
 {
     if (parts == NULL || expr_is_zero(scale))
         return;
@@ -130,26 +131,26 @@ void parts_add(const Along *along, Expr **to, const Expr *parts, Expr scale)
         (*to)[k] = expr_add(along->arena, (*to)[k], expr_mul(along->arena, scale, parts[k]));
 }
 
-void parts_hold(const Along *along, Expr *parts)
+void parts_hold(const GradedShapes *along, Expr *parts)
 {
     for (int k = 0; parts != NULL && k < along->length; k++)
-        parts[k] = expr_hold(along->arena, parts[k]);
+        parts[k] = expr_name_temporary(along->arena, parts[k]);
 }
 
-Graded graded_hold(const Along *along, Graded g)
+Graded graded_hold(const GradedShapes *along, Graded g)
 {
     for (int d = 0; d < ORDERS; d++)
         parts_hold(along, g.at[d]);
     return g;
 }
 
-void graded_add(const Along *along, Graded *to, Graded g, Expr scale)
+void graded_add(const GradedShapes *along, Graded *to, Graded g, Expr scale)
 {
     for (int d = 0; d < ORDERS; d++)
         parts_add(along, &to->at[d], g.at[d], scale);
 }
 
-Graded graded_plus(const Along *along, Graded a, int sign, Graded b)
+Graded graded_plus(const GradedShapes *along, Graded a, int sign, Graded b)
 {
     Graded sum = {{NULL}};
 
@@ -158,7 +159,7 @@ Graded graded_plus(const Along *along, Graded a, int sign, Graded b)
     return sum;
 }
 
-Graded graded_scaled(const Along *along, Expr scale, Graded a)
+Graded graded_scaled(const GradedShapes *along, Expr scale, Graded a)
 {
     Graded out = {{NULL}};
 
@@ -166,7 +167,7 @@ Graded graded_scaled(const Along *along, Expr scale, Graded a)
     return out;
 }
 
-static void parts_multiply(const Along *along, Expr **to, const Expr *a, const Expr *b)
+static void parts_multiply(const GradedShapes *along, Expr **to, const Expr *a, const Expr *b)
 {
     Arena *arena = along->arena;
 
@@ -183,7 +184,7 @@ static void parts_multiply(const Along *along, Expr **to, const Expr *a, const E
         }
 }
 
-Graded graded_times(const Along *along, Graded a, Graded b)
+Graded graded_times(const GradedShapes *along, Graded a, Graded b)
 {
     Graded out = {{NULL}};
 
@@ -194,7 +195,7 @@ Graded graded_times(const Along *along, Graded a, Graded b)
     return graded_hold(along, out);
 }
 
-Graded graded_constant(const Along *along, int value)
+Graded graded_constant(const GradedShapes *along, int value)
 {
     Polynomial one = polynomial_power(0);
     Graded g = {{NULL}};
@@ -206,13 +207,13 @@ Graded graded_constant(const Along *along, int value)
 
 /* --- integrals --- */
 
-static Expr scaled_by(const Along *along, const mpq_t number, Expr power)
+static Expr scaled_by(const GradedShapes *along, const mpq_t number, Expr power)
 {
     return expr_mul(along->arena, beam_number(along->arena, number), power);
 }
 
 /* int_0^1 P_m P_l density */
-static Expr between(const Along *along, const Polynomial *m, const Polynomial *l,
+static Expr between(const GradedShapes *along, const Polynomial *m, const Polynomial *l,
                     const Powers *density)
 {
     Expr sum = expr_int(along->arena, 0);
@@ -228,7 +229,7 @@ static Expr between(const Along *along, const Polynomial *m, const Polynomial *l
 }
 
 /* int P_m P_(m + b) density from where integrals begin */
-static void weigh_beyond(const Along *along, const Powers *density, Weights *out)
+static void weigh_beyond(const GradedShapes *along, const Powers *density, Weights *out)
 {
     Arena *arena = along->arena;
     const int row = out->band + 1;
@@ -246,11 +247,11 @@ static void weigh_beyond(const Along *along, const Powers *density, Weights *out
                                                      powers_at(arena, density, along->points[k])},
                                             4));
             }
-            out->at[m * row + b] = expr_hold(arena, sum);
+            out->at[m * row + b] = expr_name_temporary(arena, sum);
         }
 }
 
-static void weigh_legendre(const Along *along, const Powers *density, Weights *out)
+static void weigh_legendre(const GradedShapes *along, const Powers *density, Weights *out)
 {
     Polynomial *legendre = NEW_ARRAY(Polynomial, along->length);
     const int row = out->band + 1;
@@ -259,15 +260,15 @@ static void weigh_legendre(const Along *along, const Powers *density, Weights *o
         legendre[m] = beam_legendre(m);
     for (int m = 0; m < along->length; m++)
         for (int b = 0; b < row && m + b < along->length; b++)
-            out->at[m * row + b] =
-                expr_hold(along->arena, between(along, &legendre[m], &legendre[m + b], density));
+            out->at[m * row + b] = expr_name_temporary(
+                along->arena, between(along, &legendre[m], &legendre[m + b], density));
     for (int m = 0; m < along->length; m++)
         polynomial_free(&legendre[m]);
     mem_free(legendre);
 }
 
 /* of the part k: int xi^k density, or its value at a point */
-static Expr weight_of(const Along *along, const Powers *density, int k)
+static Expr weight_of(const GradedShapes *along, const Powers *density, int k)
 {
     Arena *arena = along->arena;
     Expr sum = expr_int(arena, 0);
@@ -280,7 +281,7 @@ static Expr weight_of(const Along *along, const Powers *density, int k)
     return sum;
 }
 
-Weights weights_of(const Along *along, const Powers *density)
+Weights weights_of(const GradedShapes *along, const Powers *density)
 {
     const Expr one = expr_int(along->arena, 1);
     const Powers even = {1, {one}};
@@ -298,11 +299,13 @@ Weights weights_of(const Along *along, const Powers *density)
         weigh_legendre(along, varies ? density : &even, &out);
     else
         for (int k = 0; k < along->length; k++)
-            out.at[k] = expr_hold(along->arena, weight_of(along, varies ? density : &even, k));
+            out.at[k] =
+                expr_name_temporary(along->arena, weight_of(along, varies ? density : &even, k));
     return out;
 }
 
-Expr graded_integral(const Along *along, const Weights *weights, Graded g, int from, int most)
+Expr graded_integral(const GradedShapes *along, const Weights *weights, Graded g, int from,
+                     int most)
 {
     Arena *arena = along->arena;
     Expr sum = expr_int(arena, 0);
@@ -310,10 +313,10 @@ Expr graded_integral(const Along *along, const Weights *weights, Graded g, int f
     for (int d = from; d < ORDERS && d <= most; d++)
         for (int k = 0; g.at[d] != NULL && k < along->length; k++)
             sum = expr_add(arena, sum, expr_mul(arena, weights->at[k], g.at[d][k]));
-    return expr_hold(arena, expr_mul(arena, along->beam->length, sum));
+    return expr_name_temporary(arena, expr_mul(arena, along->beam->length, sum));
 }
 
-Graded graded_weighed(const Along *along, const Weights *weights, Graded g)
+Graded graded_weighed(const GradedShapes *along, const Weights *weights, Graded g)
 {
     Arena *arena = along->arena;
     const int band = weights->band;
@@ -335,7 +338,7 @@ Graded graded_weighed(const Along *along, const Weights *weights, Graded g)
     return graded_hold(along, out);
 }
 
-Expr graded_inner(const Along *along, Graded weighed, Graded g, int from, int most)
+Expr graded_inner(const GradedShapes *along, Graded weighed, Graded g, int from, int most)
 {
     Arena *arena = along->arena;
     Expr sum = expr_int(arena, 0);
@@ -345,10 +348,10 @@ Expr graded_inner(const Along *along, Graded weighed, Graded g, int from, int mo
             for (int m = 0; m < along->length && i + j >= from && i + j <= most; m++)
                 if (weighed.at[i] != NULL && g.at[j] != NULL)
                     sum = expr_add(arena, sum, expr_mul(arena, weighed.at[i][m], g.at[j][m]));
-    return expr_hold(arena, sum);
+    return expr_name_temporary(arena, sum);
 }
 
-void beam_add(const Along *along, Expr *to, Expr factor, Expr what)
+void beam_add(const GradedShapes *along, Expr *to, Expr factor, Expr what)
 {
     *to = expr_add(along->arena, *to, expr_mul(along->arena, factor, what));
 }

@@ -17,7 +17,7 @@ typedef struct Graded {
 
 typedef enum Basis { BASIS_LEGENDRE, BASIS_POWERS, BASIS_POINTS } Basis;
 
-typedef struct Along {
+typedef struct GradedShapes {
     const Beam *beam;
     Arena *arena;
     Pool *pool;
@@ -30,23 +30,23 @@ typedef struct Along {
     Expr *legendre; /* and values of Legendre's polynomials there, of which sums are stable */
     const ShapeState *state;
     int limit[3]; /* orders of what the root feels, of its coupling with shapes, of shapes */
-} Along;
+} GradedShapes;
 
 /* Of quantities of that degree at most, with densities of that of `varies`; its arrays are the
  * pool's. */
-Along along_of(const Beam *beam, Expr from, const ShapeState *state, Pool *pool, Basis basis,
-               int degree, int varies);
+GradedShapes along_of(const Beam *beam, Expr from, const ShapeState *state, Pool *pool, Basis basis,
+                      int degree, int varies);
 
-Expr *parts_of(const Along *along, const Polynomial *p);
-void parts_add(const Along *along, Expr **to, const Expr *parts, Expr scale);
-void parts_hold(const Along *along, Expr *parts);
-Graded graded_hold(const Along *along, Graded g);
-void graded_add(const Along *along, Graded *to, Graded g, Expr scale);
-Graded graded_plus(const Along *along, Graded a, int sign, Graded b);
-Graded graded_scaled(const Along *along, Expr scale, Graded a);
-Graded graded_constant(const Along *along, int value);
+Expr *parts_of(const GradedShapes *along, const Polynomial *p);
+void parts_add(const GradedShapes *along, Expr **to, const Expr *parts, Expr scale);
+void parts_hold(const GradedShapes *along, Expr *parts);
+Graded graded_hold(const GradedShapes *along, Graded g);
+void graded_add(const GradedShapes *along, Graded *to, Graded g, Expr scale);
+Graded graded_plus(const GradedShapes *along, Graded a, int sign, Graded b);
+Graded graded_scaled(const GradedShapes *along, Expr scale, Graded a);
+Graded graded_constant(const GradedShapes *along, int value);
 /* not in BASIS_LEGENDRE */
-Graded graded_times(const Along *along, Graded a, Graded b);
+Graded graded_times(const GradedShapes *along, Graded a, Graded b);
 
 /* What integrals over the beam are weighed with: a density. One that is constant is a factor
  * outside of them. */
@@ -56,22 +56,23 @@ typedef struct Weights {
     Expr *at; /* of each part else; over xi */
 } Weights;
 
-Weights weights_of(const Along *along, const Powers *density);
+Weights weights_of(const GradedShapes *along, const Powers *density);
 /* Over x from 0 to L, of orders from..most. The factor is left to beam_add(). */
-Expr graded_integral(const Along *along, const Weights *weights, Graded g, int from, int most);
+Expr graded_integral(const GradedShapes *along, const Weights *weights, Graded g, int from,
+                     int most);
 /* The same of a product, in BASIS_LEGENDRE, whose polynomials are orthogonal: one of the two comes
  * from graded_weighed(). */
-Graded graded_weighed(const Along *along, const Weights *weights, Graded g);
-Expr graded_inner(const Along *along, Graded weighed, Graded g, int from, int most);
+Graded graded_weighed(const GradedShapes *along, const Weights *weights, Graded g);
+Expr graded_inner(const GradedShapes *along, Graded weighed, Graded g, int from, int most);
 
 /* to += factor what */
-void beam_add(const Along *along, Expr *to, Expr factor, Expr what);
+void beam_add(const GradedShapes *along, Expr *to, Expr factor, Expr what);
 /* of which angle (x, y, z) is a shape; -1: of none */
 int beam_angle(const BeamShape *shape);
 
 /* d'Alembert's forces of the axis, of mass_per_length= */
-void beam_add_axis(const Along *along, const Powers *density, ShapeInertia *out);
+void beam_add_axis(const GradedShapes *along, const Powers *density, ShapeInertia *out);
 /* of the sections' turning, of inertia_per_length= */
-void beam_add_rotary(const Along *along, const Powers J[3], ShapeInertia *out);
+void beam_add_rotary(const GradedShapes *along, const Powers J[3], ShapeInertia *out);
 
 #endif

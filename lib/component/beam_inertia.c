@@ -9,7 +9,7 @@
 enum { MOST_EXACT = 3 }; /* degree of sections' angles with which integrals are written out */
 
 /* int density a b over xi, times a power of the length */
-static Expr gram(const Along *along, const Powers *density, const Polynomial *a,
+static Expr gram(const GradedShapes *along, const Powers *density, const Polynomial *a,
                  const Polynomial *b, int power)
 {
     Arena *arena = along->arena;
@@ -25,7 +25,8 @@ static Expr gram(const Along *along, const Powers *density, const Polynomial *a,
     return expr_mul(arena, entry, expr_pow(arena, along->beam->length, expr_int(arena, power)));
 }
 
-static Expr mass_entry(const Along *along, int i, int j, const Powers *density, const Powers J[3])
+static Expr mass_entry(const GradedShapes *along, int i, int j, const Powers *density,
+                       const Powers J[3])
 {
     const BeamShape *a = &along->beam->shapes[i], *b = &along->beam->shapes[j];
     const int t = beam_angle(a);
@@ -42,8 +43,8 @@ static Expr mass_entry(const Along *along, int i, int j, const Powers *density, 
     return sum;
 }
 
-static Expr stiffness_entry(const Along *along, const Powers stiffness[SHAPE_FAMILIES], int i,
-                            int j)
+static Expr stiffness_entry(const GradedShapes *along, const Powers stiffness[SHAPE_FAMILIES],
+                            int i, int j)
 {
     const BeamShape *a = &along->beam->shapes[i], *b = &along->beam->shapes[j];
 
@@ -53,7 +54,7 @@ static Expr stiffness_entry(const Along *along, const Powers stiffness[SHAPE_FAM
                          : gram(along, &stiffness[a->family], &a->slope, &b->slope, -1);
 }
 
-static void add_constants(const Along *along, const Powers *density, const Powers J[3],
+static void add_constants(const GradedShapes *along, const Powers *density, const Powers J[3],
                           ShapeInertia *out)
 {
     static const char *const keys[SHAPE_FAMILIES] = {"EA", "EIz", "EIy", "GJ"};
@@ -85,7 +86,7 @@ static void add_constants(const Along *along, const Powers *density, const Power
 }
 
 /* what is above its diagonal */
-static void finish_block(const Along *along, ShapeInertia *out)
+static void finish_block(const GradedShapes *along, ShapeInertia *out)
 {
     const int count = along->beam->count;
 
@@ -96,13 +97,13 @@ static void finish_block(const Along *along, ShapeInertia *out)
 
 /* --- all --- */
 
-static void clear(const Along *along, Expr *at, int count)
+static void clear(const GradedShapes *along, Expr *at, int count)
 {
     for (int i = 0; i < count; i++)
         at[i] = expr_int(along->arena, 0);
 }
 
-static void clear_all(const Along *along, ShapeInertia *out)
+static void clear_all(const GradedShapes *along, ShapeInertia *out)
 {
     const int count = along->beam->count;
 
@@ -153,7 +154,7 @@ void beam_inertia(const Instance *instance, Arena *arena, bool planar, Expr from
     const bool is_whole = expr_is_zero(from);
     Pool *pool = pool_new(0);
     int degree, turned, varies = 0;
-    Along along;
+    GradedShapes along;
 
     from = expr_div(arena, from, beam.length);
     find_degrees(&beam, &degree, &turned);

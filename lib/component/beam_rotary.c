@@ -5,12 +5,12 @@
 #include "base/memory.h"
 #include "component/beam_graded.h"
 
-typedef struct Angles {
+typedef struct BeamRotaryAngles {
     Graded angle[3], turning[3]; /* c, b, a about x, y, z; their rates */
     Graded *turn;                /* d angle/d q of its own angle, of each shape */
-} Angles;
+} BeamRotaryAngles;
 
-static void add_shape(const Along *along, Angles *f, int i)
+static void add_shape(const GradedShapes *along, BeamRotaryAngles *f, int i)
 {
     const BeamShape *shape = &along->beam->shapes[i];
     const int t = beam_angle(shape);
@@ -29,9 +29,10 @@ static void add_shape(const Along *along, Angles *f, int i)
     parts_add(along, &f->turning[t].at[1], slope, along->state->rate[i]);
 }
 
-static Angles angles_of(const Along *along)
+static BeamRotaryAngles angles_of(const GradedShapes *along)
 {
-    Angles f = {.turn = pool_alloc(along->pool, (size_t)along->beam->count * sizeof(Graded))};
+    BeamRotaryAngles f = {.turn =
+                              pool_alloc(along->pool, (size_t)along->beam->count * sizeof(Graded))};
 
     for (int i = 0; i < along->beam->count; i++)
         add_shape(along, &f, i);
@@ -50,7 +51,7 @@ typedef struct Spin {
 } Spin;
 
 /* d A/d theta_k, or its rate along `by`, from the entries of A = 1 - S(theta) + B */
-static Graded slope_A(const Along *along, const Graded theta[3], int r, int s, int k)
+static Graded slope_A(const GradedShapes *along, const Graded theta[3], int r, int s, int k)
 {
     Graded out = {{NULL}};
 
@@ -67,7 +68,7 @@ static Graded slope_A(const Along *along, const Graded theta[3], int r, int s, i
     return out;
 }
 
-static void spin_of(const Along *along, const Angles *f, Spin *spin)
+static void spin_of(const GradedShapes *along, const BeamRotaryAngles *f, Spin *spin)
 {
     const Graded *theta = f->angle, *rate = f->turning;
     const Expr half = expr_rational(along->arena, 1, 2);
@@ -131,8 +132,8 @@ static void spin_of(const Along *along, const Angles *f, Spin *spin)
 }
 
 /* of the section's component r, whose inertia per length is J */
-static void add_rotary(const Along *along, const Angles *f, const Spin *spin, int r,
-                       const Weights *weights, ShapeInertia *out)
+static void add_rotary(const GradedShapes *along, const BeamRotaryAngles *f, const Spin *spin,
+                       int r, const Weights *weights, ShapeInertia *out)
 {
     Arena *arena = along->arena;
     const int count = along->beam->count;
@@ -190,9 +191,9 @@ static void add_rotary(const Along *along, const Angles *f, const Spin *spin, in
     }
 }
 
-void beam_add_rotary(const Along *along, const Powers J[3], ShapeInertia *out)
+void beam_add_rotary(const GradedShapes *along, const Powers J[3], ShapeInertia *out)
 {
-    const Angles f = angles_of(along);
+    const BeamRotaryAngles f = angles_of(along);
     Spin spin = {0};
 
     spin_of(along, &f, &spin);

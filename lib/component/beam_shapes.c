@@ -229,7 +229,7 @@ static Expr value_at(Arena *arena, const Polynomial *p, Expr xi)
 }
 
 /* s = q S q/(2 L), its derivatives -(S q)/L, and what is left of its second rate, q' S q'/L */
-static void shorten(const Beam *beam, Expr xi, const ShapeState *state, Station *out)
+static void shorten(const Beam *beam, Expr xi, const ShapeState *state, SectionFrame *out)
 {
     Arena *arena = beam->arena;
     Expr way = expr_int(arena, 0), left = way;
@@ -251,17 +251,18 @@ static void shorten(const Beam *beam, Expr xi, const ShapeState *state, Station 
             moved = expr_add(arena, moved, expr_mul(arena, entry, state->q[j]));
             rate = expr_add(arena, rate, expr_mul(arena, entry, state->rate[j]));
         }
-        out->shift[(ptrdiff_t)3 * i] = expr_hold(arena, expr_neg(arena, moved));
+        out->shift[(ptrdiff_t)3 * i] = expr_name_temporary(arena, expr_neg(arena, moved));
         way = expr_sub(arena, way, expr_mul(arena, state->q[i], out->shift[(ptrdiff_t)3 * i]));
-        left = expr_add(arena, left, expr_mul(arena, state->rate[i], expr_hold(arena, rate)));
+        left = expr_add(arena, left,
+                        expr_mul(arena, state->rate[i], expr_name_temporary(arena, rate)));
     }
     way = expr_mul(arena, expr_rational(arena, 1, 2), way);
     out->position[0] = expr_sub(arena, out->position[0], way);
     out->bend[0] = expr_neg(arena, left);
 }
 
-void beam_station(const Instance *instance, Arena *arena, bool planar, Expr at,
-                  const ShapeState *state, Station *out)
+void beam_section_frame(const Instance *instance, Arena *arena, bool planar, Expr at,
+                        const ShapeState *state, SectionFrame *out)
 {
     static const int turned[SHAPE_FAMILIES] = {-1, 0, 1, 2};
     static const int shifted[SHAPE_FAMILIES] = {0, 1, 2, -1};

@@ -142,14 +142,14 @@ typedef struct ShapeState { /* symbols, or what stands for them */
     Expr w[3];              /* angular velocity of the root */
 } ShapeState;
 
-typedef struct Station { /* a frame on it */
+typedef struct SectionFrame { /* a frame on it */
     Expr position[3];
     Expr angle[3]; /* of turns about z, then the new y, then the newest x */
     Expr bend[3];  /* what is left of position'' in the axes of the root at q'' = 0 */
     Expr twist[3]; /* and of angle'' */
     Expr *shift;   /* d position/d q: shapes x 3 */
     Expr *turn;    /* d angle/d q, likewise */
-} Station;
+} SectionFrame;
 
 /* arrays of a ShapeInertia: ROW(name, entries where there are `count` shapes) */
 #define SHAPE_ARRAYS_OF_ROOT(ROW)                                                                  \
@@ -196,7 +196,7 @@ typedef struct Deforming {
     int (*load_powers)(const Instance *instance, Arena *arena);
     /* `at`: along it, from its root; its arrays have room for all shapes */
     void (*station)(const Instance *instance, Arena *arena, bool planar, Expr at,
-                    const ShapeState *state, Station *out);
+                    const ShapeState *state, SectionFrame *out);
     /* of what is beyond the place `from` along it */
     void (*inertia)(const Instance *instance, Arena *arena, bool planar, Expr from,
                     const ShapeState *state, ShapeInertia *out);
@@ -365,10 +365,10 @@ struct Instance {
     const char **terminal_names; /* "0": the datum */
     int scalar_count;
     int *scalar_edges;
-    int parts[2];              /* PLACES_PARTS: instances; -1 */
-    Expr sensed;               /* PLACES_SENSED: over the user's variables; NULL */
-    const struct Given *given; /* equations that no row tells (given.h); NULL */
-    int joint;                 /* instance whose coordinate it acts on; -1 */
+    int parts[2];                      /* PLACES_PARTS: instances; -1 */
+    Expr sensed;                       /* PLACES_SENSED: over the user's variables; NULL */
+    const struct EquationBlock *given; /* equations that no row tells (equation_block.h); NULL */
+    int joint;                         /* instance whose coordinate it acts on; -1 */
     int joint_coordinate;
     const char *coordinate; /* its name, as in the user's expressions; NULL */
     bool on_angle;          /* that coordinate is an angle */

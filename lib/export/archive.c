@@ -21,7 +21,7 @@ void archive_free(Archive *archive)
 }
 
 /* NOLINTNEXTLINE(readability-non-const-parameter): it is the archive's from now on */
-void archive_take(Archive *archive, const char *name, char *bytes, size_t length)
+void archive_add(Archive *archive, const char *name, char *bytes, size_t length)
 {
     LIST_PUSH(archive->files, ((ArchiveFile){mem_text(name, strlen(name)), bytes, length}));
 }

@@ -19,7 +19,7 @@ typedef struct Archive {
 
 void archive_free(Archive *archive); /* NULL is fine */
 /* Another file; takes `bytes`. */
-void archive_take(Archive *archive, const char *name, char *bytes, size_t length);
+void archive_add(Archive *archive, const char *name, char *bytes, size_t length);
 /* The zip, or the plain file, new: the same bytes for the same files. `binary`: the one for this
  * machine; NULL: none.
  */

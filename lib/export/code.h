@@ -16,7 +16,7 @@
 
 #include "compile/lower.h"
 #include "export/write.h"
-#include "simulate/equations/input_layout.h"
+#include "simulate/equations/variable_index.h"
 
 typedef enum CodeArray { CODE_P, CODE_T, CODE_Y, CODE_S } CodeArray;
 
@@ -57,12 +57,13 @@ typedef struct CodeEvent {
 
 /* what an event gives a value to */
 typedef enum CodeLevel { CODE_COORDINATE, CODE_SPEED, CODE_STATE } CodeLevel;
-/* what may stay of positions, where events set others (formulate/whole/stays.h) */
-typedef enum CodeStays { CODE_GIVEN, CODE_JOINT, CODE_BODY, CODE_FRAME } CodeStays;
+/* what may stay of positions, where events set others (formulate/system_build/held_coordinates.h)
+ */
+typedef enum CodeHeldKind { CODE_GIVEN, CODE_JOINT, CODE_BODY, CODE_FRAME } CodeHeldKind;
 typedef struct CodeTarget {
     CodeLevel level;
     int place; /* of a state that it is itself, in y; -1 */
-    CodeStays stays;
+    CodeHeldKind held_kind;
     int node;     /* of a position: the frame whose it is; -1 */
     int attitude; /* that it is an Euler parameter of; -1 */
     int rate;     /* of a position: the target that is its rate; -1 */
@@ -130,7 +131,7 @@ typedef struct Code {
     bool is_direct;         /* the motion of drivers is the state: */
     LIST(int) direct;       /* one a driver: its coordinate */
     Arena *arena;
-    Layout *layout;
+    VariableIndex *layout;
     int ny, ns;
     LIST(Expr) parameters; /* symbols, of the model first */
     LIST(CodeInput) inputs;
@@ -168,7 +169,7 @@ MUST_USE Status code_add_states(Code *code, const Exported *what, int most, Diag
 
 /* of code with an inverse */
 void code_find_direct(Code *code);
-void code_put_now(Code *code);
+void code_write_now(Code *code);
 
 /* --- functions (code_function.c) --- */
 
@@ -216,7 +217,7 @@ void code_margins(const Code *code, Expr *out);
 /* numbers that C is told of them */
 void code_modes_begin(const Code *code, Text *out);
 /* the rows of the mode at the start, from the values of all functions there */
-void code_modes_keep(Code *code, const double *roots);
+void code_modes_store(Code *code, const double *roots);
 /* E_MODEL, naming a part: a language that differentiates nothing can't solve them. O(count^3). */
 MUST_USE Status code_modes_check(const Code *code, const char *language, Diag *diag);
 void code_modes_free(CodeModes *modes);

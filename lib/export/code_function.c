@@ -36,7 +36,7 @@ int code_newton_rows(Code *code, const Expr *residuals, int first, int count, co
 {
     int function;
     Arena *arena = code->arena;
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
     const int width = count + 1;
     Expr *rows = NEW_ARRAY(Expr, count * width);
     Expr *unknowns = NEW_ARRAY(Expr, count);

@@ -37,8 +37,8 @@ static void say(const Heading *head, Text *line)
     } while (0)
 
 /* "p[3]  L4 = 0.1" */
-static void say_entry(const Heading *head, const char *array, int i, const char *name,
-                      const char *more)
+static void write_entry(const Heading *head, const char *array, int i, const char *name,
+                        const char *more)
 {
     Text line = {0};
 
@@ -48,7 +48,7 @@ static void say_entry(const Heading *head, const char *array, int i, const char 
     say(head, &line);
 }
 
-static void say_parameters(const Code *code, const Heading *head)
+static void write_parameters(const Code *code, const Heading *head)
 {
     if (code->parameters.count > 0)
         SAY(head, "p: parameters (SI), and behind them what follows from them");
@@ -57,15 +57,15 @@ static void say_parameters(const Code *code, const Heading *head)
 
         text_add(&value, " = ");
         text_number(&value, code->values[i], 17);
-        say_entry(head, "p", i, expr_name(code->parameters.at[i]), value.at);
+        write_entry(head, "p", i, expr_name(code->parameters.at[i]), value.at);
         text_free(&value);
     }
 }
 
-static void say_part(const Heading *head, const Code *code, const char *array, int at, int first,
-                     int count, const char *what, const char *per)
+static void write_part(const Heading *head, const Code *code, const char *array, int at, int first,
+                       int count, const char *what, const char *per)
 {
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
 
     for (int i = 0; i < count; i++) {
         Text more = {0};
@@ -75,31 +75,31 @@ static void say_part(const Heading *head, const Code *code, const char *array, i
             text_addf(&more, "  (%s)", what);
         if (is_q && system_q(l->system, i)->is_angle)
             text_addf(&more, "  rad%s", per);
-        say_entry(head, array, at + i, expr_name(l->symbols[first + i]),
-                  more.at != NULL ? more.at : "");
+        write_entry(head, array, at + i, expr_name(l->symbols[first + i]),
+                    more.at != NULL ? more.at : "");
         text_free(&more);
     }
 }
 
-static void say_variables(const Code *code, const Heading *head)
+static void write_variables(const Code *code, const Heading *head)
 {
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
     const int k = l->nx + l->nz;
 
     SAY(head, "y: state (SI: m, rad, m/s, rad/s, V, A ...)");
-    say_part(head, code, "y", 0, l->q, l->n, "coordinates", "");
-    say_part(head, code, "y", l->n, l->u, l->nu, "speeds", "");
-    say_part(head, code, "y", l->n + l->nu, l->x, l->nx, "network states", "");
-    say_part(head, code, "y", layout_references(l), l->references, l->multi_turns,
-             "what angles over full turns lie next to", "");
+    write_part(head, code, "y", 0, l->q, l->n, "coordinates", "");
+    write_part(head, code, "y", l->n, l->u, l->nu, "speeds", "");
+    write_part(head, code, "y", l->n + l->nu, l->x, l->nx, "network states", "");
+    write_part(head, code, "y", variable_index_references(l), l->references, l->multi_turns,
+               "what angles over full turns lie next to", "");
     SAY(head, "s: solved for");
-    say_part(head, code, "s", 0, l->rates, l->nx, "rates of network states", "");
-    say_part(head, code, "s", l->nx, l->z, l->nz, "algebraic unknowns", "");
-    say_part(head, code, "s", k, l->acceleration, l->nu, "accelerations", "");
-    say_part(head, code, "s", k + l->nu, l->multipliers, l->m, "multipliers", "");
+    write_part(head, code, "s", 0, l->rates, l->nx, "rates of network states", "");
+    write_part(head, code, "s", l->nx, l->z, l->nz, "algebraic unknowns", "");
+    write_part(head, code, "s", k, l->acceleration, l->nu, "accelerations", "");
+    write_part(head, code, "s", k + l->nu, l->multipliers, l->m, "multipliers", "");
 }
 
-static void say_functions(const Code *code, const Heading *head)
+static void write_functions(const Code *code, const Heading *head)
 {
     SAY(head, "functions of (p, t, y, s), with additions, multiplications, function calls:");
     for (int f = 0; f < code->functions.count; f++) {
@@ -129,13 +129,13 @@ void code_head(const Code *code, const Language *language, const char *lead, Tex
     if (brief[0] != '\0')
         SAY(&head, "trees: %s", brief);
     SAY(&head, "%s", "");
-    say_parameters(code, &head);
-    say_variables(code, &head);
+    write_parameters(code, &head);
+    write_variables(code, &head);
     for (int i = 0; i < code->outputs.count; i++)
-        say_entry(&head, "outputs", i, code->outputs.at[i], "");
+        write_entry(&head, "outputs", i, code->outputs.at[i], "");
     for (int i = 0; i < code->conditions.count; i++)
-        say_entry(&head, "conditions", i, code->conditions.at[i], "");
-    say_functions(code, &head);
+        write_entry(&head, "conditions", i, code->conditions.at[i], "");
+    write_functions(code, &head);
     SAY(&head, "%s", "");
     if (!code->live.is_wanted)
         SAY(&head, "It checks itself by numbers from where it was made:  %s", language->check);
@@ -144,7 +144,7 @@ void code_head(const Code *code, const Language *language, const char *lead, Tex
 
 void code_fill(const Code *code, const char *text, Text *out)
 {
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
     const int k = l->nx + l->nz, both = l->nu + l->m;
     const int most = k + both;
     int quaternion_count = 0;

@@ -79,7 +79,7 @@ void inverse_free(Inverse *inverse)
 /* The coordinate that a row of Phi drives, where it is that alone; -1. */
 static int driven(const Code *code, int row)
 {
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
     const Expr t = l->symbols[l->t];
     const Inverse *inverse = code->inverse;
     const Expr phi =
@@ -98,7 +98,7 @@ static int driven(const Code *code, int row)
  * the state then, and nothing is searched for. */
 void code_find_direct(Code *code)
 {
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
 
     code->is_direct = l->m == l->nu && l->n == l->nu && l->m == code->inverse->motions.count;
     for (int k = 0; k < l->m && code->is_direct; k++)
@@ -108,7 +108,7 @@ void code_find_direct(Code *code)
 }
 
 /* in what is finished */
-void code_put_now(Code *code)
+void code_write_now(Code *code)
 {
     const Expr t = code->layout->symbols[code->layout->t];
 

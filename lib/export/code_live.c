@@ -6,7 +6,7 @@
 #include "export/code.h"
 
 #include "formulate/kinematics/edges.h"
-#include "formulate/whole/stays.h"
+#include "formulate/system_build/held_coordinates.h"
 #include "model/model.h"
 
 #include <stdio.h>
@@ -104,7 +104,7 @@ static CodeLevel level_of(Expr target)
 }
 
 /* in y, if a state is what it is */
-static int place_of(const Layout *l, Expr target)
+static int place_of(const VariableIndex *l, Expr target)
 {
     const int first[] = {l->q, l->u, l->x}, counts[] = {l->n, l->nu, l->nx};
 
@@ -115,9 +115,9 @@ static int place_of(const Layout *l, Expr target)
     return -1;
 }
 
-typedef LIST(Expr) Exprs;
+typedef LIST(Expr) CodeLiveExprs;
 
-static int add_target(Code *code, Exprs *targets, Expr e, CodeTarget target)
+static int add_target(Code *code, CodeLiveExprs *targets, Expr e, CodeTarget target)
 {
     target.place = place_of(code->layout, e);
     target.name = pool_text(code->texts, target.name, strlen(target.name));
@@ -126,7 +126,7 @@ static int add_target(Code *code, Exprs *targets, Expr e, CodeTarget target)
     return targets->count - 1;
 }
 
-static Status add_given(Code *code, const NewValue *value, Exprs *targets, Diag *diag)
+static Status add_given(Code *code, const NewValue *value, CodeLiveExprs *targets, Diag *diag)
 {
     System *system = code->layout->system;
     CodeTarget target = {
@@ -140,7 +140,7 @@ static Status add_given(Code *code, const NewValue *value, Exprs *targets, Diag 
 }
 
 /* behind positions that are given: their rates, if speeds tell them */
-static int add_rate(Code *code, Exprs *targets, Expr rate, const char *name)
+static int add_rate(Code *code, CodeLiveExprs *targets, Expr rate, const char *name)
 {
     const CodeTarget target = {
         .level = CODE_SPEED, .node = -1, .attitude = -1, .rate = -1, .turning = -1, .name = name};
@@ -148,7 +148,7 @@ static int add_rate(Code *code, Exprs *targets, Expr rate, const char *name)
     return rate != NULL ? add_target(code, targets, rate, target) : -1;
 }
 
-static void add_given_rates(Code *code, Exprs *targets)
+static void add_given_rates(Code *code, CodeLiveExprs *targets)
 {
     for (int k = 0; k < code->live.given; k++) {
         const char *name = code->live.targets.at[k].name;
@@ -169,11 +169,11 @@ static void add_given_rates(Code *code, Exprs *targets)
 
 /* Behind what events set, where they set positions: what stays where it can, and rates, as in a run
  * (assemble/reinitialise_stay.c). */
-static void add_stays(Code *code, Exprs *targets)
+static void add_held_coordinates(Code *code, CodeLiveExprs *targets)
 {
     typedef LIST(const char *) Names;
     Names named = {0};
-    Stay *stays = NULL;
+    HeldCoordinate *held_kind = NULL;
     int count = 0;
 
     code->live.given = targets->count;
@@ -181,13 +181,13 @@ static void add_stays(Code *code, Exprs *targets)
         if (code->live.targets.at[k].level == CODE_COORDINATE)
             LIST_PUSH(named, code->live.targets.at[k].name);
     if (named.count > 0)
-        count = system_stays(code->layout->system, named.at, named.count, &stays);
+        count = system_held_coordinates(code->layout->system, named.at, named.count, &held_kind);
     add_given_rates(code, targets);
     for (int i = 0; i < count; i++) {
-        const Stay *stay = &stays[i];
-        const CodeTarget target = {.stays = stay->node < 0  ? CODE_JOINT
-                                            : stay->is_body ? CODE_BODY
-                                                            : CODE_FRAME,
+        const HeldCoordinate *stay = &held_kind[i];
+        const CodeTarget target = {.held_kind = stay->node < 0  ? CODE_JOINT
+                                                : stay->is_body ? CODE_BODY
+                                                                : CODE_FRAME,
                                    .node = stay->node,
                                    .attitude = stay->attitude,
                                    .turning = -1,
@@ -199,12 +199,12 @@ static void add_stays(Code *code, Exprs *targets)
         code->live.targets.at[rate].level = CODE_SPEED;
         code->live.targets.at[rate].rate = -1;
     }
-    stays_free(stays, count);
+    held_coordinates_free(held_kind, count);
     LIST_FREE(named);
 }
 
-static Status add_event(Code *code, const Event *event, Exprs *truths, Exprs *values,
-                        Exprs *targets, Diag *diag)
+static Status add_event(Code *code, const Event *event, CodeLiveExprs *truths,
+                        CodeLiveExprs *values, CodeLiveExprs *targets, Diag *diag)
 {
     Status status = OK;
     Expr e;
@@ -227,7 +227,7 @@ Status code_add_samples(Code *code, Diag *diag)
 {
     System *system = code->layout->system;
     const OwnSample *own;
-    Exprs periods = {0}, next = {0};
+    CodeLiveExprs periods = {0}, next = {0};
     Status status = OK;
 
     for (int i = 0; (own = system_sample(system, i)) != NULL; i++) {
@@ -273,7 +273,7 @@ static void add_timers(Code *code)
 }
 
 /* roots from `first` on, on the signs of what jumps */
-static void put_signs(Code *code)
+static void write_signs(Code *code)
 {
     const CodeLive *live = &code->live;
     Surface *surfaces = NEW_ARRAY(Surface, live->sides.count);
@@ -282,7 +282,7 @@ static void put_signs(Code *code)
         surfaces[i] = live->sides.at[i].surface;
     for (int i = 0; i < code->roots.count; i++)
         code->roots.at[i] =
-            surfaces_put(code->arena, code->roots.at[i], surfaces, live->sides.count);
+            surfaces_substitute(code->arena, code->roots.at[i], surfaces, live->sides.count);
     mem_free(surfaces);
 }
 
@@ -290,7 +290,7 @@ Status code_live_events(Code *code, Diag *diag)
 {
     const Model *model = code->view->model;
     CodeLive *live = &code->live;
-    Exprs truths = {0}, values = {0}, targets = {0}, measures = {0};
+    CodeLiveExprs truths = {0}, values = {0}, targets = {0}, measures = {0};
     const Switch *switches;
     int time_only;
     const int count = system_switches(code->layout->system, &switches, &time_only);
@@ -303,7 +303,7 @@ Status code_live_events(Code *code, Diag *diag)
             add_side(code, switches[i].condition, switches[i].call);
     for (int i = 0; i < model_event_count(model); i++)
         CHECK(add_event(code, model_event(model, i), &truths, &values, &targets, diag));
-    add_stays(code, &targets);
+    add_held_coordinates(code, &targets);
     CHECK(code_add_samples(code, diag));
     add_sides_of(code, truths.at, truths.count);
     order_sides(code);
@@ -319,7 +319,7 @@ Status code_live_events(Code *code, Diag *diag)
                       truths.count, 1);
     code_add_function(code, "values", "new values of events", values.at, values.count, 1);
     code_add_function(code, "targets", "what they are given to", targets.at, targets.count, 1);
-    put_signs(code);
+    write_signs(code);
 done:
     mem_free(margins);
     LIST_FREE(truths);
@@ -334,7 +334,7 @@ done:
 /* symbols that the direction moves: t, y, s of groups that come before `most` */
 static int directions(const Code *code, int most, Expr *symbols, Expr *rates)
 {
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
     const int y[] = {l->q, l->u, l->x, l->references};
     const int counts[] = {l->n, l->nu, l->nx, l->multi_turns};
     int count = 0;

@@ -4,8 +4,8 @@
 #include "base/names.h"
 #include "compile/program.h"
 #include "formulate/dynamics/cutset_equations.h"
-#include "formulate/solved/accelerations.h"
-#include "formulate/solved/prescribed.h"
+#include "formulate/reduced/accelerations.h"
+#include "formulate/reduced/prescribed.h"
 #include "model/model.h"
 
 #include <ctype.h>
@@ -142,7 +142,7 @@ static void add_parameters(Code *code)
 
 static void add_inputs(Code *code)
 {
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
     Names *taken = names_new();
     const struct {
         int first, count;
@@ -192,9 +192,9 @@ static int add_matrix(Code *code, const char *name, const char *what, const Expr
 
 static void add_blocks(Code *code)
 {
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
     System *system = l->system;
-    const Reading *r = system_run(system);
+    const EquationForm *r = system_run(system);
     Expr *map = NEW_ARRAY(Expr, l->n * l->nu);
 
     for (int i = 0; i < l->n * l->nu; i++)
@@ -211,7 +211,7 @@ static void add_blocks(Code *code)
 
 static Status add_derivative(Code *code, Diag *diag)
 {
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
     LIST(Expr) rates = {0};
     Status status = OK;
 
@@ -236,7 +236,7 @@ done:
 /* the angles that references lie next to */
 static void add_angles(Code *code)
 {
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
     Expr *angles = NEW_ARRAY(Expr, l->multi_turns);
 
     for (int i = 0; i < l->multi_turns; i++)
@@ -249,8 +249,8 @@ static void add_angles(Code *code)
 
 static void add_linear_network(Code *code)
 {
-    const Layout *l = code->layout;
-    const Reading *r = system_run(l->system);
+    const VariableIndex *l = code->layout;
+    const EquationForm *r = system_run(l->system);
     const int count = l->nx + l->nz, width = count + 1;
     Expr *rows = NEW_ARRAY(Expr, count * width);
 
@@ -270,7 +270,7 @@ static void add_linear_network(Code *code)
 /* Where each speed is prescribed by a row of its own. */
 static bool add_prescribed(Code *code)
 {
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
     Expr *rows = NEW_ARRAY(Expr, 2 * l->nu);
 
     code->is_explicit = l->m == l->nu && system_prescribed(l->system, rows, rows + l->nu);
@@ -283,8 +283,8 @@ static bool add_prescribed(Code *code)
 
 static void add_mechanics(Code *code)
 {
-    const Layout *l = code->layout;
-    const Reading *r = system_run(l->system);
+    const VariableIndex *l = code->layout;
+    const EquationForm *r = system_run(l->system);
     const int nu = l->nu, count = nu + l->m, width = count + 1;
     Expr *rows;
 
@@ -293,7 +293,7 @@ static void add_mechanics(Code *code)
     rows = NEW_ARRAY(Expr, 3 * nu);
     code->is_explicit =
         l->m == 0 && system_pushes(l->system, rows + 2 * nu, NULL) == OK &&
-        system_accelerations(l->system, r->force, rows + 2 * nu, rows, rows + nu) != TOLD_NOT;
+        system_accelerations(l->system, r->force, rows + 2 * nu, rows, rows + nu) != ELIMINATED_NOT;
     if (code->is_explicit)
         code_add_function(code, "accelerations", "u', M u' = F eliminated", rows, nu, 1);
     mem_free(rows);
@@ -323,8 +323,8 @@ static void add_mechanics(Code *code)
 void code_residual(const Code *code, Expr *rows)
 {
     Arena *arena = code->arena;
-    const Layout *l = code->layout;
-    const Reading *r = system_run(l->system);
+    const VariableIndex *l = code->layout;
+    const EquationForm *r = system_run(l->system);
     const int k = l->nx + l->nz, nu = l->nu;
     const Expr *du = l->symbols + l->acceleration, *lambda = l->symbols + l->multipliers;
 
@@ -360,7 +360,7 @@ static void add_joint(Code *code)
 /* all that is solved for, where what ideal switches ask of networks may be told of speeds */
 static Status add_modes(Code *code, Diag *diag)
 {
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
     const unsigned moving = 1U << SYMBOL_COORDINATE | 1U << SYMBOL_SPEED |
                             1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER;
     Expr *rows = NEW_ARRAY(Expr, code->ns);
@@ -382,8 +382,8 @@ static Status add_modes(Code *code, Diag *diag)
 
 static void add_groups(Code *code)
 {
-    const Layout *l = code->layout;
-    const Reading *r = system_run(l->system);
+    const VariableIndex *l = code->layout;
+    const EquationForm *r = system_run(l->system);
     const unsigned moved = 1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER;
     unsigned kinds = 0;
 
@@ -525,7 +525,7 @@ static void find_derived(Code *code)
 
 static Status lower(Code *code, Diag *diag)
 {
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
     const int own = code->parameters.count + l->count;
     const int seeds = code->live.seed_count;
     Expr *inputs = NEW_ARRAY(Expr, own + seeds);
@@ -545,7 +545,7 @@ static Status lower(Code *code, Diag *diag)
 Status code_form(const Exported *what, Code *code, Diag *diag)
 {
     System *system = what->inverse != NULL ? what->inverse->system : what->view.system;
-    const Layout *l;
+    const VariableIndex *l;
     Status status = OK;
 
     code->view = &what->view;
@@ -553,7 +553,7 @@ Status code_form(const Exported *what, Code *code, Diag *diag)
     code->texts = pool_new(0);
     code->inverse = what->inverse;
     CHECK(system_form_mass(system, diag));
-    code->layout = layout_new(system);
+    code->layout = variable_index_new(system);
     l = code->layout;
     if (l->ne > 0) {
         status = diag_set(diag, E_MODEL, "a driver with by= is for inverse runs: %s is not known",
@@ -590,7 +590,7 @@ Status code_form(const Exported *what, Code *code, Diag *diag)
     }
     if (code->inverse != NULL) {
         add_efforts(code);
-        code_put_now(code);
+        code_write_now(code);
         code_find_direct(code);
     }
     if (arena_status(code->arena) != OK) {
@@ -599,7 +599,7 @@ Status code_form(const Exported *what, Code *code, Diag *diag)
         arena_reset(code->arena);
         goto done;
     }
-    CHECK(poll(what->view.watch));
+    CHECK(monitor_poll(what->view.watch));
     add_parameters(code);
     add_inputs(code);
 done:
@@ -645,7 +645,7 @@ void code_free(Code *code)
     lowered_free(&code->lowered);
     code_live_free(&code->live);
     code_modes_free(&code->modes);
-    layout_free(code->layout);
+    variable_index_free(code->layout);
     pool_free(code->texts);
     MEM_FREE(code->derived, code);
 }

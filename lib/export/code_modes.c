@@ -101,7 +101,7 @@ static bool is_sought(Expr e, void *context)
 
 bool code_is_side(const Code *code, Expr call)
 {
-    const Reading *r = system_run(code->layout->system);
+    const EquationForm *r = system_run(code->layout->system);
     Sought sought = {call};
     bool is = false;
 
@@ -134,7 +134,7 @@ void code_margins(const Code *code, Expr *out)
 /* the rate of a row of networks along the motion, s as it is */
 static Expr rate_of(const Code *code, Expr row)
 {
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
     const int room = 1 + l->n + l->nu + l->nx;
     Expr *symbols = NEW_ARRAY(Expr, room), *rates = NEW_ARRAY(Expr, room);
     int count = 0;
@@ -243,7 +243,7 @@ void code_modes_begin(const Code *code, Text *out)
               group->first, group->count, is_linear(code));
 }
 
-void code_modes_keep(Code *code, const double *roots)
+void code_modes_store(Code *code, const double *roots)
 {
     const CodeGroup *group = &code->groups[code->modes.group];
     const CodeFunction *f = &code->functions.at[group->function];

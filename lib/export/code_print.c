@@ -17,18 +17,18 @@ enum {
 
 typedef enum Binding { BIND_SUM, BIND_NEGATIVE, BIND_PRODUCT, BIND_ATOM } Binding;
 
-typedef struct Part { /* a value in writing */
-    char *text;       /* NULL: not written */
+typedef struct CodePrintPart { /* a value in writing */
+    char *text;                /* NULL: not written */
     Binding binding;
     bool is_exact; /* it is of the type of numbers: no literal or call in it */
-} Part;
+} CodePrintPart;
 
 typedef struct Printing {
     const Code *code;
     const Language *language;
     Text *out;
-    Text locals; /* names made, commas between */
-    Part *parts; /* one a value */
+    Text locals;          /* names made, commas between */
+    CodePrintPart *parts; /* one a value */
     int *uses;
     bool *needed;
     bool is_derived; /* derived parameters are what is written */
@@ -49,7 +49,7 @@ static size_t breaking(const char *text, size_t most)
     return at > 0 ? at : most;
 }
 
-static void put_line(Text *out, const Language *language, const char *text)
+static void write_line(Text *out, const Language *language, const char *text)
 {
     text_add(out, "    ");
     for (bool first = true; strlen(text) > WIDTH; first = false) {
@@ -72,13 +72,13 @@ void code_element(const Language *language, const char *name, int i, Text *out)
     text_addf(out, language->array, name, i + first_of(language)); /* NOLINT: a format of ours */
 }
 
-static void put_assignment(Text *out, const Language *language, const char *form, const char *left,
-                           const char *right)
+static void write_assignment(Text *out, const Language *language, const char *form,
+                             const char *left, const char *right)
 {
     Text line = {0};
 
     text_addf(&line, form, left, right); /* NOLINT: a format of ours */
-    put_line(out, language, line.at);
+    write_line(out, language, line.at);
     text_free(&line);
 }
 
@@ -102,7 +102,7 @@ void code_set_array(const Language *language, const char *name, const double *va
         code_element(language, name, i, &left);
         code_number(language, values[i], &number);
         text_addf(&right, language->rounded != NULL ? language->rounded : "%s", number.at);
-        put_assignment(out, language, language->result, left.at, right.at);
+        write_assignment(out, language, language->result, left.at, right.at);
         text_free(&left);
         text_free(&number);
         text_free(&right);
@@ -157,7 +157,7 @@ static void mark_needed(Printing *pr, const uint32_t *roots, int count)
 
 static void set_part(Printing *pr, uint32_t v, Text *text, Binding binding, bool is_exact)
 {
-    pr->parts[v] = (Part){text_done(text), binding, is_exact};
+    pr->parts[v] = (CodePrintPart){text_done(text), binding, is_exact};
 }
 
 /* where its number comes from: "y[3]" */
@@ -171,7 +171,7 @@ static void source(const Printing *pr, const CodeInput *input, Text *out)
         code_element(pr->language, arrays[input->array], input->place, out);
 }
 
-static void put_input(Printing *pr, uint32_t v)
+static void write_input(Printing *pr, uint32_t v)
 {
     const CodeInput *input = &pr->code->inputs.at[value_of(pr, v)->args[0]];
     Text name = {0}, from = {0};
@@ -179,14 +179,14 @@ static void put_input(Printing *pr, uint32_t v)
     text_add(&name, input->array == CODE_T ? "t" : input->name);
     if (input->array != CODE_T) {
         source(pr, input, &from);
-        put_assignment(pr->out, pr->language, pr->language->local, input->name, from.at);
+        write_assignment(pr->out, pr->language, pr->language->local, input->name, from.at);
         text_addf(&pr->locals, "%s%s", pr->locals.length > 0 ? ", " : "", input->name);
         text_free(&from);
     }
     set_part(pr, v, &name, BIND_ATOM, true);
 }
 
-static void put_constant(Printing *pr, uint32_t v)
+static void write_constant(Printing *pr, uint32_t v)
 {
     const double value = value_constant(value_of(pr, v));
     Text text = {0};
@@ -197,7 +197,7 @@ static void put_constant(Printing *pr, uint32_t v)
 
 static void add_part(const Printing *pr, uint32_t v, Binding least, Text *out)
 {
-    const Part *part = &pr->parts[v];
+    const CodePrintPart *part = &pr->parts[v];
 
     text_addf(out, part->binding < least ? "(%s)" : "%s", part->text);
 }
@@ -294,7 +294,7 @@ static void compose(Printing *pr, uint32_t v)
 }
 
 /* of the type of numbers, where an operation may have left that */
-static void rounded(const Printing *pr, const Part *part, Text *out)
+static void rounded(const Printing *pr, const CodePrintPart *part, Text *out)
 {
     if (pr->language->rounded != NULL && !part->is_exact)
         text_addf(out, pr->language->rounded, part->text); /* NOLINT: a format of ours */
@@ -305,17 +305,17 @@ static void rounded(const Printing *pr, const Part *part, Text *out)
 /* a name for it */
 static void name_value(Printing *pr, uint32_t v)
 {
-    Part *part = &pr->parts[v];
+    CodePrintPart *part = &pr->parts[v];
     Text text = {0};
     char name[24];
 
     (void)snprintf(name, sizeof name, "v%d", ++pr->named);
     rounded(pr, part, &text);
-    put_assignment(pr->out, pr->language, pr->language->local, name, text.at);
+    write_assignment(pr->out, pr->language, pr->language->local, name, text.at);
     text_addf(&pr->locals, "%s%s", pr->locals.length > 0 ? ", " : "", name);
     text_free(&text);
     mem_free(part->text);
-    *part = (Part){mem_text(name, strlen(name)), BIND_ATOM, true};
+    *part = (CodePrintPart){mem_text(name, strlen(name)), BIND_ATOM, true};
 }
 
 /* patterns may write an argument twice, and read it between operators */
@@ -324,14 +324,14 @@ static bool is_call(const LoweredValue *value)
     return value->code == CODE_POW || value->code == CODE_SELECT || value->code >= CODE_CALL;
 }
 
-static void put_value(Printing *pr, uint32_t v)
+static void write_value(Printing *pr, uint32_t v)
 {
     const LoweredValue *value = value_of(pr, v);
 
     if (value->code == CODE_INPUT)
-        put_input(pr, v);
+        write_input(pr, v);
     else if (value->code == CODE_CONSTANT)
-        put_constant(pr, v);
+        write_constant(pr, v);
     else if (given(pr, v) >= 0) {
         Text text = {0};
 
@@ -360,7 +360,7 @@ static Printing printing(const Code *code, const Language *language, Text *out)
     return (Printing){.code = code,
                       .language = language,
                       .out = out,
-                      .parts = NEW_ARRAY(Part, values),
+                      .parts = NEW_ARRAY(CodePrintPart, values),
                       .uses = NEW_ARRAY(int, values),
                       .needed = NEW_ARRAY(bool, values)};
 }
@@ -375,19 +375,19 @@ static void printing_free(Printing *pr)
     MEM_FREE(pr->parts, pr->uses, pr->needed);
 }
 
-static void put_values(Printing *pr)
+static void write_values(Printing *pr)
 {
     for (int v = 0; v < pr->code->lowered.values.count; v++)
         if (pr->needed[v])
-            put_value(pr, (uint32_t)v);
+            write_value(pr, (uint32_t)v);
 }
 
-static void put_result(Printing *pr, const char *left, uint32_t v)
+static void write_result(Printing *pr, const char *left, uint32_t v)
 {
     Text right = {0};
 
     rounded(pr, &pr->parts[v], &right);
-    put_assignment(pr->out, pr->language, pr->language->result, left, right.at);
+    write_assignment(pr->out, pr->language, pr->language->result, left, right.at);
     text_free(&right);
 }
 
@@ -400,7 +400,7 @@ void code_print(const Code *code, int function, const Language *language, Text *
     Printing pr = printing(code, language, &body);
 
     mark_needed(&pr, roots, count);
-    put_values(&pr);
+    write_values(&pr);
     for (int i = 0; i < count; i++) {
         const LoweredValue *value = value_of(&pr, roots[i]);
         Text left = {0};
@@ -412,7 +412,7 @@ void code_print(const Code *code, int function, const Language *language, Text *
         else
             text_addf(&left, language->matrix, "out", i / f->columns + first_of(language),
                       i % f->columns + first_of(language)); /* NOLINT: a format of ours */
-        put_result(&pr, left.at, roots[i]);
+        write_result(&pr, left.at, roots[i]);
         text_free(&left);
     }
     language->open(out, code, f, pr.locals.at != NULL ? pr.locals.at : "");
@@ -434,12 +434,12 @@ char *code_print_derived(const Code *code, const Language *language, Text *out)
         if (code->derived[v] >= 0)
             LIST_PUSH(roots, (uint32_t)v);
     mark_needed(&pr, roots.at, roots.count);
-    put_values(&pr);
+    write_values(&pr);
     for (int i = 0; i < roots.count; i++) {
         Text left = {0};
 
         code_element(language, "p", code->derived[roots.at[i]], &left);
-        put_result(&pr, left.at, roots.at[i]);
+        write_result(&pr, left.at, roots.at[i]);
         text_free(&left);
     }
     LIST_FREE(roots);

@@ -23,7 +23,7 @@ enum { TRIES = 60, MOST_NUMBERS = 6000, WEIGHTS = 7 };
 #define ALLOWED   1e-12 /* of sizes: how far off a check lets numbers be */
 #define TOLERANCE 1e-13
 
-typedef struct States {
+typedef struct CodeStates {
     Code *code;
     Parameters parameters;
     Phase *phase;
@@ -33,7 +33,7 @@ typedef struct States {
     int *rows;
     int row_count;
     uint64_t seed;
-} States;
+} CodeStates;
 
 static double parameter_value(void *context, Expr symbol)
 {
@@ -52,10 +52,10 @@ static Expr by_name(const Code *code, Expr symbol)
 }
 
 /* parameters and y, as the start has them */
-static Status read_start(States *st, const Exported *what, Diag *diag)
+static Status read_start(CodeStates *st, const Exported *what, Diag *diag)
 {
     Code *code = st->code;
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
     const int first = code->parameters.count, signs = code->live.sides.count;
     const int sizes[] = {l->n, l->nu, l->nx, l->multi_turns};
     const int firsts[] = {l->q, l->u, l->x, l->references};
@@ -93,10 +93,10 @@ done:
     return status;
 }
 
-static Status open_phase(States *st, Diag *diag)
+static Status open_phase(CodeStates *st, Diag *diag)
 {
     Code *code = st->code;
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
     int *order = NEW_ARRAY(int, l->m);
     double *phi_u = NULL;
     const Equations *eq;
@@ -104,9 +104,9 @@ static Status open_phase(States *st, Diag *diag)
     Status status = OK;
 
     CHECK(phase_new(l->system, &st->parameters, NULL, 0, &st->phase, diag));
-    eq = numbers_equations(st->phase->numbers);
+    eq = compiled_equations(st->phase->numbers);
     if (eq->take_references != NULL)
-        eq->take_references(eq->context, st->start + layout_references(l));
+        eq->take_references(eq->context, st->start + variable_index_references(l));
     eq->position(eq->context, 0, st->start);
     phi_u = pattern_spread(eq->rows, eq->phi_u);
     CHECK(rank_rows(phi_u, l->m, l->nu, ONE_RANK, code->view->watch, &st->row_count, order));
@@ -116,7 +116,7 @@ static Status open_phase(States *st, Diag *diag)
     options.rows = st->rows;
     options.row_count = st->row_count;
     CHECK(phase_open(st->phase, &st->parameters, &options, NULL, diag));
-    eq = numbers_equations(st->phase->numbers);
+    eq = compiled_equations(st->phase->numbers);
     st->kkt = kkt_new(eq->masses, eq->rows, st->rows, st->row_count);
     CHECK(probe_new(l, &st->parameters, code->roots.at, code->roots.count, &st->probe, diag));
 done:
@@ -134,9 +134,9 @@ static double largest(const double *values, int count)
 }
 
 /* `near`: 1, less to stay closer to the start */
-static void put_at_random(States *st, double near)
+static void write_at_random(CodeStates *st, double near)
 {
-    const Layout *l = st->code->layout;
+    const VariableIndex *l = st->code->layout;
     const double length = largest(st->start, l->n),
                  state = largest(st->start + l->n + l->nu, l->nx);
 
@@ -162,10 +162,10 @@ static bool all_finite(const double *values, int count)
 
 /* What rounding leaves in the sum of a row's terms, an elimination hands on to u' and lambda. The
  * answer to right sides as large as those sums, of signs at random, shows how much of it. */
-static void measure_loss(States *st, const double *acceleration, const double *multipliers)
+static void measure_loss(CodeStates *st, const double *acceleration, const double *multipliers)
 {
     Code *code = st->code;
-    const Equations *eq = numbers_equations(st->phase->numbers);
+    const Equations *eq = compiled_equations(st->phase->numbers);
     const int nu = eq->nu, m = st->row_count;
     const double *mass = equations_mass(eq);
     double *full_mass, *phi_u, *top, *bottom, *lambda;
@@ -199,10 +199,10 @@ static void measure_loss(States *st, const double *acceleration, const double *m
 
 /* A state with what is solved for there; false: some of it has no value. `row` tells all of it,
  * away from where it is a solution. */
-static bool take_state(States *st, double t, RowValues row)
+static bool take_state(CodeStates *st, double t, RowValues row)
 {
     Code *code = st->code;
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
     CodeState state = {.t = t};
     const double *roots;
     double *s = NEW_ARRAY(double, code->ns), *errors, *off = st->off;
@@ -217,14 +217,14 @@ static bool take_state(States *st, double t, RowValues row)
     row.q = off;
     row.u = off + l->n;
     row.x = off + l->n + l->nu;
-    row.references = off + layout_references(l);
+    row.references = off + variable_index_references(l);
     roots = probe_values(st->probe, &row);
     if (!all_finite(s, code->ns) || !all_finite(roots, code->roots.count)) {
         mem_free(s);
         return false;
     }
     if (code_has_modes(code))
-        code_modes_keep(code, roots);
+        code_modes_store(code, roots);
     errors = NEW_ARRAY(double, code->roots.count);
     probe_errors(st->probe, &(RowValues){0}, errors);
     state.s = s;
@@ -252,17 +252,17 @@ static bool take_state(States *st, double t, RowValues row)
 }
 
 /* the state that y is, unless equations have no solution there */
-static bool add_state(States *st, double t)
+static bool add_state(CodeStates *st, double t)
 {
-    const Layout *l = st->code->layout;
+    const VariableIndex *l = st->code->layout;
     const double *s;
     Solved solved;
 
     if (!motion_project(st->phase->motion, t, st->y))
         return false;
     if (l->multi_turns > 0)
-        equations_turn(numbers_equations(st->phase->numbers), t, st->y,
-                       st->y + layout_references(l));
+        equations_turn(compiled_equations(st->phase->numbers), t, st->y,
+                       st->y + variable_index_references(l));
     if (!motion_solve(st->phase->motion, t, st->y, &solved) ||
         !take_state(st, t, row_of_solved(l, t, st->y, &solved)))
         return false;
@@ -273,17 +273,17 @@ static bool add_state(States *st, double t)
 
 /* The start, in whose mode the session has other equations, as these tell it: what they have no
  * name for is 0 in s. */
-static Status add_start_in_mode(States *st, const Exported *what, Diag *diag)
+static Status add_start_in_mode(CodeStates *st, const Exported *what, Diag *diag)
 {
     Code *code = st->code;
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
     double *s = NEW_ARRAY(double, code->ns + 1);
     Status status = OK;
 
     for (int i = 0; i < code->ns; i++) {
         const Expr item = by_name(code, l->symbols[l->rates + i]);
 
-        CHECK(poll(code->view->watch));
+        CHECK(monitor_poll(code->view->watch));
         CHECK(result_reader_values_at(what->start, &item, 1, 0, &s[i], diag));
     }
     CHECK(probe_new(l, &st->parameters, code->roots.at, code->roots.count, &st->probe, diag));
@@ -299,7 +299,7 @@ done:
 
 void code_sizes(const Code *code, double sizes[CODE_PARTS])
 {
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
     const int counts[CODE_PARTS] = {l->nx, l->nz, l->nu, l->m};
 
     for (int part = 0, at = 0; part < CODE_PARTS; at += counts[part++]) {
@@ -314,7 +314,7 @@ void code_sizes(const Code *code, double sizes[CODE_PARTS])
 
 Status code_add_states(Code *code, const Exported *what, int most, Diag *diag)
 {
-    States st = {.code = code, .seed = 1};
+    CodeStates st = {.code = code, .seed = 1};
     const int numbers = code->ny + code->ns + 2 * code->functions.count + 1;
     const int room = 1 + MOST_NUMBERS / numbers;
     double near = 1;
@@ -339,8 +339,8 @@ Status code_add_states(Code *code, const Exported *what, int most, Diag *diag)
     CHECK(open_phase(&st, diag));
     (void)add_state(&st, 0);
     for (int i = 0; i < TRIES && code->states.count < most; i++) {
-        CHECK(poll(code->view->watch));
-        put_at_random(&st, near);
+        CHECK(monitor_poll(code->view->watch));
+        write_at_random(&st, near);
         /* what drivers do is told of one instant */
         if (!add_state(&st, code->inverse != NULL ? 0 : near * fabs(random_unit(&st.seed))))
             near *= NEARER;

@@ -32,7 +32,7 @@ typedef struct Description {
     int states;        /* inputs among them */
 } Description;
 
-static void put_escaped(Text *out, const char *text)
+static void write_escaped(Text *out, const char *text)
 {
     for (const char *c = text; *c != '\0'; c++)
         switch (*c) {
@@ -99,7 +99,7 @@ static void add_variable(Description *d, Group group, int i, int reference, cons
 
 static bool is_input(const Description *d, int state)
 {
-    const Layout *l = d->code->layout;
+    const VariableIndex *l = d->code->layout;
     bool is = false;
 
     for (int k = 0; k < d->code->live.held.count; k++)
@@ -109,7 +109,7 @@ static bool is_input(const Description *d, int state)
 
 static const char *state_name(const Description *d, int i)
 {
-    const Layout *l = d->code->layout;
+    const VariableIndex *l = d->code->layout;
 
     return i < l->n           ? system_q(l->system, i)->name
            : i < l->n + l->nu ? system_u(l->system, i - l->n)->name
@@ -174,7 +174,7 @@ static void list_variables(Description *d)
 
 /* --- attributes --- */
 
-static void put_start(Description *d, double value)
+static void write_start(Description *d, double value)
 {
     text_add(d->out, " start=\"");
     text_number(d->out, value, 17);
@@ -182,7 +182,7 @@ static void put_start(Description *d, double value)
 }
 
 /* causality, variability, initial; of version 2 the start stands with the type */
-static void put_kind(Description *d, const Described *v)
+static void write_kind(Description *d, const Described *v)
 {
     const char *causality = v->is_output ? "output" : "local";
 
@@ -200,19 +200,19 @@ static void put_kind(Description *d, const Described *v)
                   v->group == GROUP_Y ? "exact" : "calculated");
 }
 
-static void put_value(Description *d, const Described *v)
+static void write_value(Description *d, const Described *v)
 {
     const Code *code = d->code;
 
     if (v->unit != NULL) {
         text_add(d->out, " unit=\"");
-        put_escaped(d->out, v->unit);
+        write_escaped(d->out, v->unit);
         text_char(d->out, '"');
     }
     if (v->group == GROUP_P && !code->live.depends[v->i])
-        put_start(d, code->values[v->i]);
+        write_start(d, code->values[v->i]);
     if (v->group == GROUP_Y)
-        put_start(d, code->values[code->parameters.count + v->i]);
+        write_start(d, code->values[code->parameters.count + v->i]);
     if (v->group == GROUP_RATE) {
         const int state = 1 + model_parameter_count(code->view->model) + v->i;
 
@@ -222,7 +222,7 @@ static void put_value(Description *d, const Described *v)
 }
 
 /* each unit once, in the base units that it is of */
-static void put_units(Description *d)
+static void write_units(Description *d)
 {
     static const char *const bases[] = {"m", "kg", "s", "A", "K", "rad"};
     Names *known = names_new();
@@ -235,7 +235,7 @@ static void put_units(Description *d)
             continue;
         (void)names_add(known, v->unit);
         text_add(d->out, "    <Unit name=\"");
-        put_escaped(d->out, v->unit);
+        write_escaped(d->out, v->unit);
         text_add(d->out, "\"><BaseUnit");
         for (int k = 0; k < COUNT(bases); k++)
             if (v->dimension.power[k] != 0)
@@ -246,22 +246,22 @@ static void put_units(Description *d)
     names_free(known);
 }
 
-static void put_variables(Description *d)
+static void write_variables(Description *d)
 {
     text_add(d->out, "  <ModelVariables>\n");
     for (int i = 0; i < d->variables.count; i++) {
         const Described *v = &d->variables.at[i];
 
         text_addf(d->out, "    <%s name=\"", d->what->version == 2 ? "ScalarVariable" : "Float64");
-        put_escaped(d->out, v->name);
+        write_escaped(d->out, v->name);
         text_addf(d->out, "\" valueReference=\"%d\"", v->reference);
-        put_kind(d, v);
+        write_kind(d, v);
         if (d->what->version == 2) {
             text_add(d->out, "><Real");
-            put_value(d, v);
+            write_value(d, v);
             text_add(d->out, "/></ScalarVariable>\n");
         } else {
-            put_value(d, v);
+            write_value(d, v);
             text_add(d->out, "/>\n");
         }
     }
@@ -272,12 +272,12 @@ static void put_variables(Description *d)
 
 /* The formula of a function's entry over states alone: which of them. False: what is solved for
  * stands in it, too, so that it may depend on all. */
-static bool put_dependencies(Description *d, const char *function, int row)
+static bool write_dependencies(Description *d, const char *function, int row)
 {
     const Code *code = d->code;
     const unsigned solved = 1U << SYMBOL_STATE_RATE | 1U << SYMBOL_ALGEBRAIC |
                             1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER;
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
     Expr *symbols;
     Expr e = NULL;
     int count, written = 0;
@@ -305,34 +305,34 @@ static bool put_dependencies(Description *d, const char *function, int row)
     return true;
 }
 
-static void put_unknown(Description *d, const char *element, const Described *v, bool is_initial)
+static void write_unknown(Description *d, const char *element, const Described *v, bool is_initial)
 {
     text_addf(d->out, "      <%s %s=\"%d\"", element,
               d->what->version == 2 ? "index" : "valueReference",
               d->what->version == 2 ? v->place : v->reference);
     if (!is_initial && v->group == GROUP_RATE)
-        (void)put_dependencies(d, "derivative", v->i);
+        (void)write_dependencies(d, "derivative", v->i);
     else if (!is_initial && v->group == GROUP_OUT)
-        (void)put_dependencies(d, "outputs", v->i);
+        (void)write_dependencies(d, "outputs", v->i);
     text_add(d->out, "/>\n");
 }
 
 /* all of a group; outputs in their order, states among them */
-static void put_group(Description *d, const char *element, Group group, bool is_initial)
+static void write_group(Description *d, const char *element, Group group, bool is_initial)
 {
     for (int i = 0; group == GROUP_OUT && i < d->outputs.count; i++) {
         const Described *v = &d->variables.at[d->outputs.at[i]];
 
         if (!is_initial || v->group == GROUP_OUT)
-            put_unknown(d, element, v, is_initial);
+            write_unknown(d, element, v, is_initial);
     }
     for (int i = 0; group != GROUP_OUT && i < d->variables.count; i++)
         if (d->variables.at[i].group == group &&
             (group != GROUP_P || d->code->live.depends[d->variables.at[i].i]))
-            put_unknown(d, element, &d->variables.at[i], is_initial);
+            write_unknown(d, element, &d->variables.at[i], is_initial);
 }
 
-static void put_structure(Description *d)
+static void write_structure(Description *d)
 {
     const bool is_2 = d->what->version == 2;
     const struct {
@@ -348,7 +348,7 @@ static void put_structure(Description *d)
 
         if (is_2 && any)
             text_addf(d->out, "    <%s>\n", parts[i].name);
-        put_group(d, is_2 ? "Unknown" : parts[i].element, parts[i].group, false);
+        write_group(d, is_2 ? "Unknown" : parts[i].element, parts[i].group, false);
         if (is_2 && any)
             text_addf(d->out, "    </%s>\n", parts[i].name);
     }
@@ -356,17 +356,17 @@ static void put_structure(Description *d)
         text_add(d->out, "    <InitialUnknowns>\n");
     for (int g = GROUP_P; g <= GROUP_OUT; g++)
         if (g != GROUP_Y)
-            put_group(d, is_2 ? "Unknown" : "InitialUnknown", (Group)g, true);
+            write_group(d, is_2 ? "Unknown" : "InitialUnknown", (Group)g, true);
     if (is_2)
         text_add(d->out, "    </InitialUnknowns>\n");
     else
-        put_group(d, "EventIndicator", GROUP_INDICATOR, true);
+        write_group(d, "EventIndicator", GROUP_INDICATOR, true);
     text_add(d->out, "  </ModelStructure>\n");
 }
 
 /* --- the whole --- */
 
-static void put_sources(const Description *d)
+static void write_sources(const Description *d)
 {
     if (d->what->version == 2)
         text_add(d->out, ">\n    <SourceFiles>\n      <File name=\"model.c\"/>\n"
@@ -374,11 +374,11 @@ static void put_sources(const Description *d)
                          "      <File name=\"fmu_ahead.c\"/>\n"
                          "      <File name=\"fmu_open.c\"/>\n"
                          "      <File name=\"fmu_values.c\"/>\n"
-                         "      <File name=\"follow.c\"/>\n"
+                         "      <File name=\"row_closure.c\"/>\n"
                          "      <File name=\"fmi2.c\"/>\n    </SourceFiles>\n");
 }
 
-static void put_kinds(const Description *d)
+static void write_kinds(const Description *d)
 {
     const bool is_2 = d->what->version == 2;
     const char *state = is_2 ? "canGetAndSetFMUstate=\"true\" canSerializeFMUstate=\"true\" "
@@ -389,7 +389,7 @@ static void put_kinds(const Description *d)
     if (!d->what->only_simulation) {
         text_addf(d->out, "  <ModelExchange modelIdentifier=\"" FMU_IDENTIFIER "\" %s%s", state,
                   is_2 ? "" : " needsCompletedIntegratorStep=\"true\"");
-        put_sources(d);
+        write_sources(d);
         text_add(d->out, is_2 ? "  </ModelExchange>\n" : "/>\n");
     }
     if (!d->what->only_exchange) {
@@ -397,12 +397,12 @@ static void put_kinds(const Description *d)
                   "  <CoSimulation modelIdentifier=\"" FMU_IDENTIFIER "\" %s "
                   "canHandleVariableCommunicationStepSize=\"true\" maxOutputDerivativeOrder=\"1\"",
                   state);
-        put_sources(d);
+        write_sources(d);
         text_add(d->out, is_2 ? "  </CoSimulation>\n" : "/>\n");
     }
 }
 
-static void put_head(const Description *d, const char *token)
+static void write_head(const Description *d, const char *token)
 {
     const bool is_2 = d->what->version == 2;
     const char *title = model_title(d->code->view->model);
@@ -411,7 +411,7 @@ static void put_head(const Description *d, const char *token)
               "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
               "<fmiModelDescription fmiVersion=\"%s\" modelName=\"",
               is_2 ? "2.0" : "3.0");
-    put_escaped(d->out, title != NULL && title[0] != '\0' ? title : "model");
+    write_escaped(d->out, title != NULL && title[0] != '\0' ? title : "model");
     text_addf(d->out, "\" %s=\"%s\" generationTool=\"cotree\" variableNamingConvention=\"flat\"",
               is_2 ? "guid" : "instantiationToken", token);
     if (is_2)
@@ -419,7 +419,7 @@ static void put_head(const Description *d, const char *token)
     text_add(d->out, ">\n");
 }
 
-static void put_categories(Text *out)
+static void write_categories(Text *out)
 {
     static const char *const names[] = {"logEvents", "logStatusWarning", "logStatusDiscard",
                                         "logStatusError", "logStatusFatal"};
@@ -432,19 +432,19 @@ static void put_categories(Text *out)
 
 void fmu_describe(const Code *code, const Exported *what, const char *token, Text *out)
 {
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
     Description d = {.code = code, .what = what, .out = out};
 
     d.states = l->n + l->nu + l->nx;
     d.names = names_new();
     list_variables(&d);
-    put_head(&d, token);
-    put_kinds(&d);
-    put_units(&d);
-    put_categories(out);
+    write_head(&d, token);
+    write_kinds(&d);
+    write_units(&d);
+    write_categories(out);
     text_add(out, "  <DefaultExperiment startTime=\"0\" tolerance=\"" FMU_TOLERANCE "\"/>\n");
-    put_variables(&d);
-    put_structure(&d);
+    write_variables(&d);
+    write_structure(&d);
     text_add(out, "</fmiModelDescription>\n");
     for (int i = 0; i < d.variables.count; i++)
         MEM_FREE(d.variables.at[i].name, d.variables.at[i].unit);

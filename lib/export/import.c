@@ -17,7 +17,7 @@ static void take_words(Import *import)
     Function function;
 
     for (int i = 0; i < COUNT(words); i++)
-        import_take_name(import, words[i]);
+        import_make_name(import, words[i]);
     for (int i = 0; verb_any(i, &verb); i++)
         (void)names_add(import->verbs, verb.name);
     for (int i = 0; function_at(i, &function); i++)
@@ -97,7 +97,7 @@ const char *import_number(Import *import, double value)
 
 /* --- names --- */
 
-void import_take_name(Import *import, const char *name)
+void import_make_name(Import *import, const char *name)
 {
     (void)names_add(import->scope->names, name);
 }
@@ -180,7 +180,7 @@ const char *import_name(Import *import, char kind, const char *name)
     legal = mine = make_legal(import, name);
     for (int number = 2; !is_free(import, kind, mine); number++)
         mine = import_text(import, "%s_%d", legal, number);
-    import_take_name(import, mine);
+    import_make_name(import, mine);
     add_key(import, &key, kind, name);
     (void)names_add(import->scope->keys, key.at);
     text_free(&key);

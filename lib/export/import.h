@@ -43,7 +43,7 @@ typedef Status Importer(Import *import, const char *text, size_t length, Diag *d
 Import *import_new(const char *file, bool is_alone); /* new; import_free() */
 void import_free(Import *import);
 /* a name that the model has already */
-void import_take_name(Import *import, const char *name);
+void import_make_name(Import *import, const char *name);
 /* NULL: unknown format */
 Importer *importer_find(const char *format);
 

@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* .ic v(node)=value: of terminals */
-static void say_initial(Spice *s, const Card *card)
+static void write_initial(Spice *s, const Card *card)
 {
     for (int i = 1; i < card->words.count; i += 4) {
         const char *name = card_word(card, i + 1);
@@ -20,7 +20,7 @@ static void say_initial(Spice *s, const Card *card)
                          "%s is no v(NODE)=VALUE of this circuit", card->words.at[i]);
             return;
         }
-        spice_give_initial(s, card->line, import_text(s->import, "%s.v", mine), v);
+        spice_write_initial(s, card->line, import_text(s->import, "%s.v", mine), v);
     }
 }
 
@@ -49,7 +49,7 @@ static void read_times(Spice *s)
 }
 
 /* what .tran asks for, as statements in comments: an import runs nothing */
-static void say_times(Spice *s, bool has_initial)
+static void write_times(Spice *s, bool has_initial)
 {
     if (s->tran == NULL)
         return;
@@ -107,7 +107,7 @@ static void read_temperatures(Spice *s)
 }
 
 /* options that change values are refused; a leakage of gmin = 1 pA a volt is that of our diodes */
-static void say_options(Spice *s, const Card *card)
+static void write_options(Spice *s, const Card *card)
 {
     static const char *const refused[] = {"rshunt", "cshunt", "scale", "scalm", "gmin"};
     bool has_others = card->words.count < 2;
@@ -146,12 +146,12 @@ static bool is_for_the_simulator(const char *name)
 }
 
 /* a card that isn't met elsewhere */
-static void say_control(Spice *s, const Card *card)
+static void write_control(Spice *s, const Card *card)
 {
     const char *name = card->words.at[0];
 
     if (is_options(card))
-        say_options(s, card);
+        write_options(s, card);
     else if (spice_is(name, ".temp") && s->outer == NULL)
         return; /* read before elements */
     else if (is_for_the_simulator(name))
@@ -161,7 +161,7 @@ static void say_control(Spice *s, const Card *card)
                      "it may change values, and can't be taken; delete it where it has no effect");
 }
 
-static Status say_controls(Spice *s)
+static Status write_controls(Spice *s)
 {
     static const char *const refused[] = {".include", ".inc", ".lib", ".func", ".global"};
     /* where there is no subcircuit, all nodes are global */
@@ -181,13 +181,13 @@ static Status say_controls(Spice *s)
         for (int i = 0; i < COUNT(met); i++)
             is_met = is_met || spice_is(name, met[i]);
         if (spice_is(name, ".ic")) {
-            say_initial(s, card);
+            write_initial(s, card);
             has_initial = true;
         } else if (!is_met) {
-            say_control(s, card);
+            write_control(s, card);
         }
     }
-    say_times(s, has_initial);
+    write_times(s, has_initial);
     return OK;
 }
 
@@ -257,7 +257,7 @@ static Status part_cards(Spice *whole, Cards *cards)
                                       ".subckt %.60s has no .ends", s->head.words.at[1]);
 }
 
-static Status say_ports(Spice *s)
+static Status write_ports(Spice *s)
 {
     Text ports = {0};
     Status status = OK;
@@ -287,7 +287,7 @@ static void close_ports(Spice *s)
     for (int i = 0; i < spice_port_count(s); i++) {
         const char *name = s->head.words.at[FIRST_PORT + i];
 
-        if (!spice_stands_on(s, name))
+        if (!spice_node_is_used(s, name))
             import_add(s->import, s->head.line, "isource %s %s 0 0",
                        import_name(s->import, SPICE_PART, import_text(s->import, "%s_open", name)),
                        spice_node(s, name));
@@ -339,16 +339,16 @@ static Status define(Spice *s, int depth)
                           import_text(s->import, "%s%s", around, s->head.words.at[1]));
     CHECK(define_used(s, depth));
     import_enter(s->import, &s->scope);
-    CHECK(say_ports(s));
-    spice_take_parameters(
+    CHECK(write_ports(s));
+    spice_read_parameters(
         s, &s->head,
         spice_first_key(&s->head, FIRST_PORT) +
             (card_is_key(&s->head, spice_first_key(&s->head, FIRST_PORT)) ? 0 : 1));
-    spice_say_values(s);
+    spice_write_values(s);
     spice_name_elements(s);
     close_ports(s);
-    spice_say_elements(s);
-    CHECK(say_controls(s));
+    spice_write_elements(s);
+    CHECK(write_controls(s));
     import_add(s->import, s->head.line, "end");
     s->definition = DEFINED;
 done:
@@ -356,12 +356,12 @@ done:
     return status;
 }
 
-static Status say_netlist(Spice *s)
+static Status write_netlist(Spice *s)
 {
     Status status = OK;
 
     read_times(s);
-    spice_say_values(s);
+    spice_write_values(s);
     read_temperatures(s);
     CHECK(define_used(s, 0));
     for (int i = 0; i < s->inner.count; i++)
@@ -370,8 +370,8 @@ static Status say_netlist(Spice *s)
                          import_text(s->import, ".subckt %s", s->inner.at[i]->head.words.at[1]),
                          "nothing uses it");
     spice_name_elements(s);
-    spice_say_elements(s);
-    CHECK(say_controls(s));
+    spice_write_elements(s);
+    CHECK(write_controls(s));
 done:
     return status;
 }
@@ -385,7 +385,7 @@ Status importer_spice(Import *import, const char *text, size_t length, Diag *dia
     import->ignores_case = true;
     cards_read(import, text, length, &cards);
     CHECK(part_cards(s, &cards));
-    CHECK(say_netlist(s));
+    CHECK(write_netlist(s));
 done:
     for (int i = 0; i < cards.count; i++)
         LIST_FREE(cards.at[i].words);

@@ -15,12 +15,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct Pose {
+typedef struct ImportUrdfPose {
     double at[3];  /* m */
     double rpy[3]; /* rad */
-} Pose;
+} ImportUrdfPose;
 
-typedef struct Link {
+typedef struct ImportUrdfLink {
     const Element *element;
     const char *name;  /* ours */
     const char *frame; /* ours, at its origin; NULL: not said yet */
@@ -29,7 +29,7 @@ typedef struct Link {
     double inertia[6]; /* xx yy zz xy xz yz about the centre, in its axes, kg*m^2 */
     int joint;         /* that carries it; -1: none */
     int first_child;   /* joint; -1 */
-} Link;
+} ImportUrdfLink;
 
 typedef enum JointKind { REVOLUTE, PRISMATIC, FIXED, FLOATING, PLANAR } JointKind;
 
@@ -39,14 +39,14 @@ typedef struct Joint {
     JointKind kind;
     int parent, child; /* links */
     int next;          /* joint of the same parent; -1 */
-    Pose origin;
+    ImportUrdfPose origin;
     double axis[3];
     bool is_said;
 } Joint;
 
 typedef struct Urdf {
     Import *import;
-    LIST(Link) links;
+    LIST(ImportUrdfLink) links;
     LIST(Joint) joints;
     Names *link_names, *joint_names; /* as in the file */
     Names *others;                   /* kinds of elements that are left out */
@@ -84,7 +84,7 @@ static Status read_numbers(Urdf *u, const Element *element, const char *name, in
     return OK;
 }
 
-static Status read_pose(Urdf *u, const Element *element, Pose *out)
+static Status read_pose(Urdf *u, const Element *element, ImportUrdfPose *out)
 {
     const Element *origin = xml_child(element, "origin");
 
@@ -163,13 +163,13 @@ static void turn_inertia(const double rpy[3], const double own[6], double out[6]
             out[i] = 0;
 }
 
-static Status read_inertial(Urdf *u, Link *link)
+static Status read_inertial(Urdf *u, ImportUrdfLink *link)
 {
     static const char *const names[] = {"ixx", "iyy", "izz", "ixy", "ixz", "iyz"};
     const Element *inertial = xml_child(link->element, "inertial");
     const Element *mass, *inertia;
     double own[6] = {0};
-    Pose pose = {{0}, {0}};
+    ImportUrdfPose pose = {{0}, {0}};
 
     if (inertial == NULL)
         return OK;
@@ -187,7 +187,7 @@ static Status read_inertial(Urdf *u, Link *link)
 static Status read_link(Urdf *u, const Element *element)
 {
     const char *name = xml_attribute(element, "name");
-    Link link = {.element = element, .joint = -1, .first_child = -1};
+    ImportUrdfLink link = {.element = element, .joint = -1, .first_child = -1};
 
     if (name == NULL)
         return import_refuse(u->import, element->line, u->diag, "a link without a name");
@@ -273,7 +273,7 @@ static const char *own_name(Urdf *u, const char *name, const char *what)
     return import_name(u->import, OWN, both);
 }
 
-static bool has_inertia(const Link *link)
+static bool has_inertia(const ImportUrdfLink *link)
 {
     for (int i = 0; i < 6; i++)
         if (link->inertia[i] != 0)
@@ -282,7 +282,7 @@ static bool has_inertia(const Link *link)
 }
 
 /* the body of a link, and the frame at its origin */
-static void say_body(Urdf *u, Link *link)
+static void write_body(Urdf *u, ImportUrdfLink *link)
 {
     const double *I = link->inertia;
     const char *inertia = "";
@@ -307,10 +307,10 @@ static void say_body(Urdf *u, Link *link)
 }
 
 /* the frame of a joint in its parent link: that link's where the two are the same */
-static const char *say_tail(Urdf *u, const Joint *joint, const char *own)
+static const char *write_tail(Urdf *u, const Joint *joint, const char *own)
 {
     const char *parent = u->links.at[joint->parent].frame;
-    const Pose *origin = &joint->origin;
+    const ImportUrdfPose *origin = &joint->origin;
 
     if (own == NULL && is_zero(origin->at) && is_zero(origin->rpy))
         return parent;
@@ -338,7 +338,7 @@ static const char *axis_of(Urdf *u, const Joint *joint, const char *key)
 }
 
 /* what a joint has beside its freedom */
-static Status say_extras(Urdf *u, const Joint *joint)
+static Status write_extras(Urdf *u, const Joint *joint)
 {
     const Element *limit = xml_child(joint->element, "limit");
     const Element *dynamics = xml_child(joint->element, "dynamics");
@@ -367,35 +367,35 @@ static Status say_extras(Urdf *u, const Joint *joint)
     return OK;
 }
 
-static Status say_joint(Urdf *u, Joint *joint)
+static Status write_joint(Urdf *u, Joint *joint)
 {
     static const char *const verbs[] = {"revolute", "prismatic", "weld", "free", "planarjoint"};
-    Link *child = &u->links.at[joint->child];
+    ImportUrdfLink *child = &u->links.at[joint->child];
     const char *tail;
 
     joint->is_said = true;
     if (joint->kind == FIXED && child->mass == 0 && !has_inertia(child)) {
-        child->frame = say_tail(u, joint, child->name);
+        child->frame = write_tail(u, joint, child->name);
         return OK;
     }
-    say_body(u, child);
-    tail = say_tail(u, joint, NULL);
+    write_body(u, child);
+    tail = write_tail(u, joint, NULL);
     import_add(u->import, joint->element->line, "%s %s %s %s%s", verbs[joint->kind], joint->name,
                tail, child->frame,
                joint->kind == PLANAR                                 ? axis_of(u, joint, " normal")
                : joint->kind == REVOLUTE || joint->kind == PRISMATIC ? axis_of(u, joint, " axis")
                                                                      : "");
-    return say_extras(u, joint);
+    return write_extras(u, joint);
 }
 
-static void say_root(Urdf *u, Link *link)
+static void write_root(Urdf *u, ImportUrdfLink *link)
 {
     if (link->mass == 0 && !has_inertia(link)) {
         import_add(u->import, link->element->line, "arm %s ground", link->name);
         link->frame = link->name;
         return;
     }
-    say_body(u, link);
+    write_body(u, link);
 
     const char *hold = own_name(u, link->name, "hold");
 
@@ -406,7 +406,7 @@ static void say_root(Urdf *u, Link *link)
 }
 
 /* from the roots on, each link before what hangs on it */
-static Status say_trees(Urdf *u)
+static Status write_trees(Urdf *u)
 {
     LIST(int) waiting = {0};
     Status status = OK;
@@ -415,12 +415,12 @@ static Status say_trees(Urdf *u)
         if (u->links.at[i].joint < 0)
             LIST_PUSH(waiting, i);
     while (waiting.count > 0) {
-        Link *link = &u->links.at[waiting.at[--waiting.count]];
+        ImportUrdfLink *link = &u->links.at[waiting.at[--waiting.count]];
 
         if (link->joint < 0)
-            say_root(u, link);
+            write_root(u, link);
         else
-            CHECK(say_joint(u, &u->joints.at[link->joint]));
+            CHECK(write_joint(u, &u->joints.at[link->joint]));
         for (int j = link->first_child; j >= 0; j = u->joints.at[j].next)
             LIST_PUSH(waiting, u->joints.at[j].child);
     }
@@ -437,7 +437,7 @@ done:
 /* --- mimic --- */
 
 /* A joint that follows another, q = m*other + c. */
-static Status say_mimic(Urdf *u, const Joint *joint)
+static Status write_mimic(Urdf *u, const Joint *joint)
 {
     const Element *mimic = xml_child(joint->element, "mimic");
     const char *of = mimic != NULL ? xml_attribute(mimic, "joint") : NULL;
@@ -478,7 +478,7 @@ static void count_other(Urdf *u, const Element *element)
     u->counts.at[kind]++;
 }
 
-static void say_others(Urdf *u)
+static void write_others(Urdf *u)
 {
     for (int i = 0; i < u->counts.count; i++)
         import_leave(
@@ -567,10 +567,10 @@ Status importer_urdf(Import *import, const char *text, size_t length, Diag *diag
     CHECK(xml_read(import, text, length, &root, diag));
     CHECK(read_robot(&u, root));
     import_title(import, root->line, xml_attribute(root, "name"));
-    CHECK(say_trees(&u));
+    CHECK(write_trees(&u));
     for (int i = 0; i < u.joints.count; i++)
-        CHECK(say_mimic(&u, &u.joints.at[i]));
-    say_others(&u);
+        CHECK(write_mimic(&u, &u.joints.at[i]));
+    write_others(&u);
 done:
     LIST_FREE(u.links);
     LIST_FREE(u.joints);

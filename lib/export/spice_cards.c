@@ -58,7 +58,7 @@ static bool begins(const char *line, size_t length, const char *word)
 }
 
 /* The first line, no card; people often type it behind a "*". */
-static void say_title(Import *import, const char *line, size_t length)
+static void write_title(Import *import, const char *line, size_t length)
 {
     while (length > 0 && (*line == '*' || *line == ' ' || *line == '\t')) {
         line++;
@@ -86,7 +86,7 @@ void cards_read(Import *import, const char *text, size_t length, Cards *out)
             size--;
         }
         if (number == 1) {
-            say_title(import, line, size);
+            write_title(import, line, size);
             continue;
         }
         if (size == 0 || *line == '*' || *line == '#')

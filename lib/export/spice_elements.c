@@ -37,7 +37,7 @@ static const char *name_of_card(Spice *s, const Card *card)
 /* --- parameters: those that one speaks of come before it --- */
 
 /* those of a card, from word `first` on */
-void spice_take_parameters(Spice *s, const Card *card, int first)
+void spice_read_parameters(Spice *s, const Card *card, int first)
 {
     for (int i = first; i < card->words.count; i += 3) {
         const ParameterCard parameter = {.name = spice_lower(s->import, card->words.at[i]),
@@ -65,11 +65,11 @@ static void find_parameters(Spice *s)
         const Card *card = &s->cards.at[c];
 
         if (spice_is(card->words.at[0], ".param") || spice_is(card->words.at[0], ".params"))
-            spice_take_parameters(s, card, 1);
+            spice_read_parameters(s, card, 1);
     }
 }
 
-static void say_parameter(void *context, const char *name)
+static void write_parameter(void *context, const char *name)
 {
     enum { DEEPEST = 500 };
     Spice *s = context;
@@ -81,7 +81,7 @@ static void say_parameter(void *context, const char *name)
         return;
     parameter->state = ON_ITS_WAY;
     s->depth++;
-    spice_names(parameter->value, say_parameter, s);
+    spice_names(parameter->value, write_parameter, s);
     s->depth--;
     parameter->state = SAID;
     if (spice_read(s, parameter->value, &v))
@@ -105,17 +105,17 @@ static void find_models(Spice *s)
     }
 }
 
-void spice_say_values(Spice *s)
+void spice_write_values(Spice *s)
 {
     find_parameters(s);
     find_models(s);
     for (int i = 0; i < s->parameters.count; i++)
-        say_parameter(s, s->parameters.at[i].name);
+        write_parameter(s, s->parameters.at[i].name);
 }
 
 /* --- elements --- */
 
-void spice_give_initial(Spice *s, int line, const char *variable, SpiceValue v)
+void spice_write_initial(Spice *s, int line, const char *variable, SpiceValue v)
 {
     import_add(s->import, line, "init %s = %s", variable, v.alone);
 }
@@ -233,29 +233,29 @@ static void two_terminals(Spice *s, const Card *card, const char *verb, const ch
                      import_text(s->import, "ic= of %s", card->words.at[0]),
                      ".tran doesn't say uic");
     else if (spice_read(s, initial, &ic))
-        spice_give_initial(s, card->line,
-                           import_text(s->import, "%s.%s", name_of_card(s, card), state), ic);
+        spice_write_initial(s, card->line,
+                            import_text(s->import, "%s.%s", name_of_card(s, card), state), ic);
     else
         leave(s, card, s->why);
 }
 
-static void say_resistor(Spice *s, const Card *card)
+static void write_resistor(Spice *s, const Card *card)
 {
     two_terminals(s, card, "resistor", "r", "res", "v");
 }
 
-static void say_capacitor(Spice *s, const Card *card)
+static void write_capacitor(Spice *s, const Card *card)
 {
     two_terminals(s, card, "capacitor", "c", "cap", "v");
 }
 
-static void say_inductor(Spice *s, const Card *card)
+static void write_inductor(Spice *s, const Card *card)
 {
     two_terminals(s, card, "inductor", "l", "ind", "i");
 }
 
 /* K: pairs of all inductors that it names */
-static void say_coupling(Spice *s, const Card *card)
+static void write_coupling(Spice *s, const Card *card)
 {
     const int last = card->words.count - 1;
     const char *name = name_of_card(s, card);
@@ -282,7 +282,7 @@ static void say_coupling(Spice *s, const Card *card)
 }
 
 /* E, G: of a voltage */
-static void say_by_voltage(Spice *s, const Card *card)
+static void write_by_voltage(Spice *s, const Card *card)
 {
     const bool voltage = tolower((unsigned char)card->words.at[0][0]) == 'e';
     SpiceValue gain;
@@ -302,7 +302,7 @@ static void say_by_voltage(Spice *s, const Card *card)
 }
 
 /* F, H: of the current through a voltage source */
-static void say_by_current(Spice *s, const Card *card)
+static void write_by_current(Spice *s, const Card *card)
 {
     const bool voltage = tolower((unsigned char)card->words.at[0][0]) == 'h';
     const char *source = import_known(s->import, SPICE_PART, card_word(card, 3));
@@ -377,7 +377,7 @@ static bool read_area(Spice *s, const Card *card, SpiceValue *out)
 }
 
 /* D: name, two nodes, model, area; a resistance in series makes a node of its own */
-static void say_diode(Spice *s, const Card *card)
+static void write_diode(Spice *s, const Card *card)
 {
     const DeviceModel *model = spice_find_model(s, card_word(card, 3), "d", &s->why);
     const char *plus, *current;
@@ -416,7 +416,7 @@ static void say_diode(Spice *s, const Card *card)
 }
 
 /* S, W: closed above a threshold of a voltage or of a source's current */
-static void say_switch(Spice *s, const Card *card)
+static void write_switch(Spice *s, const Card *card)
 {
     static const SpiceKey none[] = {{NULL, REFUSED, NULL}};
     static const SpiceKey by_voltage[] = {{"vt", TAKEN, NULL},
@@ -470,7 +470,7 @@ static void say_switch(Spice *s, const Card *card)
 }
 
 /* V, I: [DC] value, AC value phase, a function of time; which is what it gives from t = 0 on */
-static void say_source(Spice *s, const Card *card)
+static void write_source(Spice *s, const Card *card)
 {
     const char *verb = tolower((unsigned char)card->words.at[0][0]) == 'v' ? "vsource" : "isource";
     const char *constant = "0", *given = NULL; /* over time */
@@ -576,7 +576,7 @@ static bool has_parameter(const Spice *subcircuit, const char *name)
 }
 
 /* X: name, nodes, subcircuit, KEY=value */
-static void say_use(Spice *s, const Card *card)
+static void write_use(Spice *s, const Card *card)
 {
     const int keys = spice_first_key(card, 1), nodes = keys - 2;
     Spice *subcircuit = spice_find_subcircuit(s, card);
@@ -618,11 +618,13 @@ static const struct {
     int words; /* that it has at least */
     void (*say)(Spice *s, const Card *card);
 } elements[] = {
-    {'r', 0, 2, 3, say_resistor},   {'c', 0, 2, 3, say_capacitor},  {'l', 0, 2, 3, say_inductor},
-    {'v', 0, 2, 3, say_source},     {'i', 0, 2, 3, say_source},     {'e', 0, 4, 5, say_by_voltage},
-    {'g', 0, 4, 5, say_by_voltage}, {'d', 0, 2, 4, say_diode},      {'k', 1, 0, 4, say_coupling},
-    {'f', 1, 2, 4, say_by_current}, {'h', 1, 2, 4, say_by_current}, {'s', 2, 4, 6, say_switch},
-    {'w', 2, 2, 5, say_switch},     {'x', 0, 0, 2, say_use},
+    {'r', 0, 2, 3, write_resistor},   {'c', 0, 2, 3, write_capacitor},
+    {'l', 0, 2, 3, write_inductor},   {'v', 0, 2, 3, write_source},
+    {'i', 0, 2, 3, write_source},     {'e', 0, 4, 5, write_by_voltage},
+    {'g', 0, 4, 5, write_by_voltage}, {'d', 0, 2, 4, write_diode},
+    {'k', 1, 0, 4, write_coupling},   {'f', 1, 2, 4, write_by_current},
+    {'h', 1, 2, 4, write_by_current}, {'s', 2, 4, 6, write_switch},
+    {'w', 2, 2, 5, write_switch},     {'x', 0, 0, 2, write_use},
 };
 enum { RANKS = 3 };
 
@@ -657,24 +659,25 @@ void spice_name_elements(Spice *s)
     for (int c = 0; c < s->cards.count; c++) {
         const Card *card = &s->cards.at[c];
 
-        const int nodes = card->element < 0                        ? 0
-                          : elements[card->element].say == say_use ? spice_first_key(card, 1) - 2
-                                                                   : elements[card->element].nodes;
+        const int nodes = card->element < 0 ? 0
+                          : elements[card->element].say == write_use
+                              ? spice_first_key(card, 1) - 2
+                              : elements[card->element].nodes;
 
         for (int i = 0; i < nodes; i++)
             (void)spice_node(s, card->words.at[1 + i]);
     }
 }
 
-bool spice_stands_on(const Spice *s, const char *name)
+bool spice_node_is_used(const Spice *s, const char *name)
 {
     for (int c = 0; c < s->cards.count; c++) {
         const Card *card = &s->cards.at[c];
         int places = card->element < 0 ? 0 : elements[card->element].nodes;
 
-        if (places > 0 && elements[card->element].say == say_switch)
+        if (places > 0 && elements[card->element].say == write_switch)
             places = 2; /* the others are read */
-        else if (card->element >= 0 && elements[card->element].say == say_use)
+        else if (card->element >= 0 && elements[card->element].say == write_use)
             places = spice_first_key(card, 1) - 2;
         for (int i = 0; i < places; i++)
             if (spice_is(card->words.at[1 + i], name))
@@ -683,7 +686,7 @@ bool spice_stands_on(const Spice *s, const char *name)
     return false;
 }
 
-void spice_say_elements(Spice *s)
+void spice_write_elements(Spice *s)
 {
     for (int rank = 0; rank < RANKS; rank++)
         for (int c = 0; c < s->cards.count; c++) {

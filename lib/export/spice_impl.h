@@ -48,18 +48,18 @@ bool spice_value_or(Spice *s, const char *text, const char *other, SpiceValue *o
 SpiceValue spice_times(Spice *s, SpiceValue a, SpiceValue b);
 const char *spice_lower(Import *import, const char *word);
 const char *spice_node(Spice *s, const char *name);
-void spice_give_initial(Spice *s, int line, const char *variable, SpiceValue v);
+void spice_write_initial(Spice *s, int line, const char *variable, SpiceValue v);
 
 /* parameters of a card, from word `first` on */
-void spice_take_parameters(Spice *s, const Card *card, int first);
+void spice_read_parameters(Spice *s, const Card *card, int first);
 /* parameters, those taken before and those of .param, and models */
-void spice_say_values(Spice *s);
+void spice_write_values(Spice *s);
 /* All elements have their names before one is said, and before nodes have theirs; what can't be
  * said is none from then on. */
 void spice_name_elements(Spice *s);
-void spice_say_elements(Spice *s);
+void spice_write_elements(Spice *s);
 /* whether an element stands on the node, or but reads its voltage */
-bool spice_stands_on(const Spice *s, const char *node);
+bool spice_node_is_used(const Spice *s, const char *node);
 
 enum { MODEL_KEYS = 3 }; /* the first word of a model that may be a key */
 /* the model of that name and type, or NULL and why */

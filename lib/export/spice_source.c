@@ -9,13 +9,13 @@
 #include <string.h>
 #include <strings.h>
 
-typedef struct Given {
+typedef struct SpiceSourceValues {
     Import *import;
     const SpiceValue *at;
     int count;
     const SpiceTimes *times;
     const char *why;
-} Given;
+} SpiceSourceValues;
 
 static bool is_zero(SpiceValue v)
 {
@@ -23,33 +23,33 @@ static bool is_zero(SpiceValue v)
 }
 
 /* the i-th number; `other` where it isn't given, or is 0 and that means so */
-static SpiceValue take(const Given *g, int i, SpiceValue other, bool zero_is_none)
+static SpiceValue take(const SpiceSourceValues *g, int i, SpiceValue other, bool zero_is_none)
 {
     return i < g->count && !(zero_is_none && is_zero(g->at[i])) ? g->at[i] : other;
 }
 
-static SpiceValue plain(const Given *g, int i)
+static SpiceValue plain(const SpiceSourceValues *g, int i)
 {
     return take(g, i, spice_of(g->import, 0), false);
 }
 
 /* t - delay, 0 before that */
-static const char *since(const Given *g, SpiceValue delay)
+static const char *since(const SpiceSourceValues *g, SpiceValue delay)
 {
     return is_zero(delay) ? "t" : import_text(g->import, "ramp(t - %s)", delay.text);
 }
 
-static const char *degrees(const Given *g, SpiceValue phase)
+static const char *degrees(const SpiceSourceValues *g, SpiceValue phase)
 {
     return is_zero(phase) ? "" : import_text(g->import, " + pi/180*%s", phase.text);
 }
 
-static const char *offset(const Given *g, SpiceValue v)
+static const char *offset(const SpiceSourceValues *g, SpiceValue v)
 {
     return is_zero(v) ? "" : import_text(g->import, "%s + ", v.text);
 }
 
-static SpiceValue one_over_stop(const Given *g)
+static SpiceValue one_over_stop(const SpiceSourceValues *g)
 {
     const SpiceValue stop = g->times->stop;
 
@@ -59,7 +59,7 @@ static SpiceValue one_over_stop(const Given *g)
 }
 
 /* SIN(offset amplitude frequency delay damping phase) */
-static const char *make_sine(Given *g)
+static const char *make_sine(SpiceSourceValues *g)
 {
     const char *time = since(g, plain(g, 3));
     const SpiceValue damping = plain(g, 4);
@@ -71,7 +71,7 @@ static const char *make_sine(Given *g)
 }
 
 /* PULSE(low high delay rise fall width period) */
-static const char *make_pulse(Given *g)
+static const char *make_pulse(SpiceSourceValues *g)
 {
     const SpiceValue step = g->times->step, stop = g->times->stop;
 
@@ -91,7 +91,7 @@ static const char *make_pulse(Given *g)
 }
 
 /* EXP(low high delay1 tau1 delay2 tau2) */
-static const char *make_exponential(Given *g)
+static const char *make_exponential(SpiceSourceValues *g)
 {
     const SpiceValue low = plain(g, 0), high = plain(g, 1), step = g->times->step;
     const SpiceValue begin = plain(g, 2);
@@ -110,7 +110,7 @@ static const char *make_exponential(Given *g)
 }
 
 /* SFFM(offset amplitude carrier index signal) */
-static const char *make_modulated(Given *g)
+static const char *make_modulated(SpiceSourceValues *g)
 {
     return import_text(
         g->import, "%s%s*sin(2*pi*%s*t%s + %s*sin(2*pi*%s*t%s))", offset(g, plain(g, 0)),
@@ -119,7 +119,7 @@ static const char *make_modulated(Given *g)
 }
 
 /* t of a PWL: td= shifts it, r= lets it go on from there when it has come to its end */
-static const char *time_of_pieces(const Given *g)
+static const char *time_of_pieces(const SpiceSourceValues *g)
 {
     const char *time = g->times->delay.text != NULL
                            ? import_text(g->import, "(t - %s)", g->times->delay.text)
@@ -134,7 +134,7 @@ static const char *time_of_pieces(const Given *g)
 }
 
 /* PWL(t0 v0 t1 v1 ...) */
-static const char *make_pieces(Given *g)
+static const char *make_pieces(SpiceSourceValues *g)
 {
     Text text = {0};
     const char *made;
@@ -157,7 +157,7 @@ static const char *make_pieces(Given *g)
 static const struct {
     const char *name;
     int most; /* values that it takes; 0: any number */
-    const char *(*make)(Given *given);
+    const char *(*make)(SpiceSourceValues *given);
 } sources[] = {{"sin", 6, make_sine},        {"sine", 6, make_sine},      {"pulse", 8, make_pulse},
                {"exp", 6, make_exponential}, {"sffm", 7, make_modulated}, {"pwl", 0, make_pieces}};
 
@@ -177,7 +177,7 @@ bool spice_is_source(const char *word)
 bool spice_source(Import *import, const char *name, const SpiceValue *values, int count,
                   const SpiceTimes *times, const char **out, const char **why)
 {
-    Given given = {.import = import, .at = values, .count = count, .times = times};
+    SpiceSourceValues given = {.import = import, .at = values, .count = count, .times = times};
 
     const int row = find(name);
 

@@ -515,7 +515,7 @@ static void add_column(const char *name, Text *out)
 
 static void add_driver(const Code *code, Text *out)
 {
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
 
     text_add(out, "\n#ifdef MODEL_MAIN /* a.out SECONDS STEP: values at each step, as csv */\n"
                   "#include <stdio.h>\n#include <stdlib.h>\n\nint main(int argc, char **argv)\n{\n"
@@ -527,10 +527,10 @@ static void add_driver(const Code *code, Text *out)
                   "    model_parameters(p);\n    model_start(y, s);\n    puts(\"t");
     for (int i = 0; i < code->ny; i++)
         text_addf(out, ",%s",
-                  i < l->n                   ? system_q(l->system, i)->name
-                  : i < l->n + l->nu         ? system_u(l->system, i - l->n)->name
-                  : i < layout_references(l) ? system_x(l->system, i - l->n - l->nu)->name
-                                             : "reference");
+                  i < l->n                           ? system_q(l->system, i)->name
+                  : i < l->n + l->nu                 ? system_u(l->system, i - l->n)->name
+                  : i < variable_index_references(l) ? system_x(l->system, i - l->n - l->nu)->name
+                                                     : "reference");
     for (int i = 0; i < code->outputs.count; i++)
         add_column(code->outputs.at[i], out);
     text_add(out, "\");\n    for (k = 0;; k++) {\n"
@@ -603,7 +603,7 @@ static void add_projection(const Code *code, Text *out)
 }
 
 /* of each state of networks: the first that is a current, a voltage ... as it is */
-static void add_kinds(const Layout *l, Text *out)
+static void add_kinds(const VariableIndex *l, Text *out)
 {
     text_add(out, "static const int model_kind[] = {");
     for (int i = 0; i < l->nx; i++) {

@@ -43,14 +43,14 @@ static void add_events(const Code *code, Text *out)
 /* what events give values to, and what may stay */
 static void add_targets(const CodeLive *live, Text *out)
 {
-    static const char *const names[] = {"fmu_level",    "fmu_place", "fmu_stays",  "fmu_node",
+    static const char *const names[] = {"fmu_level",    "fmu_place", "fmu_held_kind", "fmu_node",
                                         "fmu_attitude", "fmu_rate",  "fmu_turning"};
     int *column = NEW_ARRAY(int, live->targets.count);
 
     for (int c = 0; c < COUNT(names); c++) {
         for (int i = 0; i < live->targets.count; i++) {
             const CodeTarget *t = &live->targets.at[i];
-            const int values[] = {(int)t->level, t->place, (int)t->stays, t->node,
+            const int values[] = {(int)t->level, t->place, (int)t->held_kind, t->node,
                                   t->attitude,   t->rate,  t->turning};
 
             column[i] = values[c];
@@ -83,7 +83,7 @@ static void add_output_names(const Code *code, Text *out)
 /* by state: whether it is an input */
 static void add_inputs(const Code *code, Text *out)
 {
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
     const int states = l->n + l->nu + l->nx;
     int *is_input = NEW_ARRAY(int, states);
 
@@ -148,7 +148,7 @@ static bool follows_time(const Code *code)
 
 static void write_header(const Code *code, const Exported *what, const char *token, Text *out)
 {
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
     const CodeLive *live = &code->live;
     const int rows = (l->nu + l->m > l->nx ? l->nu + l->m : l->nx) +
                      live->targets.count, /* of new values */
@@ -193,7 +193,7 @@ static void take_text(Archive *archive, const char *name, Text *text)
 {
     const size_t length = text->length;
 
-    archive_take(archive, name, text_done(text), length);
+    archive_add(archive, name, text_done(text), length);
 }
 
 static void take_lines(Archive *archive, const char *name, const char *const *lines)
@@ -225,17 +225,18 @@ static void make_token(const char *code, const Exported *what, char token[40])
 /* which sources there are, of version 3 */
 static void write_build(Text *out)
 {
-    text_add(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-                  "<fmiBuildDescription fmiVersion=\"3.0\">\n"
-                  "  <BuildConfiguration modelIdentifier=\"" FMU_IDENTIFIER "\">\n"
-                  "    <SourceFileSet language=\"C99\">\n"
-                  "      <SourceFile name=\"model.c\"/>\n      <SourceFile name=\"fmu.c\"/>\n"
-                  "      <SourceFile name=\"fmu_step.c\"/>\n      <SourceFile "
-                  "name=\"fmu_ahead.c\"/>\n      <SourceFile name=\"fmu_open.c\"/>\n"
-                  "      <SourceFile name=\"fmu_values.c\"/>\n"
-                  "      <SourceFile name=\"follow.c\"/>\n      <SourceFile name=\"fmi3.c\"/>\n"
-                  "    </SourceFileSet>\n    <Library name=\"m\"/>\n"
-                  "  </BuildConfiguration>\n</fmiBuildDescription>\n");
+    text_add(out,
+             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+             "<fmiBuildDescription fmiVersion=\"3.0\">\n"
+             "  <BuildConfiguration modelIdentifier=\"" FMU_IDENTIFIER "\">\n"
+             "    <SourceFileSet language=\"C99\">\n"
+             "      <SourceFile name=\"model.c\"/>\n      <SourceFile name=\"fmu.c\"/>\n"
+             "      <SourceFile name=\"fmu_step.c\"/>\n      <SourceFile "
+             "name=\"fmu_ahead.c\"/>\n      <SourceFile name=\"fmu_open.c\"/>\n"
+             "      <SourceFile name=\"fmu_values.c\"/>\n"
+             "      <SourceFile name=\"row_closure.c\"/>\n      <SourceFile name=\"fmi3.c\"/>\n"
+             "    </SourceFileSet>\n    <Library name=\"m\"/>\n"
+             "  </BuildConfiguration>\n</fmiBuildDescription>\n");
 }
 
 /* Where a binary for this machine stands, by the names of the standard. */
@@ -277,8 +278,8 @@ static Status pack(const Exported *what, Archive **out, Diag *diag)
     take_lines(archive, "sources/fmu_ahead.c", shared_text_fmu_ahead_c);
     take_lines(archive, "sources/fmu_open.c", shared_text_fmu_open_c);
     take_lines(archive, "sources/fmu_values.c", shared_text_fmu_values_c);
-    take_lines(archive, "sources/follow.h", shared_text_follow_h);
-    take_lines(archive, "sources/follow.c", shared_text_follow_c);
+    take_lines(archive, "sources/row_closure.h", shared_text_row_closure_h);
+    take_lines(archive, "sources/row_closure.c", shared_text_row_closure_c);
     take_lines(archive, "sources/fmi.h", shared_text_fmi_h);
     if (what->version == 2)
         take_lines(archive, "sources/fmi2.c", shared_text_fmi2_c);

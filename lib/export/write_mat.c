@@ -61,7 +61,7 @@ static Status pack(const Exported *what, Archive **out, Diag *diag)
     length = bytes.length;
     *out = NEW(Archive);
     (*out)->is_plain = true;
-    archive_take(*out, "run.mat", text_done(&bytes), length);
+    archive_add(*out, "run.mat", text_done(&bytes), length);
     return OK;
 }
 

@@ -14,19 +14,19 @@ typedef struct Trig {
     double size; /* of its angle: of its terms' coefficients */
 } Trig;
 
-typedef struct Angles {
+typedef struct AngleSharing {
     Arena *arena;
     Walk calls;            /* sines and cosines that are computed */
     LIST(unsigned) groups; /* that need them, bit by bit */
     LIST(Expr) images;     /* NULL: not decided yet */
-} Angles;
+} AngleSharing;
 
 static bool is_trig(Expr e)
 {
     return is_call(e, OP_SIN) || is_call(e, OP_COS);
 }
 
-static void list_calls(Angles *angles, const Expr *roots, int count, unsigned group)
+static void list_calls(AngleSharing *angles, const Expr *roots, int count, unsigned group)
 {
     Walk walk = {0};
 
@@ -80,7 +80,7 @@ static int by_size(const void *a, const void *b)
 }
 
 /* The image of a sine or cosine where every one of the groups computes it; else NULL. */
-static Expr available(const Angles *angles, Op op, Expr angle, unsigned groups)
+static Expr available(const AngleSharing *angles, Op op, Expr angle, unsigned groups)
 {
     Expr call = expr_call1(angles->arena, op, angle);
     bool negative = is_negative(call);
@@ -95,7 +95,7 @@ static Expr available(const Angles *angles, Op op, Expr angle, unsigned groups)
 }
 
 /* sin or cos of a + b; NULL where what it takes isn't there */
-static Expr added(const Angles *angles, Op op, Expr a, Expr b, unsigned groups)
+static Expr added(const AngleSharing *angles, Op op, Expr a, Expr b, unsigned groups)
 {
     Arena *arena = angles->arena;
     Expr sin_a = available(angles, OP_SIN, a, groups);
@@ -120,7 +120,7 @@ static Expr one_of(Arena *arena, Expr term)
     return term_scale(arena, term, number_int(number_sign(c)));
 }
 
-static Expr image_of(const Angles *angles, Expr call, unsigned groups)
+static Expr image_of(const AngleSharing *angles, Expr call, unsigned groups)
 {
     Expr angle = node_args(call)[0];
     const Expr *terms;
@@ -134,13 +134,13 @@ static Expr image_of(const Angles *angles, Expr call, unsigned groups)
             continue;
         image = added(angles, (Op)call->op, a, expr_sub(angles->arena, angle, a), groups);
         if (image != NULL)
-            return image->kind == EXPR_SUM ? expr_hold(angles->arena, image) : image;
+            return image->kind == EXPR_SUM ? expr_name_temporary(angles->arena, image) : image;
     }
     return call;
 }
 
 /* simpler angles first: parts are decided on before what they are parts of */
-static void sort_calls(const Angles *angles, Trig *calls)
+static void sort_calls(const AngleSharing *angles, Trig *calls)
 {
     int count = angles->calls.count;
 
@@ -154,7 +154,7 @@ static void sort_calls(const Angles *angles, Trig *calls)
 }
 
 /* Decide on every call; `from` and `to` get those that aren't computed as they stand. */
-static int find_images(Angles *angles, Expr *from, Expr *to)
+static int find_images(AngleSharing *angles, Expr *from, Expr *to)
 {
     int count = angles->calls.count;
     Trig *calls = NEW_ARRAY(Trig, count);
@@ -177,7 +177,7 @@ static int find_images(Angles *angles, Expr *from, Expr *to)
 
 void expr_part_angles(Arena *arena, Expr *roots, const int *counts, int groups)
 {
-    Angles angles = {.arena = arena};
+    AngleSharing angles = {.arena = arena};
     Expr *from;
     Expr *to;
     int total = 0;

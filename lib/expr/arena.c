@@ -128,7 +128,7 @@ static inline bool same_words(const void *one, const void *other, int count)
 
 /* --- tables --- */
 
-static void slots_put(Slot *slots, uint32_t size, uint32_t hash, uint32_t id)
+static void slots_insert(Slot *slots, uint32_t size, uint32_t hash, uint32_t id)
 {
     uint32_t i = hash & (size - 1);
 
@@ -175,7 +175,7 @@ static void table_grow(Arena *arena, uint32_t size)
 
     for (int i = 0; i < arena->nodes.count; i++) {
         transaction_worked(NODE_WORK);
-        slots_put(slots, size, arena->nodes.at[i]->hash, (uint32_t)i + 1);
+        slots_insert(slots, size, arena->nodes.at[i]->hash, (uint32_t)i + 1);
     }
     mem_free(arena->slots);
     arena->slots = slots;
@@ -382,7 +382,7 @@ static Expr table_symbol(Arena *arena, int number)
     text_addf(&name, "_table%d", number + 1);
     symbol = expr_symbol(arena, name.at, SYMBOL_TABLE);
     data = (SymbolData *)(void *)(arena->nodes.at[symbol->number] + 1);
-    pool_keep(arena->pool, data, sizeof *data);
+    pool_retain(arena->pool, data, sizeof *data);
     data->table = arena->tables.at[number];
     text_free(&name);
     return symbol;
@@ -466,16 +466,17 @@ void arena_remember(Arena *arena, Expr e, Expr symbol, Expr derivative)
     arena_keep_whole(arena);
     LIST_APPEND(arena->memories, (Memory){e, symbol, derivative});
     if ((uint32_t)arena->memories.count <= arena->memory_size / 2) {
-        slots_put(arena->memory_slots, arena->memory_size, memory_hash(e, symbol),
-                  (uint32_t)arena->memories.count);
+        slots_insert(arena->memory_slots, arena->memory_size, memory_hash(e, symbol),
+                     (uint32_t)arena->memories.count);
         return;
     }
     size = 2 * arena->memory_size;
     slots = NEW_ARRAY(Slot, size);
     for (int i = 0; i < arena->memories.count; i++) {
         transaction_worked(NODE_WORK);
-        slots_put(slots, size, memory_hash(arena->memories.at[i].e, arena->memories.at[i].symbol),
-                  (uint32_t)i + 1);
+        slots_insert(slots, size,
+                     memory_hash(arena->memories.at[i].e, arena->memories.at[i].symbol),
+                     (uint32_t)i + 1);
     }
     mem_free(arena->memory_slots);
     arena->memory_slots = slots;
@@ -565,7 +566,7 @@ Renamings *arena_renamings(const Arena *arena)
     return arena->renamings;
 }
 
-void arena_put_renamings(Arena *arena, Renamings *renamings, void (*release)(Renamings *))
+void arena_add_renamings(Arena *arena, Renamings *renamings, void (*release)(Renamings *))
 {
     arena_keep_whole(arena);
     arena->renamings = renamings;
@@ -713,7 +714,7 @@ void arena_release(Arena *arena, ArenaMark *mark)
     mem_free(mark);
 }
 
-void arena_keep(Arena *arena, ArenaMark *mark)
+void arena_retain(Arena *arena, ArenaMark *mark)
 {
     (void)arena;
     mem_free(mark);

@@ -47,7 +47,7 @@ static double v_and(const double *x)   { return x[0] != 0 && x[1] != 0; }
 static double v_or(const double *x)    { return x[0] != 0 || x[1] != 0; }
 static double v_not(const double *x)   { return x[0] == 0; }
 static double v_if(const double *x)    { return x[0] != 0 ? x[1] : x[2]; }
-static double v_hold(const double *x)  { return x[0]; }
+static double v_named_temporary(const double *x)  { return x[0]; }
 /* needs its data: expr_evaluate() and programs compute it */
 static double v_table(const double *x) { return x[0] * (double)NAN; }
 /* clang-format on */
@@ -239,7 +239,7 @@ static Expr exact_if(Arena *arena, const Expr *args)
     return args[1] == args[2] ? args[1] : NULL;
 }
 
-static Expr exact_hold(Arena *arena, const Expr *args)
+static Expr exact_named_temporary(Arena *arena, const Expr *args)
 {
     (void)arena;
     return is_number(args[0]) || args[0]->kind == EXPR_SYMBOL || is_call(args[0], OP_HOLD) ? args[0]
@@ -276,7 +276,7 @@ static const Exact exact[OP_COUNT] = {
     [OP_OR] = {.picks = true, .rule = exact_or},
     [OP_NOT] = {.picks = true, .rule = exact_not},
     [OP_IF] = {.rule = exact_if},
-    [OP_HOLD] = {.parity = ODD, .rule = exact_hold},
+    [OP_HOLD] = {.parity = ODD, .rule = exact_named_temporary},
 };
 
 /* A function that only compares and chooses, of numbers. */
@@ -394,7 +394,7 @@ Expr expr_table(Arena *arena, Expr data, Expr x, int order)
     return expr_call(arena, OP_TABLE, (Expr[]){data, x, expr_int(arena, order)});
 }
 
-Expr expr_hold(Arena *arena, Expr e)
+Expr expr_name_temporary(Arena *arena, Expr e)
 {
     return expr_call1(arena, OP_HOLD, e);
 }

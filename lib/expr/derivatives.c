@@ -35,7 +35,7 @@ static Expr d_min(Arena *a, Expr e, const Expr *d)  { return expr_if(a, expr_cal
 static Expr d_max(Arena *a, Expr e, const Expr *d)  { return expr_if(a, expr_call2(a, OP_LT, arg(e, 0), arg(e, 1)), d[1], d[0]); }
 static Expr d_ramp(Arena *a, Expr e, const Expr *d) { return expr_mul(a, d[0], expr_call1(a, OP_STEP, arg(e, 0))); }
 static Expr d_if(Arena *a, Expr e, const Expr *d)   { return expr_if(a, arg(e, 0), d[1], d[2]); }
-static Expr d_hold(Arena *a, Expr e, const Expr *d) { (void)e; return expr_hold(a, d[0]); }
+static Expr d_named_temporary(Arena *a, Expr e, const Expr *d) { (void)e; return expr_name_temporary(a, d[0]); }
 /* clang-format on */
 
 /* (x*y' - y*x')/(x^2 + y^2), in every turn */

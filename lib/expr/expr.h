@@ -21,9 +21,9 @@
 #ifndef COTREE_EXPR_EXPR_H
 #define COTREE_EXPR_EXPR_H
 
+#include "base/call_monitor.h"
 #include "base/diag.h"
 #include "base/text.h"
-#include "base/watch.h"
 #include "expr/curve.h"
 
 #include <stdint.h>
@@ -81,9 +81,9 @@ int64_t arena_limit(Arena *arena, int64_t nodes);
 
 /* Scratch work: whatever was built after the mark is forgotten by the release. */
 typedef struct ArenaMark ArenaMark;
-ArenaMark *arena_mark(Arena *arena); /* new; given back to arena_release() or arena_keep() */
+ArenaMark *arena_mark(Arena *arena); /* new; given back to arena_release() or arena_retain() */
 void arena_release(Arena *arena, ArenaMark *mark);
-void arena_keep(Arena *arena, ArenaMark *mark);
+void arena_retain(Arena *arena, ArenaMark *mark);
 /* What somebody made of expressions, to be asked for again: the arena keeps the last few, each
  * until a release takes a node that it was made of. `newest` is the greatest number of these. */
 typedef struct Made {
@@ -157,7 +157,7 @@ Expr expr_if(Arena *arena, Expr condition, Expr yes, Expr no);
  * symbol, and the negative of one, are handed back as they are; -hold(e) comes
  * out of hold(-e). Printing and counting as written look through it; a held node
  * is one shared definition in a program. */
-Expr expr_hold(Arena *arena, Expr e);
+Expr expr_name_temporary(Arena *arena, Expr e);
 /* `e` with every hold dissolved and rebuilt. O(nodes) nodes visited. */
 Expr expr_open(Arena *arena, Expr e);
 
@@ -301,7 +301,8 @@ OpCount expr_count_shared(const Expr *roots, int count);
 /* the same, beside what follows from symbols of `kinds` alone (bits as of expr_kinds(); 0: all) */
 OpCount expr_count_beside(const Expr *roots, int count, unsigned kinds);
 /* expr_count_shared() of what may be large; E_STOPPED, *out unchanged */
-MUST_USE Status expr_count_watched(const Expr *roots, int count, const Watch *watch, OpCount *out);
+MUST_USE Status expr_count_watched(const Expr *roots, int count, const CallMonitor *watch,
+                                   OpCount *out);
 OpCount op_count_plus(OpCount a, OpCount b); /* saturates as the counts do */
 int64_t op_count_total(OpCount count);
 

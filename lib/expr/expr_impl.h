@@ -122,7 +122,7 @@ bool decimal_exact(const char *text, int64_t *num, int64_t *den);
 typedef struct Renamings Renamings;
 Renamings *arena_renamings(const Arena *arena); /* NULL: none */
 /* `release` ends those; what was there before is the caller's */
-void arena_put_renamings(Arena *arena, Renamings *renamings, void (*release)(Renamings *));
+void arena_add_renamings(Arena *arena, Renamings *renamings, void (*release)(Renamings *));
 /* They hold nodes from now on that weren't there: an older mark drops them. */
 void arena_touch_renamings(Arena *arena);
 

@@ -15,15 +15,15 @@
 #include <assert.h>
 #include <string.h>
 
-typedef struct Term {
+typedef struct FoldTerm {
     Expr e;
     uint64_t print; /* fingerprint, without the coefficient */
     bool gone;
-} Term;
+} FoldTerm;
 
 typedef struct Fold {
     Arena *arena;
-    LIST(Term) terms;
+    LIST(FoldTerm) terms;
     int *slots; /* hash table of terms by fingerprint: index + 1, 0 where empty */
     uint32_t size;
 } Fold;
@@ -79,7 +79,7 @@ static uint32_t slot_of(const Fold *fold, uint64_t print)
 static int find_term(const Fold *fold, uint64_t print)
 {
     for (uint32_t i = slot_of(fold, print); fold->slots[i] != 0; i = (i + 1) & (fold->size - 1)) {
-        const Term *term = &fold->terms.at[fold->slots[i] - 1];
+        const FoldTerm *term = &fold->terms.at[fold->slots[i] - 1];
 
         assert(fold->terms.at != NULL);
         if (!term->gone && term->print == print)
@@ -115,7 +115,7 @@ static void add_term(Fold *fold, Expr e)
             return;
         }
     }
-    LIST_PUSH(fold->terms, (Term){e, print, expr_is_zero(e)});
+    LIST_PUSH(fold->terms, (FoldTerm){e, print, expr_is_zero(e)});
     list_term(fold, fold->terms.count - 1);
 }
 
@@ -163,7 +163,7 @@ static void replace(Fold *fold, int a, int b, Expr e)
 /* X f(A)^2 with f sin or cos: with X g(A)^2, or with -X */
 static bool fold_square(Fold *fold, int self, Expr factor)
 {
-    const Term term = fold->terms.at[self];
+    const FoldTerm term = fold->terms.at[self];
     Expr angle = node_args(factor)[0];
     Expr square = expr_square(fold->arena, factor);
     Expr rest;
@@ -194,7 +194,7 @@ static bool fold_square(Fold *fold, int self, Expr factor)
 /* a X sin^2 A with b X cos^2 A, a and b different */
 static bool merge_squares(Fold *fold, int self, Expr sine)
 {
-    const Term term = fold->terms.at[self];
+    const FoldTerm term = fold->terms.at[self];
     Arena *arena = fold->arena;
     Expr angle = node_args(sine)[0];
     int partner =
@@ -218,7 +218,7 @@ static bool merge_squares(Fold *fold, int self, Expr sine)
 /* X f(A) g(B) with X f'(A) g'(B), where ' is the other of sin and cos */
 static bool fold_pair(Fold *fold, int self, Expr f, Expr g)
 {
-    const Term term = fold->terms.at[self];
+    const FoldTerm term = fold->terms.at[self];
     Arena *arena = fold->arena;
     Expr a = node_args(f)[0];
     Expr b = node_args(g)[0];

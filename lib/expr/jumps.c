@@ -12,14 +12,14 @@
 #define WIDER  8
 #define CHANGE 1e-10 /* of a value: more than rounding */
 
-typedef struct Point { /* a symbol has a value, all others one of no meaning */
+typedef struct SymbolPoint { /* a symbol has a value, all others one of no meaning */
     Expr moved;
     double at;
-} Point;
+} SymbolPoint;
 
 static double value_at(void *context, Expr symbol)
 {
-    const Point *at = context;
+    const SymbolPoint *at = context;
 
     return symbol == at->moved ? at->at : 0.7 + 0.1 * (expr_symbol_number(symbol) % 7);
 }
@@ -55,7 +55,7 @@ static Expr switch_of(Arena *arena, Expr e)
 }
 
 /* Newton's method from 0; false where it leads nowhere */
-static bool root_of(Arena *arena, Expr condition, Point *at)
+static bool root_of(Arena *arena, Expr condition, SymbolPoint *at)
 {
     Expr slope = expr_diff(arena, condition, at->moved);
     double move = INFINITY;
@@ -70,10 +70,10 @@ static bool root_of(Arena *arena, Expr condition, Point *at)
     return fabs(move) <= 1e-12 * fabs(at->at) + 1e-300;
 }
 
-static double change_about(Expr e, Point at, double step, double *size)
+static double change_about(Expr e, SymbolPoint at, double step, double *size)
 {
-    Point before = {at.moved, at.at - step};
-    Point behind = {at.moved, at.at + step};
+    SymbolPoint before = {at.moved, at.at - step};
+    SymbolPoint behind = {at.moved, at.at + step};
     double first = expr_evaluate(e, value_at, &before), last = expr_evaluate(e, value_at, &behind);
 
     *size = fabs(first) + fabs(last);
@@ -81,7 +81,7 @@ static double change_about(Expr e, Point at, double step, double *size)
 }
 
 /* A jump doesn't grow with the width that it is seen over, a ramp does, however short it is. */
-static bool jumps_at(Expr e, Point at)
+static bool jumps_at(Expr e, SymbolPoint at)
 {
     double step = NARROW * fabs(at.at) + NARROW * NARROW;
     double size;
@@ -105,7 +105,7 @@ static Expr symbol_of(Expr e, unsigned kinds)
 
 static bool jumps_by(Arena *arena, Expr e, Expr condition, unsigned kinds)
 {
-    Point at = {NULL, 0};
+    SymbolPoint at = {NULL, 0};
 
     if (condition == NULL || (expr_kinds(condition) & ~(kinds | 1U << SYMBOL_PARAMETER)) != 0)
         return false;

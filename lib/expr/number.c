@@ -11,17 +11,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef __int128 Wide;
+typedef __int128 NumberWide;
 
 /* digits of a literal from which on it is meant as a double: what a double prints with */
 enum { DOUBLE_DIGITS = 16 };
 
-static Wide wide_gcd(Wide a, Wide b)
+static NumberWide long_gcd(NumberWide a, NumberWide b)
 {
     a = a < 0 ? -a : a;
     b = b < 0 ? -b : b;
     while (b != 0) {
-        Wide rest = a % b;
+        NumberWide rest = a % b;
 
         a = b;
         b = rest;
@@ -36,17 +36,17 @@ static Wide wide_gcd(Wide a, Wide b)
                 x = y;
                 y = z;
             }
-            return (Wide)x;
+            return (NumberWide)x;
         }
     }
     return a;
 }
 
 /* den > 0 */
-static Number wide_ratio(Wide num, Wide den)
+static Number long_ratio(NumberWide num, NumberWide den)
 {
     if (den != 1) {
-        Wide common = wide_gcd(num, den);
+        NumberWide common = long_gcd(num, den);
 
         num /= common;
         den /= common;
@@ -129,8 +129,9 @@ Number number_add(Number a, Number b)
     if (a.pi != 0)
         return times_pi(number_add(without_pi(a), without_pi(b)), a.pi);
     if (a.den == 1 && b.den == 1)
-        return wide_ratio((Wide)a.num + b.num, 1);
-    return wide_ratio((Wide)a.num * b.den + (Wide)b.num * a.den, (Wide)a.den * b.den);
+        return long_ratio((NumberWide)a.num + b.num, 1);
+    return long_ratio((NumberWide)a.num * b.den + (NumberWide)b.num * a.den,
+                      (NumberWide)a.den * b.den);
 }
 
 /* Doubles come of functions' values and of long products, each rounded by some eps/2: entries of a
@@ -163,7 +164,7 @@ Number number_mul(Number a, Number b)
     }
     if ((a.pi | b.pi) != 0)
         return times_pi(number_mul(without_pi(a), without_pi(b)), a.pi + b.pi);
-    return wide_ratio((Wide)a.num * b.num, (Wide)a.den * b.den);
+    return long_ratio((NumberWide)a.num * b.num, (NumberWide)a.den * b.den);
 }
 
 Number number_neg(Number a)
@@ -227,8 +228,8 @@ int number_sign(Number a)
 int number_compare(Number a, Number b)
 {
     if (a.den != 0 && b.den != 0 && a.pi == b.pi) {
-        Wide left = (Wide)a.num * b.den;
-        Wide right = (Wide)b.num * a.den;
+        NumberWide left = (NumberWide)a.num * b.den;
+        NumberWide right = (NumberWide)b.num * a.den;
 
         return (left > right) - (left < right);
     }
@@ -286,7 +287,8 @@ Expr expr_rational(Arena *arena, int64_t num, int64_t den)
         arena_fail(arena, E_DOMAIN, "division by zero");
         return arena_zero(arena);
     }
-    return number_node(arena, den < 0 ? wide_ratio(-(Wide)num, -(Wide)den) : wide_ratio(num, den));
+    return number_node(arena, den < 0 ? long_ratio(-(NumberWide)num, -(NumberWide)den)
+                                      : long_ratio(num, den));
 }
 
 Expr expr_real(Arena *arena, double value)
@@ -310,9 +312,9 @@ Expr expr_pi(Arena *arena, int power)
 }
 
 /* value*10 + digit, false where it gets too long */
-static bool append_digit(Wide *value, int digit)
+static bool append_digit(NumberWide *value, int digit)
 {
-    if (*value > (Wide)INT64_MAX * 1000000000)
+    if (*value > (NumberWide)INT64_MAX * 1000000000)
         return false;
     *value = *value * 10 + digit;
     return true;
@@ -320,8 +322,8 @@ static bool append_digit(Wide *value, int digit)
 
 bool decimal_exact(const char *text, int64_t *num, int64_t *den)
 {
-    Wide digits = 0;
-    Wide power = 1;
+    NumberWide digits = 0;
+    NumberWide power = 1;
     long exponent = 0;
     int significant = 0;
     bool point = false;
@@ -344,13 +346,13 @@ bool decimal_exact(const char *text, int64_t *num, int64_t *den)
     if ((point && significant >= DOUBLE_DIGITS) || exponent > 40 || exponent < -40)
         return digits == 0 ? (*num = 0, *den = 1, true) : false;
     for (long i = labs(exponent); i > 0; i--) {
-        if (power > (Wide)INT64_MAX * 1000000000)
+        if (power > (NumberWide)INT64_MAX * 1000000000)
             return false;
         power *= 10;
     }
     if (exponent > 0 && digits > INT64_MAX / power)
         return false;
-    n = exponent > 0 ? wide_ratio(digits * power, 1) : wide_ratio(digits, power);
+    n = exponent > 0 ? long_ratio(digits * power, 1) : long_ratio(digits, power);
     *num = n.num;
     *den = n.den;
     return n.den != 0;

@@ -142,26 +142,26 @@ static bool meet(Met *met, Expr e)
 }
 
 /* who is asked whether to stop, and was not yet, or said no */
-typedef struct Asked {
-    const Watch *watch;
+typedef struct OperationQuery {
+    const CallMonitor *watch;
     uint32_t looks;
     bool is_stopped;
-} Asked;
+} OperationQuery;
 
 enum { BETWEEN_QUESTIONS = 4096 }; /* nodes: a millisecond or less */
 
 static bool goes_on(void *context, Expr e)
 {
-    Asked *asked = context;
+    OperationQuery *asked = context;
 
     (void)e;
     if (++asked->looks % BETWEEN_QUESTIONS == 0)
-        asked->is_stopped = asked->is_stopped || poll(asked->watch) != OK;
+        asked->is_stopped = asked->is_stopped || monitor_poll(asked->watch) != OK;
     return !asked->is_stopped;
 }
 
 /* what is counted doesn't matter once it is stopped */
-static OpCount count_shared(const Expr *roots, int count, unsigned kinds, Asked *asked)
+static OpCount count_shared(const Expr *roots, int count, unsigned kinds, OperationQuery *asked)
 {
     OpCount total = {0};
     Met met = {.size = 16};
@@ -195,7 +195,7 @@ static OpCount count_shared(const Expr *roots, int count, unsigned kinds, Asked 
 
 OpCount expr_count_beside(const Expr *roots, int count, unsigned kinds)
 {
-    Asked nobody = {.watch = NULL};
+    OperationQuery nobody = {.watch = NULL};
 
     return count_shared(roots, count, kinds, &nobody);
 }
@@ -205,9 +205,9 @@ OpCount expr_count_shared(const Expr *roots, int count)
     return expr_count_beside(roots, count, 0);
 }
 
-Status expr_count_watched(const Expr *roots, int count, const Watch *watch, OpCount *out)
+Status expr_count_watched(const Expr *roots, int count, const CallMonitor *watch, OpCount *out)
 {
-    Asked asked = {.watch = watch};
+    OperationQuery asked = {.watch = watch};
     const OpCount total = count_shared(roots, count, 0, &asked);
 
     if (asked.is_stopped)

@@ -12,25 +12,25 @@
 
 void say(Printer *printer, const char *text)
 {
-    say_part(printer, text, strlen(text));
+    write_part(printer, text, strlen(text));
 }
 
-void say_part(Printer *printer, const char *text, size_t length)
+void write_part(Printer *printer, const char *text, size_t length)
 {
     LIST_PUSH(printer->pieces, (Piece){.kind = PIECE_TEXT, .text = text, .length = length});
 }
 
-void say_node(Printer *printer, Expr e, Level level)
+void write_node(Printer *printer, Expr e, Level level)
 {
     LIST_PUSH(printer->pieces, (Piece){.kind = PIECE_NODE, .e = e, .level = level});
 }
 
-void say_number(Printer *printer, Number number, Level level)
+void write_number(Printer *printer, Number number, Level level)
 {
     LIST_PUSH(printer->pieces, (Piece){.kind = PIECE_NUMBER, .number = number, .level = level});
 }
 
-void say_pieces(Printer *printer, const Piece *pieces, int count, const char *between)
+void write_pieces(Printer *printer, const Piece *pieces, int count, const char *between)
 {
     for (int i = 0; i < count; i++) {
         if (i > 0)
@@ -39,12 +39,12 @@ void say_pieces(Printer *printer, const Piece *pieces, int count, const char *be
     }
 }
 
-void say_arguments(Printer *printer, Expr e)
+void write_arguments(Printer *printer, Expr e)
 {
     for (int i = 0; i < e->count; i++) {
         if (i > 0)
             say(printer, ", ");
-        say_node(printer, node_args(e)[i], LEVEL_ANY);
+        write_node(printer, node_args(e)[i], LEVEL_ANY);
     }
 }
 
@@ -84,7 +84,7 @@ static int first_term(const Summands *terms)
     return 0;
 }
 
-static void say_term(Printer *printer, Expr term, bool first)
+static void write_term(Printer *printer, Expr term, bool first)
 {
     const bool negative = is_negative(held(term));
 
@@ -102,10 +102,10 @@ static void lay_sum(Printer *printer, Expr sum)
     Summands terms = summands_of(sum);
     const int start = first_term(&terms);
 
-    say_term(printer, terms.at[start], true);
+    write_term(printer, terms.at[start], true);
     for (int i = 0; i < terms.count; i++) {
         if (i != start)
-            say_term(printer, terms.at[i], false);
+            write_term(printer, terms.at[i], false);
     }
     LIST_FREE(terms);
 }
@@ -203,16 +203,16 @@ void fraction_inline(Printer *printer, const Fraction *fraction, const char *div
     bool numbered = !number_is(fraction->number, 1) || fraction->above.count == 0;
 
     if (numbered)
-        say_number(printer, fraction->number, LEVEL_PRODUCT);
+        write_number(printer, fraction->number, LEVEL_PRODUCT);
     if (numbered && fraction->above.count > 0)
         say(printer, printer->dialect->times);
-    say_pieces(printer, fraction->above.at, fraction->above.count, printer->dialect->times);
+    write_pieces(printer, fraction->above.at, fraction->above.count, printer->dialect->times);
     if (fraction->below.count == 0)
         return;
     say(printer, divide);
     if (fraction->below.count > 1)
         say(printer, printer->dialect->open);
-    say_pieces(printer, fraction->below.at, fraction->below.count, printer->dialect->times);
+    write_pieces(printer, fraction->below.at, fraction->below.count, printer->dialect->times);
     if (fraction->below.count > 1)
         say(printer, printer->dialect->close);
 }
@@ -246,7 +246,7 @@ Level plain_power_level(Expr base, Expr exponent, Number number)
     return LEVEL_POWER;
 }
 
-bool say_operator(Printer *printer, Expr e, const char *sign)
+bool write_operator(Printer *printer, Expr e, const char *sign)
 {
     Level level = operator_level(e);
 
@@ -254,15 +254,15 @@ bool say_operator(Printer *printer, Expr e, const char *sign)
         return false;
     if (e->op == OP_NOT) {
         say(printer, sign);
-        say_node(printer, node_args(e)[0], LEVEL_POWER);
+        write_node(printer, node_args(e)[0], LEVEL_POWER);
         return true;
     }
     /* comparisons don't chain; the others bind to the left */
-    say_node(printer, node_args(e)[0], level == LEVEL_COMPARE ? LEVEL_SUM : level);
+    write_node(printer, node_args(e)[0], level == LEVEL_COMPARE ? LEVEL_SUM : level);
     say(printer, " ");
     say(printer, sign);
     say(printer, " ");
-    say_node(printer, node_args(e)[1], (Level)(level + 1));
+    write_node(printer, node_args(e)[1], (Level)(level + 1));
     return true;
 }
 
@@ -405,7 +405,7 @@ static void lay_node(Printer *printer, Expr e, bool magnitude)
         else {
             if (!magnitude)
                 say(printer, "-");
-            say_number(printer, number_neg(number_of(e)), LEVEL_PRODUCT);
+            write_number(printer, number_neg(number_of(e)), LEVEL_PRODUCT);
         }
     }
 }
@@ -441,7 +441,7 @@ static void print_with(Text *out, Expr e, const Dialect *dialect)
 {
     Printer printer = {.out = out, .dialect = dialect};
 
-    say_node(&printer, e, LEVEL_ANY);
+    write_node(&printer, e, LEVEL_ANY);
     while (printer.pieces.count > 0) {
         Piece piece = printer.pieces.at[--printer.pieces.count];
         int low = printer.pieces.count;

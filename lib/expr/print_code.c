@@ -95,12 +95,12 @@ static int times_itself(Expr base, Expr exponent, Number number)
     return (int)number.num;
 }
 
-static void say_exponent(Printer *printer, Expr exponent, Number number, Level level)
+static void write_exponent(Printer *printer, Expr exponent, Number number, Level level)
 {
     if (exponent != NULL)
-        say_node(printer, exponent, level);
+        write_node(printer, exponent, level);
     else
-        say_number(printer, number, level);
+        write_number(printer, number, level);
 }
 
 static void c_power(Printer *printer, Expr base, Expr exponent, Number number)
@@ -109,16 +109,16 @@ static void c_power(Printer *printer, Expr base, Expr exponent, Number number)
 
     if (times == 0) {
         say(printer, "pow(");
-        say_node(printer, base, LEVEL_ANY);
+        write_node(printer, base, LEVEL_ANY);
         say(printer, ", ");
-        say_exponent(printer, exponent, number, LEVEL_ANY);
+        write_exponent(printer, exponent, number, LEVEL_ANY);
         say(printer, ")");
         return;
     }
     for (int i = 0; i < times; i++) {
         if (i > 0)
             say(printer, "*");
-        say_node(printer, base, LEVEL_ATOM);
+        write_node(printer, base, LEVEL_ATOM);
     }
 }
 
@@ -131,7 +131,7 @@ static void sign_power(Printer *printer, Expr base, Expr exponent, Number number
 {
     static const char *const whole[] = {"0", "1", "2", "3", "4", "5", "6", "7", "8", "9"};
 
-    say_node(printer, base, LEVEL_ATOM);
+    write_node(printer, base, LEVEL_ATOM);
     say(printer, sign);
     if (exponent != NULL && is_number(exponent))
         number = number_of(exponent);
@@ -140,7 +140,7 @@ static void sign_power(Printer *printer, Expr base, Expr exponent, Number number
         number.num <= 9)
         say(printer, whole[number.num]);
     else
-        say_exponent(printer, exponent, number, LEVEL_ATOM);
+        write_exponent(printer, exponent, number, LEVEL_ATOM);
 }
 
 static void star_power(Printer *printer, Expr base, Expr exponent, Number number)
@@ -172,38 +172,38 @@ static const char *const c_names[] = {
 #undef OP
 };
 
-static void say_pattern(Printer *printer, const char *pattern, Expr e)
+static void write_pattern(Printer *printer, const char *pattern, Expr e)
 {
     for (const char *c = pattern; *c != '\0';) {
         size_t plain = strcspn(c, "$%");
 
-        say_part(printer, c, plain);
+        write_part(printer, c, plain);
         c += plain;
         if (*c == '\0')
             break;
-        say_node(printer, node_args(e)[c[1] - '0'], *c == '%' ? LEVEL_SUM : LEVEL_ANY);
+        write_node(printer, node_args(e)[c[1] - '0'], *c == '%' ? LEVEL_SUM : LEVEL_ANY);
         c += 2;
     }
 }
 
-static void say_call(Printer *printer, Expr e, Notation notation, const char *library)
+static void write_call(Printer *printer, Expr e, Notation notation, const char *library)
 {
     if (patterns[e->op][notation] != NULL) {
-        say_pattern(printer, patterns[e->op][notation], e);
+        write_pattern(printer, patterns[e->op][notation], e);
         return;
     }
-    if (say_operator(printer, e, c_names[e->op]))
+    if (write_operator(printer, e, c_names[e->op]))
         return;
     say(printer, library);
     say(printer, c_names[e->op]);
     say(printer, "(");
-    say_arguments(printer, e);
+    write_arguments(printer, e);
     say(printer, ")");
 }
 
 static void c_call(Printer *printer, Expr e)
 {
-    say_call(printer, e, NOTATION_C, "");
+    write_call(printer, e, NOTATION_C, "");
 }
 
 /* table1_, table1_d ...: functions, whose names may not begin as those of C */
@@ -220,9 +220,9 @@ static void matlab_table(Printer *printer, Expr e)
     static const char *const derivatives[CURVE_ORDERS] = {"(", "d(", "dd(", "ddd("};
     const Expr *args = node_args(e);
 
-    say_node(printer, args[0], LEVEL_ATOM);
+    write_node(printer, args[0], LEVEL_ATOM);
     say(printer, derivatives[(int)expr_value(args[2])]);
-    say_node(printer, args[1], LEVEL_ANY);
+    write_node(printer, args[1], LEVEL_ANY);
     say(printer, ")");
 }
 
@@ -231,17 +231,17 @@ static void matlab_call(Printer *printer, Expr e)
     if (e->op == OP_TABLE && expr_data(node_args(e)[0]) != NULL)
         matlab_table(printer, e);
     else
-        say_call(printer, e, NOTATION_MATLAB, "");
+        write_call(printer, e, NOTATION_MATLAB, "");
 }
 
 static void python_call(Printer *printer, Expr e)
 {
-    say_call(printer, e, NOTATION_PYTHON, "math.");
+    write_call(printer, e, NOTATION_PYTHON, "math.");
 }
 
 static void fortran_call(Printer *printer, Expr e)
 {
-    say_call(printer, e, NOTATION_FORTRAN, "");
+    write_call(printer, e, NOTATION_FORTRAN, "");
 }
 
 static Level matlab_level(Expr e)

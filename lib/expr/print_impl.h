@@ -80,11 +80,11 @@ extern const Dialect dialect_python;
 extern const Dialect dialect_fortran;
 
 void say(Printer *printer, const char *text);
-void say_part(Printer *printer, const char *text, size_t length);
-void say_node(Printer *printer, Expr e, Level level);
-void say_number(Printer *printer, Number number, Level level);
-void say_pieces(Printer *printer, const Piece *pieces, int count, const char *between);
-void say_arguments(Printer *printer, Expr e); /* a, b, c */
+void write_part(Printer *printer, const char *text, size_t length);
+void write_node(Printer *printer, Expr e, Level level);
+void write_number(Printer *printer, Number number, Level level);
+void write_pieces(Printer *printer, const Piece *pieces, int count, const char *between);
+void write_arguments(Printer *printer, Expr e); /* a, b, c */
 
 /* above/below with signs of multiplication and division between */
 void fraction_inline(Printer *printer, const Fraction *fraction, const char *divide);
@@ -92,7 +92,7 @@ void fraction_inline(Printer *printer, const Fraction *fraction, const char *div
 Level operator_level(Expr e);
 Level plain_power_level(Expr base, Expr exponent, Number number); /* of one with ^ or ** */
 /* a < b, a && b, !a with the operator's sign; false where e is no such call */
-bool say_operator(Printer *printer, Expr e, const char *sign);
+bool write_operator(Printer *printer, Expr e, const char *sign);
 
 /* Digits of an exact decimal, e.g. 0.25 of 1/4; false where it has none, or more than `most`. */
 bool ratio_decimal(char text[64], Number number, int most);

@@ -165,15 +165,15 @@ static void latex_symbol(Text *out, Expr symbol)
 /* --- products, powers, calls --- */
 
 /* What stands above or below the line; alone there, it needs no brackets. */
-static void say_part_of_fraction(Printer *printer, Number number, const Piece *pieces, int count)
+static void write_part_of_fraction(Printer *printer, Number number, const Piece *pieces, int count)
 {
     bool numbered = !number_is(number, 1) || count == 0;
 
     if (numbered)
-        say_number(printer, number, LEVEL_PRODUCT);
+        write_number(printer, number, LEVEL_PRODUCT);
     if (numbered && count > 0)
         say(printer, printer->dialect->times);
-    say_pieces(printer, pieces, count, printer->dialect->times);
+    write_pieces(printer, pieces, count, printer->dialect->times);
     if (!numbered && count == 1)
         printer->pieces.at[printer->pieces.count - 1].level = LEVEL_ANY;
 }
@@ -193,9 +193,9 @@ static void latex_fraction(Printer *printer, const Fraction *fraction)
         return;
     }
     say(printer, "\\frac{");
-    say_part_of_fraction(printer, above, fraction->above.at, fraction->above.count);
+    write_part_of_fraction(printer, above, fraction->above.at, fraction->above.count);
     say(printer, "}{");
-    say_part_of_fraction(printer, below, fraction->below.at, fraction->below.count);
+    write_part_of_fraction(printer, below, fraction->below.at, fraction->below.count);
     say(printer, "}");
 }
 
@@ -211,27 +211,27 @@ static bool takes_power(Expr e)
     return e->kind == EXPR_CALL && e->count == 1 && e->op <= OP_LOG;
 }
 
-static void say_exponent(Printer *printer, Expr exponent, Number number)
+static void write_exponent(Printer *printer, Expr exponent, Number number)
 {
     say(printer, "^{");
     if (exponent != NULL)
-        say_node(printer, exponent, LEVEL_ANY);
+        write_node(printer, exponent, LEVEL_ANY);
     else
-        say_number(printer, number, LEVEL_ANY);
+        write_number(printer, number, LEVEL_ANY);
     say(printer, "}");
 }
 
 static void latex_power(Printer *printer, Expr base, Expr exponent, Number number)
 {
     if (!takes_power(base)) {
-        say_node(printer, base, LEVEL_ATOM);
-        say_exponent(printer, exponent, number);
+        write_node(printer, base, LEVEL_ATOM);
+        write_exponent(printer, exponent, number);
         return;
     }
     say(printer, names[base->op]);
-    say_exponent(printer, exponent, number);
+    write_exponent(printer, exponent, number);
     say(printer, "\\left(");
-    say_node(printer, node_args(base)[0], LEVEL_ANY);
+    write_node(printer, node_args(base)[0], LEVEL_ANY);
     say(printer, "\\right)");
 }
 
@@ -239,31 +239,31 @@ static void latex_call(Printer *printer, Expr e)
 {
     const Expr *args = node_args(e);
 
-    if (say_operator(printer, e, names[e->op]))
+    if (write_operator(printer, e, names[e->op]))
         return;
     if (e->op == OP_IF) {
         say(printer, "\\begin{cases} ");
-        say_node(printer, args[1], LEVEL_ANY);
+        write_node(printer, args[1], LEVEL_ANY);
         say(printer, " & \\text{if } ");
-        say_node(printer, args[0], LEVEL_ANY);
+        write_node(printer, args[0], LEVEL_ANY);
         say(printer, " \\\\ ");
-        say_node(printer, args[2], LEVEL_ANY);
+        write_node(printer, args[2], LEVEL_ANY);
         say(printer, " & \\text{otherwise} \\end{cases}");
         return;
     }
     if (e->op == OP_TABLE && expr_data(args[0]) != NULL) {
         static const char *const primes[CURVE_ORDERS] = {"", "'", "''", "'''"};
 
-        say_node(printer, args[0], LEVEL_ATOM);
+        write_node(printer, args[0], LEVEL_ATOM);
         say(printer, primes[(int)expr_value(args[2])]);
         say(printer, "\\left(");
-        say_node(printer, args[1], LEVEL_ANY);
+        write_node(printer, args[1], LEVEL_ANY);
         say(printer, "\\right)");
         return;
     }
     say(printer, names[e->op]);
     say(printer, e->op == OP_SQRT ? "{" : e->op == OP_ABS ? "" : "\\left(");
-    say_arguments(printer, e);
+    write_arguments(printer, e);
     say(printer, e->op == OP_SQRT ? "}" : e->op == OP_ABS ? "\\right|" : "\\right)");
 }
 

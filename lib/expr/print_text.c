@@ -66,12 +66,12 @@ static void text_fraction(Printer *printer, const Fraction *fraction)
 
 static void text_power(Printer *printer, Expr base, Expr exponent, Number number)
 {
-    say_node(printer, base, LEVEL_ATOM);
+    write_node(printer, base, LEVEL_ATOM);
     say(printer, "^");
     if (exponent != NULL)
-        say_node(printer, exponent, LEVEL_ATOM);
+        write_node(printer, exponent, LEVEL_ATOM);
     else
-        say_number(printer, number, LEVEL_ATOM);
+        write_number(printer, number, LEVEL_ATOM);
 }
 
 /* table("file.csv", x, column), and the order of a derivative behind it */
@@ -84,13 +84,13 @@ static void text_table(Printer *printer, Expr e)
     say(printer, "table(\"");
     say(printer, table->file);
     say(printer, "\", ");
-    say_node(printer, args[1], LEVEL_ANY);
+    write_node(printer, args[1], LEVEL_ANY);
     say(printer, is_number ? ", " : ", \"");
     say(printer, table->column);
     say(printer, is_number ? "" : "\"");
     if (!expr_is_zero(args[2])) {
         say(printer, ", ");
-        say_node(printer, args[2], LEVEL_ANY);
+        write_node(printer, args[2], LEVEL_ANY);
     }
     say(printer, ")");
 }
@@ -101,11 +101,11 @@ static void text_call(Printer *printer, Expr e)
         text_table(printer, e);
         return;
     }
-    if (say_operator(printer, e, op_name(e->op)))
+    if (write_operator(printer, e, op_name(e->op)))
         return;
     say(printer, op_name(e->op));
     say(printer, "(");
-    say_arguments(printer, e);
+    write_arguments(printer, e);
     say(printer, ")");
 }
 
@@ -163,7 +163,7 @@ static void unicode_power(Printer *printer, Expr base, Expr exponent, Number num
         text_power(printer, base, exponent, number);
         return;
     }
-    say_node(printer, base, LEVEL_ATOM);
+    write_node(printer, base, LEVEL_ATOM);
     if (number.num > 9)
         say(printer, raised[number.num / 10]);
     say(printer, raised[number.num % 10]);
@@ -174,7 +174,7 @@ static void unicode_call(Printer *printer, Expr e)
     static const char *const signs[OP_COUNT] = {
         [OP_LE] = "≤", [OP_NE] = "≠", [OP_AND] = "∧", [OP_OR] = "∨", [OP_NOT] = "¬"};
 
-    if (signs[e->op] == NULL || !say_operator(printer, e, signs[e->op]))
+    if (signs[e->op] == NULL || !write_operator(printer, e, signs[e->op]))
         text_call(printer, e);
 }
 

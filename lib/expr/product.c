@@ -15,11 +15,11 @@
 enum { AT_HAND = 16 };
 
 /* factors on their way into a node */
-typedef struct Gathered {
+typedef struct GatheredFactors {
     Item *items;
     int count;
     Number number;
-} Gathered;
+} GatheredFactors;
 
 static Item factor_item(Arena *arena, Expr factor)
 {
@@ -38,7 +38,7 @@ static Item factor_item(Arena *arena, Expr factor)
     return item;
 }
 
-static void push_factor(Arena *arena, Gathered *gathered, Expr factor)
+static void push_factor(Arena *arena, GatheredFactors *gathered, Expr factor)
 {
     if (is_number(factor)) {
         gathered->number = number_mul(gathered->number, number_of(factor));
@@ -52,7 +52,7 @@ static void push_factor(Arena *arena, Gathered *gathered, Expr factor)
 }
 
 /* Add the exponents of equal bases, which stand side by side. */
-static void merge_factors(Arena *arena, Gathered *gathered)
+static void merge_factors(Arena *arena, GatheredFactors *gathered)
 {
     Item *items = gathered->items;
     int kept = 0;
@@ -85,7 +85,7 @@ static Expr product_node(Arena *arena, Number number, Expr *args, int count)
 }
 
 /* The product of unlike factors in order. */
-static Expr product_of_items(Arena *arena, const Gathered *gathered)
+static Expr product_of_items(Arena *arena, const GatheredFactors *gathered)
 {
     Expr at_hand[AT_HAND + 1];
     Expr *args = gathered->count <= AT_HAND ? at_hand : NEW_ARRAY(Expr, gathered->count + 1);
@@ -123,7 +123,7 @@ static Expr product_of_items(Arena *arena, const Gathered *gathered)
 Expr expr_product(Arena *arena, const Expr *factors, int count)
 {
     Item at_hand[AT_HAND];
-    Gathered gathered = {.items = at_hand, .number = number_int(1)};
+    GatheredFactors gathered = {.items = at_hand, .number = number_int(1)};
     int total = 0;
     Expr product;
 

@@ -434,7 +434,7 @@ static Renamings *renamings_of(Arena *arena)
     renamings = NEW(Renamings);
     renamings->names = names_new();
     renamings->prefixes = names_new();
-    arena_put_renamings(arena, renamings, renamings_free);
+    arena_add_renamings(arena, renamings, renamings_free);
     return renamings;
 }
 
@@ -551,5 +551,5 @@ void renamings_end(Arena *arena)
     if (renamings == NULL || (!is_stale && renamings->list.count <= 2 * used + 16))
         return;
     renamings_free(renamings);
-    arena_put_renamings(arena, NULL, NULL);
+    arena_add_renamings(arena, NULL, NULL);
 }

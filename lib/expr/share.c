@@ -52,7 +52,7 @@ typedef struct SharedPair {
     LIST(int) pieces; /* that have or had it */
 } SharedPair;
 
-typedef struct Share {
+typedef struct SubtermSharing {
     Arena *arena;
     Walk nodes;
     LIST(SharedOperand) operands; /* what each of the nodes is */
@@ -63,12 +63,12 @@ typedef struct Share {
     Heap heap;
     int *table; /* hash table of pairs: index + 1, 0 where empty */
     uint32_t table_size;
-} Share;
+} SubtermSharing;
 
 /* --- nodes and operands --- */
 
 /* what a node is */
-static SharedOperand operand_of(const Share *share, Expr e)
+static SharedOperand operand_of(const SubtermSharing *share, Expr e)
 {
     return share->operands.at[walk_find(&share->nodes, e)];
 }
@@ -80,7 +80,7 @@ static SharedOperand negative_of(SharedOperand operand)
 }
 
 /* The thing that the next node of the walk is, found or new. */
-static SharedOperand find_thing(Share *share, Expr e)
+static SharedOperand find_thing(SubtermSharing *share, Expr e)
 {
     bool negative =
         (e->kind == EXPR_SUM || e->kind == EXPR_PRODUCT || is_number(e)) && is_negative(e);
@@ -99,7 +99,7 @@ static SharedOperand find_thing(Share *share, Expr e)
 }
 
 /* Whether a power is a product that is looked into; `operand` is then its base. */
-static bool is_repeated(const Share *share, Expr e, SharedOperand *operand)
+static bool is_repeated(const SubtermSharing *share, Expr e, SharedOperand *operand)
 {
     int64_t k;
 
@@ -123,7 +123,8 @@ static int find_operand(const SharedPiece *piece, int thing)
 }
 
 /* Add an operand to the last piece of a thing, or to a new one. A piece has a thing once. */
-static void push_operand(Share *share, SharedThing *thing, ExprKind kind, SharedOperand operand)
+static void push_operand(SubtermSharing *share, SharedThing *thing, ExprKind kind,
+                         SharedOperand operand)
 {
     SharedPiece *last = thing->piece_count > 0 ? &share->pieces.at[share->pieces.count - 1] : NULL;
     int like = last != NULL ? find_operand(last, operand.thing) : 0;
@@ -141,7 +142,7 @@ static void push_operand(Share *share, SharedThing *thing, ExprKind kind, Shared
     last->at[last->count++] = operand;
 }
 
-static void list_operands(Share *share, SharedThing *thing)
+static void list_operands(SubtermSharing *share, SharedThing *thing)
 {
     Expr e = thing->from;
     SharedOperand operand;
@@ -166,7 +167,7 @@ static void list_operands(Share *share, SharedThing *thing)
 }
 
 /* Mark what a thing is made of. */
-static void use_parts(Share *share, const SharedThing *thing)
+static void use_parts(SubtermSharing *share, const SharedThing *thing)
 {
     for (int p = 0; p < thing->piece_count; p++) {
         const SharedPiece *piece = &share->pieces.at[thing->first_piece + p];
@@ -178,7 +179,7 @@ static void use_parts(Share *share, const SharedThing *thing)
         share->things.at[operand_of(share, node_args(thing->from)[i]).thing].used = true;
 }
 
-static void list_things(Share *share, const Expr *roots, int count)
+static void list_things(SubtermSharing *share, const Expr *roots, int count)
 {
     walk_roots(&share->nodes, roots, count);
     for (int i = 0; i < share->nodes.count; i++)
@@ -198,7 +199,7 @@ static void list_things(Share *share, const Expr *roots, int count)
 
 /* --- pairs --- */
 
-static uint32_t pair_slot(const Share *share, const SharedPair *wanted)
+static uint32_t pair_slot(const SubtermSharing *share, const SharedPair *wanted)
 {
     uint32_t hash = (uint32_t)wanted->a * 0x9E3779B1U ^ (uint32_t)wanted->b * 0x85EBCA6BU;
     uint32_t i = (hash ^ hash >> 15) + 2 * (uint32_t)wanted->opposite + wanted->kind;
@@ -213,7 +214,7 @@ static uint32_t pair_slot(const Share *share, const SharedPair *wanted)
     return i;
 }
 
-static unsigned kinds_of(const Share *share, int thing)
+static unsigned kinds_of(const SubtermSharing *share, int thing)
 {
     const SharedThing *t = &share->things.at[thing];
 
@@ -221,7 +222,8 @@ static unsigned kinds_of(const Share *share, int thing)
 }
 
 /* the pair of two operands, found or new */
-static int pair_of(Share *share, ExprKind kind, const SharedOperand *x, const SharedOperand *y)
+static int pair_of(SubtermSharing *share, ExprKind kind, const SharedOperand *x,
+                   const SharedOperand *y)
 {
     SharedPair pair = {x->thing, y->thing, .kind = kind, .opposite = x->negative != y->negative};
     uint32_t slot;
@@ -246,7 +248,7 @@ static int pair_of(Share *share, ExprKind kind, const SharedOperand *x, const Sh
     return share->table[slot] - 1;
 }
 
-static bool is_below(const Share *share, const SharedOperand *operand)
+static bool is_below(const SubtermSharing *share, const SharedOperand *operand)
 {
     Expr e = share->things.at[operand->thing].e;
 
@@ -255,7 +257,7 @@ static bool is_below(const Share *share, const SharedOperand *operand)
 }
 
 /* How many operations the pair of operands i and j of a piece takes there. */
-static int uses_in(const Share *share, const SharedPiece *piece, int i, int j)
+static int uses_in(const SubtermSharing *share, const SharedPiece *piece, int i, int j)
 {
     const SharedOperand *x = &piece->at[i];
     const SharedOperand *y = &piece->at[j];
@@ -271,7 +273,7 @@ static int uses_in(const Share *share, const SharedPiece *piece, int i, int j)
 }
 
 /* most uses first, of equals what depends on less */
-static void rank_pair(Share *share, int pair)
+static void rank_pair(SubtermSharing *share, int pair)
 {
     const SharedPair *p = &share->pairs.at[pair];
 
@@ -281,7 +283,7 @@ static void rank_pair(Share *share, int pair)
 
 /* Count (sign 1) the pairs that the first `changed` operands of a piece are in, or forget
  * them (sign -1). */
-static void count_pairs(Share *share, int number, int changed, int sign)
+static void count_pairs(SubtermSharing *share, int number, int changed, int sign)
 {
     const SharedPiece piece = share->pieces.at[number];
 
@@ -333,7 +335,7 @@ static int rewrite(SharedPiece *piece, bool twice, SharedOperand whole)
 }
 
 /* Put a pair, as the thing `whole`, in place of its operands where the piece still has them. */
-static void replace_in(Share *share, int number, SharedPair pair, int whole)
+static void replace_in(SubtermSharing *share, int number, SharedPair pair, int whole)
 {
     SharedPiece *piece = &share->pieces.at[number];
     bool twice = pair.a == pair.b;
@@ -354,7 +356,7 @@ static void replace_in(Share *share, int number, SharedPair pair, int whole)
     count_pairs(share, number, rewrite(piece, twice, operand), 1);
 }
 
-static void take_pairs(Share *share)
+static void take_pairs(SubtermSharing *share)
 {
     for (int i = 0; i < share->pieces.count; i++)
         count_pairs(share, i, share->pieces.at[i].count, 1);
@@ -376,22 +378,23 @@ static void take_pairs(Share *share)
 
 /* --- rebuilding --- */
 
-static Expr image_of(Share *share, int thing);
+static Expr image_of(SubtermSharing *share, int thing);
 
 /* An operand as it stands among others. What was a list of its own is held: it doesn't run into
  * theirs, and a sum isn't computed with either sign. */
-static Expr operand_image(Share *share, SharedOperand operand)
+static Expr operand_image(SubtermSharing *share, SharedOperand operand)
 {
     Expr e = image_of(share, operand.thing);
 
     if (share->things.at[operand.thing].piece_count > 0)
-        e = expr_hold(share->arena, e);
+        e = expr_name_temporary(share->arena, e);
     if (operand.power > 1)
         e = expr_pow(share->arena, e, expr_int(share->arena, operand.power));
     return operand.negative ? expr_neg(share->arena, e) : e;
 }
 
-static Expr list_image(Share *share, const SharedOperand *operands, int count, ExprKind kind)
+static Expr list_image(SubtermSharing *share, const SharedOperand *operands, int count,
+                       ExprKind kind)
 {
     LIST(Expr) images = {0};
     Expr image;
@@ -406,7 +409,7 @@ static Expr list_image(Share *share, const SharedOperand *operands, int count, E
 
 /* The image of a thing, made where it isn't there: pairs are no deeper than DEEPEST, and
  * everything else has its image before it is asked for. */
-static Expr image_of(Share *share, int thing)
+static Expr image_of(SubtermSharing *share, int thing)
 {
     if (share->things.at[thing].image == NULL) {
         const SharedPair *pair = &share->pairs.at[share->things.at[thing].pair];
@@ -415,13 +418,13 @@ static Expr image_of(Share *share, int thing)
                                            {pair->b, 1, pair->opposite}};
         Expr image = list_image(share, operands, twice ? 1 : 2, pair->kind);
 
-        share->things.at[thing].image = expr_hold(share->arena, image);
+        share->things.at[thing].image = expr_name_temporary(share->arena, image);
     }
     return share->things.at[thing].image;
 }
 
 /* Make the image of a thing whose parts have theirs. */
-static void make_image(Share *share, SharedThing *thing)
+static void make_image(SubtermSharing *share, SharedThing *thing)
 {
     LIST(SharedOperand) operands = {0};
     LIST(Expr) args = {0};
@@ -457,7 +460,7 @@ static void make_image(Share *share, SharedThing *thing)
 
 void expr_share(Arena *arena, Expr *roots, int count)
 {
-    Share share = {.arena = arena};
+    SubtermSharing share = {.arena = arena};
     int things;
 
     list_things(&share, roots, count);

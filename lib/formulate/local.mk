@@ -1,13 +1,13 @@
 libcore_la_SOURCES += \
 	lib/formulate/system/constraints.h lib/formulate/system/dynamics.h \
-	lib/formulate/system/kinematics.h lib/formulate/system/kinks.c lib/formulate/system/network.h \
+	lib/formulate/system/kinematics.h lib/formulate/system/nonsmooth_points.c lib/formulate/system/network.h \
 	lib/formulate/system/origin.h lib/formulate/system/rates.c lib/formulate/system/rates.h \
 	lib/formulate/system/resolve.c lib/formulate/system/resolve.h lib/formulate/system/sample.c \
 	lib/formulate/system/sample.h lib/formulate/system/shown.h lib/formulate/system/smooth.c \
 	lib/formulate/system/smooth.h lib/formulate/system/surfaces.h lib/formulate/system/system.c \
 	lib/formulate/system/system.h lib/formulate/system/system_impl.h lib/formulate/system/vector.c \
 	lib/formulate/system/vector.h \
-	lib/formulate/kinematics/alike.c lib/formulate/kinematics/alike.h \
+	lib/formulate/kinematics/isomorphic.c lib/formulate/kinematics/isomorphic.h \
 	lib/formulate/kinematics/circuits.c lib/formulate/kinematics/circuits.h \
 	lib/formulate/kinematics/row_patterns.c lib/formulate/kinematics/row_patterns.h \
 	lib/formulate/kinematics/common_turns.c lib/formulate/kinematics/constraint_rows.c \
@@ -20,10 +20,10 @@ libcore_la_SOURCES += \
 	lib/formulate/kinematics/identity.c lib/formulate/kinematics/identity.h \
 	lib/formulate/kinematics/multi_turn.h lib/formulate/kinematics/multi_turn_build.c \
 	lib/formulate/kinematics/recursive.c lib/formulate/kinematics/recursive.h \
-	lib/formulate/kinematics/stations.c lib/formulate/kinematics/stations.h \
+	lib/formulate/kinematics/section_frames.c lib/formulate/kinematics/section_frames.h \
 	lib/formulate/network/ideal_share.c lib/formulate/network/ideal_sides.c \
 	lib/formulate/network/ideal_sides.h lib/formulate/network/law_ends.c \
-	lib/formulate/network/network_alike.c lib/formulate/network/network_alike.h \
+	lib/formulate/network/network_isomorphic.c lib/formulate/network/network_isomorphic.h \
 	lib/formulate/network/network.c lib/formulate/network/network_build.c \
 	lib/formulate/network/network_build.h lib/formulate/network/network_impl.h \
 	lib/formulate/network/network_node_rows.c lib/formulate/network/network_nodes.c \
@@ -41,25 +41,25 @@ libcore_la_SOURCES += \
 	lib/formulate/dynamics/reactions.h lib/formulate/dynamics/redundancy.c \
 	lib/formulate/dynamics/sections.c lib/formulate/dynamics/sections.h \
 	lib/formulate/dynamics/shapes.c lib/formulate/dynamics/shapes.h \
-	lib/formulate/written/counting.c lib/formulate/written/derivation.c \
-	lib/formulate/written/derivation.h lib/formulate/written/derivation_impl.h \
-	lib/formulate/written/embedded.c lib/formulate/written/embedded.h \
-	lib/formulate/written/expanded.c lib/formulate/written/expanded.h \
-	lib/formulate/written/expanded_shapes.c lib/formulate/written/partial.c \
-	lib/formulate/written/reading.c lib/formulate/written/reading.h \
-	lib/formulate/whole/continuity.c lib/formulate/whole/continuity.h \
-	lib/formulate/whole/ideal.c lib/formulate/whole/ideal.h lib/formulate/whole/literals.c \
-	lib/formulate/whole/literals.h lib/formulate/whole/stays.c lib/formulate/whole/stays.h \
-	lib/formulate/whole/switches.c lib/formulate/whole/system_build.c \
-	lib/formulate/whole/system_end.c lib/formulate/whole/tree_search.c \
-	lib/formulate/whole/tree_search.h lib/formulate/whole/variables.c \
-	lib/formulate/solved/accelerations.c lib/formulate/solved/accelerations.h \
-	lib/formulate/solved/along_trees.c lib/formulate/solved/along_trees.h \
-	lib/formulate/solved/constrained.c lib/formulate/solved/constrained.h \
-	lib/formulate/solved/groups.c lib/formulate/solved/groups.h lib/formulate/solved/linear_network.c \
-	lib/formulate/solved/linear_network.h lib/formulate/solved/prescribed.c lib/formulate/solved/prescribed.h \
-	lib/formulate/solved/price.h lib/formulate/solved/substituted.c lib/formulate/solved/substituted.h \
-	lib/formulate/solved/ratio.c lib/formulate/solved/ratio.h \
-	lib/formulate/solved/resistance.c lib/formulate/solved/resistance.h \
-	lib/formulate/solved/response.c lib/formulate/solved/response.h \
-	lib/formulate/solved/state_space.c lib/formulate/solved/state_space.h
+	lib/formulate/expanded/counting.c lib/formulate/expanded/derivation.c \
+	lib/formulate/expanded/derivation.h lib/formulate/expanded/derivation_impl.h \
+	lib/formulate/expanded/embedded.c lib/formulate/expanded/embedded.h \
+	lib/formulate/expanded/expanded.c lib/formulate/expanded/expanded.h \
+	lib/formulate/expanded/expanded_shapes.c lib/formulate/expanded/partial.c \
+	lib/formulate/expanded/equation_form.c lib/formulate/expanded/equation_form.h \
+	lib/formulate/system_build/continuity.c lib/formulate/system_build/continuity.h \
+	lib/formulate/system_build/ideal.c lib/formulate/system_build/ideal.h lib/formulate/system_build/lifted_constants.c \
+	lib/formulate/system_build/lifted_constants.h lib/formulate/system_build/held_coordinates.c lib/formulate/system_build/held_coordinates.h \
+	lib/formulate/system_build/switches.c lib/formulate/system_build/system_build.c \
+	lib/formulate/system_build/system_end.c lib/formulate/system_build/tree_search.c \
+	lib/formulate/system_build/tree_search.h lib/formulate/system_build/variables.c \
+	lib/formulate/reduced/accelerations.c lib/formulate/reduced/accelerations.h \
+	lib/formulate/reduced/along_trees.c lib/formulate/reduced/along_trees.h \
+	lib/formulate/reduced/constrained.c lib/formulate/reduced/constrained.h \
+	lib/formulate/reduced/groups.c lib/formulate/reduced/groups.h lib/formulate/reduced/linear_network.c \
+	lib/formulate/reduced/linear_network.h lib/formulate/reduced/prescribed.c lib/formulate/reduced/prescribed.h \
+	lib/formulate/reduced/operation_cost.h lib/formulate/reduced/substituted.c lib/formulate/reduced/substituted.h \
+	lib/formulate/reduced/ratio.c lib/formulate/reduced/ratio.h \
+	lib/formulate/reduced/resistance.c lib/formulate/reduced/resistance.h \
+	lib/formulate/reduced/response.c lib/formulate/reduced/response.h \
+	lib/formulate/reduced/state_space.c lib/formulate/reduced/state_space.h

@@ -8,7 +8,7 @@
 /* names that fit into one message: so many, and not longer than that in all */
 enum { SHOWN_NAMES = 8, SHOWN_BYTES = 160 };
 
-typedef LIST(int) Numbers;
+typedef LIST(int) FaultEdges;
 
 static const char *edge_name(const Graph *graph, int edge)
 {
@@ -21,7 +21,7 @@ static const char *node_name(const Graph *graph, int node)
 }
 
 /* "h8, h9, h10 and 12 more"; new string */
-static char *list_names(const Draft *draft, const Numbers *numbers,
+static char *list_names(const Draft *draft, const FaultEdges *numbers,
                         const char *(*name)(const Graph *, int), const char *between)
 {
     Text text = {0};
@@ -113,11 +113,11 @@ static int *search_ways(const Draft *draft, int from)
 }
 
 /* the closing edge from tail to head, and back to the tail by branches */
-static Numbers find_circuit(const Draft *draft, int closing)
+static FaultEdges find_circuit(const Draft *draft, int closing)
 {
     const Edge *edge = graph_edge(draft->graph, closing);
     int *way = search_ways(draft, edge->tail);
-    Numbers circuit = {0};
+    FaultEdges circuit = {0};
 
     LIST_PUSH(circuit, closing);
     for (int node = edge->head; node != edge->tail;) {
@@ -132,7 +132,7 @@ static Numbers find_circuit(const Draft *draft, int closing)
 
 /* Which edge to drop: the one that completion would take last. What else would do goes to
  * `others`. -1: there are only arms. */
-static int find_drop(const Draft *draft, const Numbers *circuit, Numbers *others)
+static int find_drop(const Draft *draft, const FaultEdges *circuit, FaultEdges *others)
 {
     int drop = -1;
 
@@ -154,8 +154,8 @@ static int find_drop(const Draft *draft, const Numbers *circuit, Numbers *others
 
 Status draft_fault_circuit(const Draft *draft, int closing, Diag *diag)
 {
-    Numbers circuit = find_circuit(draft, closing);
-    Numbers others = {0};
+    FaultEdges circuit = find_circuit(draft, closing);
+    FaultEdges others = {0};
     int drop = find_drop(draft, &circuit, &others);
     char *names = list_names(draft, &circuit, edge_name, drop < 0 ? ", " : " ");
     char *rest = list_names(draft, &others, edge_name, ", ");
@@ -183,10 +183,10 @@ Status draft_fault_circuit(const Draft *draft, int closing, Diag *diag)
 }
 
 /* nodes of the domain that `sets` doesn't unite with the datum */
-static Numbers find_unreached(const Draft *draft, Sets *sets)
+static FaultEdges find_unreached(const Draft *draft, Sets *sets)
 {
     Domain domain = tree_kind_domain(draft->kind);
-    Numbers nodes = {0};
+    FaultEdges nodes = {0};
 
     for (int i = 0; i < graph_node_count(draft->graph); i++) {
         if (graph_node(draft->graph, i)->domain == domain &&
@@ -198,11 +198,11 @@ static Numbers find_unreached(const Draft *draft, Sets *sets)
 
 /* Edges that would connect what hangs apart: every one that could where one is enough, else
  * as many as it takes. `sets` is united by them. */
-static Numbers find_bridges(const Draft *draft, Sets *sets, bool *one_is_enough)
+static FaultEdges find_bridges(const Draft *draft, Sets *sets, bool *one_is_enough)
 {
     const Graph *graph = draft->graph;
-    Numbers bridges = {0};
-    Numbers crossing = {0};
+    FaultEdges bridges = {0};
+    FaultEdges crossing = {0};
     int *edges;
     int count = draft_candidates(draft, true, &edges);
 
@@ -241,8 +241,8 @@ static void hint_bridges(const Draft *draft, Diag *diag)
 {
     Sets *sets = copy_sets(draft);
     bool one_is_enough;
-    Numbers bridges = find_bridges(draft, sets, &one_is_enough);
-    Numbers left = find_unreached(draft, sets);
+    FaultEdges bridges = find_bridges(draft, sets, &one_is_enough);
+    FaultEdges left = find_unreached(draft, sets);
     char *edges = list_names(draft, &bridges, edge_name, ", ");
     char *nodes = list_names(draft, &left, node_name, ", ");
 
@@ -264,7 +264,7 @@ static void hint_bridges(const Draft *draft, Diag *diag)
 
 Status draft_fault_unreached(const Draft *draft, Diag *diag)
 {
-    Numbers nodes = find_unreached(draft, draft->sets);
+    FaultEdges nodes = find_unreached(draft, draft->sets);
     char *names = list_names(draft, &nodes, node_name, ", ");
     const char *kind = tree_kind_name(draft->kind);
     const char *noun = nodes.count == 1 ? "node" : "nodes";

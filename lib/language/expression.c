@@ -22,7 +22,7 @@ Syntax *syntax_new(Parser *parser, SyntaxKind kind, const char *text, Place plac
 }
 
 /* Hand `node` the arguments that were put aside since there were `start`. */
-Status syntax_take(Parser *parser, Syntax *node, int start)
+Status syntax_accept(Parser *parser, Syntax *node, int start)
 {
     node->count = parser->arguments.count - start;
     node->args = pool_alloc(parser->pool, (size_t)(node->count + 1) * sizeof(Syntax *));
@@ -55,7 +55,7 @@ static Status join(Parser *parser, const Token *op, Syntax *left, Syntax *right,
         LIST_PUSH(parser->arguments, left);
     LIST_PUSH(parser->arguments, right);
     *out = node;
-    return syntax_take(parser, node, start);
+    return syntax_accept(parser, node, start);
 }
 
 /* --- primaries --- */
@@ -83,11 +83,11 @@ static Status parse_arguments(Parser *parser, const Token *open, Syntax *node)
     do {
         CHECK(parse_expression(parser, &argument));
         LIST_PUSH(parser->arguments, argument);
-    } while (parser_take(parser, ","));
-    if (!parser_take(parser, open->text[0] == '(' ? ")" : "]"))
+    } while (parser_accept(parser, ","));
+    if (!parser_accept(parser, open->text[0] == '(' ? ")" : "]"))
         CHECK(parser_unclosed(parser, open));
     node->place = place_between(node->place, parser_before(parser)->place);
-    CHECK(syntax_take(parser, node, start));
+    CHECK(syntax_accept(parser, node, start));
 done:
     parser->brackets--;
     return status;
@@ -169,13 +169,13 @@ static Status parse_unary(Parser *parser, Syntax **out)
     Syntax *power = NULL;
 
     TRY(parser_enter(parser));
-    if (parser_take(parser, "-") || parser_take(parser, "+") || parser_take(parser, "!")) {
+    if (parser_accept(parser, "-") || parser_accept(parser, "+") || parser_accept(parser, "!")) {
         TRY(parse_unary(parser, &value));
         TRY(join(parser, op, NULL, value, out));
     } else {
         TRY(parse_primary(parser, &value));
         op = parser_token(parser);
-        if (parser_take(parser, "^")) {
+        if (parser_accept(parser, "^")) {
             TRY(parse_unary(parser, &power));
             TRY(join(parser, op, value, power, &value));
         }
@@ -199,7 +199,7 @@ static Status parse_chain(Parser *parser, const char *const *ops, Level next, Sy
     for (int i = 0; ops[i] != NULL;) {
         const Token *op = parser_token(parser);
 
-        if (!parser_take(parser, ops[i])) {
+        if (!parser_accept(parser, ops[i])) {
             i++;
             continue;
         }

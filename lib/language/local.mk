@@ -4,8 +4,8 @@ libcore_la_SOURCES += \
   lib/language/importers.def \
   lib/language/functions.c \
   lib/language/functions.h \
-  lib/language/habits.c \
-  lib/language/habits.h \
+  lib/language/foreign_syntax.c \
+  lib/language/foreign_syntax.h \
   lib/language/lexer.c \
   lib/language/lexer.h \
   lib/language/operand.c \

@@ -109,15 +109,15 @@ Status parse_edge(Parser *parser, Syntax **out)
     Syntax *node;
     Syntax *place = NULL;
 
-    if (!parser_take(parser, "("))
+    if (!parser_accept(parser, "("))
         return parse_terminal(parser, out);
     node = syntax_new(parser, SYNTAX_GROUP, "", open.place);
     TRY(parse_terminal(parser, &place));
-    if (!parser_take(parser, ")"))
+    if (!parser_accept(parser, ")"))
         TRY(parser_unclosed(parser, &open));
     node->place = place_between(open.place, parser_before(parser)->place);
     LIST_PUSH(parser->arguments, place);
-    TRY(syntax_take(parser, node, parser->arguments.count - 1));
+    TRY(syntax_accept(parser, node, parser->arguments.count - 1));
     *out = node;
     return OK;
 }

@@ -1,8 +1,8 @@
 /* parser.c: the tokens of a statement, looked at and read; what is said where they stop making
  * sense */
 #include "language/parser.h"
+#include "language/foreign_syntax.h"
 #include "language/functions.h"
-#include "language/habits.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -56,7 +56,7 @@ bool parser_sees(const Parser *parser, const char *symbol)
     return token_is(parser_token(parser), symbol);
 }
 
-bool parser_take(Parser *parser, const char *symbol)
+bool parser_accept(Parser *parser, const char *symbol)
 {
     if (!parser_sees(parser, symbol))
         return false;
@@ -170,10 +170,10 @@ static const char *unexpected_hint(const Parser *parser)
         return "a choice is written if(c, a, b)";
     if (token_is(token, "<") && token_is(behind, ">"))
         return "'not equal' is written !=";
-    if (token->kind == TOKEN_PATH && habit_hint(HABIT_OPERATOR, token->text) != NULL)
-        return habit_hint(HABIT_OPERATOR, token->text);
+    if (token->kind == TOKEN_PATH && foreign_syntax_hint(FOREIGN_OPERATOR, token->text) != NULL)
+        return foreign_syntax_hint(FOREIGN_OPERATOR, token->text);
     if (!is_first && is_operand && before->kind == TOKEN_PATH && strcmp(before->text, "not") == 0)
-        return habit_hint(HABIT_OPERATOR, "not");
+        return foreign_syntax_hint(FOREIGN_OPERATOR, "not");
     if (!is_first && is_operand && before->kind == TOKEN_PATH && function_find(before->text, &row))
         return "a function's argument stands in brackets: sin(2)";
     if (!is_first && (before->kind == TOKEN_NUMBER || token_is(before, ")")) &&

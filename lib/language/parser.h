@@ -34,7 +34,7 @@ bool token_is(const Token *token, const char *symbol);
 /* "'x'", "the end of the statement" ...; may use `room` */
 const char *token_describe(const Token *token, char room[], size_t size);
 bool parser_sees(const Parser *parser, const char *symbol);
-bool parser_take(Parser *parser, const char *symbol); /* read it if it is there */
+bool parser_accept(Parser *parser, const char *symbol); /* read it if it is there */
 bool parser_ends(const Parser *parser);
 bool parser_took_comma(const Parser *parser);      /* as the token before */
 bool parser_sees_pair(const Parser *parser);       /* path { "'" } "=" */
@@ -57,7 +57,7 @@ MUST_USE Status parser_enter(Parser *parser);
 Syntax *syntax_new(Parser *parser, SyntaxKind kind, const char *text, Place place);
 /* Give a node the arguments put aside since there were `start`. Fails where the tree gets too
  * high. */
-MUST_USE Status syntax_take(Parser *parser, Syntax *node, int start);
+MUST_USE Status syntax_accept(Parser *parser, Syntax *node, int start);
 
 /* Each reads what its line of the grammar says, and fails at the place. */
 MUST_USE Status parse_expression(Parser *parser, Syntax **out);

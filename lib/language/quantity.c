@@ -3,7 +3,7 @@
  * Which words are units the grammar can't say: a word behind a literal is its unit,
  * unless "=" stands behind it (then it is the next key) or the verb's row gives it a
  * meaning. A unit in brackets may stand behind anything that is shown. */
-#include "language/habits.h"
+#include "language/foreign_syntax.h"
 #include "language/parser.h"
 
 #include <string.h>
@@ -111,10 +111,10 @@ static Status unknown_unit(Parser *parser, const Syntax *literal, const Token *n
                   name->text + 1, name->text[0], number, name->text + 1);
     else if (compound != NULL)
         diag_hint(diag, "units multiply with *, in brackets: %s [%s]", number, compound);
-    else if (habit_hint(HABIT_OPERATOR, name->text) != NULL && !call)
-        diag_hint(diag, "%s", habit_hint(HABIT_OPERATOR, name->text));
-    else if (habit_hint(HABIT_UNIT, name->text) != NULL && !call)
-        diag_hint(diag, "%s", habit_hint(HABIT_UNIT, name->text));
+    else if (foreign_syntax_hint(FOREIGN_OPERATOR, name->text) != NULL && !call)
+        diag_hint(diag, "%s", foreign_syntax_hint(FOREIGN_OPERATOR, name->text));
+    else if (foreign_syntax_hint(FOREIGN_UNIT, name->text) != NULL && !call)
+        diag_hint(diag, "%s", foreign_syntax_hint(FOREIGN_UNIT, name->text));
     else if (suggestion != NULL && !call && !is_constant)
         diag_hint(diag, "did you mean '%s'? A product needs its *: %s*%s", suggestion, number,
                   name->text);
@@ -165,8 +165,8 @@ Status parse_unit(Parser *parser, Syntax *node)
 
         if (compound != NULL)
             diag_hint(parser->diag, "units multiply with *: [%s]", compound);
-        else if (habit_hint(HABIT_UNIT, word) != NULL)
-            diag_hint(parser->diag, "%s", habit_hint(HABIT_UNIT, word));
+        else if (foreign_syntax_hint(FOREIGN_UNIT, word) != NULL)
+            diag_hint(parser->diag, "%s", foreign_syntax_hint(FOREIGN_UNIT, word));
         else if (suggestion != NULL)
             diag_hint(parser->diag, "did you mean '%s'?", suggestion);
         else

@@ -6,7 +6,7 @@
  *           | [ "virtual" ] VERB { operand [ "," ] } { pair [ "," ] } [ ":" statement ]
  *             [ redirect ] ; */
 #include "component/component.h"
-#include "language/habits.h"
+#include "language/foreign_syntax.h"
 #include "language/parser.h"
 #include "language/verbs.h"
 
@@ -64,8 +64,8 @@ static bool hint_verb(const Parser *parser, const Token *token, Diag *diag)
         suggest_offer(&suggest, verb.name);
     if (is_assignment(parser))
         diag_hint(diag, "a parameter is written %s = ...", token->text);
-    else if (habit_hint(HABIT_VERB, token->text) != NULL)
-        diag_hint(diag, "%s", habit_hint(HABIT_VERB, token->text));
+    else if (foreign_syntax_hint(FOREIGN_VERB, token->text) != NULL)
+        diag_hint(diag, "%s", foreign_syntax_hint(FOREIGN_VERB, token->text));
     else if (behind->kind == TOKEN_SYMBOL && strcmp(behind->text, "(") == 0 && !behind->touches)
         diag_hint(diag, "the bracket of a law touches its name: %s(x) = ...", token->text);
     else if (!parser->options.shortened && find_shortened(token->text, &verb) == 1)
@@ -264,8 +264,8 @@ static Status parse_law(Parser *parser, Statement *statement)
                 return diag_at(parser->diag, E_NAME, argument->place, "'%s' is there twice",
                                argument->text);
         statement->arguments[statement->argument_count++] = argument->text;
-    } while (parser_take(parser, ","));
-    if (!parser_take(parser, ")"))
+    } while (parser_accept(parser, ","));
+    if (!parser_accept(parser, ")"))
         TRY(parser_expected(parser, "',' or ')'"));
     parser->at++;
     return parse_definition_value(parser, statement);

@@ -65,7 +65,7 @@ static Status add_signed(Parser *parser, Statement *statement, ParseOperand *par
     if (status != OK)
         return status;
     LIST_PUSH(statement->operands, (Operand){sign, value, value->place});
-    (void)parser_take(parser, ",");
+    (void)parser_accept(parser, ",");
     return OK;
 }
 
@@ -217,7 +217,7 @@ static Status read_items_maybe(Parser *parser, Statement *statement)
 static Status read_items(Parser *parser, Statement *statement)
 {
     do {
-        const int sign = statement->operands.count > 0 && parser_take(parser, "|") ? '|' : 0;
+        const int sign = statement->operands.count > 0 && parser_accept(parser, "|") ? '|' : 0;
 
         if (operands_end(parser))
             return parser_expected(parser, "a variable");
@@ -320,7 +320,7 @@ static Status read_condition(Parser *parser, Statement *statement)
         TRY(parser_expected(parser, "a condition"));
     TRY(parse_expression(parser, &value));
     LIST_PUSH(statement->operands, (Operand){0, value, value->place});
-    if (!parser_take(parser, "~"))
+    if (!parser_accept(parser, "~"))
         return OK;
     TRY(parse_expression(parser, &statement->near_value));
     if (!take_word(parser, pattern_word('C')))
@@ -422,13 +422,13 @@ static Status parse_pair(Parser *parser, Statement *statement)
     TRY(check_twice(parser, statement, &pair));
     if (parser_sees(parser, "=="))
         TRY(refuse_equals(parser));
-    if (!parser_take(parser, "="))
+    if (!parser_accept(parser, "="))
         TRY(parser_expected(parser, "'='"));
     if (parser_sees(parser, "="))
         TRY(refuse_equals(parser));
     TRY(parse_pair_value(parser, statement->row.pattern, &pair.value));
     LIST_PUSH(statement->pairs, pair);
-    (void)parser_take(parser, ",");
+    (void)parser_accept(parser, ",");
     return OK;
 }
 
@@ -516,7 +516,7 @@ static Status read_keys(Parser *parser, Statement *statement)
 /* ":" statement */
 static Status read_colon(Parser *parser, Statement *statement)
 {
-    if (!parser_take(parser, ":"))
+    if (!parser_accept(parser, ":"))
         return parser_expected(parser, "':' and the statement to repeat");
     return read_statement(parser, statement);
 }

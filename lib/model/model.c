@@ -164,7 +164,7 @@ static Status end_definition(Model *model, const Statement *statement, Outcome *
     Status status = OK;
 
     CHECK(opened_end(model->opened, statement->place, &whole, diag));
-    CHECK(history_take(&model->history, &model->state, whole, outcome, diag));
+    CHECK(history_restore(&model->history, &model->state, whole, outcome, diag));
     model_drop_definition(model);
     count_effect(model, outcome->effect);
 done:
@@ -193,7 +193,7 @@ Status model_apply(Model *model, const Statement *statement, Diag *diag)
         status = apply_in_definition(model, statement, &outcome, diag);
         goto done;
     }
-    CHECK(history_take(&model->history, &model->state, statement, &outcome, diag));
+    CHECK(history_restore(&model->history, &model->state, statement, &outcome, diag));
     set_remarks(model, &outcome.remarks);
     count_effect(model, outcome.effect);
 done:

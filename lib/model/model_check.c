@@ -54,7 +54,7 @@ static const Instance *maker_of(const State *state, int node)
 }
 
 /* an arm with at= stands on what bends, between its ends */
-static Status check_station(State *state, const Instance *arm, const Value *at, Diag *diag)
+static Status check_section_frame(State *state, const Instance *arm, const Value *at, Diag *diag)
 {
     const Instance *beam = maker_of(state, arm->tail);
     Status status = OK;
@@ -91,7 +91,7 @@ static Status check_arm(State *state, const Instance *arm, Diag *diag)
 
     return arm->row->family == FAMILY_ARM && at >= 0 && arm->values[at].given &&
                    (on == NULL || on->given == NULL) /* a frame that equations move */
-               ? check_station(state, arm, &arm->values[at], diag)
+               ? check_section_frame(state, arm, &arm->values[at], diag)
                : OK;
 }
 

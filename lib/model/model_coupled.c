@@ -15,7 +15,7 @@
 #define LEAST 1e-12 /* of a diagonal entry: less is rounding, of a coupling without leakage */
 
 /* of parts coupled with each other, directly or through others */
-typedef struct Coupled {
+typedef struct CouplingCheck {
     State *state;
     const Instance *part; /* whose values are looked at; perhaps not among the state's parts yet */
     LIST(const Instance *)
@@ -23,9 +23,9 @@ typedef struct Coupled {
     int couplings;
     double *matrix; /* of so many members */
     bool is_known;
-} Coupled;
+} CouplingCheck;
 
-static int place_in(const Coupled *c, const Instance *part)
+static int place_in(const CouplingCheck *c, const Instance *part)
 {
     for (int i = 0; i < c->members.count; i++)
         if (c->members.at[i] == part)
@@ -34,7 +34,7 @@ static int place_in(const Coupled *c, const Instance *part)
 }
 
 /* couplings of the state, and the part itself where it is a new one; NULL at the end */
-static const Instance *coupling_at(const Coupled *c, int i)
+static const Instance *coupling_at(const CouplingCheck *c, int i)
 {
     const State *state = c->state;
     const bool is_new =
@@ -46,7 +46,7 @@ static const Instance *coupling_at(const Coupled *c, int i)
 }
 
 /* in order of making */
-static void add_member(Coupled *c, const Instance *part)
+static void add_member(CouplingCheck *c, const Instance *part)
 {
     int at = c->members.count;
 
@@ -58,7 +58,7 @@ static void add_member(Coupled *c, const Instance *part)
     c->members.at[at] = part;
 }
 
-static void gather(Coupled *c)
+static void gather(CouplingCheck *c)
 {
     const Instance *const *parts = (const Instance *const *)c->state->parts.at;
     const Instance *coupling;
@@ -82,8 +82,8 @@ static void gather(Coupled *c)
     } while (c->members.count > before);
 }
 
-static double entry(Coupled *c, const Instance *coupling, const Instance *const parts[2], int row,
-                    int column)
+static double entry(CouplingCheck *c, const Instance *coupling, const Instance *const parts[2],
+                    int row, int column)
 {
     const Expr e = coupling->row->stores(coupling, c->state->arena, parts, row, column);
 
@@ -94,7 +94,7 @@ static double entry(Coupled *c, const Instance *coupling, const Instance *const 
     return state_number(c->state, e);
 }
 
-static void fill(Coupled *c)
+static void fill(CouplingCheck *c)
 {
     const int n = c->members.count;
     const Instance *coupling;
@@ -118,7 +118,7 @@ static void fill(Coupled *c)
     }
 }
 
-static bool is_positive(const Coupled *c)
+static bool is_positive(const CouplingCheck *c)
 {
     const int n = c->members.count;
     double *a = NEW_ARRAY(double, n *n);
@@ -137,7 +137,7 @@ static bool is_positive(const Coupled *c)
     return positive;
 }
 
-static Status refuse(const Coupled *c, Diag *diag)
+static Status refuse(const CouplingCheck *c, Diag *diag)
 {
     const int n = c->members.count;
     Text names = {0};
@@ -166,7 +166,7 @@ static Status refuse(const Coupled *c, Diag *diag)
 }
 
 /* the first two that no coupling of theirs allows; false: there are none */
-static bool find_pair(const Coupled *c, int pair[2])
+static bool find_pair(const CouplingCheck *c, int pair[2])
 {
     const int n = c->members.count;
 
@@ -185,7 +185,7 @@ static bool find_pair(const Coupled *c, int pair[2])
 }
 
 /* whether each two of them are coupled */
-static bool is_complete(const Coupled *c)
+static bool is_complete(const CouplingCheck *c)
 {
     const int n = c->members.count;
 
@@ -196,7 +196,7 @@ static bool is_complete(const Coupled *c)
 }
 
 /* those coupled with the part alone, where they couldn't be whatever else is coupled */
-static Status check_so_far(Coupled *c, Text *remarks, Diag *diag)
+static Status check_so_far(CouplingCheck *c, Text *remarks, Diag *diag)
 {
     int pair[2];
 
@@ -208,7 +208,7 @@ static Status check_so_far(Coupled *c, Text *remarks, Diag *diag)
         const int n = c->members.count;
         const Instance *first = c->members.at[pair[0]], *second = c->members.at[pair[1]];
         const double m = c->matrix[pair[0] * n + pair[1]];
-        Coupled two = {.couplings = 1};
+        CouplingCheck two = {.couplings = 1};
         double matrix[4] = {c->matrix[pair[0] * n + pair[0]], m, m,
                             c->matrix[pair[1] * n + pair[1]]};
 
@@ -228,7 +228,7 @@ static Status check_so_far(Coupled *c, Text *remarks, Diag *diag)
 
 Status coupled_check(State *state, const Instance *part, Text *remarks, Diag *diag)
 {
-    Coupled c = {.state = state, .part = part};
+    CouplingCheck c = {.state = state, .part = part};
     Status status = OK;
 
     gather(&c);
@@ -247,7 +247,7 @@ Status couplings_check(State *state, Diag *diag)
     Status status = OK;
 
     for (int i = 0; i < state->couplings.count && status == OK; i++) {
-        Coupled c = {.state = state, .part = state->parts.at[state->couplings.at[i]]};
+        CouplingCheck c = {.state = state, .part = state->parts.at[state->couplings.at[i]]};
 
         gather(&c);
         fill(&c);

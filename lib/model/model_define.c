@@ -142,7 +142,7 @@ static Status try_body(State *state, Definition *d, Expr body, const Statement *
     Diag fault = {0};
     Status status;
 
-    state_keep_definition(state, definition_index(state, d));
+    state_retain_definition(state, definition_index(state, d));
     set_body(state, d, body);
     status = parts_check_after(state, definition_index(state, d), &outcome->remarks, &fault);
     if (status == OK)
@@ -176,7 +176,7 @@ static Status change_parameter(State **in, Definition *d, Expr body, Measure mea
         return status;
     }
     outcome->effect = effect;
-    state_keep_line(state, d->line);
+    state_retain_line(state, d->line);
     line->text = state_text(state, text);
     line_uses(state, line, scope);
 done:
@@ -268,7 +268,7 @@ Status set_inside_parameter(State *state, const Pair *pair, Outcome *outcome, Di
                        pair->name_place, diag));
     outcome->effect = body != d->body ? EFFECT_VALUES : EFFECT_NONE;
     CHECK(try_body(state, d, body, &statement, outcome, diag));
-    state_keep_line(state, d->line);
+    state_retain_line(state, d->line);
     line_uses(state, &state->lines.at[d->line], &scope);
     text_addf(&text, "set %s = ", pair->name);
     syntax_print(&text, pair->value);
@@ -368,8 +368,8 @@ static Status change_output(State **state, Definition *output, Expr body, Measur
         return replace_line(state, definition_index(s, output), text, scope, pair->name_place,
                             is_same ? EFFECT_NONE : EFFECT_EQUATIONS, outcome, diag);
     }
-    state_keep_line(s, output->line);
-    state_keep_definition(s, definition_index(s, output));
+    state_retain_line(s, output->line);
+    state_retain_definition(s, definition_index(s, output));
     line->text = state_text(s, text);
     line_uses(s, line, scope);
     output->body = body;

@@ -191,8 +191,8 @@ static void put_event(State *state, const char *text, const Event *event, const 
     } else {
         Line *line = &state->lines.at[state->definitions.at[index].line];
 
-        state_keep_line(state, state->definitions.at[index].line);
-        state_keep_definition(state, index);
+        state_retain_line(state, state->definitions.at[index].line);
+        state_retain_definition(state, index);
         line->text = event->text;
         line_uses(state, line, scope);
     }

@@ -1,8 +1,8 @@
 /* model_function.c: calls: functions of the table, pulses and polygons, laws, entries of what is
  * shown, figures of a run */
 #include "base/decimal.h"
+#include "language/foreign_syntax.h"
 #include "language/functions.h"
-#include "language/habits.h"
 #include "model/model_impl.h"
 
 #include <assert.h>
@@ -382,8 +382,8 @@ static Status call_unknown(const State *state, const Syntax *syntax, Diag *diag)
                   "of a place along %s there are u, v%s, and what its sections carry: 'info "
                   "%s' lists them",
                   bent->name, state->planar ? "" : ", w, phi", bent->name);
-    else if (habit_hint(HABIT_FUNCTION, syntax->text) != NULL)
-        diag_hint(diag, "%s", habit_hint(HABIT_FUNCTION, syntax->text));
+    else if (foreign_syntax_hint(FOREIGN_FUNCTION, syntax->text) != NULL)
+        diag_hint(diag, "%s", foreign_syntax_hint(FOREIGN_FUNCTION, syntax->text));
     else if (suggest.best != NULL)
         diag_hint(diag, "did you mean '%s'?", suggest.best);
     else

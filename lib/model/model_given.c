@@ -191,7 +191,7 @@ const char *given_name(State *state, const Use *use, const char *name)
 
 void given_begin(State *state, int use, const char *body)
 {
-    Equations *equations = state->uses.at[use].equations;
+    BlockEquations *equations = state->uses.at[use].equations;
     Scan scan = {.subsystem = state->uses.at[use].subsystem, .lines = read_lines(body)};
     const int ports = scan.subsystem->port_count;
 
@@ -205,7 +205,7 @@ void given_begin(State *state, int use, const char *body)
     scan.frames = NEW_ARRAY(bool, ports + 1);
     scan.free = NEW_ARRAY(bool, ports + 1);
     mark_moving(&scan, state);
-    pool_keep(state->pool, equations, sizeof *equations);
+    pool_retain(state->pool, equations, sizeof *equations);
     equations->moving = pool_alloc(state->pool, sizeof(char *) * ((size_t)scan.names.count + 1));
     equations->frames = pool_alloc(state->pool, sizeof(int) * ((size_t)ports + 1));
     for (int k = 0; k < scan.names.count; k++)
@@ -225,9 +225,9 @@ void given_begin(State *state, int use, const char *body)
 
 /* --- parts --- */
 
-static Given *new_given(State *state, int count, int frames)
+static EquationBlock *new_given(State *state, int count, int frames)
 {
-    Given *given = pool_alloc(state->pool, sizeof *given);
+    EquationBlock *given = pool_alloc(state->pool, sizeof *given);
     const Expr zero = expr_int(state->arena, 0);
     const struct {
         Expr **at;
@@ -235,7 +235,7 @@ static Given *new_given(State *state, int count, int frames)
     } lists[] = {
         {&given->mass, count * count}, {&given->force, count}, {&given->pose, frames * GIVEN_POSE}};
 
-    *given = (Given){.count = count, .frame_count = frames, .equation = zero, .order = 2};
+    *given = (EquationBlock){.count = count, .frame_count = frames, .equation = zero, .order = 2};
     for (int k = 0; k < COUNT(lists); k++) {
         *lists[k].at = pool_alloc(state->pool, sizeof(Expr) * ((size_t)lists[k].count + 1));
         for (int i = 0; i < lists[k].count; i++)
@@ -304,7 +304,7 @@ static Status is_taken(const Use *use, const char *name, Place place, Diag *diag
 static Status name_is_left(const State *state, const Use *use, const char *name, Place place,
                            Diag *diag)
 {
-    const Equations *equations = use->equations;
+    const BlockEquations *equations = use->equations;
 
     if (state_thing(state, name) == NULL &&
         find_word(equations->moving, equations->moving_count, name) < 0)
@@ -315,7 +315,7 @@ static Status name_is_left(const State *state, const Use *use, const char *name,
 /* the block and its coordinates, then the frames that it moves */
 static Status add_block(State *state, const Use *use, Place place, Diag *diag)
 {
-    Equations *equations = use->equations;
+    BlockEquations *equations = use->equations;
     const size_t count = (size_t)equations->moving_count;
     const char *name = given_name(state, use, "block");
     PartDraft draft = {.state = state};
@@ -335,7 +335,7 @@ static Status add_block(State *state, const Use *use, Place place, Diag *diag)
     block->coord_rotation = pool_alloc(state->pool, sizeof *block->coord_rotation * count);
     memcpy(block->coord, equations->moving, sizeof *block->coord * count);
     part_draft_commit(&draft, "block");
-    pool_keep(state->pool, equations, sizeof *equations);
+    pool_retain(state->pool, equations, sizeof *equations);
     equations->block = block;
     for (int f = 0; f < equations->frame_count; f++)
         add_frame(state, use, equations->frames[f], block->head, f);
@@ -344,14 +344,14 @@ static Status add_block(State *state, const Use *use, Place place, Diag *diag)
 
 /* --- lines --- */
 
-static void add_equation(State *state, Equations *equations, Equation of)
+static void add_equation(State *state, BlockEquations *equations, BlockEquation of)
 {
-    Equation *equation = pool_alloc(state->pool, sizeof *equation);
+    BlockEquation *equation = pool_alloc(state->pool, sizeof *equation);
 
     *equation = of;
-    pool_keep(state->pool, equations, sizeof *equations);
+    pool_retain(state->pool, equations, sizeof *equations);
     if (equations->last != NULL) {
-        pool_keep(state->pool, equations->last, sizeof *equations->last);
+        pool_retain(state->pool, equations->last, sizeof *equations->last);
         equations->last->next = equation;
     } else
         equations->first = equation;
@@ -360,14 +360,14 @@ static void add_equation(State *state, Equations *equations, Equation of)
 
 static Status add_unknowns(State *state, const Use *use, const Statement *s, Diag *diag)
 {
-    Equations *equations = use->equations;
+    BlockEquations *equations = use->equations;
     const char **free = equations->moving + equations->moving_count - equations->free_count;
 
     for (int i = 0; i < s->operands.count; i++) {
         const Operand *operand = &s->operands.at[i];
         const char *name = operand->value->text;
         const bool moves = find_word(equations->moving, equations->moving_count, name) >= 0;
-        Equation equation = {.kind = EQUATION_UNKNOWN, .place = operand->place};
+        BlockEquation equation = {.kind = EQUATION_UNKNOWN, .place = operand->place};
 
         if (!moves || equations->block == NULL)
             TRY(name_is_free(state, name, operand->place, diag));
@@ -385,11 +385,12 @@ static Status add_unknowns(State *state, const Use *use, const Statement *s, Dia
     return OK;
 }
 
-static Status given_twice(const Use *use, const Equation *equation, const Pair *pair, Diag *diag)
+static Status given_twice(const Use *use, const BlockEquation *equation, const Pair *pair,
+                          Diag *diag)
 {
     const Port *port = &use->subsystem->ports[equation->port];
 
-    for (const Equation *e = use->equations->first; e != NULL; e = e->next) {
+    for (const BlockEquation *e = use->equations->first; e != NULL; e = e->next) {
         if (e->kind != EQUATION_GIVES || e->port != equation->port)
             continue;
         if (e->is_motion == equation->is_motion && e->member == equation->member)
@@ -406,7 +407,7 @@ static Status given_twice(const Use *use, const Equation *equation, const Pair *
     return OK;
 }
 
-static Status read_target(const Use *use, const Pair *pair, Equation *out, Diag *diag)
+static Status read_target(const Use *use, const Pair *pair, BlockEquation *out, Diag *diag)
 {
     const size_t length = strcspn(pair->name, ".");
     char *first = mem_text(pair->name, length);
@@ -439,7 +440,8 @@ static Status read_target(const Use *use, const Pair *pair, Equation *out, Diag 
     return status;
 }
 
-static Status in_this_scene(const State *state, const Equation *e, const Pair *pair, Diag *diag)
+static Status in_this_scene(const State *state, const BlockEquation *e, const Pair *pair,
+                            Diag *diag)
 {
     static const bool planar_motions[GIVEN_POSE] = {true, true, false, true};
     static const bool planar_efforts[GIVEN_EFFORTS] = {true, true, false, false, false, true};
@@ -471,7 +473,7 @@ static Instance *loading_part(State *state, const Component *row, const char *na
 }
 
 /* *out: the part of what a port is given, if it has one */
-static Status part_given(State *state, const Use *use, const Equation *e, Instance **out,
+static Status part_given(State *state, const Use *use, const BlockEquation *e, Instance **out,
                          Place place, Diag *diag)
 {
     const Port *port = &use->subsystem->ports[e->port];
@@ -515,7 +517,7 @@ static Status add_given(State *state, int use, const Statement *s, const Stateme
 {
     for (int i = 0; i < s->pairs.count; i++) {
         const Use *u = &state->uses.at[use];
-        Equation target = {.kind = EQUATION_GIVES};
+        BlockEquation target = {.kind = EQUATION_GIVES};
 
         TRY(read_target(u, &from->pairs.at[i], &target, diag));
         if (u->subsystem->ports[target.port].is_frame)
@@ -530,12 +532,12 @@ static Status add_given(State *state, int use, const Statement *s, const Stateme
 
 Status given_allows(State *state, int use, const Statement *s, Diag *diag)
 {
-    Equations *equations = state->uses.at[use].equations;
+    BlockEquations *equations = state->uses.at[use].equations;
     const bool is_part =
         s->kind == STATEMENT_VERB && (s->row.component != NULL || s->row.number == VERB_use);
 
     if (is_part && equations->first == NULL && !equations->has_parts) {
-        pool_keep(state->pool, equations, sizeof *equations);
+        pool_retain(state->pool, equations, sizeof *equations);
         equations->has_parts = true;
     }
     if (is_part ? equations->first == NULL : !verb_gives(s) || !equations->has_parts)
@@ -548,7 +550,7 @@ Status given_allows(State *state, int use, const Statement *s, Diag *diag)
 
 Status given_add(State *state, int use, const Statement *s, const Statement *from, Diag *diag)
 {
-    Equations *equations = state->uses.at[use].equations;
+    BlockEquations *equations = state->uses.at[use].equations;
 
     if (equations->free_count > 0 && equations->block == NULL)
         TRY(add_block(state, &state->uses.at[use], from->place, diag));
@@ -557,9 +559,9 @@ Status given_add(State *state, int use, const Statement *s, const Statement *fro
         return add_unknowns(state, &state->uses.at[use], s, diag);
     case VERB_internal:
         add_equation(state, equations,
-                     (Equation){.kind = EQUATION_INTERNAL,
-                                .value = syntax_copy(state->pool, s->operands.at[0].value),
-                                .place = from->operands.at[0].place});
+                     (BlockEquation){.kind = EQUATION_INTERNAL,
+                                     .value = syntax_copy(state->pool, s->operands.at[0].value),
+                                     .place = from->operands.at[0].place});
         return OK;
     default:
         return add_given(state, use, s, from, diag);

@@ -2,7 +2,7 @@
 #ifndef COTREE_MODEL_MODEL_GIVEN_H
 #define COTREE_MODEL_MODEL_GIVEN_H
 
-#include "component/given.h"
+#include "component/equation_block.h"
 #include "model/model_draft.h"
 
 enum { GIVEN_EFFORTS = 6 };
@@ -11,7 +11,7 @@ extern const char *const given_efforts[GIVEN_EFFORTS]; /* "fx" ... "tz" */
 
 typedef enum EquationKind { EQUATION_UNKNOWN, EQUATION_INTERNAL, EQUATION_GIVES } EquationKind;
 
-typedef struct Equation {
+typedef struct BlockEquation {
     EquationKind kind;
     Instance *part; /* of an unknown that moves nothing; that hands out what is given, or NULL */
     int port;
@@ -21,11 +21,11 @@ typedef struct Equation {
     const Syntax *value;
     Place place;
     Expr e; /* the value, once all lines are read */
-    struct Equation *next;
-} Equation;
+    struct BlockEquation *next;
+} BlockEquation;
 
-struct Equations {
-    Equation *first, *last;
+struct BlockEquations {
+    BlockEquation *first, *last;
     const char **moving; /* names of unknowns that move frames, in order; then those of free ones */
     int moving_count;
     int free_count; /* of unknowns that are the motion of a frame itself */

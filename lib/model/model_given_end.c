@@ -5,20 +5,20 @@
 #include <math.h>
 #include <string.h>
 
-typedef LIST(Expr) Exprs;
+typedef LIST(Expr) ModelGivenEndExprs;
 
 typedef struct Ending {
     State *state;
     const Use *use;
-    Equations *equations;
+    BlockEquations *equations;
     Scope scope;
-    NameList arguments; /* efforts at frames whose motion is given: "leg1.B.fx" */
-    Exprs rates;        /* highest derivatives of unknowns that move */
-    Exprs unknowns;     /* themselves */
-    Exprs efforts;      /* of `arguments` */
-    Exprs once;         /* rates and efforts: what equations of motion are linear in */
-    Exprs from, to;     /* variables of ports at rest, derivatives of the other unknowns */
-    bool at_use;        /* what is wrong is what the instance is bound to */
+    NameList arguments;          /* efforts at frames whose motion is given: "leg1.B.fx" */
+    ModelGivenEndExprs rates;    /* highest derivatives of unknowns that move */
+    ModelGivenEndExprs unknowns; /* themselves */
+    ModelGivenEndExprs efforts;  /* of `arguments` */
+    ModelGivenEndExprs once;     /* rates and efforts: what equations of motion are linear in */
+    ModelGivenEndExprs from, to; /* variables of ports at rest, derivatives of the other unknowns */
+    bool at_use;                 /* what is wrong is what the instance is bound to */
     Diag *diag;
 } Ending;
 
@@ -73,7 +73,7 @@ static bool is_free(const Ending *ending, int port)
 {
     const Port *p = &ending->use->subsystem->ports[port];
 
-    for (const Equation *e = ending->equations->first; e != NULL; e = e->next)
+    for (const BlockEquation *e = ending->equations->first; e != NULL; e = e->next)
         if (e->kind == EQUATION_GIVES && e->port == port && e->is_motion)
             return false;
     return p->is_frame && p->is_through;
@@ -148,15 +148,15 @@ static void name_moving(Ending *ending)
 
 static Status read_all(Ending *ending)
 {
-    for (Equation *e = ending->equations->first; e != NULL; e = e->next)
+    for (BlockEquation *e = ending->equations->first; e != NULL; e = e->next)
         if (e->kind != EQUATION_UNKNOWN) {
-            pool_keep(ending->state->pool, e, sizeof *e);
+            pool_retain(ending->state->pool, e, sizeof *e);
             TRY(scope_expression(&ending->scope, e->value, &e->e, ending->diag));
         }
     return OK;
 }
 
-static bool depends_on_any(Expr e, const Exprs *symbols)
+static bool depends_on_any(Expr e, const ModelGivenEndExprs *symbols)
 {
     for (int i = 0; i < symbols->count; i++)
         if (expr_depends(e, symbols->at[i]))
@@ -169,7 +169,7 @@ static int order_of(const Ending *ending, const Instance *unknown)
 {
     int order = 0;
 
-    for (const Equation *e = ending->equations->first; e != NULL; e = e->next)
+    for (const BlockEquation *e = ending->equations->first; e != NULL; e = e->next)
         for (int k = 1; k <= 2 && e->kind != EQUATION_UNKNOWN; k++)
             if (k > order &&
                 expr_depends(e->e, variable(ending, unknown->name, k == 1 ? "'" : "''")))
@@ -179,17 +179,17 @@ static int order_of(const Ending *ending, const Instance *unknown)
 
 /* Names of derivatives in the equations: the last is what the network solves for, the others are
  * states. */
-static void tell_orders(Ending *ending)
+static void report_orders(Ending *ending)
 {
-    for (Equation *e = ending->equations->first; e != NULL; e = e->next) {
+    for (BlockEquation *e = ending->equations->first; e != NULL; e = e->next) {
         Instance *part = e->part;
-        Given *given;
+        EquationBlock *given;
         Expr last;
 
         if (e->kind != EQUATION_UNKNOWN || part == NULL)
             continue;
-        given = given_copy(ending->state->pool, part->given);
-        pool_keep(ending->state->pool, part, sizeof *part);
+        given = equation_block_copy(ending->state->pool, part->given);
+        pool_retain(ending->state->pool, part, sizeof *part);
         given->order = order_of(ending, part);
         part->given = given;
         last = variable(ending, part->name, ".v");
@@ -203,7 +203,7 @@ static void tell_orders(Ending *ending)
 
 static void put_variables(Ending *ending)
 {
-    for (Equation *e = ending->equations->first; e != NULL; e = e->next)
+    for (BlockEquation *e = ending->equations->first; e != NULL; e = e->next)
         if (e->kind != EQUATION_UNKNOWN)
             e->e = expr_substitute(ending->state->arena, e->e, ending->from.at, ending->to.at,
                                    ending->from.count);
@@ -211,20 +211,20 @@ static void put_variables(Ending *ending)
 
 /* --- counts --- */
 
-static int count_kind(const Equations *equations, EquationKind kind)
+static int count_kind(const BlockEquations *equations, EquationKind kind)
 {
     int count = 0;
 
-    for (const Equation *e = equations->first; e != NULL; e = e->next)
+    for (const BlockEquation *e = equations->first; e != NULL; e = e->next)
         count += e->kind == kind;
     return count;
 }
 
-static const Equation *last_of(const Equations *equations, EquationKind kind)
+static const BlockEquation *last_of(const BlockEquations *equations, EquationKind kind)
 {
-    const Equation *last = NULL;
+    const BlockEquation *last = NULL;
 
-    for (const Equation *e = equations->first; e != NULL; e = e->next)
+    for (const BlockEquation *e = equations->first; e != NULL; e = e->next)
         if (e->kind == kind)
             last = e;
     return last;
@@ -232,10 +232,11 @@ static const Equation *last_of(const Equations *equations, EquationKind kind)
 
 static Status check_counts(const Ending *ending)
 {
-    const Equations *equations = ending->equations;
+    const BlockEquations *equations = ending->equations;
     const int unknowns = count_kind(equations, EQUATION_UNKNOWN);
     const int internal = count_kind(equations, EQUATION_INTERNAL);
-    const Equation *there = last_of(equations, unknowns > 0 ? EQUATION_UNKNOWN : EQUATION_INTERNAL);
+    const BlockEquation *there =
+        last_of(equations, unknowns > 0 ? EQUATION_UNKNOWN : EQUATION_INTERNAL);
 
     if (unknowns == internal)
         return OK;
@@ -245,9 +246,9 @@ static Status check_counts(const Ending *ending)
     return E_MODEL;
 }
 
-static bool is_told(const Equations *equations, int port, int motion)
+static bool is_listed(const BlockEquations *equations, int port, int motion)
 {
-    for (const Equation *e = equations->first; e != NULL; e = e->next)
+    for (const BlockEquation *e = equations->first; e != NULL; e = e->next)
         if (e->kind == EQUATION_GIVES && e->port == port &&
             (motion < 0 || (e->is_motion && e->member == motion)))
             return true;
@@ -258,13 +259,13 @@ static bool is_told(const Equations *equations, int port, int motion)
 static Status check_ports(const Ending *ending)
 {
     const Subsystem *subsystem = ending->use->subsystem;
-    const Equations *equations = ending->equations;
+    const BlockEquations *equations = ending->equations;
 
     for (int p = 0; p < subsystem->port_count; p++) {
         const Port *port = &subsystem->ports[p];
 
         /* a frame at rest feels no effort */
-        if (is_told(equations, p, -1) || (port->is_frame && equations->moving_count > 0))
+        if (is_listed(equations, p, -1) || (port->is_frame && equations->moving_count > 0))
             continue;
         (void)diag_at(ending->diag, E_MODEL, equations->last->place, "nothing tells what %s gives",
                       port->name);
@@ -286,7 +287,7 @@ static Status check_ports(const Ending *ending)
             const char *name = subsystem->ports[equations->frames[f]].name;
 
             if (!wanted || is_free(ending, equations->frames[f]) ||
-                is_told(equations, equations->frames[f], k))
+                is_listed(equations, equations->frames[f], k))
                 continue;
             (void)diag_at(ending->diag, E_MODEL, equations->last->place, "%s.%s isn't given", name,
                           given_motions[k]);
@@ -322,7 +323,7 @@ static const double EQUAL = 1e-9; /* of the larger of two numbers: far above rou
 static bool same_function(const State *state, Expr a, Expr b)
 {
     State place = *state; /* its number alone tells places apart */
-    bool same = true, is_told = a == b;
+    bool same = true, is_listed = a == b;
 
     for (int i = 0; i < TRIES && same; i++) {
         double x, y;
@@ -331,9 +332,9 @@ static bool same_function(const State *state, Expr a, Expr b)
         x = expr_evaluate(a, random_value, &place);
         y = expr_evaluate(b, random_value, &place);
         same = (isnan(x) && isnan(y)) || fabs(x - y) <= EQUAL * fmax(1, fmax(fabs(x), fabs(y)));
-        is_told = is_told || !isnan(x);
+        is_listed = is_listed || !isnan(x);
     }
-    return same && is_told;
+    return same && is_listed;
 }
 
 static bool is_negative(const State *state, Expr e)
@@ -355,21 +356,21 @@ static Expr motion_of(const Ending *ending, int frame, int motion)
 {
     if (is_free(ending, ending->equations->frames[frame]))
         return free_motion(ending, ending->equations->frames[frame], motion, 0);
-    for (const Equation *e = ending->equations->first; e != NULL; e = e->next)
+    for (const BlockEquation *e = ending->equations->first; e != NULL; e = e->next)
         if (e->kind == EQUATION_GIVES && e->is_motion && e->member == motion &&
             e->port == ending->equations->frames[frame])
             return e->e;
     return expr_int(ending->state->arena, 0);
 }
 
-static Status read_pose(const Ending *ending, Given *given)
+static Status read_pose(const Ending *ending, EquationBlock *given)
 {
-    const Equations *equations = ending->equations;
+    const BlockEquations *equations = ending->equations;
 
     for (int f = 0; f < equations->frame_count; f++)
         for (int k = 0; k < GIVEN_POSE; k++)
             given->pose[f * GIVEN_POSE + k] = motion_of(ending, f, k);
-    for (const Equation *e = equations->first; e != NULL; e = e->next) {
+    for (const BlockEquation *e = equations->first; e != NULL; e = e->next) {
         Expr left = e->e;
 
         if (e->kind != EQUATION_GIVES || !e->is_motion)
@@ -392,7 +393,7 @@ static Status read_pose(const Ending *ending, Given *given)
 
 /* What an equation is to be divided by, so that it is mass q'' - force + J^T effort = 0: by the
  * first effort that the unknown moves. NULL: it moves none */
-static Expr scale_of(const Ending *ending, const Given *given, Expr row, int unknown)
+static Expr scale_of(const Ending *ending, const EquationBlock *given, Expr row, int unknown)
 {
     Arena *arena = ending->state->arena;
 
@@ -418,7 +419,7 @@ static Expr scale_of(const Ending *ending, const Given *given, Expr row, int unk
 }
 
 /* whether all efforts stand in the row as they do work on the unknown's motion */
-static bool makes_no_power(const Ending *ending, const Given *given, Expr row, Expr scale,
+static bool makes_no_power(const Ending *ending, const EquationBlock *given, Expr row, Expr scale,
                            int unknown)
 {
     Arena *arena = ending->state->arena;
@@ -438,7 +439,7 @@ static bool makes_no_power(const Ending *ending, const Given *given, Expr row, E
     return true;
 }
 
-static Status not_the_one(const Ending *ending, const Equation *row, int unknown)
+static Status not_the_one(const Ending *ending, const BlockEquation *row, int unknown)
 {
     const char *name = ending->equations->moving[unknown] + strlen(ending->use->name) + 1;
 
@@ -454,8 +455,8 @@ static Status not_the_one(const Ending *ending, const Equation *row, int unknown
 }
 
 /* it is linear in what may stand in it once only */
-static Status check_linear(const Ending *ending, const Equation *row, const Exprs *symbols,
-                           const char *what)
+static Status check_linear(const Ending *ending, const BlockEquation *row,
+                           const ModelGivenEndExprs *symbols, const char *what)
 {
     for (int k = 0; k < symbols->count; k++) {
         if (!depends_on_any(expr_diff(ending->state->arena, row->e, symbols->at[k]), symbols))
@@ -467,7 +468,8 @@ static Status check_linear(const Ending *ending, const Equation *row, const Expr
     return OK;
 }
 
-static Status read_row(const Ending *ending, const Equation *row, int unknown, Given *given)
+static Status read_row(const Ending *ending, const BlockEquation *row, int unknown,
+                       EquationBlock *given)
 {
     Arena *arena = ending->state->arena;
     const int n = given->count;
@@ -490,7 +492,8 @@ static Status read_row(const Ending *ending, const Equation *row, int unknown, G
 }
 
 /* inertia: symmetric, not negative, of positions alone */
-static Status check_mass(const Ending *ending, const Given *given, const Equation *const *rows)
+static Status check_mass(const Ending *ending, const EquationBlock *given,
+                         const BlockEquation *const *rows)
 {
     const int n = given->count;
     const State *state = ending->state;
@@ -544,7 +547,7 @@ static bool contains_turn(Expr e, Expr symbol)
 }
 
 /* an angle, where it turns a frame or stands below a sine */
-static void tell_kinds(const Ending *ending, const Given *given)
+static void report_kinds(const Ending *ending, const EquationBlock *given)
 {
     Instance *block = ending->equations->block;
 
@@ -555,7 +558,7 @@ static void tell_kinds(const Ending *ending, const Given *given)
                 block->coord_kind[k] = COORDINATE_ANGLE;
 }
 
-static bool is_moving_row(const Ending *ending, const Equation *e)
+static bool is_moving_row(const Ending *ending, const BlockEquation *e)
 {
     return e->kind == EQUATION_INTERNAL &&
            (depends_on_any(e->e, &ending->rates) || depends_on_any(e->e, &ending->efforts));
@@ -564,7 +567,7 @@ static bool is_moving_row(const Ending *ending, const Equation *e)
 /* without a block nothing carries the frames */
 static Status check_no_motion(const Ending *ending)
 {
-    for (const Equation *e = ending->equations->first; e != NULL; e = e->next) {
+    for (const BlockEquation *e = ending->equations->first; e != NULL; e = e->next) {
         if (e->kind != EQUATION_GIVES || !e->is_motion)
             continue;
         (void)diag_at(ending->diag, E_MODEL, e->place, "no unknown moves %s",
@@ -576,15 +579,15 @@ static Status check_no_motion(const Ending *ending)
 }
 
 /* what moves a free frame: its effort is the one that is given there, or none */
-static Equation *free_row(const Ending *ending, int frame, int motion)
+static BlockEquation *free_row(const Ending *ending, int frame, int motion)
 {
     static const int effort_of[GIVEN_POSE] = {0, 1, 2, 5};
     const int port = ending->equations->frames[frame], effort = effort_of[motion];
-    Equation *row = pool_alloc(ending->state->pool, sizeof *row);
+    BlockEquation *row = pool_alloc(ending->state->pool, sizeof *row);
 
     *row = *ending->equations->last;
     row->e = ending->efforts.at[frame * GIVEN_EFFORTS + effort];
-    for (const Equation *e = ending->equations->first; e != NULL; e = e->next)
+    for (const BlockEquation *e = ending->equations->first; e != NULL; e = e->next)
         if (e->kind == EQUATION_GIVES && e->port == port && e->member == effort) {
             row->place = e->place;
             row->e = expr_sub(ending->state->arena, row->e, e->e);
@@ -593,7 +596,7 @@ static Equation *free_row(const Ending *ending, int frame, int motion)
 }
 
 /* the rows of free frames behind the others, as their unknowns are */
-static Status read_free(const Ending *ending, Given *given, const Equation **rows)
+static Status read_free(const Ending *ending, EquationBlock *given, const BlockEquation **rows)
 {
     int next = given->count - ending->equations->free_count;
 
@@ -608,21 +611,21 @@ static Status read_free(const Ending *ending, Given *given, const Equation **row
     return OK;
 }
 
-static Status tell_block(Ending *ending)
+static Status report_block(Ending *ending)
 {
-    Equations *equations = ending->equations;
+    BlockEquations *equations = ending->equations;
     const int count = equations->moving_count;
     const int own = count - equations->free_count;
-    const Equation **rows;
-    Given *given;
+    const BlockEquation **rows;
+    EquationBlock *given;
     int found = 0;
 
     if (equations->block == NULL)
         return check_no_motion(ending);
-    rows = pool_alloc(ending->state->pool, sizeof(Equation *) * ((size_t)count + 1));
-    given = given_copy(ending->state->pool, equations->block->given);
+    rows = pool_alloc(ending->state->pool, sizeof(BlockEquation *) * ((size_t)count + 1));
+    given = equation_block_copy(ending->state->pool, equations->block->given);
     TRY(read_pose(ending, given));
-    for (const Equation *e = equations->first; e != NULL; e = e->next) {
+    for (const BlockEquation *e = equations->first; e != NULL; e = e->next) {
         if (!is_moving_row(ending, e))
             continue;
         if (found < own)
@@ -640,8 +643,8 @@ static Status tell_block(Ending *ending)
     }
     TRY(read_free(ending, given, rows));
     TRY(check_mass(ending, given, rows));
-    tell_kinds(ending, given);
-    pool_keep(ending->state->pool, equations->block, sizeof *equations->block);
+    report_kinds(ending, given);
+    pool_retain(ending->state->pool, equations->block, sizeof *equations->block);
     equations->block->given = given;
     return OK;
 }
@@ -649,23 +652,24 @@ static Status tell_block(Ending *ending)
 /* --- the rest --- */
 
 /* the other equations, in the order of the other unknowns */
-static Status tell_unknowns(Ending *ending)
+static Status report_unknowns(Ending *ending)
 {
-    const Equations *equations = ending->equations;
-    const Equation *e = equations->first;
-    Exprs last = {0};
+    const BlockEquations *equations = ending->equations;
+    const BlockEquation *e = equations->first;
+    ModelGivenEndExprs last = {0};
     Status status = OK;
 
-    for (const Equation *u = equations->first; u != NULL; u = u->next)
+    for (const BlockEquation *u = equations->first; u != NULL; u = u->next)
         if (u->kind == EQUATION_UNKNOWN && u->part != NULL)
             LIST_PUSH(last, variable(ending, u->part->name, ".v"));
-    for (Equation *u = equations->first; u != NULL; u = u->next) {
+    for (BlockEquation *u = equations->first; u != NULL; u = u->next) {
         if (u->kind != EQUATION_UNKNOWN || u->part == NULL)
             continue;
         while (e->kind != EQUATION_INTERNAL || is_moving_row(ending, e))
             e = e->next; /* counts agree */
         CHECK(check_linear(ending, e, &last, "the highest derivatives"));
-        ((Given *)u->part->given)->equation = e->e; /* a copy of its own, see tell_orders() */
+        ((EquationBlock *)u->part->given)->equation =
+            e->e; /* a copy of its own, see report_orders() */
         e = e->next;
     }
 done:
@@ -673,9 +677,9 @@ done:
     return status;
 }
 
-static Status tell_given(Ending *ending)
+static Status report_given(Ending *ending)
 {
-    for (const Equation *e = ending->equations->first; e != NULL; e = e->next) {
+    for (const BlockEquation *e = ending->equations->first; e != NULL; e = e->next) {
         const int entry = e->part != NULL && e->part->row->family == FAMILY_FORCE
                               ? (e->member < 3 || ending->state->planar ? e->member : e->member - 3)
                               : 0;
@@ -709,11 +713,11 @@ static Status end_all(Ending *ending)
     ending->at_use = true;
     TRY(put_ports(ending));
     ending->at_use = false;
-    tell_orders(ending);
+    report_orders(ending);
     put_variables(ending);
-    TRY(tell_block(ending));
-    TRY(tell_unknowns(ending));
-    return tell_given(ending);
+    TRY(report_block(ending));
+    TRY(report_unknowns(ending));
+    return report_given(ending);
 }
 
 Status given_end(State *state, int use, bool *at_use, Diag *diag)

@@ -55,8 +55,8 @@ static const char *name_of_block(History *history, const char *text)
     return text[length] == '\n' ? pool_text(history->texts, text, length) : NULL;
 }
 
-Status history_take(History *history, State **state, const Statement *statement, Outcome *outcome,
-                    Diag *diag)
+Status history_restore(History *history, State **state, const Statement *statement,
+                       Outcome *outcome, Diag *diag)
 {
     StateMark mark;
     char *text = NULL;

@@ -30,8 +30,8 @@ typedef struct History {
 void history_open(History *history);
 void history_close(History *history);
 /* Apply a statement; one that says something becomes a step. */
-MUST_USE Status history_take(History *history, State **state, const Statement *statement,
-                             Outcome *outcome, Diag *diag);
+MUST_USE Status history_restore(History *history, State **state, const Statement *statement,
+                                Outcome *outcome, Diag *diag);
 void history_clear(History *history, State **state);
 /* The last `count` steps are one from now on. */
 void history_join(History *history, int count, const char *called);

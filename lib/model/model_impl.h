@@ -222,11 +222,11 @@ Setup state_setup(const State *state);
 /* Note what a statement changed of the setup. */
 void state_note_setup(State *state, const Setup *before);
 /* Before one is changed in place: */
-void state_keep_line(State *state, int line);
-void state_keep_definition(State *state, int definition);
-void state_keep_choice(State *state, TreeKind kind);
-void state_keep_independent(State *state);
-void state_keep_values(State *state, int part, Value *values); /* as they were */
+void state_retain_line(State *state, int line);
+void state_retain_definition(State *state, int definition);
+void state_retain_choice(State *state, TreeKind kind);
+void state_retain_independent(State *state);
+void state_retain_values(State *state, int part, Value *values); /* as they were */
 /* where the starts stand, from the one at `first` on (model_start.c) */
 void starts_index(State *state, int first);
 /* and where one of that name does; -1: nowhere */

@@ -55,7 +55,7 @@ void line_supersede(State *state, int part, const char *key)
 
         if (line->part != part || line->is_gone || line->key == NULL || strcmp(line->key, key) != 0)
             continue;
-        state_keep_line(state, i);
+        state_retain_line(state, i);
         line->is_gone = true;
     }
 }

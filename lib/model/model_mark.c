@@ -39,20 +39,20 @@ static Change *keep(State *state, ChangeKind kind, int at)
     return &state->changes.at[state->changes.count - 1];
 }
 
-void state_keep_line(State *state, int line)
+void state_retain_line(State *state, int line)
 {
     mem_keep_part(state->lines.at, &state->lines.at[line], sizeof *state->lines.at);
     keep(state, CHANGED_LINE, line)->was.line = state->lines.at[line];
 }
 
-void state_keep_definition(State *state, int definition)
+void state_retain_definition(State *state, int definition)
 {
     mem_keep_part(state->definitions.at, &state->definitions.at[definition],
                   sizeof *state->definitions.at);
     keep(state, CHANGED_DEFINITION, definition)->was.definition = state->definitions.at[definition];
 }
 
-void state_keep_values(State *state, int part, Value *values)
+void state_retain_values(State *state, int part, Value *values)
 {
     keep(state, CHANGED_VALUES, part)->was.values = values;
 }
@@ -63,7 +63,7 @@ static void copy_names(NameList *to, const NameList *from)
         LIST_PUSH(*to, from->at[i]);
 }
 
-void state_keep_choice(State *state, TreeKind kind)
+void state_retain_choice(State *state, TreeKind kind)
 {
     const Choice *choice = &state->choices[kind];
     Choice *copy = NEW(Choice);
@@ -74,7 +74,7 @@ void state_keep_choice(State *state, TreeKind kind)
     keep(state, CHANGED_CHOICE, (int)kind)->was.choice = copy;
 }
 
-void state_keep_independent(State *state)
+void state_retain_independent(State *state)
 {
     NameList *copy = NEW(NameList);
 
@@ -176,7 +176,7 @@ static void restore(State *state, Change *change)
         restore_definition(state, change->at, &change->was.definition);
         break;
     case CHANGED_VALUES:
-        pool_keep(state->pool, state->parts.at[change->at], sizeof(Instance));
+        pool_retain(state->pool, state->parts.at[change->at], sizeof(Instance));
         state->parts.at[change->at]->values = change->was.values;
         break;
     case CHANGED_CHOICE:

@@ -2,9 +2,9 @@
  *
  * A variable's own name is its coordinate's ("theta1", "m1.x"), or owner and member
  * ("h9.fx"); primes follow behind it. */
-#include "component/given.h"
+#include "component/equation_block.h"
+#include "language/foreign_syntax.h"
 #include "language/functions.h"
-#include "language/habits.h"
 #include "model/model_impl.h"
 
 #include <ctype.h>
@@ -108,8 +108,8 @@ Status name_unknown(const State *state, const char *what, const char *name, Plac
     for (int i = 0; state_name_at(state, i) != NULL; i++)
         suggest_offer(&suggest, state_name_at(state, i));
     (void)diag_at(diag, E_NAME, place, "unknown %s '%s'", what, name);
-    if (habit_hint(HABIT_NAME, name) != NULL)
-        diag_hint(diag, "%s", habit_hint(HABIT_NAME, name));
+    if (foreign_syntax_hint(FOREIGN_NAME, name) != NULL)
+        diag_hint(diag, "%s", foreign_syntax_hint(FOREIGN_NAME, name));
     else if (function_find(name, &row))
         diag_hint(diag, "it is a function, and takes its argument in brackets: %s(x)", name);
     else if (suggest.best == NULL && (unit_find(name, &unit) || unit_spelled(name) != NULL))

@@ -10,7 +10,7 @@
 #include <assert.h>
 #include <string.h>
 
-typedef struct Renaming {
+typedef struct ModelRenameRenaming {
     State *state;
     int use;
     Pool *pool;
@@ -19,15 +19,15 @@ typedef struct Renaming {
     Diag *diag;
     bool along;  /* x is the place along a part */
     bool places; /* names are those of parts, not of values */
-} Renaming;
+} ModelRenameRenaming;
 
-static const Use *use_of(const Renaming *r)
+static const Use *use_of(const ModelRenameRenaming *r)
 {
     return &r->state->uses.at[r->use];
 }
 
 /* "leg1.h2" */
-static const char *own_name(const Renaming *r, const char *name)
+static const char *own_name(const ModelRenameRenaming *r, const char *name)
 {
     Text text = {0};
     const char *own;
@@ -38,7 +38,7 @@ static const char *own_name(const Renaming *r, const char *name)
     return own;
 }
 
-static bool is_argument(const Renaming *r, const char *name)
+static bool is_argument(const ModelRenameRenaming *r, const char *name)
 {
     for (int i = 0; i < r->statement->argument_count; i++)
         if (strcmp(r->statement->arguments[i], name) == 0)
@@ -53,7 +53,7 @@ static bool is_known(const State *state, const char *name)
 
 /* --- ports --- */
 
-static Status place_frame(const Renaming *r, const char *name, Diag *diag)
+static Status place_frame(const ModelRenameRenaming *r, const char *name, Diag *diag)
 {
     State *state = r->state;
     const int outer = state->inside;
@@ -76,7 +76,7 @@ done:
 
 /* Where a port is attached: NULL: it is a name of the inside. One of a definition that is being
  * read stands for whatever it will be bound to. */
-static Status port_place(const Renaming *r, int port, const char **out)
+static Status port_place(const ModelRenameRenaming *r, int port, const char **out)
 {
     const Use *use = use_of(r);
     const char *own = own_name(r, use->subsystem->ports[port].name);
@@ -97,13 +97,13 @@ static Status port_place(const Renaming *r, int port, const char **out)
     own = state_text(r->state, own);
     TRY(place_frame(r, own, r->diag));
     use = use_of(r);
-    pool_keep(r->state->pool, &use->bound[port], sizeof *use->bound);
+    pool_retain(r->state->pool, &use->bound[port], sizeof *use->bound);
     *out = use->bound[port] = own;
     return OK;
 }
 
 /* The potential of a terminal on which nothing stands yet. */
-static void place_terminal(const Renaming *r, const char *name, const char *member)
+static void place_terminal(const ModelRenameRenaming *r, const char *name, const char *member)
 {
     for (Domain d = DOMAIN_ELECTRICAL; d < DOMAIN_COUNT; d++)
         if (names_find(r->state->terminals, name) < 0 && strcmp(domain_across(d), member) == 0)
@@ -122,7 +122,7 @@ static const char *fixed_member(const State *state, bool is_frame, const char *m
 
 /* --- names --- */
 
-static Status not_seen(const Renaming *r, const char *name, Place place)
+static Status not_seen(const ModelRenameRenaming *r, const char *name, Place place)
 {
     const State *state = r->state;
     const char *definition = use_of(r)->subsystem->name;
@@ -168,8 +168,8 @@ static bool is_value(const State *state, const char *name)
 }
 
 /* `first` is a path's first name, `rest` what follows it, with its dot */
-static Status path_of_port(const Renaming *r, int port, const char *rest, const char **out,
-                           const char **number)
+static Status path_of_port(const ModelRenameRenaming *r, int port, const char *rest,
+                           const char **out, const char **number)
 {
     const Port *p = &use_of(r)->subsystem->ports[port];
     const char *place = NULL;
@@ -195,8 +195,8 @@ static Status path_of_port(const Renaming *r, int port, const char *rest, const 
 }
 
 /* *number: it stands for this one, where that isn't NULL */
-static Status rename_path(const Renaming *r, const char *path, Place place, const char **out,
-                          const char **number)
+static Status rename_path(const ModelRenameRenaming *r, const char *path, Place place,
+                          const char **out, const char **number)
 {
     const size_t length = strcspn(path, ".");
     const char *first = pool_text(r->pool, path, length);
@@ -220,7 +220,7 @@ static Status rename_path(const Renaming *r, const char *path, Place place, cons
 
 /* --- expressions --- */
 
-static Status rename_in(const Renaming *r, Syntax *syntax)
+static Status rename_in(const ModelRenameRenaming *r, Syntax *syntax)
 {
     const char *number = NULL;
 
@@ -251,18 +251,18 @@ static bool is_axis(const Syntax *syntax)
            syntax->text[1] == '\0';
 }
 
-static Status rename_places(const Renaming *r, Syntax *syntax)
+static Status rename_places(const ModelRenameRenaming *r, Syntax *syntax)
 {
-    Renaming places = *r;
+    ModelRenameRenaming places = *r;
 
     places.places = true;
     return rename_in(&places, syntax);
 }
 
-static Status rename_value(const Renaming *r, const Param *param, Syntax *syntax)
+static Status rename_value(const ModelRenameRenaming *r, const Param *param, Syntax *syntax)
 {
     const ParamKind kind = param != NULL ? param->kind : PARAM_SCALAR;
-    Renaming inside = *r;
+    ModelRenameRenaming inside = *r;
 
     if (kind == PARAM_WORD || ((kind == PARAM_AXIS || kind == PARAM_AXES) && is_axis(syntax)))
         return OK;
@@ -273,7 +273,7 @@ static Status rename_value(const Renaming *r, const Param *param, Syntax *syntax
 }
 
 /* a terminal of its own may be new */
-static Status rename_terminal(const Renaming *r, Syntax *syntax)
+static Status rename_terminal(const ModelRenameRenaming *r, Syntax *syntax)
 {
     const char *name = syntax_name(syntax);
     const int port = name != NULL ? subsystem_port(use_of(r)->subsystem, name) : -1;
@@ -292,7 +292,7 @@ static Status rename_terminal(const Renaming *r, Syntax *syntax)
 }
 
 /* a name that the statement makes; brackets for several */
-static void rename_new(const Renaming *r, Syntax *syntax)
+static void rename_new(const ModelRenameRenaming *r, Syntax *syntax)
 {
     if (syntax->kind == SYNTAX_VARIABLE)
         syntax->text = own_name(r, syntax->text);
@@ -301,7 +301,7 @@ static void rename_new(const Renaming *r, Syntax *syntax)
 }
 
 /* A frame that was met before it is made stands for one that is given from outside. */
-static Status check_made_first(const Renaming *r, const Operand *name)
+static Status check_made_first(const ModelRenameRenaming *r, const Operand *name)
 {
     const Use *use = use_of(r);
     const int port = subsystem_port(use->subsystem, name->value->text);
@@ -334,7 +334,7 @@ static int named_places(const Component *row)
     }
 }
 
-static Status rename_component(const Renaming *r, Statement *s)
+static Status rename_component(const ModelRenameRenaming *r, Statement *s)
 {
     const Component *row = s->row.component;
     const int terminals = component_terminals(row), places = named_places(row);
@@ -372,7 +372,7 @@ static Status rename_component(const Renaming *r, Statement *s)
     return OK;
 }
 
-static Status rename_use(const Renaming *r, Statement *s)
+static Status rename_use(const ModelRenameRenaming *r, Statement *s)
 {
     assert(s->operands.at != NULL); /* the grammar wants them */
 
@@ -397,7 +397,7 @@ static Status rename_use(const Renaming *r, Statement *s)
 }
 
 /* unknown, internal, give: of the last, the ports whose variables it tells keep their names */
-static Status rename_given(Renaming *r, Statement *s)
+static Status rename_given(ModelRenameRenaming *r, Statement *s)
 {
     r->gives = true;
     for (int i = 0; i < s->operands.count; i++)
@@ -419,7 +419,7 @@ static Status rename_given(Renaming *r, Statement *s)
 }
 
 /* what the verbs of a definition have: names and pairs of variables; of an event keys as well */
-static Status rename_verb(const Renaming *r, Statement *s)
+static Status rename_verb(const ModelRenameRenaming *r, Statement *s)
 {
     const bool is_event = strcmp(s->verb, "event") == 0;
     const bool makes = strcmp(s->verb, "output") == 0;
@@ -447,7 +447,7 @@ static Status rename_verb(const Renaming *r, Statement *s)
     return OK;
 }
 
-static void copy_trees(Renaming *r, const Statement *from, Statement *to)
+static void copy_trees(ModelRenameRenaming *r, const Statement *from, Statement *to)
 {
     *to = *from;
     to->operands.at = NULL;
@@ -473,7 +473,8 @@ static void copy_trees(Renaming *r, const Statement *from, Statement *to)
 Status statement_rename(State *state, int use, const Statement *statement, Pool *pool,
                         Statement *out, Diag *diag)
 {
-    Renaming r = {.state = state, .use = use, .pool = pool, .statement = statement, .diag = diag};
+    ModelRenameRenaming r = {
+        .state = state, .use = use, .pool = pool, .statement = statement, .diag = diag};
     Text text = {0};
     Status status = OK;
 

@@ -302,7 +302,7 @@ static Status set_pair(State **state, const Pair *pair, Outcome *outcome, Diag *
         (Wanted){&part->row->params[index], instance_takes_angle(part, &part->row->params[index])},
         pair->value, &values[index], diag));
     CHECK(param_check_alike(part->row, values, index, pair->value, diag));
-    pool_keep(s->pool, part, sizeof *part);
+    pool_retain(s->pool, part, sizeof *part);
     part->values = values;
     part->is_geared = part->is_geared || (part->row->params[index].use & GEARS) != 0;
     if (part->row->deforming != NULL &&
@@ -322,7 +322,7 @@ static Status set_pair(State **state, const Pair *pair, Outcome *outcome, Diag *
         part->values = kept;
         goto done;
     }
-    state_keep_values(s, part->number, kept);
+    state_retain_values(s, part->number, kept);
     text_addf(&text, "set %s = ", pair->name);
     syntax_print(&text, pair->value);
     line_supersede(s, part->number, part->row->params[index].name);

@@ -172,7 +172,7 @@ Status apply_form(State **state, const Statement *statement, Outcome *outcome, D
     if (statement->pairs.count > 0)
         CHECK(read_independent(s, statement->pairs.at[0].value, &names, diag));
     s->form = embedded ? FORM_EMBEDDED : FORM_AUGMENTED;
-    state_keep_independent(s);
+    state_retain_independent(s);
     LIST_FREE(s->independent);
     for (int i = 0; i < names.count; i++)
         LIST_PUSH(s->independent, names.at[i]);

@@ -142,7 +142,7 @@ Status subsystem_begin(State *state, const Statement *statement, int *use, Diag 
                     .subsystem = subsystem,
                     .bound = pool_alloc(state->pool,
                                         sizeof(char *) * ((size_t)subsystem->port_count + 1)),
-                    .equations = pool_alloc(state->pool, sizeof(Equations)),
+                    .equations = pool_alloc(state->pool, sizeof(BlockEquations)),
                     .outer = -1,
                     .line = line_add(state, subsystem->name, -1, -1, NULL),
                     .is_trial = true});
@@ -172,7 +172,7 @@ void subsystem_forget_places(State *state, int use)
     for (int i = 0; i < u->subsystem->port_count; i++) {
         if (u->bound[i] == NULL || is_made(state, u, i))
             continue;
-        pool_keep(state->pool, &u->bound[i], sizeof *u->bound);
+        pool_retain(state->pool, &u->bound[i], sizeof *u->bound);
         u->bound[i] = NULL;
     }
 }

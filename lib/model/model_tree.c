@@ -521,7 +521,7 @@ static void request_commit(Request *request)
 
         if (!request->touched[kind])
             continue;
-        state_keep_choice(request->state, kind);
+        state_retain_choice(request->state, kind);
         *choice = request->choices[kind];
         request->choices[kind] = before;
     }
@@ -718,15 +718,15 @@ static void copy_names(State *to, NameList *list, const NameList *from, NameList
 {
     for (int i = 0; i < from->count; i++) {
         int which;
-        bool is_told = false;
+        bool is_listed = false;
 
         if (edge_part(to, from->at[i], &which) != NULL) {
             LIST_PUSH(*list, state_text(to, from->at[i]));
             continue;
         }
         for (int k = 0; k < gone->count; k++)
-            is_told = is_told || strcmp(gone->at[k], from->at[i]) == 0;
-        if (!is_told)
+            is_listed = is_listed || strcmp(gone->at[k], from->at[i]) == 0;
+        if (!is_listed)
             LIST_PUSH(*gone, from->at[i]);
     }
 }

@@ -537,7 +537,7 @@ static Status check_name(const UseDraft *d, const Operand *operand)
 }
 
 /* The error of a definition's line, told where it is used. */
-static Status tell_inside(const UseDraft *d, const Operand *operand, const Diag *fault)
+static Status report_inside(const UseDraft *d, const Operand *operand, const Diag *fault)
 {
     (void)diag_at(d->diag, fault->status, operand->place, "%s: %s", d->use.name, fault->message);
     diag_hint(d->diag, "%s", fault->hint);
@@ -561,7 +561,7 @@ static Status make_instance(UseDraft *d, const Operand *operand)
         .name = state_text(state, syntax_name(operand->value)),
         .subsystem = d->subsystem,
         .bound = pool_alloc(state->pool, sizeof(char *) * ((size_t)d->subsystem->port_count + 1)),
-        .equations = pool_alloc(state->pool, sizeof(Equations)),
+        .equations = pool_alloc(state->pool, sizeof(BlockEquations)),
         .outer = state->inside};
     d->overrides =
         pool_alloc(state->pool, sizeof *d->overrides * ((size_t)d->subsystem->parameter_count + 1));
@@ -579,7 +579,7 @@ static Status make_instance(UseDraft *d, const Operand *operand)
     x.overrides = d->overrides;
     status = apply_lines(d->state, &x, d->subsystem->body, &fault);
     if (status != OK && !x.at_use)
-        return tell_inside(d, operand, &fault);
+        return report_inside(d, operand, &fault);
     if (status != OK) {
         if (d->diag != NULL)
             *d->diag = fault;

@@ -364,7 +364,7 @@ static Status convert_bounded(Scope *scope, const Syntax *syntax, Expr *out, Dia
     status = convert(scope, syntax, out, diag);
     (void)arena_limit(arena, limit);
     if (status == OK) {
-        arena_keep(arena, mark);
+        arena_retain(arena, mark);
         return OK;
     }
     arena_release(arena, mark);

@@ -20,7 +20,8 @@ typedef struct Subsystem {
     int size; /* statements of an instance, those of instances inside included */
 } Subsystem;
 
-typedef struct Equations Equations; /* of an instance that is given them (model_given.c) */
+typedef struct BlockEquations
+    BlockEquations; /* of an instance that is given them (model_given.c) */
 
 typedef struct Use { /* an instance of a subsystem */
     const char *name;
@@ -28,7 +29,7 @@ typedef struct Use { /* an instance of a subsystem */
     const char **bound; /* by port: where it is attached outside; NULL: made inside, or not yet */
     int outer;          /* the use in which it was made; -1 */
     int line;
-    Equations *equations; /* NULL: it is made of parts */
+    BlockEquations *equations; /* NULL: it is made of parts */
     bool is_trial; /* of a definition that is being read: ports are bound where they are met */
 } Use;
 

@@ -171,10 +171,10 @@ void black_boxes_part(const BlackBoxes *boxes, Point *places, Point *size)
 /* --- the border --- */
 
 /* A way along what is free of the border, from the upper right corner as the clock goes. */
-typedef struct Stand {
+typedef struct LabelSide {
     double way;
     int port;
-} Stand;
+} LabelSide;
 
 static double way_towards(const BlackBox *box, Point d)
 {
@@ -205,20 +205,20 @@ static Point place_of_way(const BlackBox *box, double way)
 }
 
 /* in the order of their ways, neighbours at least `apart`, around the whole border */
-static void spread(Stand *stands, int count, double round, double apart)
+static void spread(LabelSide *stands, int count, double round, double apart)
 {
     enum { SWEEPS = 60 };
 
     for (int i = 1; i < count; i++)
         for (int k = i; k > 0 && stands[k].way < stands[k - 1].way; k--) {
-            const Stand moved = stands[k];
+            const LabelSide moved = stands[k];
 
             stands[k] = stands[k - 1];
             stands[k - 1] = moved;
         }
     for (int sweep = 0; sweep < SWEEPS && count > 1; sweep++)
         for (int i = 0; i < count; i++) {
-            Stand *a = &stands[i], *b = &stands[(i + 1) % count];
+            LabelSide *a = &stands[i], *b = &stands[(i + 1) % count];
             const double missing = apart - (b->way + (i + 1 == count ? round : 0) - a->way);
 
             if (missing > 0) {
@@ -231,7 +231,7 @@ static void spread(Stand *stands, int count, double round, double apart)
 void black_boxes_set_pins(BlackBoxes *boxes, const Point *places)
 {
     const TerminalGraph *terminal = boxes->terminal;
-    Stand *stands = NEW_ARRAY(Stand, terminal->ports.count);
+    LabelSide *stands = NEW_ARRAY(LabelSide, terminal->ports.count);
 
     for (int i = 0; i < boxes->boxes.count; i++) {
         const BlackBox *box = &boxes->boxes.at[i];
@@ -244,7 +244,8 @@ void black_boxes_set_pins(BlackBoxes *boxes, const Point *places)
             const Point to = places[terminal->ports.at[p].node];
 
             if (terminal->ports.at[p].use == box->use)
-                stands[count++] = (Stand){way_towards(box, (Point){to.x - at.x, to.y - at.y}), p};
+                stands[count++] =
+                    (LabelSide){way_towards(box, (Point){to.x - at.x, to.y - at.y}), p};
         }
         spread(stands, count, 4 * (free.x + free.y), port + MARGIN);
         for (int k = 0; k < count; k++)

@@ -20,7 +20,7 @@ typedef struct Axis {
 } Axis;
 
 /* where things stand, in cells */
-typedef struct Sheet {
+typedef struct ChartSheet {
     Picture *picture;
     const Chart *chart;
     bool unicode;
@@ -28,7 +28,7 @@ typedef struct Sheet {
     int columns, rows;
     int left, right, top, bottom; /* of the area of curves: first and behind the last */
     Axis x, y[2];
-} Sheet;
+} ChartSheet;
 
 /* --- axes --- */
 
@@ -129,7 +129,7 @@ static void set_range(Axis *axis, const double range[2])
         axis->low = axis->high - 6;
 }
 
-static bool is_seen(const Sheet *sheet, double x)
+static bool is_seen(const ChartSheet *sheet, double x)
 {
     const double at = on_axis(&sheet->x, x);
 
@@ -137,7 +137,7 @@ static bool is_seen(const Sheet *sheet, double x)
            at <= sheet->x.high + DBL_EPSILON * fabs(at);
 }
 
-static void find_ranges(Sheet *sheet, int parts)
+static void find_ranges(ChartSheet *sheet, int parts)
 {
     const Chart *chart = sheet->chart;
 
@@ -171,7 +171,7 @@ static void find_ranges(Sheet *sheet, int parts)
 }
 
 /* A length along x is as long along y: the shorter range grows. Dots are square. */
-static void make_equal(Sheet *sheet)
+static void make_equal(ChartSheet *sheet)
 {
     Axis *x = &sheet->x, *y = &sheet->y[0];
     const double a = (x->high - x->low) / ((sheet->right - sheet->left) * sheet->across);
@@ -185,7 +185,7 @@ static void make_equal(Sheet *sheet)
 
 /* --- the frame --- */
 
-static void put(const Sheet *sheet, int column, int row, Anchor anchor, const char *text)
+static void put(const ChartSheet *sheet, int column, int row, Anchor anchor, const char *text)
 {
     picture_text(sheet->picture, "#000000",
                  (Point){(double)column * sheet->across, (row + 1.0) * sheet->down}, 1, anchor,
@@ -202,7 +202,7 @@ static int widest(const Axis *axis)
 }
 
 /* where a value stands, in dots */
-static double place_x(const Sheet *sheet, double at)
+static double place_x(const ChartSheet *sheet, double at)
 {
     const double width = (double)(sheet->right - sheet->left) * sheet->across - 1;
 
@@ -210,7 +210,7 @@ static double place_x(const Sheet *sheet, double at)
            (at - sheet->x.low) / (sheet->x.high - sheet->x.low) * width;
 }
 
-static double place_y(const Sheet *sheet, const Axis *axis, double at)
+static double place_y(const ChartSheet *sheet, const Axis *axis, double at)
 {
     const double height = (double)(sheet->bottom - sheet->top) * sheet->down - 1;
 
@@ -225,7 +225,7 @@ static bool has_right(const Chart *chart)
     return false;
 }
 
-static void put_upright(const Sheet *sheet, int side)
+static void write_upright(const ChartSheet *sheet, int side)
 {
     const Axis *axis = &sheet->y[side];
     const int column = side == 0 ? sheet->left - 1 : sheet->right;
@@ -243,7 +243,7 @@ static void put_upright(const Sheet *sheet, int side)
     }
 }
 
-static void put_base(const Sheet *sheet)
+static void write_base(const ChartSheet *sheet)
 {
     const Chart *chart = sheet->chart;
     int free_from = 0; /* the first column where no text stands yet */
@@ -277,7 +277,7 @@ static void letter_of(int curve, char letter[2])
 }
 
 /* Liang and Barsky (1984): the part of a to b inside the area; false: none */
-static bool clip(const Sheet *sheet, Point *a, Point *b)
+static bool clip(const ChartSheet *sheet, Point *a, Point *b)
 {
     const double x[2] = {(double)sheet->left * sheet->across, (double)sheet->right * sheet->across};
     const double y[2] = {(double)sheet->top * sheet->down, (double)sheet->bottom * sheet->down};
@@ -299,20 +299,20 @@ static bool clip(const Sheet *sheet, Point *a, Point *b)
     return first <= last;
 }
 
-static bool is_inside(const Sheet *sheet, Point p)
+static bool is_inside(const ChartSheet *sheet, Point p)
 {
     Point same = p;
 
     return clip(sheet, &p, &same);
 }
 
-static void put_letter(const Sheet *sheet, Point at, const char *letter)
+static void write_letter(const ChartSheet *sheet, Point at, const char *letter)
 {
     put(sheet, (int)floor(at.x / sheet->across), (int)floor(at.y / sheet->down), ANCHOR_START,
         letter);
 }
 
-static void draw_curve(const Sheet *sheet, int number)
+static void draw_curve(const ChartSheet *sheet, int number)
 {
     static const Ink ink = {"#000000", NULL, 1, DASH_NONE};
     const Chart *chart = sheet->chart;
@@ -332,7 +332,7 @@ static void draw_curve(const Sheet *sheet, int number)
         const double way = hypot(p.x - last.x, p.y - last.y);
 
         if (curve->is_points && isfinite(p.x) && isfinite(p.y) && is_inside(sheet, p))
-            put_letter(sheet, p, chart->count > 1 ? letter : "o");
+            write_letter(sheet, p, chart->count > 1 ? letter : "o");
         if (curve->is_points || way < 0.3)
             continue;
 
@@ -344,13 +344,13 @@ static void draw_curve(const Sheet *sheet, int number)
         picture_line(sheet->picture, ink, ends, 2);
         travelled += hypot(ends[1].x - ends[0].x, ends[1].y - ends[0].y);
         if (chart->count > 1 && travelled >= spacing) {
-            put_letter(sheet, ends[1], letter);
+            write_letter(sheet, ends[1], letter);
             travelled = 0;
         }
     }
 }
 
-static void draw_marks(const Sheet *sheet)
+static void draw_marks(const ChartSheet *sheet)
 {
     static const Ink ink = {"#000000", NULL, 1, DASH_NONE};
     const Chart *chart = sheet->chart;
@@ -374,7 +374,7 @@ static void draw_marks(const Sheet *sheet)
 /* --- the legend --- */
 
 /* Entries "a h1 [deg]", as many in a line as fit; how many lines. `row` -1 counts alone. */
-static int put_legend(const Sheet *sheet, int row)
+static int write_legend(const ChartSheet *sheet, int row)
 {
     const Chart *chart = sheet->chart;
     int column = 0, lines = 1;
@@ -402,13 +402,13 @@ static int put_legend(const Sheet *sheet, int row)
 /* --- a chart --- */
 
 /* how much of the width ticks take, left and right */
-static void measure(Sheet *sheet, int *left, int *right)
+static void measure(ChartSheet *sheet, int *left, int *right)
 {
     const Chart *chart = sheet->chart;
 
     sheet->top =
         (chart->title[0] != '\0') + (chart->y_label[0][0] != '\0' || chart->y_label[1][0] != '\0');
-    sheet->bottom = sheet->rows - 2 - (chart->x_label[0] != '\0') - put_legend(sheet, -1);
+    sheet->bottom = sheet->rows - 2 - (chart->x_label[0] != '\0') - write_legend(sheet, -1);
     if (sheet->bottom < sheet->top + 2)
         sheet->bottom = sheet->top + 2;
 
@@ -423,7 +423,7 @@ static void measure(Sheet *sheet, int *left, int *right)
         *right = widest(&sheet->y[1]) + 3;
 }
 
-static void draw(Sheet *sheet)
+static void draw(ChartSheet *sheet)
 {
     const Chart *chart = sheet->chart;
     const int labels = chart->title[0] != '\0';
@@ -440,31 +440,31 @@ static void draw(Sheet *sheet)
     draw_marks(sheet);
     for (int i = 0; i < chart->count; i++)
         draw_curve(sheet, i);
-    put_upright(sheet, 0);
+    write_upright(sheet, 0);
     if (has_right(chart))
-        put_upright(sheet, 1);
-    put_base(sheet);
-    (void)put_legend(sheet, sheet->bottom + 2 + (chart->x_label[0] != '\0'));
+        write_upright(sheet, 1);
+    write_base(sheet);
+    (void)write_legend(sheet, sheet->bottom + 2 + (chart->x_label[0] != '\0'));
 }
 
 void chart_text(const Chart *charts, int count, int columns, int rows, bool unicode, Text *out)
 {
-    Sheet *sheets = NEW_ARRAY(Sheet, count);
+    ChartSheet *sheets = NEW_ARRAY(ChartSheet, count);
     int left = 0, right = 1;
 
     columns = columns < LEAST_COLUMNS ? LEAST_COLUMNS : columns;
     rows = rows / (count > 0 ? count : 1);
     for (int i = 0; i < count; i++) {
-        sheets[i] = (Sheet){.chart = &charts[i],
-                            .unicode = unicode,
-                            .across = unicode ? 2 : 1,
-                            .down = unicode ? 4 : 2,
-                            .columns = columns,
-                            .rows = rows < LEAST_ROWS ? LEAST_ROWS : rows};
+        sheets[i] = (ChartSheet){.chart = &charts[i],
+                                 .unicode = unicode,
+                                 .across = unicode ? 2 : 1,
+                                 .down = unicode ? 4 : 2,
+                                 .columns = columns,
+                                 .rows = rows < LEAST_ROWS ? LEAST_ROWS : rows};
         measure(&sheets[i], &left, &right);
     }
     for (int i = 0; i < count; i++) {
-        Sheet *sheet = &sheets[i];
+        ChartSheet *sheet = &sheets[i];
         Picture picture;
 
         sheet->left = left;

@@ -148,7 +148,7 @@ void offer_names(TypedLine *line)
 }
 
 /* what there is something to tell about */
-static void offer_told(TypedLine *line)
+static void offer_showable(TypedLine *line)
 {
     offer_names(line);
     offer_events(line);
@@ -266,7 +266,7 @@ static void offer_show(TypedLine *line)
             offer_edges(line);
             break;
         case BEHIND_ENTRY:
-            offer_told(line);
+            offer_showable(line);
             if (line->prefix[0] != '\0')
                 offer_alternatives(line, "mass(|forces(|constraints(|jacobian(");
             break;
@@ -294,7 +294,7 @@ static void offer_show(TypedLine *line)
     if (line->before.count == 1)
         offer_topics(line);
     if (line->before.count > 1 || line->prefix[0] != '\0')
-        offer_told(line);
+        offer_showable(line);
 }
 
 /* the words of the i-th setting, the model's before the program's; NULL: no more */
@@ -343,7 +343,7 @@ void offer_help_words(TypedLine *line)
 
     for (int i = 0; help_word(i, &word); i++)
         offer(line, word);
-    offer_told(line);
+    offer_showable(line);
     for (int i = 0; whole_name(i) != NULL; i++)
         offer(line, whole_name(i));
     if (line->prefix[0] == '\0')
@@ -390,7 +390,7 @@ static const struct {
     [OFFERS_EDGES] = {offer_edges, false},
     [OFFERS_LIT] = {offer_lit, false},
     [OFFERS_REMOVABLE] = {offer_removable, false},
-    [OFFERS_TOLD] = {offer_told, false},
+    [OFFERS_SHOWABLE] = {offer_showable, false},
     [OFFERS_SETTABLE] = {offer_set, false},
     [OFFERS_COORDINATES] = {offer_coordinates, false},
     [OFFERS_STARTS] = {offer_starts, false},

@@ -24,13 +24,13 @@ const Param *key_param(const TypedLine *line, const Verb *verb, const char *key)
 }
 
 /* what a unit at that place should measure */
-typedef struct Wanted {
+typedef struct UnitQuery {
     int count; /* of dimensions; 0: not known */
     Dimension dimension[2];
     const char *text; /* units of a row, between bars; NULL: none */
-} Wanted;
+} UnitQuery;
 
-static void want_row(Wanted *wanted, const char *text)
+static void want_row(UnitQuery *wanted, const char *text)
 {
     wanted->text = text;
     while (text != NULL && *text != '\0' && wanted->count < COUNT(wanted->dimension)) {
@@ -44,7 +44,7 @@ static void want_row(Wanted *wanted, const char *text)
     }
 }
 
-static void want_item(Wanted *wanted, const Model *model, const char *text)
+static void want_item(UnitQuery *wanted, const Model *model, const char *text)
 {
     Pool *pool = pool_new(0);
     Syntax *syntax;
@@ -65,7 +65,7 @@ static const char *positional_unit(const Component *row)
 }
 
 /* behind a number: by its key, or by the value that the verb takes without one */
-static void want_number(Wanted *wanted, const TypedLine *line, const Verb *verb, const char *key)
+static void want_number(UnitQuery *wanted, const TypedLine *line, const Verb *verb, const char *key)
 {
     const Param *param = key != NULL && verb != NULL ? key_param(line, verb, key) : NULL;
 
@@ -128,7 +128,7 @@ static bool find_bracket(const TypedLine *line, size_t *at)
 }
 
 /* a count of cycles is no angular rate */
-static bool fits(const Wanted *wanted, const Unit *unit)
+static bool fits(const UnitQuery *wanted, const Unit *unit)
 {
     bool fits = wanted->count == 0;
 
@@ -146,7 +146,7 @@ static bool is_ascii(const char *word)
     return *word == '\0';
 }
 
-static int offer_if_fits(TypedLine *line, const Wanted *wanted, const char *word)
+static int offer_if_fits(TypedLine *line, const UnitQuery *wanted, const char *word)
 {
     Unit unit;
 
@@ -157,7 +157,7 @@ static int offer_if_fits(TypedLine *line, const Wanted *wanted, const char *word
 }
 
 /* names of the table, with the prefixes that are common, or begun; how many */
-static int offer_fitting(TypedLine *line, const Wanted *wanted)
+static int offer_fitting(TypedLine *line, const UnitQuery *wanted)
 {
     const bool is_begun = line->prefix[0] != '\0';
     const char *prefix, *name;
@@ -177,13 +177,13 @@ static int offer_fitting(TypedLine *line, const Wanted *wanted)
 
 void offer_any_unit(TypedLine *line)
 {
-    const Wanted any = {0};
+    const UnitQuery any = {0};
 
     (void)offer_fitting(line, &any);
 }
 
 /* in brackets: the unit of the row or of the item as a whole, and what one may be made of */
-static void offer_compound(TypedLine *line, const Wanted *wanted, bool is_first)
+static void offer_compound(TypedLine *line, const UnitQuery *wanted, bool is_first)
 {
     if (is_first && wanted->text != NULL)
         offer_alternatives(line, wanted->text);
@@ -201,7 +201,7 @@ static void offer_compound(TypedLine *line, const Wanted *wanted, bool is_first)
 bool offer_units(TypedLine *line, const Verb *verb, const char *key)
 {
     const bool shows = verb != NULL && strpbrk(verb->pattern, "iIxe") != NULL;
-    Wanted wanted = {0};
+    UnitQuery wanted = {0};
     size_t open, end;
 
     if (find_bracket(line, &open)) {

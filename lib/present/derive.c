@@ -2,8 +2,8 @@
  *
  * Terms that are 0 are gathered by the reason. */
 #include "present/derive.h"
+#include "formulate/expanded/derivation.h"
 #include "formulate/network/network_steps.h"
-#include "formulate/written/derivation.h"
 
 #include <string.h>
 
@@ -21,7 +21,7 @@ static void add_term_name(Text *out, const View *view, Block block, const Term *
     static const char *const of_constraint[] = {[TERM_WHOLE] = "itself", [TERM_ASKED] = "asked"};
 
     if (term->edge >= 0) {
-        text_addf(out, "%s%s", term->sign < 0 ? "-" : "+", story_edge(view, term->edge));
+        text_addf(out, "%s%s", term->sign < 0 ? "-" : "+", narrative_edge(view, term->edge));
         return;
     }
     text_addf(out, "%s %s", system_instance_name(view->system, term->instance),
@@ -34,29 +34,29 @@ static void add_term_name(Text *out, const View *view, Block block, const Term *
 
 static SumOrder way_order(const Way *way)
 {
-    return story_order(way->count > 0 ? &way->at[0].sign : NULL, way->count, sizeof *way->at);
+    return narrative_order(way->count > 0 ? &way->at[0].sign : NULL, way->count, sizeof *way->at);
 }
 
 /* "r(h9) = r(r6) - r(r7) ..." */
-static void say_way(Text *out, const View *view, int chord, const Way *way)
+static void write_way(Text *out, const View *view, int chord, const Way *way)
 {
     const SumOrder order = way_order(way);
     Text words = {0};
 
-    text_add(&words, story_is_typeset(view) ? "$" : "");
-    story_add_variable(&words, view, "r", true, chord);
+    text_add(&words, narrative_is_typeset(view) ? "$" : "");
+    narrative_add_variable(&words, view, "r", true, chord);
     text_add(&words, " = ");
     for (int k = 0; k < way->count; k++) {
-        const WayStep *step = &way->at[story_at(&order, k)];
+        const WayStep *step = &way->at[narrative_at(&order, k)];
 
-        story_add_sign(&words, step->sign, k == 0);
-        story_add_variable(&words, view, "r", true, step->edge);
+        narrative_add_sign(&words, step->sign, k == 0);
+        narrative_add_variable(&words, view, "r", true, step->edge);
     }
     text_addf(&words, "%s%s, the circuit of ", way->count == 0 ? "0" : "",
-              story_is_typeset(view) ? "$" : "");
-    story_add_word(&words, view, story_edge(view, chord));
+              narrative_is_typeset(view) ? "$" : "");
+    narrative_add_word(&words, view, narrative_edge(view, chord));
     text_add(&words, " in the translation tree");
-    story_say_done(out, view, "circuit", &words);
+    narrative_add_done(out, view, "circuit", &words);
 }
 
 /* "turned by h8": what the orientation of a frame was replaced by */
@@ -70,30 +70,30 @@ static void add_turned(Text *out, const View *view, int node)
         if (angles.at[i] == NULL)
             text_add(out, "Euler parameters");
         else
-            story_add_formula(out, view, angles.at[i]);
+            narrative_add_formula(out, view, angles.at[i]);
     }
     LIST_FREE(angles);
 }
 
-static void say_vectors(Text *out, const View *view, const Way *way)
+static void write_vectors(Text *out, const View *view, const Way *way)
 {
     const SumOrder order = way_order(way);
     bool first = true;
 
     for (int i = 0; i < way->count; i++) {
-        const WayStep *step = &way->at[story_at(&order, i)];
+        const WayStep *step = &way->at[narrative_at(&order, i)];
         Text words = {0};
 
-        if (story_is_nothing(step->shift.at))
+        if (narrative_is_nothing(step->shift.at))
             continue;
-        text_add(&words, story_is_typeset(view) ? "$" : "");
-        story_add_variable(&words, view, "r", true, step->edge);
-        text_addf(&words, "%s = ", story_is_typeset(view) ? "$" : "");
-        story_add_vector(&words, view, step->shift.at);
+        text_add(&words, narrative_is_typeset(view) ? "$" : "");
+        narrative_add_variable(&words, view, "r", true, step->edge);
+        text_addf(&words, "%s = ", narrative_is_typeset(view) ? "$" : "");
+        narrative_add_vector(&words, view, step->shift.at);
         text_add(&words, " in ");
-        story_add_word(&words, view, story_node(view, step->shift.node));
+        narrative_add_word(&words, view, narrative_node(view, step->shift.node));
         add_turned(&words, view, step->shift.node);
-        story_say_done(out, view, first ? "substituted" : "", &words);
+        narrative_add_done(out, view, first ? "substituted" : "", &words);
         first = false;
     }
 }
@@ -103,8 +103,8 @@ void derive_way(Text *out, const View *view, int chord)
     Way way = {0};
 
     system_way(view->system, chord, &way);
-    say_way(out, view, chord, &way);
-    say_vectors(out, view, &way);
+    write_way(out, view, chord, &way);
+    write_vectors(out, view, &way);
     LIST_FREE(way);
 }
 
@@ -123,64 +123,65 @@ void derive_turns(Text *out, const View *view, int chord)
     const int room = tree_depth(tree, edge->tail) + tree_depth(tree, edge->head);
     int *edges = NEW_ARRAY(int, 2 * room + 1);
     const int count = tree_path(tree, edge->tail, edge->head, edges, edges + room);
-    const SumOrder order = story_order(edges + room, count, sizeof *edges);
+    const SumOrder order = narrative_order(edges + room, count, sizeof *edges);
 
-    text_add(&words, story_is_typeset(view) ? "$" : "");
-    story_add_variable(&words, view, story_is_typeset(view) ? "\\omega" : "w", true, chord);
+    text_add(&words, narrative_is_typeset(view) ? "$" : "");
+    narrative_add_variable(&words, view, narrative_is_typeset(view) ? "\\omega" : "w", true, chord);
     text_add(&words, " = ");
     for (int k = 0; k < count; k++) {
-        const int i = story_at(&order, k);
+        const int i = narrative_at(&order, k);
 
-        story_add_sign(&words, edges[room + i], k == 0);
-        story_add_variable(&words, view, story_is_typeset(view) ? "\\omega" : "w", true, edges[i]);
+        narrative_add_sign(&words, edges[room + i], k == 0);
+        narrative_add_variable(&words, view, narrative_is_typeset(view) ? "\\omega" : "w", true,
+                               edges[i]);
     }
     text_addf(&words, "%s%s, the circuit of ", count == 0 ? "0" : "",
-              story_is_typeset(view) ? "$" : "");
-    story_add_word(&words, view, edge->name);
+              narrative_is_typeset(view) ? "$" : "");
+    narrative_add_word(&words, view, edge->name);
     text_add(&words, " in the rotation tree");
-    story_say_done(out, view, "circuit", &words);
+    narrative_add_done(out, view, "circuit", &words);
     mem_free(edges);
 }
 
-static void say_projection(Text *out, const View *view, int row)
+static void write_projection(Text *out, const View *view, int row)
 {
-    const ConstraintRow *told = system_constraint(view->system, row);
+    const ConstraintRow *row_shown = system_constraint(view->system, row);
     const Projection on = system_projection(view->system, row);
     Text words = {0};
 
     switch (on.along) {
     case ALONG_AXIS:
         text_add(&words, "on ");
-        story_add_direction(&words, view, &on.a);
+        narrative_add_direction(&words, view, &on.a);
         text_add(&words, ", along which it carries a force");
         break;
     case ALONG_SQUARE:
         text_add(&words, "on the moment that keeps ");
-        story_add_direction(&words, view, &on.a);
+        narrative_add_direction(&words, view, &on.a);
         text_add(&words, " square to ");
-        story_add_direction(&words, view, &on.b);
+        narrative_add_direction(&words, view, &on.b);
         text_add(&words, ": their product is 0");
         break;
     case ALONG_TURN:
         text_add(&words, "on ");
-        story_add_direction(&words, view, &on.a);
+        narrative_add_direction(&words, view, &on.a);
         text_add(&words, ", about which it carries a moment: the turns add up");
         break;
     case ALONG_TIE:
         text_add(&words, "on the wrench along ");
-        story_add_direction(&words, view, &on.a);
+        narrative_add_direction(&words, view, &on.a);
         text_add(&words, " that does no work: the shift follows the turn");
         break;
     case ALONG_COUPLED:
-        story_add_word(&words, view, system_instance_name(view->system, told->instance));
+        narrative_add_word(&words, view, system_instance_name(view->system, row_shown->instance));
         text_add(&words, " ties the coordinate to others, with an unknown effort");
         break;
     case ALONG_DRIVEN:
-        story_add_word(&words, view, system_instance_name(view->system, told->instance));
+        narrative_add_word(&words, view, system_instance_name(view->system, row_shown->instance));
         text_add(&words, " asks for the coordinate, with an unknown effort");
         break;
     }
-    story_say_done(out, view, "projected", &words);
+    narrative_add_done(out, view, "projected", &words);
 }
 
 /* --- terms of an entry --- */
@@ -189,7 +190,7 @@ static void say_projection(Text *out, const View *view, int row)
 static const char *why_nothing_along(const Term *term, const Way *way)
 {
     for (int i = 0; i < way->count; i++)
-        if (way->at[i].edge == term->edge && story_is_nothing(way->at[i].shift.at))
+        if (way->at[i].edge == term->edge && narrative_is_nothing(way->at[i].shift.at))
             return "their ends stay together";
     return "square to that direction";
 }
@@ -208,7 +209,7 @@ static const char *why_at_rest(const Term *term, const Moved *moved, Block block
 
             if (motion->instance != term->instance)
                 continue;
-            if (turning && story_is_nothing(motion->w.at))
+            if (turning && narrative_is_nothing(motion->w.at))
                 return block == BLOCK_MASS ? "not turned by both speeds" : "not turned by it";
             if (!turning && motion->v.count == 0)
                 return block == BLOCK_MASS ? "not moved by both speeds" : "not moved by it";
@@ -222,8 +223,8 @@ static const char *why_at_rest(const Term *term, const Moved *moved, Block block
 }
 
 /* The terms of an entry, those that vanish by their reasons, and the entry itself. */
-static Status say_entry(Story *story, Block block, const char *letter, int row, int column,
-                        const Way *way, const Moved *moved, Diag *diag)
+static Status write_entry(Narrative *story, Block block, const char *letter, int row, int column,
+                          const Way *way, const Moved *moved, Diag *diag)
 {
     const View *view = story->view;
     const bool vector = block == BLOCK_FORCES || block == BLOCK_CONSTRAINTS;
@@ -242,22 +243,22 @@ static Status say_entry(Story *story, Block block, const char *letter, int row, 
         if (!expr_is_zero(term->value)) {
             Text left = {0};
 
-            text_add(&left, story_is_typeset(view) ? "\\text{" : "  ");
-            story_add_word(&left, view, name.at);
-            text_add(&left, story_is_typeset(view) ? "}" : "");
+            text_add(&left, narrative_is_typeset(view) ? "\\text{" : "  ");
+            narrative_add_word(&left, view, name.at);
+            text_add(&left, narrative_is_typeset(view) ? "}" : "");
             view_value(&story->equations, text_done(&left), term->value);
         } else if (term->edge >= 0 && way != NULL) {
-            story_vanish(story, name.at, why_nothing_along(term, way));
+            narrative_vanish(story, name.at, why_nothing_along(term, way));
         } else if (term->edge < 0 && moved != NULL) {
-            story_vanish(story, name.at, why_at_rest(term, moved, block));
+            narrative_vanish(story, name.at, why_at_rest(term, moved, block));
         }
         text_free(&name);
     }
-    story_say_vanished(story);
-    story_say(story->out, view, "terms",
-              story->equations.count > 0 ? ""
-              : terms.count > 0          ? "none is left"
-                                         : "too long to be told one by one");
+    narrative_add_vanished(story);
+    narrative_add(story->out, view, "terms",
+                  story->equations.count > 0 ? ""
+                  : terms.count > 0          ? "none is left"
+                                             : "too long to be told one by one");
     view_value(&story->equations,
                view_entry_name(view, block_name(block), letter, row, vector ? -1 : column), e);
     view_open(story->out, view);
@@ -273,7 +274,7 @@ done:
 }
 
 /* constraint row k; its circuit where it is the first of that chord and half */
-Status derive_constraint(Story *story, int k, bool with_circuit, Diag *diag)
+Status derive_constraint(Narrative *story, int k, bool with_circuit, Diag *diag)
 {
     const View *view = story->view;
     const ConstraintRow *row = system_constraint(view->system, k);
@@ -281,19 +282,19 @@ Status derive_constraint(Story *story, int k, bool with_circuit, Diag *diag)
     Text title = {0};
     Status status = OK;
 
-    story_add_word(&title, view, system_instance_name(view->system, row->instance));
+    narrative_add_word(&title, view, system_instance_name(view->system, row->instance));
     text_addf(&title, ", %s: constraint %d", row->direction, k + 1);
-    story_title(story, &title);
+    narrative_title(story, &title);
     if (!row->rotation && !row->is_driver && !row->is_coupler)
         system_way(view->system, row->edge, &way);
     if (with_circuit && row->rotation)
         derive_turns(story->out, view, row->edge);
     if (with_circuit && way.count > 0) {
-        say_way(story->out, view, row->edge, &way);
-        say_vectors(story->out, view, &way);
+        write_way(story->out, view, row->edge, &way);
+        write_vectors(story->out, view, &way);
     }
-    say_projection(story->out, view, k);
-    CHECK(say_entry(story, BLOCK_CONSTRAINTS, "\\Phi", k, 0, &way, NULL, diag));
+    write_projection(story->out, view, k);
+    CHECK(write_entry(story, BLOCK_CONSTRAINTS, "\\Phi", k, 0, &way, NULL, diag));
 done:
     LIST_FREE(way);
     return status;
@@ -309,7 +310,7 @@ bool derive_goes_on(const View *view, int k)
            !before->is_driver && !before->is_coupler;
 }
 
-void derive_dropped(Story *story, const char *of)
+void derive_dropped(Narrative *story, const char *of)
 {
     const size_t length = of != NULL ? strlen(of) : 0;
     const char *line;
@@ -320,8 +321,8 @@ void derive_dropped(Story *story, const char *of)
 
         if (of != NULL && (strncmp(line, of, length) != 0 || line[length] != ':'))
             continue;
-        story_add_word(&words, story->view, line);
-        story_say_done(story->out, story->view, first ? "dropped" : "", &words);
+        narrative_add_word(&words, story->view, line);
+        narrative_add_done(story->out, story->view, first ? "dropped" : "", &words);
         first = false;
     }
 }
@@ -345,7 +346,7 @@ static const char *why_no_work(const View *view, int edge, int branch)
 }
 
 /* "F(h8) + F(m1) - F(h9) = 0": the cutset of a branch */
-void derive_cutset(Story *story, int branch, TreeKind kind)
+void derive_cutset(Narrative *story, int branch, TreeKind kind)
 {
     const View *view = story->view;
     const Tree *trees[TREE_KINDS];
@@ -359,43 +360,43 @@ void derive_cutset(Story *story, int branch, TreeKind kind)
     SignMatrix *cutsets = tree_cutsets(trees[kind]);
     const int *branches = tree_branches(trees[kind]);
 
-    text_add(&words, story_is_typeset(view) ? "$" : "");
+    text_add(&words, narrative_is_typeset(view) ? "$" : "");
     for (int r = 0; r < cutsets->rows; r++)
         for (int i = cutsets->start[r]; branches[r] == branch && i < cutsets->start[r + 1]; i++) {
             const char *why = why_no_work(view, cutsets->column[i], branch);
 
-            story_add_sign(&words, cutsets->entry[i], i == cutsets->start[r]);
-            story_add_variable(&words, view, letter, true, cutsets->column[i]);
+            narrative_add_sign(&words, cutsets->entry[i], i == cutsets->start[r]);
+            narrative_add_variable(&words, view, letter, true, cutsets->column[i]);
             if (why != NULL)
-                story_vanish(story, story_edge(view, cutsets->column[i]), why);
+                narrative_vanish(story, narrative_edge(view, cutsets->column[i]), why);
         }
-    text_addf(&words, " = 0%s, the cutset of ", story_is_typeset(view) ? "$" : "");
-    story_add_word(&words, view, story_edge(view, branch));
+    text_addf(&words, " = 0%s, the cutset of ", narrative_is_typeset(view) ? "$" : "");
+    narrative_add_word(&words, view, narrative_edge(view, branch));
     text_addf(&words, " in the %s tree", tree_kind_name(kind));
     sign_matrix_free(cutsets);
-    story_say_done(story->out, view, "cutset", &words);
-    story_say_vanished(story);
+    narrative_add_done(story->out, view, "cutset", &words);
+    narrative_add_vanished(story);
 }
 
 /* "m2 moves [0, L7] of m2, turns [0, 0, 1] of m2" */
-static void say_unit_motion(Text *out, const View *view, const UnitMotion *motion,
-                            const char *label)
+static void write_unit_motion(Text *out, const View *view, const UnitMotion *motion,
+                              const char *label)
 {
-    const bool turns = !story_is_nothing(motion->w.at);
+    const bool turns = !narrative_is_nothing(motion->w.at);
     Text words = {0};
 
-    story_add_word(&words, view, system_instance_name(view->system, motion->instance));
+    narrative_add_word(&words, view, system_instance_name(view->system, motion->instance));
     for (int k = 0; k < motion->v.count; k++) {
         text_add(&words, k == 0 ? " moves " : " + ");
-        story_add_vector(&words, view, motion->v.at[k].at);
+        narrative_add_vector(&words, view, motion->v.at[k].at);
         text_add(&words, " of ");
-        story_add_word(&words, view, story_node(view, motion->v.at[k].node));
+        narrative_add_word(&words, view, narrative_node(view, motion->v.at[k].node));
     }
     if (turns) {
         text_add(&words, motion->v.count > 0 ? ", turns about " : " turns about ");
-        story_add_direction(&words, view, &motion->w);
+        narrative_add_direction(&words, view, &motion->w);
     }
-    story_say_done(out, view, label, &words);
+    narrative_add_done(out, view, label, &words);
 }
 
 static bool has_beams(const View *view)
@@ -406,27 +407,27 @@ static bool has_beams(const View *view)
     return false;
 }
 
-static void say_unit_motions(Text *out, const View *view, int speed, const UnitMotions *motions)
+static void write_unit_motions(Text *out, const View *view, int speed, const UnitMotions *motions)
 {
     Text words = {0};
     bool any = false;
 
     text_add(&words, "on what a unit of ");
-    story_add_formula(&words, view, system_u(view->system, speed)->symbol);
+    narrative_add_formula(&words, view, system_u(view->system, speed)->symbol);
     text_add(&words, " moves:");
     for (int i = 0; i < motions->count; i++)
-        any = any || motions->at[i].v.count > 0 || !story_is_nothing(motions->at[i].w.at);
+        any = any || motions->at[i].v.count > 0 || !narrative_is_nothing(motions->at[i].w.at);
     if (!any)
         text_add(&words, has_beams(view) ? " no rigid part; what beams give is summed along them"
                                          : " no part with mass");
-    story_say_done(out, view, "projected", &words);
+    narrative_add_done(out, view, "projected", &words);
     for (int i = 0; i < motions->count; i++)
-        if (motions->at[i].v.count > 0 || !story_is_nothing(motions->at[i].w.at))
-            say_unit_motion(out, view, &motions->at[i], "");
+        if (motions->at[i].v.count > 0 || !narrative_is_nothing(motions->at[i].w.at))
+            write_unit_motion(out, view, &motions->at[i], "");
 }
 
 /* the cutset of a speed's branch and what the speed moves */
-static void say_speed(Story *story, int speed, const UnitMotions *motions)
+static void write_speed(Narrative *story, int speed, const UnitMotions *motions)
 {
     int edges[2];
 
@@ -435,26 +436,26 @@ static void say_speed(Story *story, int speed, const UnitMotions *motions)
         derive_cutset(story, edges[0], TREE_TRANSLATION);
     if (edges[1] >= 0)
         derive_cutset(story, edges[1], TREE_ROTATION);
-    say_unit_motions(story->out, story->view, speed, motions);
+    write_unit_motions(story->out, story->view, speed, motions);
 }
 
 /* entry of M, in column `column` */
-static Status tell_column(Story *story, int row, int column, Moved *moved, Diag *diag)
+static Status report_column(Narrative *story, int row, int column, Moved *moved, Diag *diag)
 {
     const View *view = story->view;
 
     if (row != column)
-        say_unit_motions(story->out, view, column, &moved->by[1]);
-    return say_entry(story, BLOCK_MASS, "M", row, column, NULL, moved, diag);
+        write_unit_motions(story->out, view, column, &moved->by[1]);
+    return write_entry(story, BLOCK_MASS, "M", row, column, NULL, moved, diag);
 }
 
 static void name_row(Text *title, const View *view, const char *what, int row)
 {
-    story_add_formula(title, view, system_u(view->system, row)->symbol);
+    narrative_add_formula(title, view, system_u(view->system, row)->symbol);
     text_addf(title, "%s", what);
 }
 
-Status derive_mass(Story *story, int row, int column, Diag *diag)
+Status derive_mass(Narrative *story, int row, int column, Diag *diag)
 {
     const View *view = story->view;
     Moved moved = {{{0}, {0}}};
@@ -465,16 +466,16 @@ Status derive_mass(Story *story, int row, int column, Diag *diag)
     system_unit_motions(view->system, column, &moved.by[1]);
     text_addf(&title, "mass(%d,%d): row of ", row + 1, column + 1);
     name_row(&title, view, ", column of ", row);
-    story_add_formula(&title, view, system_acceleration(view->system, column));
-    story_title(story, &title);
-    say_speed(story, row, &moved.by[0]);
-    status = tell_column(story, row, column, &moved, diag);
+    narrative_add_formula(&title, view, system_acceleration(view->system, column));
+    narrative_title(story, &title);
+    write_speed(story, row, &moved.by[0]);
+    status = report_column(story, row, column, &moved, diag);
     unit_motions_free(&moved.by[0]);
     unit_motions_free(&moved.by[1]);
     return status;
 }
 
-Status derive_force(Story *story, int row, Diag *diag)
+Status derive_force(Narrative *story, int row, Diag *diag)
 {
     const View *view = story->view;
     Moved moved = {{{0}, {0}}};
@@ -484,29 +485,29 @@ Status derive_force(Story *story, int row, Diag *diag)
     system_unit_motions(view->system, row, &moved.by[0]);
     text_addf(&title, "forces(%d): row of ", row + 1);
     name_row(&title, view, "", row);
-    story_title(story, &title);
-    say_speed(story, row, &moved.by[0]);
-    status = say_entry(story, BLOCK_FORCES, "F", row, 0, NULL, &moved, diag);
+    narrative_title(story, &title);
+    write_speed(story, row, &moved.by[0]);
+    status = write_entry(story, BLOCK_FORCES, "F", row, 0, NULL, &moved, diag);
     unit_motions_free(&moved.by[0]);
     return status;
 }
 
-Status derive_jacobian(Story *story, int row, int column, Diag *diag)
+Status derive_jacobian(Narrative *story, int row, int column, Diag *diag)
 {
     const View *view = story->view;
     Text title = {0}, words = {0};
 
     text_addf(&title, "jacobian(%d,%d): constraint %d by ", row + 1, column + 1, row + 1);
-    story_add_formula(&title, view, system_u(view->system, column)->symbol);
-    story_title(story, &title);
+    narrative_add_formula(&title, view, system_u(view->system, column)->symbol);
+    narrative_title(story, &title);
     text_add(&words, "each term of the constraint by ");
-    story_add_formula(&words, view, system_u(view->system, column)->symbol);
-    story_say_done(story->out, view, "derived", &words);
-    return say_entry(story, BLOCK_JACOBIAN, "\\Phi", row, column, NULL, NULL, diag);
+    narrative_add_formula(&words, view, system_u(view->system, column)->symbol);
+    narrative_add_done(story->out, view, "derived", &words);
+    return write_entry(story, BLOCK_JACOBIAN, "\\Phi", row, column, NULL, NULL, diag);
 }
 
 /* the columns of M that aren't 0, then F */
-static Status tell_entries(Story *story, int row, Moved *moved, Diag *diag)
+static Status report_entries(Narrative *story, int row, Moved *moved, Diag *diag)
 {
     const View *view = story->view;
     Status status = OK;
@@ -514,21 +515,21 @@ static Status tell_entries(Story *story, int row, Moved *moved, Diag *diag)
     for (int k = 0; status == OK && k < system_nu(view->system); k++) {
         Expr e;
 
-        CHECK(poll(view->watch));
+        CHECK(monitor_poll(view->watch));
         CHECK(system_show(view->system, BLOCK_MASS, row, k, &e, diag));
         if (expr_is_zero(e))
             continue;
         system_unit_motions(view->system, k, &moved->by[1]);
-        status = tell_column(story, row, k, moved, diag);
+        status = report_column(story, row, k, moved, diag);
         unit_motions_free(&moved->by[1]);
     }
     CHECK(status);
-    CHECK(say_entry(story, BLOCK_FORCES, "F", row, 0, NULL, moved, diag));
+    CHECK(write_entry(story, BLOCK_FORCES, "F", row, 0, NULL, moved, diag));
 done:
     return status;
 }
 
-Status derive_motion(Story *story, int row, Diag *diag)
+Status derive_motion(Narrative *story, int row, Diag *diag)
 {
     const View *view = story->view;
     const int m = system_m(view->system);
@@ -538,16 +539,16 @@ Status derive_motion(Story *story, int row, Diag *diag)
 
     text_addf(&title, "row %d of the motion, of ", row + 1);
     name_row(&title, view, "", row);
-    story_title(story, &title);
+    narrative_title(story, &title);
     system_unit_motions(view->system, row, &moved.by[0]);
-    say_speed(story, row, &moved.by[0]);
-    CHECK(tell_entries(story, row, &moved, diag));
+    write_speed(story, row, &moved.by[0]);
+    CHECK(report_entries(story, row, &moved, diag));
     text_addf(&words, "M u' %s= F%s", m > 0 ? "+ Phi_u^T lambda " : "",
               m > 0 ? "; lambda is what the chords' joints carry" : "");
-    if (!story_is_typeset(view))
-        story_say(story->out, view, "stacked", words.at);
+    if (!narrative_is_typeset(view))
+        narrative_add(story->out, view, "stacked", words.at);
     CHECK(equations_add_motion(view, &story->equations, row, 0, diag));
-    story_say_equations(story);
+    narrative_add_equations(story);
 done:
     unit_motions_free(&moved.by[0]);
     text_free(&words);
@@ -561,11 +562,11 @@ static void add_network_variable(Text *out, const View *view, int edge, bool acr
 {
     const Domain domain = graph_edge(model_graph(view->model), edge)->domain;
 
-    story_add_variable(out, view, across ? domain_across(domain) : domain_through(domain), false,
-                       edge);
+    narrative_add_variable(out, view, across ? domain_across(domain) : domain_through(domain),
+                           false, edge);
 }
 
-static void say_network_step(Story *story, const NetworkSteps *steps, const NetworkStep *step)
+static void write_network_step(Narrative *story, const NetworkSteps *steps, const NetworkStep *step)
 {
     const View *view = story->view;
     Text words = {0};
@@ -573,52 +574,53 @@ static void say_network_step(Story *story, const NetworkSteps *steps, const Netw
     if (step->is_summed) {
         const SignedEdge *all = step->count > 0 ? &steps->signed_edges.at[step->first] : NULL;
         const SumOrder order =
-            story_order(all != NULL ? &all->sign : NULL, step->count, sizeof *all);
+            narrative_order(all != NULL ? &all->sign : NULL, step->count, sizeof *all);
 
-        text_add(&words, story_is_typeset(view) ? "$" : "");
+        text_add(&words, narrative_is_typeset(view) ? "$" : "");
         add_network_variable(&words, view, step->edge, step->is_across);
         text_add(&words, step->count > 0 ? " = " : " = 0");
         for (int k = 0; k < step->count; k++) {
-            const SignedEdge *other = &all[story_at(&order, k)];
+            const SignedEdge *other = &all[narrative_at(&order, k)];
 
-            story_add_sign(&words, other->sign, k == 0);
+            narrative_add_sign(&words, other->sign, k == 0);
             add_network_variable(&words, view, other->edge, step->is_across);
         }
-        text_add(&words, story_is_typeset(view) ? "$" : "");
-        story_say_done(story->out, view, step->is_across ? "circuit" : "cutset", &words);
+        text_add(&words, narrative_is_typeset(view) ? "$" : "");
+        narrative_add_done(story->out, view, step->is_across ? "circuit" : "cutset", &words);
     } else if (step->is_unknown) {
-        text_add(&words, story_is_typeset(view) ? "$" : "");
+        text_add(&words, narrative_is_typeset(view) ? "$" : "");
         add_network_variable(&words, view, step->edge, step->is_across);
         text_addf(&words, "%s is an unknown, with an equation of its own",
-                  story_is_typeset(view) ? "$" : "");
-        story_say_done(story->out, view, "kept", &words);
+                  narrative_is_typeset(view) ? "$" : "");
+        narrative_add_done(story->out, view, "kept", &words);
     } else if (step->left != NULL && step->right != NULL) {
-        story_add_formula(&words, view, step->left);
+        narrative_add_formula(&words, view, step->left);
         text_addf(&words, "%s = ", step->is_rate ? "'" : "");
-        story_add_formula(&words, view, step->right);
+        narrative_add_formula(&words, view, step->right);
         text_add(&words, ", the law of ");
-        story_add_word(&words, view, story_edge(view, step->edge));
-        story_say_done(story->out, view, "law", &words);
+        narrative_add_word(&words, view, narrative_edge(view, step->edge));
+        narrative_add_done(story->out, view, "law", &words);
     } else {
-        story_add_word(&words, view, story_edge(view, step->edge));
+        narrative_add_word(&words, view, narrative_edge(view, step->edge));
         text_add(&words, " has a law for each of its sides");
-        story_say_done(story->out, view, "law", &words);
+        narrative_add_done(story->out, view, "law", &words);
     }
 }
 
-void derive_network(Story *story, int equation)
+void derive_network(Narrative *story, int equation)
 {
     const View *view = story->view;
     NetworkSteps steps = {{0}, {0}};
     Text title = {0};
 
-    story_add_word(&title, view, story_edge(view, system_network_edge(view->system, equation)));
+    narrative_add_word(&title, view,
+                       narrative_edge(view, system_network_edge(view->system, equation)));
     text_addf(&title, ": equation %d of the network", equation + 1);
-    story_title(story, &title);
+    narrative_title(story, &title);
     system_network_steps(view->system, equation, &steps);
     for (int i = 0; i < steps.steps.count; i++)
-        say_network_step(story, &steps, &steps.steps.at[i]);
+        write_network_step(story, &steps, &steps.steps.at[i]);
     equations_add_network(view, &story->equations, equation, 0);
-    story_say_equations(story);
+    narrative_add_equations(story);
     network_steps_free(&steps);
 }

@@ -10,17 +10,17 @@
 #define EDGE_LENGTH 105.0 /* px */
 #define BORDER      56.0  /* px: around the nodes, for names */
 
-typedef struct Layout {
+typedef struct GraphLayout {
     const Graph *graph;
     const int *nodes;
     int count;
     int *number;   /* of a node among `nodes`; -1 */
     double *apart; /* count x count: edges between them */
     Point *at;
-} Layout;
+} GraphLayout;
 
 /* Depth first around a circle, so that no line of nodes holds them all in it. */
-static void begin_on_circle(Layout *layout)
+static void begin_on_circle(GraphLayout *layout)
 {
     const double radius = EDGE_LENGTH * layout->count / (2 * M_PI);
 
@@ -33,7 +33,7 @@ static void begin_on_circle(Layout *layout)
 }
 
 /* edges from one node to all others, breadth first */
-static void find_distances(Layout *layout, int from, int *queue)
+static void find_distances(GraphLayout *layout, int from, int *queue)
 {
     double *row = layout->apart + (size_t)from * (size_t)layout->count;
     int first = 0, last = 0;
@@ -60,7 +60,7 @@ static void find_distances(Layout *layout, int from, int *queue)
 }
 
 /* pieces that nothing joins: as far as what is joined is at most */
-static void part_pieces(Layout *layout)
+static void part_pieces(GraphLayout *layout)
 {
     const int pairs = layout->count * layout->count;
     double most = 1;
@@ -72,7 +72,7 @@ static void part_pieces(Layout *layout)
             layout->apart[i] = most;
 }
 
-static void sweep(Layout *layout)
+static void sweep(GraphLayout *layout)
 {
     for (int i = 0; i < layout->count; i++) {
         Point sum = {0, 0};
@@ -98,7 +98,7 @@ static void sweep(Layout *layout)
 
 /* how much longer edges are where many meet at few nodes, or lie side by side: their names want
  * room */
-static double stretch(const Layout *layout)
+static double stretch(const GraphLayout *layout)
 {
     static const double AT_EASE = 1.4, MOST = 1.8; /* edges a node; of the length */
     int edges = 0;
@@ -114,7 +114,7 @@ static double stretch(const Layout *layout)
 }
 
 /* into the corner of the sheet */
-static Point settle(Layout *layout)
+static Point settle(GraphLayout *layout)
 {
     const double longer = stretch(layout);
     Point low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
@@ -131,12 +131,12 @@ static Point settle(Layout *layout)
     return (Point){high.x - low.x + 2 * BORDER, high.y - low.y + 2 * BORDER};
 }
 
-Status graph_layout(const Graph *graph, const int *nodes, int count, const Watch *watch,
+Status graph_layout(const Graph *graph, const int *nodes, int count, const CallMonitor *watch,
                     Point *places, Point *size, Diag *diag)
 {
     enum { MOST_SWEEPS = 300, LEAST_SWEEPS = 20 };
     static const double WORK = 3e7; /* pairs in all sweeps: some tenths of a second */
-    Layout layout = {.graph = graph, .nodes = nodes, .count = count};
+    GraphLayout layout = {.graph = graph, .nodes = nodes, .count = count};
     const int all = graph_node_count(graph);
     int *queue = NULL;
     Status status = OK;
@@ -163,8 +163,8 @@ Status graph_layout(const Graph *graph, const int *nodes, int count, const Watch
     const int sweeps = (int)fmax(LEAST_SWEEPS, fmin(MOST_SWEEPS, WORK / pairs));
 
     for (int i = 0; i < sweeps; i++) {
-        CHECK(poll(watch));
-        report(watch, "laying out", (double)i / sweeps);
+        CHECK(monitor_poll(watch));
+        monitor_report(watch, "laying out", (double)i / sweeps);
         sweep(&layout);
     }
     *size = settle(&layout);

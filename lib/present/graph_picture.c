@@ -466,7 +466,7 @@ static void draw_panel(GraphPicture *picture, const Panel *panel)
 
 /* --- the legend --- */
 
-static double put_legend(GraphPicture *picture, double x, Ink ink, const char *text)
+static double write_legend(GraphPicture *picture, double x, Ink ink, const char *text)
 {
     const double y = picture->out->height - 16;
 
@@ -481,17 +481,17 @@ static void draw_legend(GraphPicture *picture)
     double x = 16;
 
     picture_of(picture->out, "legend", "of edges");
-    x = put_legend(picture, x, (Ink){.stroke = dark, .width = 3.4}, "branch");
-    x = put_legend(picture, x, (Ink){.stroke = dark, .width = 1.2}, "chord");
+    x = write_legend(picture, x, (Ink){.stroke = dark, .width = 3.4}, "branch");
+    x = write_legend(picture, x, (Ink){.stroke = dark, .width = 1.2}, "chord");
     if (picture->lit != LIT_NOTHING)
-        x = put_legend(picture, x, (Ink){.stroke = GLOW, .width = 10},
-                       picture->lit == LIT_CIRCUIT ? "circuit" : "cutset");
+        x = write_legend(picture, x, (Ink){.stroke = GLOW, .width = 10},
+                         picture->lit == LIT_CIRCUIT ? "circuit" : "cutset");
     if (picture->boxes.graph != NULL) {
         picture_arrow(picture->out, (Ink){.stroke = dark, .width = 1.4},
                       (Point){x, picture->out->height - 16},
                       (Point){x + 34, picture->out->height - 16});
-        x = put_legend(picture, x, (Ink){.stroke = dark, .width = 1.2},
-                       "way of a port's motion or voltage");
+        x = write_legend(picture, x, (Ink){.stroke = dark, .width = 1.2},
+                         "way of a port's motion or voltage");
     }
     for (int i = 0; i < picture->count; i++) {
         const Domain domain = tree_kind_domain(picture->panels[i].kind);
@@ -500,7 +500,7 @@ static void draw_legend(GraphPicture *picture)
             (i > 0 && picture->panels[i - 1].tree != NULL &&
              tree_kind_domain(picture->panels[i - 1].kind) == domain))
             continue;
-        x = put_legend(
+        x = write_legend(
             picture, x,
             (Ink){.stroke = picture_color((int)domain), .width = 2, .dash = dashes[domain]},
             domain_name(domain));

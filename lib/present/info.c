@@ -2,7 +2,7 @@
 #include "present/info.h"
 
 #include "base/names.h"
-#include "component/given.h"
+#include "component/equation_block.h"
 #include "present/show.h"
 
 #include <string.h>
@@ -479,7 +479,7 @@ static bool is_used(const Model *model, Expr symbol)
     for (int i = 0; i < model_count(model); i++) {
         const Instance *instance = model_instance(model, i);
 
-        if (given_depends(instance->given, symbol))
+        if (equation_block_depends(instance->given, symbol))
             return true;
         for (int p = 0; p < instance->row->param_count; p++)
             for (int k = 0; k < instance->values[p].count; k++)

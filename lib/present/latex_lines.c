@@ -164,12 +164,12 @@ typedef struct LatexPiece {
     int price; /* of a cut before it, in digits */
 } LatexPiece;
 
-typedef LIST(LatexPiece) Pieces;
+typedef LIST(LatexPiece) LatexLinesPieces;
 
 /* a formula cut before the signs of its sums that stand in no group */
-static Pieces cut(const char *formula)
+static LatexLinesPieces cut(const char *formula)
 {
-    Pieces pieces = {0};
+    LatexLinesPieces pieces = {0};
     LIST(int) prices = {0}; /* of the brackets that are open */
     int price = 0, groups = 0;
 
@@ -204,7 +204,7 @@ static Pieces cut(const char *formula)
 }
 
 /* the first piece of the next line, where a line begins with piece `from` */
-static int line_end(const Pieces *pieces, int from, double room)
+static int line_end(const LatexLinesPieces *pieces, int from, double room)
 {
     double width = pieces->at[from].width, best_score = -1e300;
     int best = from + 1;
@@ -230,7 +230,7 @@ static void add_times(Text *out, const char *text, int count)
 void latex_wrap(Text *out, const char *formula, double room)
 {
     Text opened = {0};
-    Pieces pieces;
+    LatexLinesPieces pieces;
 
     open_fractions(&opened, formula, room);
     text_add(&opened, "");

@@ -50,8 +50,8 @@ libcore_la_SOURCES += \
   lib/present/show.c \
   lib/present/show.h \
   lib/present/show_derivation.c \
-  lib/present/story.c \
-  lib/present/story.h \
+  lib/present/narrative.c \
+  lib/present/narrative.h \
   lib/present/show_equations.c \
   lib/present/show_graph.c \
   lib/present/show_linear.c \

@@ -67,17 +67,17 @@ const char *picture_tint(int i);
 /* --- writers --- */
 
 /* Frames of one film take equal times; `seconds` is that of the whole. One picture stands. */
-typedef struct Film {
+typedef struct Animation {
     const Picture *pictures;
     const double *times; /* s, of the motion; NULL: not shown */
     int count;
     double seconds;
     const char *title;
-} Film;
+} Animation;
 
-void picture_svg(const Film *film, Text *out);
+void picture_svg(const Animation *film, Text *out);
 /* a page that plays by itself, with nothing from outside */
-void picture_html(const Film *film, Text *out);
+void picture_html(const Animation *film, Text *out);
 /* on a screen of characters: braille where it has Unicode */
 void picture_characters(const Picture *picture, int columns, int rows, bool unicode, Text *out);
 /* commands that draw it on any of gnuplot's terminals that is as wide to its height */

@@ -148,7 +148,7 @@ static bool dot(const Screen *screen, int column, int row, int x, int y)
 }
 
 /* dots of braille count down the left, down the right, and then the lowest two */
-static void put_braille(Text *out, const Screen *screen, int column, int row)
+static void write_braille(Text *out, const Screen *screen, int column, int row)
 {
     static const unsigned char bits[4][2] = {
         {0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};
@@ -166,14 +166,14 @@ static void put_braille(Text *out, const Screen *screen, int column, int row)
     text_char(out, (char)(0x80 | (cell & 0x3F)));
 }
 
-static void put_cell(Text *out, const Screen *screen, int column, int row)
+static void write_cell(Text *out, const Screen *screen, int column, int row)
 {
     const char *over = screen->over[row * screen->columns + column];
 
     if (over[0] != '\0')
         text_add(out, over);
     else if (screen->across == 2)
-        put_braille(out, screen, column, row);
+        write_braille(out, screen, column, row);
     else
         text_char(out, " '.:"[dot(screen, column, row, 0, 0) + 2 * dot(screen, column, row, 0, 1)]);
 }
@@ -192,7 +192,7 @@ void picture_characters(const Picture *picture, int columns, int rows, bool unic
         draw_shape(&screen, picture, &picture->shapes.at[i]);
     for (int row = 0; row < screen.rows; row++) {
         for (int column = 0; column < screen.columns; column++)
-            put_cell(out, &screen, column, row);
+            write_cell(out, &screen, column, row);
         while (out->length > 0 && out->at[out->length - 1] == ' ')
             out->length--;
         text_char(out, '\n');

@@ -12,7 +12,7 @@ enum {
 
 #define HALO_WIDTH 1.5 /* px */
 
-static void put_points(Text *out, const Picture *picture, const Shape *shape)
+static void write_points(Text *out, const Picture *picture, const Shape *shape)
 {
     const Point at = picture->points.at[shape->first];
 
@@ -29,7 +29,7 @@ static void put_points(Text *out, const Picture *picture, const Shape *shape)
 }
 
 /* in single quotes only the quote itself means something */
-static void put_string(Text *out, const char *text)
+static void write_string(Text *out, const char *text)
 {
     text_char(out, '\'');
     for (; *text != '\0'; text++)
@@ -37,7 +37,7 @@ static void put_string(Text *out, const char *text)
     text_char(out, '\'');
 }
 
-static void put_curve(Text *out, const Shape *shape, int index)
+static void write_curve(Text *out, const Shape *shape, int index)
 {
     static const char *const dashes[] = {"1", "'- '", "'. '", "'_. '"};
 
@@ -51,25 +51,25 @@ static void put_curve(Text *out, const Shape *shape, int index)
                   index, shape->ink.stroke, shape->ink.width, dashes[shape->ink.dash]);
 }
 
-static void put_text(Text *out, const Shape *shape, double x, double y, const char *color)
+static void write_text(Text *out, const Shape *shape, double x, double y, const char *color)
 {
     static const char *const anchors[] = {"left", "center", "right"};
 
     text_add(out, "set label ");
-    put_string(out, shape->text);
+    write_string(out, shape->text);
     text_addf(out, " at %.1f,%.1f %s noenhanced textcolor rgb '%s' font ',%.3g' front\n", x,
               y - 0.35 * shape->size, anchors[shape->anchor], color, 0.75 * shape->size);
 }
 
 /* A text, and behind it itself in white to all sides, or lines run through it. */
-static void put_label(Text *out, const Picture *picture, const Shape *shape)
+static void write_label(Text *out, const Picture *picture, const Shape *shape)
 {
     const Point at = picture->points.at[shape->first];
 
     for (int i = 0; i < HALO; i++)
-        put_text(out, shape, at.x + HALO_WIDTH * cos(2 * M_PI * i / HALO),
-                 at.y + HALO_WIDTH * sin(2 * M_PI * i / HALO), "#ffffff");
-    put_text(out, shape, at.x, at.y, shape->ink.stroke);
+        write_text(out, shape, at.x + HALO_WIDTH * cos(2 * M_PI * i / HALO),
+                   at.y + HALO_WIDTH * sin(2 * M_PI * i / HALO), "#ffffff");
+    write_text(out, shape, at.x, at.y, shape->ink.stroke);
 }
 
 void picture_gnuplot(const Picture *picture, Text *out)
@@ -83,16 +83,16 @@ void picture_gnuplot(const Picture *picture, Text *out)
         picture->width, picture->height);
     for (int i = 0; i < picture->shapes.count; i++)
         if (picture->shapes.at[i].kind != SHAPE_TEXT)
-            put_points(out, picture, &picture->shapes.at[i]);
+            write_points(out, picture, &picture->shapes.at[i]);
     text_add(out, "end\n");
     for (int i = 0; i < picture->shapes.count; i++)
         if (picture->shapes.at[i].kind == SHAPE_TEXT)
-            put_label(out, picture, &picture->shapes.at[i]);
+            write_label(out, picture, &picture->shapes.at[i]);
 
     /* a picture of nothing is one, too */
     text_add(out, "plot NaN notitle");
     for (int i = 0; i < picture->shapes.count; i++)
         if (picture->shapes.at[i].kind != SHAPE_TEXT)
-            put_curve(out, &picture->shapes.at[i], index++);
+            write_curve(out, &picture->shapes.at[i], index++);
     text_char(out, '\n');
 }

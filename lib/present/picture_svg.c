@@ -5,7 +5,7 @@
 
 static const char FONT[] = "font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\"";
 
-static void put_escaped(Text *out, const char *text)
+static void write_escaped(Text *out, const char *text)
 {
     for (; *text != '\0'; text++)
         if (*text == '<' || *text == '>')
@@ -17,12 +17,12 @@ static void put_escaped(Text *out, const char *text)
 }
 
 /* a tenth of a px is finer than any screen */
-static void put_coordinate(Text *out, double value)
+static void write_coordinate(Text *out, double value)
 {
     text_addf(out, "%.1f", value);
 }
 
-static void put_ink(Text *out, const Ink *ink)
+static void write_ink(Text *out, const Ink *ink)
 {
     static const char *const dashes[] = {
         [DASH_LONG] = "7 4", [DASH_DOTS] = "2 3", [DASH_CENTRE] = "10 3 2 3"};
@@ -38,18 +38,18 @@ static void put_ink(Text *out, const Ink *ink)
     text_add(out, "/>\n");
 }
 
-static void put_points(Text *out, const Picture *picture, const Shape *shape)
+static void write_points(Text *out, const Picture *picture, const Shape *shape)
 {
     for (int i = 0; i < shape->count; i++) {
         if (i > 0)
             text_char(out, ' ');
-        put_coordinate(out, picture->points.at[shape->first + i].x);
+        write_coordinate(out, picture->points.at[shape->first + i].x);
         text_char(out, ',');
-        put_coordinate(out, picture->points.at[shape->first + i].y);
+        write_coordinate(out, picture->points.at[shape->first + i].y);
     }
 }
 
-static void put_shape(Text *out, const Picture *picture, const Shape *shape)
+static void write_shape(Text *out, const Picture *picture, const Shape *shape)
 {
     static const char *const anchors[] = {"start", "middle", "end"};
     const Point at = picture->points.at[shape->first];
@@ -58,27 +58,27 @@ static void put_shape(Text *out, const Picture *picture, const Shape *shape)
     case SHAPE_LINE:
     case SHAPE_AREA:
         text_addf(out, "<%s points=\"", shape->kind == SHAPE_LINE ? "polyline" : "polygon");
-        put_points(out, picture, shape);
+        write_points(out, picture, shape);
         text_char(out, '"');
-        put_ink(out, &shape->ink);
+        write_ink(out, &shape->ink);
         break;
     case SHAPE_CIRCLE:
         text_addf(out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"", at.x, at.y, shape->size);
-        put_ink(out, &shape->ink);
+        write_ink(out, &shape->ink);
         break;
     case SHAPE_TEXT:
         text_addf(out,
                   "<text x=\"%.1f\" y=\"%.1f\" font-size=\"%.3g\" text-anchor=\"%s\" fill=\"%s\" "
                   "paint-order=\"stroke\" stroke=\"#ffffff\" stroke-width=\"3\">",
                   at.x, at.y, shape->size, anchors[shape->anchor], shape->ink.stroke);
-        put_escaped(out, shape->text);
+        write_escaped(out, shape->text);
         text_add(out, "</text>\n");
         break;
     }
 }
 
 /* The shapes of one part in a row are a group, which tells its name where a mouse rests on it. */
-static void put_shapes(Text *out, const Picture *picture)
+static void write_shapes(Text *out, const Picture *picture)
 {
     const char *open = NULL;
 
@@ -91,17 +91,17 @@ static void put_shapes(Text *out, const Picture *picture)
             open = shape->what;
             if (*open != '\0') {
                 text_addf(out, "<g class=\"%.*s\"><title>", (int)strcspn(open, " "), open);
-                put_escaped(out, open);
+                write_escaped(out, open);
                 text_add(out, "</title>\n");
             }
         }
-        put_shape(out, picture, shape);
+        write_shape(out, picture, shape);
     }
     if (open != NULL && *open != '\0')
         text_add(out, "</g>\n");
 }
 
-static void open_svg(Text *out, const Film *film, bool alone)
+static void open_svg(Text *out, const Animation *film, bool alone)
 {
     const Picture *first = &film->pictures[0];
 
@@ -112,14 +112,14 @@ static void open_svg(Text *out, const Film *film, bool alone)
     text_addf(out, " %s>\n", FONT);
     if (film->title != NULL && *film->title != '\0') {
         text_add(out, "<title>");
-        put_escaped(out, film->title);
+        write_escaped(out, film->title);
         text_add(out, "</title>\n");
     }
     text_add(out, "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n");
 }
 
 /* each frame is shown for its part of the time, over and over */
-static void put_frame(Text *out, const Film *film, int i)
+static void write_frame(Text *out, const Animation *film, int i)
 {
     const double from = (double)i / film->count, to = (double)(i + 1) / film->count;
 
@@ -134,17 +134,17 @@ static void put_frame(Text *out, const Film *film, int i)
         text_addf(out, "keyTimes=\"0;%.6g\" values=\"hidden;visible\"/>\n", from);
     else
         text_addf(out, "keyTimes=\"0;%.6g;%.6g\" values=\"hidden;visible;hidden\"/>\n", from, to);
-    put_shapes(out, &film->pictures[i]);
+    write_shapes(out, &film->pictures[i]);
     text_add(out, "</g>\n");
 }
 
-void picture_svg(const Film *film, Text *out)
+void picture_svg(const Animation *film, Text *out)
 {
     open_svg(out, film, true);
     if (film->count == 1)
-        put_shapes(out, &film->pictures[0]);
+        write_shapes(out, &film->pictures[0]);
     for (int i = 0; film->count > 1 && i < film->count; i++)
-        put_frame(out, film, i);
+        write_frame(out, film, i);
     text_add(out, "</svg>\n");
 }
 
@@ -177,17 +177,17 @@ static const char SCRIPT[] =
     "slider.oninput = () => { play(false); show(+slider.value); };\n"
     "show(0); play(true);\n";
 
-void picture_html(const Film *film, Text *out)
+void picture_html(const Animation *film, Text *out)
 {
     const char *title = film->title != NULL && *film->title != '\0' ? film->title : "mechanism";
 
     text_add(out, "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<title>");
-    put_escaped(out, title);
+    write_escaped(out, title);
     text_addf(out, "</title>\n%s</head><body><main>\n", STYLE);
     open_svg(out, film, false);
     for (int i = 0; i < film->count; i++) {
         text_add(out, "<g class=\"frame\">\n");
-        put_shapes(out, &film->pictures[i]);
+        write_shapes(out, &film->pictures[i]);
         text_add(out, "</g>\n");
     }
     text_addf(out,

@@ -10,7 +10,7 @@
 #define FONT    10.0 /* pt: of the text around the picture */
 
 /* a colour is called as it is mixed, behind a word of ours */
-static void put_colors(Text *out, const Picture *picture)
+static void write_colors(Text *out, const Picture *picture)
 {
     LIST(const char *) known = {0};
 
@@ -29,7 +29,7 @@ static void put_colors(Text *out, const Picture *picture)
     LIST_FREE(known);
 }
 
-static void put_ink(Text *out, const Ink *ink, double scale)
+static void write_ink(Text *out, const Ink *ink, double scale)
 {
     static const char *const dashes[] = {"solid", "dashed", "dotted", "dash dot"};
 
@@ -40,7 +40,7 @@ static void put_ink(Text *out, const Ink *ink, double scale)
         text_addf(out, "%sfill=ink%s", ink->stroke != NULL ? "," : "", ink->fill + 1);
 }
 
-static void put_shape(Text *out, const Picture *picture, const Shape *shape, double scale)
+static void write_shape(Text *out, const Picture *picture, const Shape *shape, double scale)
 {
     static const char *const anchors[] = {"base west", "base", "base east"};
     const Point *points = picture->points.at + shape->first;
@@ -56,7 +56,7 @@ static void put_shape(Text *out, const Picture *picture, const Shape *shape, dou
         return;
     }
     text_add(out, "\\path[");
-    put_ink(out, &shape->ink, scale);
+    write_ink(out, &shape->ink, scale);
     text_char(out, ']');
     for (int i = 0; i < shape->count; i++)
         text_addf(out, "%s(%.2f,%.2f)", i > 0 ? "--" : " ", points[i].x, points[i].y);
@@ -73,7 +73,7 @@ void picture_tikz(const Picture *picture, double width, double height, Text *out
     const double scale = fmin(LARGEST, fmin(width / picture->width, height / picture->height));
     const char *what = "";
 
-    put_colors(out, picture);
+    write_colors(out, picture);
     text_addf(out, "\\begin{tikzpicture}[x=%.4fpt,y=-%.4fpt,line cap=round,line join=round]\n",
               scale, scale);
     for (int i = 0; i < picture->shapes.count; i++) {
@@ -82,7 +82,7 @@ void picture_tikz(const Picture *picture, double width, double height, Text *out
         if (strcmp(what, shape->what) != 0)
             text_addf(out, "%% %s\n", shape->what);
         what = shape->what;
-        put_shape(out, picture, shape, scale);
+        write_shape(out, picture, shape, scale);
     }
     text_add(out, "\\end{tikzpicture}\n");
 }

@@ -36,7 +36,7 @@ static const Topic topics[] = {
     {"transfer",     "transfer functions of the last linearisation",       NEED_LINEAR, BEHIND_PAIR,    AS_NUMBERS,  show_transfer},
     {"thevenin",     "a linear network between two terminals: source and impedance", NEED_MODEL, BEHIND_ITEMS, AS_FORMULAS, show_thevenin},
     {"norton",       "the same: source and admittance",                    NEED_MODEL,  BEHIND_ITEMS,   AS_FORMULAS, show_norton},
-    {"derivation",   "how an equation came about, step by step",           NEED_SYSTEM, BEHIND_ENTRY,   AS_STORY,    show_derivation},
+    {"derivation",   "how an equation came about, step by step",           NEED_SYSTEM, BEHIND_ENTRY,   AS_NARRATIVE,    show_derivation},
     {"events",       "events, and when they happened in the last run",     NEED_MODEL,  BEHIND_NOTHING, AS_TEXT,     show_events},
 };
 /* clang-format on */

@@ -30,8 +30,8 @@ typedef enum Behind { /* what may stand behind a topic */
 /* notations that a topic is written in, a bit each */
 typedef enum Written {
     AS_TEXT = 1U << NOTATION_TEXT,
-    AS_STORY = AS_TEXT | 1U << NOTATION_LATEX,
-    AS_NUMBERS = AS_STORY | 1U << NOTATION_C | 1U << NOTATION_MATLAB,
+    AS_NARRATIVE = AS_TEXT | 1U << NOTATION_LATEX,
+    AS_NUMBERS = AS_NARRATIVE | 1U << NOTATION_C | 1U << NOTATION_MATLAB,
     AS_FORMULAS = (1U << NOTATIONS) - 1
 } Written;
 

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static Status tell_all(Story *story, Diag *diag)
+static Status report_all(Narrative *story, Diag *diag)
 {
     const System *system = story->view->system;
 
@@ -25,7 +25,7 @@ static Status tell_all(Story *story, Diag *diag)
 }
 
 /* a row of `show equations` */
-static Status tell_row(Story *story, const Syntax *item, Diag *diag)
+static Status report_row(Narrative *story, const Syntax *item, Diag *diag)
 {
     const System *system = story->view->system;
     const int nu = system_nu(system), m = system_m(system);
@@ -70,7 +70,7 @@ static Status read_entry(const View *view, const Syntax *item, Block block, int 
     return OK;
 }
 
-static Status tell_entry(Story *story, const Syntax *item, Diag *diag)
+static Status report_entry(Narrative *story, const Syntax *item, Diag *diag)
 {
     static const Block known[] = {BLOCK_MASS, BLOCK_FORCES, BLOCK_CONSTRAINTS, BLOCK_JACOBIAN};
     int at[2] = {0, 0};
@@ -98,12 +98,12 @@ static Status tell_entry(Story *story, const Syntax *item, Diag *diag)
 
 static bool is_of(const View *view, int edge, int instance, const char *name)
 {
-    return (edge >= 0 && strcmp(story_edge(view, edge), name) == 0) ||
+    return (edge >= 0 && strcmp(narrative_edge(view, edge), name) == 0) ||
            strcmp(system_instance_name(view->system, instance), name) == 0;
 }
 
 /* the equations of an edge, a part or a coordinate */
-static Status tell_equations_of(Story *story, const char *name, bool *any, Diag *diag)
+static Status report_equations_of(Narrative *story, const char *name, bool *any, Diag *diag)
 {
     const View *view = story->view;
     const System *system = view->system;
@@ -130,7 +130,7 @@ static Status tell_equations_of(Story *story, const char *name, bool *any, Diag 
         *any = true;
     }
     for (int i = 0; i < system_network_count(system); i++)
-        if (strcmp(story_edge(view, system_network_edge(system, i)), name) == 0) {
+        if (strcmp(narrative_edge(view, system_network_edge(system, i)), name) == 0) {
             derive_network(story, i);
             *any = true;
         }
@@ -140,7 +140,7 @@ static Status tell_equations_of(Story *story, const char *name, bool *any, Diag 
 }
 
 /* an edge that no equation is of, or whose variable was asked for: what it does in the graph */
-static void tell_edge(Story *story, int edge)
+static void report_edge(Narrative *story, int edge)
 {
     const View *view = story->view;
     const Tree *trees[TREE_KINDS];
@@ -168,7 +168,7 @@ static bool is_parameter(Expr e)
     return expr_kind(e) == EXPR_SYMBOL && expr_symbol_kind(e) == SYMBOL_PARAMETER;
 }
 
-static Status tell_variable(Story *story, const Syntax *item, Diag *diag)
+static Status report_variable(Narrative *story, const Syntax *item, Diag *diag)
 {
     const View *view = story->view;
     const Graph *graph = model_graph(view->model);
@@ -194,15 +194,15 @@ static Status tell_variable(Story *story, const Syntax *item, Diag *diag)
         status = system_resolve(view->system, user, &e, diag);
     if (status != OK && (edge < 0 || item->primes > 0 || dot != NULL))
         goto done;
-    story_add_word(&title, view, item->text);
-    story_title(story, &title);
+    narrative_add_word(&title, view, item->text);
+    narrative_title(story, &title);
     if (edge >= 0)
-        tell_edge(story, edge);
+        report_edge(story, edge);
     if (status == OK && (edge < 0 || !is_parameter(user))) {
-        story_say(story->out, view, "formula", "");
+        narrative_add(story->out, view, "formula", "");
         status = show_expression(view, item, 0, story->out, diag);
     } else {
-        story_say(story->out, view, "equation", "none: it brings no unknown of its own");
+        narrative_add(story->out, view, "equation", "none: it brings no unknown of its own");
         *diag = (Diag){0};
         status = OK;
     }
@@ -214,19 +214,19 @@ done:
 Status show_derivation(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
     const Syntax *item = selection->item;
-    Story story = {.view = view, .out = out};
+    Narrative story = {.view = view, .out = out};
     bool any = false;
 
     if (item == NULL)
-        return tell_all(&story, diag);
+        return report_all(&story, diag);
     if (item->kind == SYNTAX_NUMBER)
-        return tell_row(&story, item, diag);
+        return report_row(&story, item, diag);
     if (item->kind == SYNTAX_CALL && item->primes == 0)
-        return tell_entry(&story, item, diag);
+        return report_entry(&story, item, diag);
     if (item->kind != SYNTAX_VARIABLE)
         return diag_at(diag, E_SYNTAX, item->place,
                        "'show derivation' takes a name, a row or an entry");
     if (item->primes == 0)
-        TRY(tell_equations_of(&story, item->text, &any, diag));
-    return any ? OK : tell_variable(&story, item, diag);
+        TRY(report_equations_of(&story, item->text, &any, diag));
+    return any ? OK : report_variable(&story, item, diag);
 }

@@ -185,7 +185,7 @@ static Status add_entries(Text *out, const View *view, Block block, const char *
 
             if (!is_chosen(selection, r, c))
                 continue;
-            CHECK(poll(view->watch));
+            CHECK(monitor_poll(view->watch));
             CHECK(system_show(view->system, block, r, c, &e, diag));
             if (expr_is_zero(e) && !vector && selection->number_count < 2)
                 continue;
@@ -292,14 +292,14 @@ static Expr speed(const System *system, int i)
 }
 
 /* on the left: what isn't 0 of a block's row i, or of its column i, times unknowns */
-static Status push_terms(const View *view, Equation *equation, Block block, int i, bool column,
+static Status push_terms(const View *view, ShownEquation *equation, Block block, int i, bool column,
                          Unknown *unknown, Diag *diag)
 {
     const int count = column ? system_m(view->system) : system_nu(view->system);
     Expr e;
 
     for (int j = 0; j < count; j++) {
-        TRY(poll(view->watch));
+        TRY(monitor_poll(view->watch));
         TRY(system_show(view->system, block, column ? j : i, column ? i : j, &e, diag));
         if (!expr_is_zero(e))
             LIST_PUSH(equation->left, (ViewTerm){e, unknown(view->system, j)});
@@ -307,7 +307,7 @@ static Status push_terms(const View *view, Equation *equation, Block block, int 
     return OK;
 }
 
-static Status push_right(const View *view, Equation *equation, Block block, int i, Diag *diag)
+static Status push_right(const View *view, ShownEquation *equation, Block block, int i, Diag *diag)
 {
     Expr e;
 
@@ -317,7 +317,7 @@ static Status push_right(const View *view, Equation *equation, Block block, int 
 }
 
 /* The equation goes to the others where all went well, else away. */
-static Status push_equation(EquationList *equations, Equation *equation, Status status)
+static Status push_equation(EquationList *equations, ShownEquation *equation, Status status)
 {
     if (status == OK) {
         LIST_PUSH(*equations, *equation);
@@ -332,7 +332,7 @@ static Status push_equation(EquationList *equations, Equation *equation, Status 
 static Status add_constraint(const View *view, EquationList *equations, int k, const char *level,
                              Diag *diag)
 {
-    Equation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
+    ShownEquation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
     const bool acceleration = level != NULL && strcmp(level, "acceleration") == 0;
     Status status = OK;
     int name_width, direction_width;
@@ -387,7 +387,7 @@ static char *edge_lead(const View *view, const Variable *of, int width)
 /* row i of the embedded form, Mt u' = Ft */
 static Status push_embedded(const View *view, EquationList *equations, int i, Diag *diag)
 {
-    Equation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
+    ShownEquation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
     Status status = OK;
     Text lead = {0};
 
@@ -402,7 +402,7 @@ done:
 Status equations_add_motion(const View *view, EquationList *equations, int i, int lead_width,
                             Diag *diag)
 {
-    Equation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
+    ShownEquation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
     Status status = OK;
 
     CHECK(push_terms(view, &equation, BLOCK_MASS, i, false, system_acceleration, diag));
@@ -429,7 +429,7 @@ static Status push_motions(const View *view, EquationList *equations, int lead_w
 
 void equations_add_network(const View *view, EquationList *equations, int i, int lead_width)
 {
-    Equation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
+    ShownEquation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
     const Variable of = {.edge = system_network_edge(view->system, i)};
     Expr left, right;
 

@@ -360,7 +360,7 @@ static bool holds_name(const char *text, const char *name)
 }
 
 /* which edges of what was printed are ports, and of what */
-static void tell_ports(const View *view, Text *out, size_t from)
+static void report_ports(const View *view, Text *out, size_t from)
 {
     const Graph *graph = view_graph(view);
     Text seen = {0};
@@ -394,7 +394,7 @@ static Status show_rows(const View *view, const Selection *selection, bool circu
     CHECK(terminal_graph_make(view->model, &terminal, diag));
     seen.terminal = &terminal;
     CHECK(show_signs(&seen, selection, circuits, out, diag));
-    tell_ports(&seen, out, from);
+    report_ports(&seen, out, from);
 done:
     terminal_graph_free(&terminal);
     return status;

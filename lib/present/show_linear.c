@@ -200,12 +200,12 @@ Status show_linear(const View *view, const Selection *selection, Text *out, Diag
 /* --- modes --- */
 
 /* the largest part that isn't told yet, the first of equals; -1: the rest hardly move */
-static int next_part(const Mode *mode, int parts, const bool *told)
+static int next_part(const Mode *mode, int parts, const bool *is_reported)
 {
     int best = -1;
 
     for (int p = 0; p < parts; p++)
-        if (!told[p] && mode->amplitude[p] >= LEAST_PART &&
+        if (!is_reported[p] && mode->amplitude[p] >= LEAST_PART &&
             (best < 0 || mode->amplitude[p] > (1 + 1e-6) * mode->amplitude[best]))
             best = p;
     return best;
@@ -214,23 +214,23 @@ static int next_part(const Mode *mode, int parts, const bool *told)
 /* "h2 1, h1 -0.7": what moves, against it, or late by an angle */
 static char *shape_text(const Modes *modes, const Mode *mode)
 {
-    bool *told = NEW_ARRAY(bool, modes->parts);
+    bool *is_reported = NEW_ARRAY(bool, modes->parts);
     Text text = {0};
 
     for (int k = 0; k < MOST_PARTS; k++) {
-        int p = next_part(mode, modes->parts, told);
+        int p = next_part(mode, modes->parts, is_reported);
         double phase;
 
         if (p < 0)
             break;
-        told[p] = true;
+        is_reported[p] = true;
         phase = mode->phase[p] * 180 / M_PI;
         text_addf(&text, "%s%s %s%.3g", k > 0 ? ", " : "", modes->part_names[p],
                   fabs(phase) > 179.95 ? "-" : "", mode->amplitude[p]);
         if (fabs(phase) > 0.05 && fabs(phase) <= 179.95)
             text_addf(&text, " (%.1f deg)", phase);
     }
-    mem_free(told);
+    mem_free(is_reported);
     return text_done(&text);
 }
 

@@ -1,28 +1,28 @@
 /* show_program.c: what a run evaluates, and what it is spared */
 #include "present/show.h"
-#include "simulate/equations/numbers.h"
+#include "simulate/equations/compiled_equations.h"
 
 #include <math.h>
 
 /* operations of a run's programs, as they are reached */
-typedef struct Work {
+typedef struct ProgramListing {
     int hoisted;                    /* of parameters alone */
     int position, velocity, solved; /* with t and q; u and x; what is solved for */
     int asked;                      /* of M and F, where they are asked for alone */
     int rates;                      /* of rates alone, which then take the place of the others */
-} Work;
+} ProgramListing;
 
-static Work work_of(const Numbers *numbers)
+static ProgramListing work_of(const CompiledEquations *numbers)
 {
-    Work work = {0};
+    ProgramListing work = {0};
 
-    for (int part = 0; part < NUMBERS_PARTS; part++) {
-        const Program *p = numbers_program(numbers, (NumbersPart)part);
-        const bool is_asked = part == NUMBERS_MASS;
+    for (int part = 0; part < COMPILED_PARTS; part++) {
+        const Program *p = compiled_program(numbers, (CompiledPart)part);
+        const bool is_asked = part == COMPILED_MASS;
 
         if (p == NULL)
             continue;
-        if (part == NUMBERS_RATES) {
+        if (part == COMPILED_RATES) {
             for (int stage = STAGE_TIME; stage < STAGE_COUNT; stage++)
                 work.rates += program_operations(p, (Stage)stage);
             continue;
@@ -71,7 +71,7 @@ static void add_zeros(const View *view, Text *out, const char *name, const Expr 
     add_line(view, out, "skipped  ", &line);
 }
 
-static void add_kept(const View *view, Text *out, const Equations *eq, const Work *work)
+static void add_kept(const View *view, Text *out, const Equations *eq, const ProgramListing *work)
 {
     const int nu = system_nu(view->system), all = work->position + work->velocity + work->solved;
     Text line = {0};
@@ -112,7 +112,8 @@ static Status eliminate(const View *view, const Equations *eq, Diag *diag)
     return status;
 }
 
-static void add_eliminated(const View *view, Text *out, const Equations *eq, const Work *work)
+static void add_eliminated(const View *view, Text *out, const Equations *eq,
+                           const ProgramListing *work)
 {
     Text line = {0};
 
@@ -131,9 +132,10 @@ static void add_eliminated(const View *view, Text *out, const Equations *eq, con
     add_line(view, out, "skipped  ", &line);
 }
 
-static void add_skipped(const View *view, Text *out, const Equations *eq, const Work *work)
+static void add_skipped(const View *view, Text *out, const Equations *eq,
+                        const ProgramListing *work)
 {
-    const Reading *r = system_run(view->system);
+    const EquationForm *r = system_run(view->system);
     const int nu = system_nu(view->system), m = system_m(view->system);
     const char *const *independent;
     int count;
@@ -162,14 +164,14 @@ static void add_skipped(const View *view, Text *out, const Equations *eq, const 
 }
 
 /* blocks on several threads, where that is set */
-static void add_apart(const View *view, Text *out, const Numbers *numbers)
+static void add_apart(const View *view, Text *out, const CompiledEquations *numbers)
 {
     const int threads = 1 + model_setting_value(view->model, SETTING_JOBS);
     int most = 1, all = 0;
     Text line = {0};
 
-    for (int part = 0; part < NUMBERS_RATES; part++) { /* they are in the others, too */
-        const Program *p = numbers_program(numbers, (NumbersPart)part);
+    for (int part = 0; part < COMPILED_RATES; part++) { /* they are in the others, too */
+        const Program *p = compiled_program(numbers, (CompiledPart)part);
         int own = 0;
         const int parts = p != NULL ? program_parts(p, &own) : 1;
 
@@ -189,17 +191,17 @@ static void add_apart(const View *view, Text *out, const Numbers *numbers)
     add_line(view, out, "apart    ", &line);
 }
 
-static void print_programs(const Numbers *numbers, Text *out)
+static void print_programs(const CompiledEquations *numbers, Text *out)
 {
-    static const char *const names[NUMBERS_PARTS] = {"equations",
-                                                     "network",
-                                                     "conditions",
-                                                     "slip on surfaces",
-                                                     "M and F, where they are asked for",
-                                                     "rates, where constraints are eliminated"};
+    static const char *const names[COMPILED_PARTS] = {"equations",
+                                                      "network",
+                                                      "conditions",
+                                                      "slip on surfaces",
+                                                      "M and F, where they are asked for",
+                                                      "rates, where constraints are eliminated"};
 
-    for (int part = 0; part < NUMBERS_PARTS; part++) {
-        const Program *p = numbers_program(numbers, (NumbersPart)part);
+    for (int part = 0; part < COMPILED_PARTS; part++) {
+        const Program *p = compiled_program(numbers, (CompiledPart)part);
 
         if (p == NULL || program_count(p).add + program_count(p).mul + program_count(p).fun == 0)
             continue;
@@ -212,16 +214,16 @@ Status show_program(const View *view, const Selection *selection, Text *out, Dia
 {
     Threads *threads = threads_new();
     Parameters parameters = {.threads = threads}; /* whatever their values are */
-    Layout *layout = layout_new(view->system);
-    Numbers *numbers = NULL;
+    VariableIndex *layout = variable_index_new(view->system);
+    CompiledEquations *numbers = NULL;
     const Equations *eq;
     Status status;
-    Work work;
+    ProgramListing work;
 
     (void)selection;
     threads_set(threads, 1 + model_setting_value(view->model, SETTING_JOBS));
-    CHECK(numbers_new(layout, &parameters, &numbers, diag));
-    eq = numbers_equations(numbers);
+    CHECK(compiled_new(layout, &parameters, &numbers, diag));
+    eq = compiled_equations(numbers);
     CHECK(eliminate(view, eq, diag));
     work = work_of(numbers);
     if (eq->bring_mass == NULL)
@@ -231,8 +233,8 @@ Status show_program(const View *view, const Selection *selection, Text *out, Dia
     add_skipped(view, out, eq, &work);
     add_apart(view, out, numbers);
 done:
-    numbers_free(numbers);
-    layout_free(layout);
+    compiled_free(numbers);
+    variable_index_free(layout);
     parameters_free(&parameters);
     threads_free(threads);
     return status;

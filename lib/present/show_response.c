@@ -1,5 +1,5 @@
 /* show_response.c: transfer functions and equivalents of linear networks, in symbols */
-#include "formulate/solved/response.h"
+#include "formulate/reduced/response.h"
 #include "present/show.h"
 
 #include <string.h>
@@ -118,7 +118,7 @@ static bool is_one(const Product *product)
             expr_is(product->factors.at[0].at[0], 1));
 }
 
-static bool is_zero(const Ratio *ratio)
+static bool is_zero(const PolynomialRatio *ratio)
 {
     const Product *over = &ratio->over;
 
@@ -126,7 +126,7 @@ static bool is_zero(const Ratio *ratio)
            expr_is_zero(over->factors.at[0].at[0]);
 }
 
-static void add_ratio(Text *out, const View *view, const Ratio *ratio, Expr s)
+static void add_ratio(Text *out, const View *view, const PolynomialRatio *ratio, Expr s)
 {
     Text over = {0}, under = {0};
     bool over_is_single, under_is_single;
@@ -171,7 +171,7 @@ static Expr product_expression(Arena *arena, const Product *product, Expr s)
 static void print_ratio(Text *out, const View *view, const char *left, const char *source,
                         const char *code, const Response *response, int i)
 {
-    const Ratio *ratio = &response->ratio[i];
+    const PolynomialRatio *ratio = &response->ratio[i];
     Text name = {0}, body = {0};
 
     if (view_kind(view) == NOTATION_SOURCE || view_kind(view) == NOTATION_OUTLINE) {
@@ -330,7 +330,7 @@ static Status read_port(const View *view, const Selection *selection, TestPort *
 }
 
 /* a model that has the test source too */
-static Status put_source(const View *view, const TestPort *port, Model **fork, Diag *diag)
+static Status write_source(const View *view, const TestPort *port, Model **fork, Diag *diag)
 {
     Statement *statement = NULL;
     Text text = {0};
@@ -387,7 +387,7 @@ static void print_equivalent(const View *view, const TestPort *port, Response *r
         view_comment(out, view, line.at);
     view_open(out, view);
     for (int i = 0; i < response->count; i++) {
-        Ratio *ratio = &response->ratio[i];
+        PolynomialRatio *ratio = &response->ratio[i];
         const bool is_test = strcmp(expr_name(response->source[i]), TEST_SOURCE) == 0;
         char *source = source_name(view, response->source[i]);
 
@@ -419,7 +419,7 @@ static Status show_equivalent(const View *view, const Selection *selection, bool
     Status status;
 
     CHECK(read_port(view, selection, &port, diag));
-    CHECK(put_source(view, &port, &fork, diag));
+    CHECK(write_source(view, &port, &fork, diag));
     CHECK(model_scene(fork, &scene, diag));
     text_addf(&output, TEST_SOURCE ".%s",
               is_norton ? domain_through(port.domain) : domain_across(port.domain));

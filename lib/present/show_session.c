@@ -107,56 +107,58 @@ static const char *kind_name(RunKind kind)
     return names[kind];
 }
 
-static void add_work(Table *table, const RunReport *report)
+static void add_work(Table *table, const RunReport *monitor_report)
 {
-    if (report->steps > 0) {
+    if (monitor_report->steps > 0) {
         table_cell(table, "steps");
-        table_cellf(table, "%" PRId64 " (%" PRId64 " rejected)", report->steps, report->rejected);
+        table_cellf(table, "%" PRId64 " (%" PRId64 " rejected)", monitor_report->steps,
+                    monitor_report->rejected);
     }
-    if (report->evaluations > 0) {
+    if (monitor_report->evaluations > 0) {
         table_cell(table, "evaluations");
-        table_cellf(table, "%" PRId64, report->evaluations);
+        table_cellf(table, "%" PRId64, monitor_report->evaluations);
     }
-    if (report->factorisations > 0) {
+    if (monitor_report->factorisations > 0) {
         table_cell(table, "factorisations");
-        table_cellf(table, "%" PRId64, report->factorisations);
+        table_cellf(table, "%" PRId64, monitor_report->factorisations);
     }
-    if (report->regularised > 0) {
+    if (monitor_report->regularised > 0) {
         table_cell(table, "near singular");
-        table_cellf(table, "%" PRId64 " factorisations, first at t = %.6g s", report->regularised,
-                    report->singular_time);
+        table_cellf(table, "%" PRId64 " factorisations, first at t = %.6g s",
+                    monitor_report->regularised, monitor_report->singular_time);
     }
 }
 
 /* whether there is a drift to tell, as against what moved: both are numbers */
-static bool tells_energy(const RunReport *report)
+static bool reports_energy(const RunReport *monitor_report)
 {
-    return report->energy_scale > 0 && isfinite(report->energy_scale) &&
-           !isnan(report->energy_drift);
+    return monitor_report->energy_scale > 0 && isfinite(monitor_report->energy_scale) &&
+           !isnan(monitor_report->energy_drift);
 }
 
 /* of check=on, where that was asked for; else empty */
-static void write_error(Text *out, const RunReport *report)
+static void write_error(Text *out, const RunReport *monitor_report)
 {
-    if (!isnan(report->global_error))
-        text_addf(out, "%.2g", report->global_error);
-    else if (report->is_unresolved)
+    if (!isnan(monitor_report->global_error))
+        text_addf(out, "%.2g", monitor_report->global_error);
+    else if (monitor_report->is_unresolved)
         text_add(out, "not resolved");
 }
 
-static void add_quality(Table *table, const RunReport *report)
+static void add_quality(Table *table, const RunReport *monitor_report)
 {
     Text error = {0};
 
     table_cell(table, "position residual");
-    table_cellf(table, "%.2g", report->position_residual);
+    table_cellf(table, "%.2g", monitor_report->position_residual);
     table_cell(table, "velocity residual");
-    table_cellf(table, "%.2g", report->velocity_residual);
-    if (tells_energy(report)) {
+    table_cellf(table, "%.2g", monitor_report->velocity_residual);
+    if (reports_energy(monitor_report)) {
         table_cell(table, "energy drift");
-        table_cellf(table, "%.2g J of %.3g J", report->energy_drift, report->energy_scale);
+        table_cellf(table, "%.2g J of %.3g J", monitor_report->energy_drift,
+                    monitor_report->energy_scale);
     }
-    write_error(&error, report);
+    write_error(&error, monitor_report);
     if (error.length > 0) {
         table_cell(table, "global error");
         table_cell(table, error.at);
@@ -165,15 +167,15 @@ static void add_quality(Table *table, const RunReport *report)
 }
 
 /* what the user asked of steps */
-static void add_step(Table *table, const RunReport *report)
+static void add_step(Table *table, const RunReport *monitor_report)
 {
-    if (report->step > 0) {
+    if (monitor_report->step > 0) {
         table_cell(table, "step");
-        table_cellf(table, "%.3g s", report->step);
+        table_cellf(table, "%.3g s", monitor_report->step);
     }
-    if (report->most > 0) {
+    if (monitor_report->most > 0) {
         table_cell(table, "largest step");
-        table_cellf(table, "%.3g s", report->most);
+        table_cellf(table, "%.3g s", monitor_report->most);
     }
 }
 
@@ -195,15 +197,16 @@ static void add_pace(Table *table, const Pace *pace)
 
 void report_print(Text *out, const Result *result, const char *name)
 {
-    const RunReport *report = result_report(result);
+    const RunReport *monitor_report = result_report(result);
     const double *times = result_times(result);
     const int rows = result_rows(result);
     Table table = table_for("ll");
 
     table_cell(&table, name);
     table_cellf(&table, "%s%s%s%s", kind_name(result_kind(result)),
-                report->method != NULL ? ", " : "", report->method != NULL ? report->method : "",
-                report->stopped ? ", stopped" : "");
+                monitor_report->method != NULL ? ", " : "",
+                monitor_report->method != NULL ? monitor_report->method : "",
+                monitor_report->stopped ? ", stopped" : "");
     table_cell(&table, "time");
     if (rows > 1)
         table_cellf(&table, "%.6g ... %.6g s, %d rows", times[0], times[rows - 1], rows);
@@ -211,19 +214,19 @@ void report_print(Text *out, const Result *result, const char *name)
         table_cellf(&table, "%.6g s", rows > 0 ? times[0] : 0.0);
     if (result_kind(result) == RUN_SIMULATE) {
         table_cell(&table, "tolerances");
-        table_cellf(&table, "rtol %.3g, atol %.3g", report->rtol, report->atol);
-        add_step(&table, report);
-        add_pace(&table, &report->pace);
+        table_cellf(&table, "rtol %.3g, atol %.3g", monitor_report->rtol, monitor_report->atol);
+        add_step(&table, monitor_report);
+        add_pace(&table, &monitor_report->pace);
     }
-    add_work(&table, report);
-    add_quality(&table, report);
+    add_work(&table, monitor_report);
+    add_quality(&table, monitor_report);
     table_print(out, &table, 0);
     table_free(&table);
 }
 
 void report_line(Text *out, const Result *result, const char *name)
 {
-    const RunReport *report = result_report(result);
+    const RunReport *monitor_report = result_report(result);
     const double *times = result_times(result);
     const int rows = result_rows(result);
     Text error = {0};
@@ -234,12 +237,12 @@ void report_line(Text *out, const Result *result, const char *name)
     else
         text_add(out, "its start only");
     if (result_kind(result) == RUN_SIMULATE)
-        text_addf(out, "; %lld step%s, %lld evaluations", (long long)report->steps,
-                  report->steps == 1 ? "" : "s", (long long)report->evaluations);
-    if (tells_energy(report))
-        text_addf(out, "; energy drift %.2g J of %.3g J", report->energy_drift,
-                  report->energy_scale);
-    write_error(&error, report);
+        text_addf(out, "; %lld step%s, %lld evaluations", (long long)monitor_report->steps,
+                  monitor_report->steps == 1 ? "" : "s", (long long)monitor_report->evaluations);
+    if (reports_energy(monitor_report))
+        text_addf(out, "; energy drift %.2g J of %.3g J", monitor_report->energy_drift,
+                  monitor_report->energy_scale);
+    write_error(&error, monitor_report);
     if (error.length > 0)
         text_addf(out, "; global error %s", error.at);
     text_free(&error);
@@ -273,17 +276,19 @@ Status show_runs(const View *view, const Selection *selection, Text *out, Diag *
         table_cell(&table, heads[i]);
     for (int i = 0; i < view->run_count; i++) {
         const Result *result = view->run(view->session, i);
-        const RunReport *report = result_report(result);
+        const RunReport *monitor_report = result_report(result);
         const double *times = result_times(result);
         const int rows = result_rows(result);
 
         table_cellf(&table, "run%d", i + 1);
         table_cell(&table, kind_name(result_kind(result)));
         table_cellf(&table, "%.6g ... %.6g s%s", rows > 0 ? times[0] : 0,
-                    rows > 0 ? times[rows - 1] : 0, report->stopped ? ", stopped" : "");
+                    rows > 0 ? times[rows - 1] : 0, monitor_report->stopped ? ", stopped" : "");
         table_cellf(&table, "%d", rows);
-        table_cell(&table, report->steps > 0 && report->method != NULL ? report->method : "");
-        table_cellf(&table, "%" PRId64, report->steps);
+        table_cell(&table, monitor_report->steps > 0 && monitor_report->method != NULL
+                               ? monitor_report->method
+                               : "");
+        table_cellf(&table, "%" PRId64, monitor_report->steps);
     }
     table_print(out, &table, 0);
     table_free(&table);
@@ -338,7 +343,7 @@ static void print_times(Text *out, const EventRecord *record)
 }
 
 /* events of the model, and what ended the run as one */
-static bool is_told(const EventRecord *record)
+static bool is_computed(const EventRecord *record)
 {
     return record->count > 0 || !record->is_bound;
 }
@@ -366,7 +371,7 @@ Status show_events(const View *view, const Selection *selection, Text *out, Diag
     for (int i = 0; i < all; i++) {
         const EventRecord record = result_event(view->result, i);
 
-        past += is_told(&record);
+        past += is_computed(&record);
     }
     if (count + past == 0)
         text_add(out, "no events\n");
@@ -376,7 +381,7 @@ Status show_events(const View *view, const Selection *selection, Text *out, Diag
         const EventRecord record = result_event(view->result, i);
         Text lead = {0}, times = {0};
 
-        if (!is_told(&record))
+        if (!is_computed(&record))
             continue;
         print_times(&times, &record);
         text_addf(&lead, "  %s  ", record.name);

@@ -1,5 +1,5 @@
 /* show_state.c: state equations of a linear network, in symbols */
-#include "formulate/solved/state_space.h"
+#include "formulate/reduced/state_space.h"
 #include "present/show.h"
 
 #include <string.h>

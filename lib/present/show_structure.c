@@ -72,12 +72,12 @@ static int outermost(const System *system, int instance)
 }
 
 /* one row or column of a matrix */
-typedef struct Line {
+typedef struct ShowStructureLine {
     const char *name;
     int instance; /* innermost; -1 */
     int at;       /* in the matrix */
-} Line;
-typedef LIST(Line) Lines;
+} ShowStructureLine;
+typedef LIST(ShowStructureLine) Lines;
 
 /* those of the blocks, one after the other, then what joins them */
 static void sort_lines(const System *system, Lines *lines)
@@ -98,7 +98,7 @@ static void speed_lines(const System *system, Lines *out)
     for (int j = 0; j < system_nu(system); j++) {
         const char *name = system_u(system, j)->name;
 
-        LIST_PUSH(*out, (Line){name, instance_of(system, name), j});
+        LIST_PUSH(*out, (ShowStructureLine){name, instance_of(system, name), j});
     }
     sort_lines(system, out);
 }
@@ -108,7 +108,7 @@ static void row_lines(const System *system, Lines *out)
     for (int k = 0; k < system_m(system); k++) {
         const char *name = system_instance_name(system, system_constraint(system, k)->instance);
 
-        LIST_PUSH(*out, (Line){name, instance_of(system, name), k});
+        LIST_PUSH(*out, (ShowStructureLine){name, instance_of(system, name), k});
     }
     sort_lines(system, out);
 }
@@ -120,7 +120,7 @@ static void network_lines(const System *system, Lines *out)
     for (int i = 0; i < states + system_nz(system); i++) {
         const Variable *own = i < states ? system_x(system, i) : system_z(system, i - states);
 
-        LIST_PUSH(*out, (Line){own->name, instance_of(system, own->name), i});
+        LIST_PUSH(*out, (ShowStructureLine){own->name, instance_of(system, own->name), i});
     }
     sort_lines(system, out);
 }
@@ -225,19 +225,19 @@ static void add_counters(const System *system, Text *out)
 
 /* --- patterns --- */
 
-typedef struct Pattern {
+typedef struct ShowStructurePattern {
     const System *system;
     const Expr *entries;
     Lines rows, columns;
     int stride;
-} Pattern;
+} ShowStructurePattern;
 
-static bool is_filled(const Pattern *p, int row, int column)
+static bool is_filled(const ShowStructurePattern *p, int row, int column)
 {
     return !expr_is_zero(p->entries[p->rows.at[row].at * p->stride + p->columns.at[column].at]);
 }
 
-static bool begins_block(const Pattern *p, const Lines *lines, int i)
+static bool begins_block(const ShowStructurePattern *p, const Lines *lines, int i)
 {
     return i > 0 && outermost(p->system, lines->at[i].instance) !=
                         outermost(p->system, lines->at[i - 1].instance);
@@ -248,7 +248,7 @@ typedef struct Stripe {
     int from, to, width;
 } Stripe;
 
-static void add_row(const Pattern *p, int row, Stripe stripe, Text *out)
+static void add_row(const ShowStructurePattern *p, int row, Stripe stripe, Text *out)
 {
     text_addf(out, "  %-*s", stripe.width, p->rows.at[row].name);
     for (int c = stripe.from; c < stripe.to; c++)
@@ -257,7 +257,7 @@ static void add_row(const Pattern *p, int row, Stripe stripe, Text *out)
     text_char(out, '\n');
 }
 
-static void add_border(const Pattern *p, Stripe stripe, Text *out)
+static void add_border(const ShowStructurePattern *p, Stripe stripe, Text *out)
 {
     text_addf(out, "  %*s", stripe.width, "");
     for (int c = stripe.from; c < stripe.to; c++)
@@ -266,7 +266,7 @@ static void add_border(const Pattern *p, Stripe stripe, Text *out)
 }
 
 /* behind the columns from `from` on that the page has room for, at least one; page 0: all */
-static int stripe_end(const Pattern *p, int from, int width, int page)
+static int stripe_end(const ShowStructurePattern *p, int from, int width, int page)
 {
     int to = from + 1, room = page - width - 4;
 
@@ -278,7 +278,7 @@ static int stripe_end(const Pattern *p, int from, int width, int page)
 
 /* As many columns beside each other as the page has room for, the others below, with the numbers
  * that they have. */
-static void add_stripes(const Pattern *p, int width, int page, Text *out)
+static void add_stripes(const ShowStructurePattern *p, int width, int page, Text *out)
 {
     Stripe stripe = {.width = width};
 
@@ -295,7 +295,7 @@ static void add_stripes(const Pattern *p, int width, int page, Text *out)
     }
 }
 
-static const char *block_title(const Pattern *p, const Line *line)
+static const char *block_title(const ShowStructurePattern *p, const ShowStructureLine *line)
 {
     const int instance = outermost(p->system, line->instance);
 
@@ -303,7 +303,7 @@ static const char *block_title(const Pattern *p, const Line *line)
 }
 
 /* one line a block: the blocks in which it isn't zero */
-static void add_block_rows(const Pattern *p, Text *out)
+static void add_block_rows(const ShowStructurePattern *p, Text *out)
 {
     for (int r = 0; r < p->rows.count;) {
         Text meets = {0};
@@ -329,7 +329,7 @@ static void add_block_rows(const Pattern *p, Text *out)
     }
 }
 
-static void add_pattern(const Pattern *p, const char *title, int page, Text *out)
+static void add_pattern(const ShowStructurePattern *p, const char *title, int page, Text *out)
 {
     int filled = 0, width = 0;
 
@@ -350,7 +350,7 @@ static void add_pattern(const Pattern *p, const char *title, int page, Text *out
 Status show_structure(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
     System *system = view->system;
-    const Reading *reading = system_run(system);
+    const EquationForm *reading = system_run(system);
     const int page = view->page.columns;
     Lines speeds = {0}, rows = {0}, network = {0};
     Expr *dense = NULL;
@@ -367,15 +367,15 @@ Status show_structure(const View *view, const Selection *selection, Text *out, D
         add_counters(system, out);
     }
     if (speeds.count > 0)
-        add_pattern(&(Pattern){system, reading->mass, speeds, speeds, speeds.count}, "mass matrix",
-                    page, out);
+        add_pattern(&(ShowStructurePattern){system, reading->mass, speeds, speeds, speeds.count},
+                    "mass matrix", page, out);
     if (rows.count > 0)
-        add_pattern(&(Pattern){system, reading->phi_u, rows, speeds, speeds.count}, "jacobian",
-                    page, out);
+        add_pattern(&(ShowStructurePattern){system, reading->phi_u, rows, speeds, speeds.count},
+                    "jacobian", page, out);
     dense = system_network_matrix(system);
     if (network.count > 0)
-        add_pattern(&(Pattern){system, dense, network, network, network.count}, "network", page,
-                    out);
+        add_pattern(&(ShowStructurePattern){system, dense, network, network, network.count},
+                    "network", page, out);
 done:
     LIST_FREE(speeds);
     LIST_FREE(rows);

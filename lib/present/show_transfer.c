@@ -274,7 +274,7 @@ static Status print_one(const View *view, int output, int input, Text *out, Diag
     Text name = {0};
     Status status;
 
-    CHECK(poll(view->watch));
+    CHECK(monitor_poll(view->watch));
     CHECK(transfer_new(view->linear, output, input, &t, diag));
     text_addf(&name, "%s/%s", view->linear->output_names[output], view->linear->input_names[input]);
     if (!has_coefficients(t) && (kind == NOTATION_TYPESET || kind == NOTATION_SOURCE)) {

@@ -258,7 +258,7 @@ static char *write_sum(const View *view, const ViewTerm *terms, int count)
     return text_done(&text);
 }
 
-static void print_equation(Text *out, const View *view, const Equation *equation)
+static void print_equation(Text *out, const View *view, const ShownEquation *equation)
 {
     char *left = equation->name != NULL ? mem_text(equation->name, strlen(equation->name))
                                         : write_sum(view, equation->left.at, equation->left.count);
@@ -269,7 +269,7 @@ static void print_equation(Text *out, const View *view, const Equation *equation
 }
 
 /* left - right = 0 under a name */
-static void make_residual(const View *view, Equation *equation, int number)
+static void make_residual(const View *view, ShownEquation *equation, int number)
 {
     Arena *arena = model_arena(view->model);
     LIST(ViewTerm) terms = {0};
@@ -361,7 +361,7 @@ static int gather(EquationList *equations, Expr **terms, bool *is_long)
 
     *is_long = false;
     for (int i = 0; i < equations->count; i++) {
-        Equation *equation = equations->at + i;
+        ShownEquation *equation = equations->at + i;
         const int from = all.count;
 
         for (int k = 0; k < equation->left.count; k++)
@@ -379,7 +379,7 @@ static int gather(EquationList *equations, Expr **terms, bool *is_long)
 static void scatter(EquationList *equations, const Expr *terms)
 {
     for (int i = 0; i < equations->count; i++) {
-        Equation *equation = equations->at + i;
+        ShownEquation *equation = equations->at + i;
 
         for (int k = 0; k < equation->left.count; k++)
             equation->left.at[k].coefficient = *terms++;
@@ -485,7 +485,7 @@ void view_quantity(const View *view, const char *name, double value, int digits,
 
 void view_value(EquationList *equations, char *name, Expr e)
 {
-    Equation equation = {.lead = NULL, .left = {0}, .right = {0}};
+    ShownEquation equation = {.lead = NULL, .left = {0}, .right = {0}};
 
     equation.name = name;
     LIST_PUSH(equation.right, (ViewTerm){e, NULL});

@@ -23,7 +23,7 @@ typedef struct View {
     const TerminalGraph *terminal; /* the graph with instances as their ports; NULL: as it is */
     int freedoms;                  /* degrees of freedom where an assembly told them; -1 */
     Page page;
-    const Watch *watch;
+    const CallMonitor *watch;
 } View;
 
 static inline NotationKind view_kind(const View *view)
@@ -59,13 +59,13 @@ typedef struct ViewTerm {
     Expr symbol;
 } ViewTerm;
 
-typedef struct Equation {
+typedef struct ShownEquation {
     char *lead; /* what stands before it in text: "h9  x:  "; given; NULL: nothing */
     char *name; /* the left side, where it isn't a sum; given; NULL */
     LIST(ViewTerm) left;
     LIST(ViewTerm) right; /* no terms: 0 */
-} Equation;
-typedef LIST(Equation) EquationList;
+} ShownEquation;
+typedef LIST(ShownEquation) EquationList;
 
 /* Print the equations and free the list. An equation of more than VIEW_BUDGET operations makes
  * all of them be written over named subexpressions, listed behind as `where`. Programming languages

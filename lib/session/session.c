@@ -64,7 +64,7 @@ static void progress(void *context, const char *phase, double fraction)
 void ct_session_hooks(ct_session *session, const ct_hooks *hooks)
 {
     session->hooks = hooks != NULL ? *hooks : (ct_hooks){0};
-    session->watch = (Watch){.context = session, .stop = stop, .progress = progress};
+    session->watch = (CallMonitor){.context = session, .stop = stop, .progress = progress};
     model_find_entries(session->model, &(EntryFinder){session_entry_dimension, session});
     model_find_data(session->model, &(DataFinder){.find = session->hooks.find_file,
                                                   .context = session->hooks.context});
@@ -81,7 +81,7 @@ static void drop_runs(ct_session *session)
     session->linear = NULL;
     modes_free(session->modes);
     session->modes = NULL;
-    session->told = NULL;
+    session->reporter = NULL;
     for (int i = 0; i < session->systems.count; i++)
         system_free(session->systems.at[i]);
     LIST_FREE(session->systems);
@@ -126,7 +126,7 @@ void session_enter(const ct_session *handle)
     mem_keep(session);
     session->phase = NULL;
     if (transaction_is_trial())
-        session->watch = (Watch){.context = session, .stop = stop_trial};
+        session->watch = (CallMonitor){.context = session, .stop = stop_trial};
 }
 
 /* who waits is told now and then what for, also where the work itself says so but once */
@@ -135,8 +135,8 @@ static bool work_stops(void *context)
     const ct_session *session = context;
 
     if (session->phase != NULL)
-        report(&session->watch, session->phase, session->fraction);
-    return poll(&session->watch) != OK;
+        monitor_report(&session->watch, session->phase, session->fraction);
+    return monitor_poll(&session->watch) != OK;
 }
 
 void session_work(const ct_session *handle)

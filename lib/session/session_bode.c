@@ -188,13 +188,13 @@ static void suggest_range(Bode *bode)
         bode->to = bode->from >= most ? bode->from * 100 : most;
 }
 
-static Status find_transfers(Bode *bode, const Watch *watch, Diag *diag)
+static Status find_transfers(Bode *bode, const CallMonitor *watch, Diag *diag)
 {
     for (int k = 0; k < bode->outputs.count; k++)
         for (int i = 0; i < bode->linear->inputs; i++) {
             Transfer *t = NULL;
 
-            TRY(poll(watch));
+            TRY(monitor_poll(watch));
             TRY(transfer_new(bode->linear, bode->outputs.at[k], i, &t, diag));
             LIST_PUSH(bode->transfers, t);
         }
@@ -333,7 +333,7 @@ static void find_frequencies(const Bode *bode, Frequencies *out)
 
 /* --- the sheet --- */
 
-static Status fill_sheet(const Bode *bode, const Watch *watch, BodeSheet *sheet, Diag *diag)
+static Status fill_sheet(const Bode *bode, const CallMonitor *watch, BodeSheet *sheet, Diag *diag)
 {
     Frequencies f = {0};
 
@@ -357,7 +357,7 @@ static Status fill_sheet(const Bode *bode, const Watch *watch, BodeSheet *sheet,
         const int output = bode->outputs.at[k / bode->linear->inputs];
         const int input = k % bode->linear->inputs;
 
-        CHECK(poll(watch));
+        CHECK(monitor_poll(watch));
         transfer_response(bode->linear, output, input, bode->transfers.at[k], omega, rows, gain,
                           phase);
         LIST_PUSH(sheet->names, name_of(bode->linear, "gain", output, input, "dB"));

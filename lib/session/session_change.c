@@ -6,7 +6,7 @@ void session_note_change(ct_session *session, uint64_t revision, bool trees_only
     session->changed = true;
     session->linear_is_old = true;
     session->start_is_later = true;
-    session->told = NULL;
+    session->reporter = NULL;
     run_free(&session->start);
     /* figures of another graph say nothing about this one */
     if (model_revision(session->model) != revision && !trees_only)

@@ -128,13 +128,13 @@ static Status fill_strip(ct_session *session, const Statement *s, Run *run, Stri
     Status status = OK;
 
     for (int i = 0; i < items; i++)
-        mechanism->items.at[i] = session_put_outputs(session->model, mechanism->items.at[i]);
+        mechanism->items.at[i] = session_add_outputs(session->model, mechanism->items.at[i]);
     strip->values = mem_array((size_t)strip->count * (size_t)items, sizeof *strip->values);
     strip->pictures = NEW_ARRAY(Picture, strip->count);
     CHECK(result_reader_prepare(run->reader, strip->times, strip->count, &session->watch, diag));
     for (int i = 0; i < strip->count; i++) {
-        CHECK(poll(&session->watch));
-        report(&session->watch, "drawing", (double)i / strip->count);
+        CHECK(monitor_poll(&session->watch));
+        monitor_report(&session->watch, "drawing", (double)i / strip->count);
         CHECK(result_reader_values_at(run->reader, mechanism->items.at, items, strip->times[i],
                                       strip->values + (size_t)i * (size_t)items, diag));
     }
@@ -150,7 +150,7 @@ done:
 static void write_picture(const ct_session *session, const Picture *picture, ct_paper *paper,
                           Text *out)
 {
-    const Film alone = {.pictures = picture, .count = 1, .title = model_title(session->model)};
+    const Animation alone = {.pictures = picture, .count = 1, .title = model_title(session->model)};
 
     paper->width = picture->width;
     paper->height = picture->height;
@@ -398,8 +398,8 @@ ct_status ct_animate(ct_session *session, const ct_statement *statement, ct_pape
                      is_text ? 1e4 : MOST_FRAMES, &strip, &seconds, &diag));
     *interval = seconds / strip.count;
     if (is_one) {
-        const Film film = {strip.pictures, strip.times, strip.count, seconds,
-                           model_title(session->model)};
+        const Animation film = {strip.pictures, strip.times, strip.count, seconds,
+                                model_title(session->model)};
         Text text = {0};
 
         (is_page ? picture_html : picture_svg)(&film, &text);

@@ -20,7 +20,7 @@ enum { MOST_STEPS = 200, MOST_HALVES = 60, MOST_SWEEPS = 20, CONFIRMED = 3 };
 #define ON          1e-13 /* what constraints may be off */
 
 /* square equations of one size */
-typedef struct Solver {
+typedef struct SessionEvaluatorSolver {
     int n;
     Lu *lu;
     gsl_matrix *a;
@@ -28,14 +28,15 @@ typedef struct Solver {
     gsl_permutation *order;
     size_t rank;
     double *rows, *scale; /* [A | b], n x (n + 1); of columns */
-} Solver;
+} SessionEvaluatorSolver;
 
 struct ct_evaluator {
     const ct_model *model;
-    Lanes **values; /* one a function */
-    Lanes *(*slopes)[DIFFERENTIABLE];
-    Solver groups[2], all, nearest; /* of groups of unknowns, of the residual, of projection */
-    double *numbers;                /* of what a function gives, in all lanes */
+    SimdBatch **values; /* one a function */
+    SimdBatch *(*slopes)[DIFFERENTIABLE];
+    SessionEvaluatorSolver groups[2], all,
+        nearest;     /* of groups of unknowns, of the residual, of projection */
+    double *numbers; /* of what a function gives, in all lanes */
     double *old, *step, *weight, *lack, *trial; /* of Newton's method: as many, or one a lane */
     int *near;
     double *slope_of_s; /* of one lane, by entries of a part */
@@ -43,7 +44,7 @@ struct ct_evaluator {
 
 /* --- equations of one lane --- */
 
-static void solver_open(Solver *solver, int n, bool is_redundant)
+static void solver_open(SessionEvaluatorSolver *solver, int n, bool is_redundant)
 {
     solver->n = n;
     solver->rows = NEW_ARRAY(double, n *(n + 1));
@@ -61,7 +62,7 @@ static void solver_open(Solver *solver, int n, bool is_redundant)
     solver->order = dense_permutation((size_t)n);
 }
 
-static void solver_close(Solver *solver)
+static void solver_close(SessionEvaluatorSolver *solver)
 {
     lu_free(solver->lu);
     MEM_FREE(solver->rows, solver->scale, solver->a, solver->tau[0], solver->tau[1], solver->x,
@@ -79,7 +80,7 @@ static double largest_in(const double *values, int count, int stride)
 }
 
 /* Factor what stands in `rows`, whose right sides are scaled likewise. */
-static bool solver_factor(Solver *solver)
+static bool solver_factor(SessionEvaluatorSolver *solver)
 {
     const int n = solver->n, w = n + 1;
     double *a = solver->rows;
@@ -110,7 +111,7 @@ static bool solver_factor(Solver *solver)
 }
 
 /* b, scaled as the rows are, becomes x */
-static bool solver_solve(Solver *solver, double *b)
+static bool solver_solve(SessionEvaluatorSolver *solver, double *b)
 {
     const int n = solver->n;
 
@@ -131,7 +132,7 @@ static bool solver_solve(Solver *solver, double *b)
 }
 
 /* x of the rows [A | b] that were filled in */
-static bool solver_run(Solver *solver, double *x)
+static bool solver_run(SessionEvaluatorSolver *solver, double *x)
 {
     const int n = solver->n;
 
@@ -144,7 +145,7 @@ static bool solver_run(Solver *solver, double *x)
 
 /* --- functions --- */
 
-static void put(const ct_evaluator *e, Lanes *lanes, const double *p, const double *t,
+static void put(const ct_evaluator *e, SimdBatch *lanes, const double *p, const double *t,
                 const double *y, const double *s)
 {
     const ct_model *model = e->model;
@@ -154,10 +155,10 @@ static void put(const ct_evaluator *e, Lanes *lanes, const double *p, const doub
         const struct ModelInput *input = &model->inputs[i];
 
         if (input->place >= 0 && arrays[input->array] != NULL)
-            lanes_put(lanes, i, input->stage,
-                      arrays[input->array] + (size_t)input->place * model->lanes);
+            simd_batch_set(lanes, i, input->stage,
+                           arrays[input->array] + (size_t)input->place * model->lanes);
     }
-    lanes_run(lanes);
+    simd_batch_run(lanes);
 }
 
 void ct_evaluate(ct_evaluator *e, int function, const double *p, const double *t, const double *y,
@@ -169,16 +170,17 @@ void ct_evaluate(ct_evaluator *e, int function, const double *p, const double *t
     put(e, e->values[function], p, t, y, s);
     for (int i = 0; i < f->rows * f->columns; i++)
         for (int lane = 0; lane < lanes; lane++)
-            values[i * lanes + lane] = lanes_root(e->values[function], i, lane);
+            values[i * lanes + lane] = simd_batch_root(e->values[function], i, lane);
 }
 
 /* --- solving --- */
 
 /* the rows of a group in a lane */
-static void take_rows(const ct_evaluator *e, const CodeGroup *group, Solver *solver, int lane)
+static void take_rows(const ct_evaluator *e, const CodeGroup *group, SessionEvaluatorSolver *solver,
+                      int lane)
 {
     for (int i = 0; i < group->count * (group->count + 1); i++)
-        solver->rows[i] = lanes_root(e->values[group->function], i, lane);
+        solver->rows[i] = simd_batch_root(e->values[group->function], i, lane);
 }
 
 /* no solution in this lane */
@@ -188,7 +190,8 @@ static void lose(const ct_evaluator *e, double *values, int count, int lane)
         values[(size_t)i * e->model->lanes + lane] = NAN;
 }
 
-static bool solve_linear(ct_evaluator *e, const CodeGroup *group, Solver *solver, double *s)
+static bool solve_linear(ct_evaluator *e, const CodeGroup *group, SessionEvaluatorSolver *solver,
+                         double *s)
 {
     const int lanes = e->model->lanes;
     bool all = true;
@@ -213,14 +216,14 @@ static double lack_of(const ct_evaluator *e, const CodeGroup *group, int lane)
     double sum = 0;
 
     for (int i = 0; i < n; i++)
-        sum += fabs(lanes_root(e->values[group->function], i * (n + 1) + n, lane)) /
+        sum += fabs(simd_batch_root(e->values[group->function], i * (n + 1) + n, lane)) /
                e->weight[i * e->model->lanes + lane];
     return sum;
 }
 
 /* the way that a lane is to go; false: there is none */
-static bool find_step(ct_evaluator *e, const CodeGroup *group, Solver *solver, const double *s,
-                      int lane)
+static bool find_step(ct_evaluator *e, const CodeGroup *group, SessionEvaluatorSolver *solver,
+                      const double *s, int lane)
 {
     const int n = group->count, lanes = e->model->lanes;
 
@@ -279,8 +282,8 @@ static bool is_near(const ct_evaluator *e, const CodeGroup *group, int lane)
 }
 
 /* Newton's method, its steps shortened where they lead away */
-static bool solve_newton(ct_evaluator *e, const CodeGroup *group, Solver *solver, const double *p,
-                         const double *t, const double *y, double *s)
+static bool solve_newton(ct_evaluator *e, const CodeGroup *group, SessionEvaluatorSolver *solver,
+                         const double *p, const double *t, const double *y, double *s)
 {
     const int lanes = e->model->lanes;
     unsigned open = (1U << lanes) - 1, lost = 0;
@@ -376,7 +379,7 @@ static bool find_nearest(ct_evaluator *e, int jacobian, const double *off, int l
     for (int i = 0; i < model->m; i++) {
         for (int j = 0; j < nu; j++)
             a[j * w + nu + i] = a[(nu + i) * w + j] =
-                lanes_root(e->values[jacobian], i * nu + j, lane);
+                simd_batch_root(e->values[jacobian], i * nu + j, lane);
         a[(nu + i) * w + n] = -off[i * model->lanes + lane];
     }
     return solver_run(&e->nearest, e->trial);
@@ -405,7 +408,7 @@ static bool project_positions(ct_evaluator *e, const double *p, const double *t,
             for (int i = 0; i < model->n; i++)
                 for (int j = 0; j < model->nu; j++)
                     y[i * lanes + lane] +=
-                        lanes_root(e->values[map], i * model->nu + j, lane) * e->trial[j];
+                        simd_batch_root(e->values[map], i * model->nu + j, lane) * e->trial[j];
         }
         normalise(model, y);
     }
@@ -429,7 +432,8 @@ static bool project_speeds(ct_evaluator *e, const double *p, const double *t, do
 
             *off = -*off;
             for (int j = 0; j < nu; j++)
-                *off += lanes_root(e->values[jacobian], i * nu + j, lane) * u[j * lanes + lane];
+                *off +=
+                    simd_batch_root(e->values[jacobian], i * nu + j, lane) * u[j * lanes + lane];
         }
         if (!find_nearest(e, jacobian, e->numbers, lane)) {
             lose(e, y, ct_model_size(model, CT_STATE), lane);
@@ -462,8 +466,8 @@ ct_status ct_project(ct_evaluator *e, const double *p, const double *t, double *
 
 /* --- derivatives --- */
 
-static Lanes *put_slopes(ct_evaluator *e, int function, ct_part by, const double *p,
-                         const double *t, const double *y, const double *s)
+static SimdBatch *put_slopes(ct_evaluator *e, int function, ct_part by, const double *p,
+                             const double *t, const double *y, const double *s)
 {
     put(e, e->slopes[function][by], p, t, y, s);
     return e->slopes[function][by];
@@ -474,7 +478,7 @@ ct_status ct_partial_derivatives(ct_evaluator *e, int function, ct_part by, cons
 {
     const ModelFunction *f = &e->model->functions.at[function];
     const int lanes = e->model->lanes, columns = ct_model_size(e->model, by);
-    const Lanes *slopes;
+    const SimdBatch *slopes;
 
     if (!f->has_slopes || by >= CT_OUTPUTS)
         return CT_FAILED;
@@ -483,7 +487,7 @@ ct_status ct_partial_derivatives(ct_evaluator *e, int function, ct_part by, cons
     for (int k = 0; k < f->slopes[by].count; k++)
         for (int lane = 0; lane < lanes; lane++)
             values[(f->slopes[by].row[k] * columns + f->slopes[by].column[k]) * lanes + lane] =
-                lanes_root(slopes, k, lane);
+                simd_batch_root(slopes, k, lane);
     return CT_OK;
 }
 
@@ -514,15 +518,15 @@ static bool find_solution_slopes(ct_evaluator *e, ct_part by, int lane)
 {
     const ct_model *model = e->model;
     const ModelFunction *residual = &model->functions.at[model->residual];
-    const Slopes *of_s = &residual->slopes[CT_SOLUTION], *of_x = &residual->slopes[by];
-    const Lanes *lanes_s = e->slopes[model->residual][CT_SOLUTION],
-                *lanes_x = e->slopes[model->residual][by];
+    const SessionSlopes *of_s = &residual->slopes[CT_SOLUTION], *of_x = &residual->slopes[by];
+    const SimdBatch *simd_batch_s = e->slopes[model->residual][CT_SOLUTION],
+                    *simd_batch_x = e->slopes[model->residual][by];
     const int n = model->ns, w = n + 1, columns = ct_model_size(model, by);
     double *a = e->all.rows, *ds = e->slope_of_s;
 
     memset(a, 0, (size_t)(n * w) * sizeof(double));
     for (int k = 0; k < of_s->count; k++)
-        a[of_s->row[k] * w + of_s->column[k]] = lanes_root(lanes_s, k, lane);
+        a[of_s->row[k] * w + of_s->column[k]] = simd_batch_root(simd_batch_s, k, lane);
     for (int i = 0; i < n; i++)
         a[i * w + n] = 1; /* becomes one over what the row is scaled by */
     if (!solver_factor(&e->all) || (model->is_redundant && !find_open_direction(e, e->all.rows)))
@@ -530,7 +534,7 @@ static bool find_solution_slopes(ct_evaluator *e, ct_part by, int lane)
     memset(ds, 0, (size_t)(n * columns) * sizeof(double));
     for (int k = 0; k < of_x->count; k++)
         ds[of_x->row[k] * columns + of_x->column[k]] =
-            -lanes_root(lanes_x, k, lane) * a[of_x->row[k] * w + n];
+            -simd_batch_root(simd_batch_x, k, lane) * a[of_x->row[k] * w + n];
     for (int column = 0; column < columns; column++) {
         for (int i = 0; i < n; i++)
             e->trial[i] = ds[i * columns + column];
@@ -543,10 +547,10 @@ static bool find_solution_slopes(ct_evaluator *e, ct_part by, int lane)
 }
 
 /* Entries of a function that move with what its constraints leave open have no derivatives. */
-static bool lose_open_entries(const ct_evaluator *e, const ModelFunction *f, const Lanes *of_s,
+static bool lose_open_entries(const ct_evaluator *e, const ModelFunction *f, const SimdBatch *of_s,
                               int columns, int lane, double *values)
 {
-    const Slopes *slopes = &f->slopes[CT_SOLUTION];
+    const SessionSlopes *slopes = &f->slopes[CT_SOLUTION];
     bool none = true;
 
     for (int k = 0, next; k < slopes->count; k = next) {
@@ -554,7 +558,7 @@ static bool lose_open_entries(const ct_evaluator *e, const ModelFunction *f, con
         double sum = 0, size = 0;
 
         for (next = k; next < slopes->count && slopes->row[next] == row; next++) {
-            const double slope = lanes_root(of_s, next, lane);
+            const double slope = simd_batch_root(of_s, next, lane);
 
             sum += slope * e->step[slopes->column[next]];
             size += fabs(slope);
@@ -572,7 +576,7 @@ ct_status ct_derivatives(ct_evaluator *e, int function, ct_part by, const double
 {
     const ct_model *model = e->model;
     const ModelFunction *f = &model->functions.at[function];
-    const Slopes *of_s = &f->slopes[CT_SOLUTION];
+    const SessionSlopes *of_s = &f->slopes[CT_SOLUTION];
     const int lanes = model->lanes, columns = ct_model_size(model, by);
     bool all = true;
     ct_status status;
@@ -592,7 +596,7 @@ ct_status ct_derivatives(ct_evaluator *e, int function, ct_part by, const double
             continue;
         }
         for (int k = 0; k < of_s->count; k++) {
-            const double slope = lanes_root(e->slopes[function][CT_SOLUTION], k, lane);
+            const double slope = simd_batch_root(e->slopes[function][CT_SOLUTION], k, lane);
 
             for (int c = 0; c < columns; c++)
                 values[(of_s->row[k] * columns + c) * lanes + lane] +=
@@ -630,15 +634,15 @@ ct_evaluator *ct_evaluator_new(const ct_model *model)
     ct_evaluator *e = NEW(ct_evaluator);
 
     e->model = model;
-    e->values = NEW_ARRAY(Lanes *, functions);
+    e->values = NEW_ARRAY(SimdBatch *, functions);
     e->slopes = mem_array(functions, sizeof *e->slopes);
     for (int f = 0; f < functions; f++) {
         const ModelFunction *function = &model->functions.at[f];
 
-        e->values[f] = lanes_new(function->program, function->native, lanes);
+        e->values[f] = simd_batch_new(function->program, function->native, lanes);
         for (int part = 0; function->has_slopes && part < DIFFERENTIABLE; part++)
-            e->slopes[f][part] =
-                lanes_new(function->slopes[part].program, function->slopes[part].native, lanes);
+            e->slopes[f][part] = simd_batch_new(function->slopes[part].program,
+                                                function->slopes[part].native, lanes);
     }
     open_solvers(e);
     e->numbers = NEW_ARRAY(double, model->largest *lanes);
@@ -658,9 +662,9 @@ void ct_evaluator_free(ct_evaluator *e)
     if (e == NULL)
         return;
     for (int f = 0; f < e->model->functions.count; f++) {
-        lanes_free(e->values[f]);
+        simd_batch_free(e->values[f]);
         for (int part = 0; part < DIFFERENTIABLE; part++)
-            lanes_free(e->slopes[f][part]);
+            simd_batch_free(e->slopes[f][part]);
     }
     for (int g = 0; g < e->model->group_count; g++)
         solver_close(&e->groups[g]);

@@ -40,14 +40,14 @@ static double shown_unit(const ct_session *session, const Syntax *left, const Sy
 static void hint_turns(double off, double tolerance, const Text *unit, Diag *diag)
 {
     const double pi = acos(-1), turns = round(off / (2 * pi));
-    Unit told;
+    Unit unit_given;
     size_t fault;
 
     if (turns == 0 || !(fabs(off - 2 * pi * turns) <= tolerance) || unit->length < 2 ||
-        !unit_parse(unit->at + 1, unit->length - 1, &told, &fault))
+        !unit_parse(unit->at + 1, unit->length - 1, &unit_given, &fault))
         return;
     for (int k = 0; k < 6; k++)
-        if (told.dimension.power[k] != (k == 5))
+        if (unit_given.dimension.power[k] != (k == 5))
             return;
     diag_hint(diag, "that is %.15g whole turn%s: angles are counted on where an arctangent jumps",
               fabs(turns), fabs(turns) == 1 ? "" : "s");

@@ -42,7 +42,7 @@ static const double weights[POINTS] = {0.1294849661688697, 0.2797053914892766, 0
                                        0.4179591836734694, 0.3818300505051189, 0.2797053914892766,
                                        0.1294849661688697};
 
-typedef struct Course { /* of one formula over one run */
+typedef struct FigureCourse { /* of one formula over one run */
     ct_session *session;
     const Syntax *call;
     const Formula *formula; /* of its argument */
@@ -50,16 +50,16 @@ typedef struct Course { /* of one formula over one run */
     LIST(double) ends;   /* of pieces, rising */
     LIST(double) times;  /* samples, SAMPLES a piece, */
     LIST(double) values; /* and the formula there */
-} Course;
+} FigureCourse;
 
-static void course_free(Course *course)
+static void course_free(FigureCourse *course)
 {
     LIST_FREE(course->ends);
     LIST_FREE(course->times);
     LIST_FREE(course->values);
 }
 
-static Status course_at(const Course *course, const double *times, int count, double *out,
+static Status course_at(const FigureCourse *course, const double *times, int count, double *out,
                         Diag *diag)
 {
     return formula_rows(course->session, course->formula, 1, course->grid, course->source, times,
@@ -68,7 +68,7 @@ static Status course_at(const Course *course, const double *times, int count, do
 
 /* --- pieces --- */
 
-static void add_piece(Course *course, double to, int parts)
+static void add_piece(FigureCourse *course, double to, int parts)
 {
     const double from = course->ends.at[course->ends.count - 1];
 
@@ -78,7 +78,7 @@ static void add_piece(Course *course, double to, int parts)
 }
 
 /* from row to row and corner to corner, no longer than half the mean step */
-static void cut_pieces(Course *course)
+static void cut_pieces(FigureCourse *course)
 {
     const Result *result = course->grid->result;
     const double *rows = result_times(result), *corners = result_corner_times(result);
@@ -103,7 +103,7 @@ static void cut_pieces(Course *course)
     }
 }
 
-static Status course_sample(Course *course, Diag *diag)
+static Status course_sample(FigureCourse *course, Diag *diag)
 {
     cut_pieces(course);
     for (int i = 1; i < course->ends.count; i++) {
@@ -122,12 +122,12 @@ static Status course_sample(Course *course, Diag *diag)
 
 /* --- means --- */
 
-typedef struct Piece {
+typedef struct SessionFiguresPiece {
     double a, b, sum; /* the integral over it */
-} Piece;
-typedef LIST(Piece) Pieces;
+} SessionFiguresPiece;
+typedef LIST(SessionFiguresPiece) SessionFiguresPieces;
 
-static double sum_up(const Piece *piece, const double *values, int power)
+static double sum_up(const SessionFiguresPiece *piece, const double *values, int power)
 {
     double sum = 0;
 
@@ -137,17 +137,18 @@ static double sum_up(const Piece *piece, const double *values, int power)
 }
 
 /* the integrals over both halves of each piece */
-static Status halve(const Course *course, const Pieces *pieces, int power, Pieces *halves,
-                    Diag *diag)
+static Status halve(const FigureCourse *course, const SessionFiguresPieces *pieces, int power,
+                    SessionFiguresPieces *halves, Diag *diag)
 {
     const int count = 2 * pieces->count;
     double *times = NEW_ARRAY(double, POINTS *count), *values = NEW_ARRAY(double, POINTS *count);
     Status status = OK;
 
     for (int i = 0; i < count; i++) {
-        const Piece *whole = &pieces->at[i / 2];
+        const SessionFiguresPiece *whole = &pieces->at[i / 2];
         const double middle = (whole->a + whole->b) / 2;
-        const Piece half = {i % 2 == 0 ? whole->a : middle, i % 2 == 0 ? middle : whole->b, 0};
+        const SessionFiguresPiece half = {i % 2 == 0 ? whole->a : middle,
+                                          i % 2 == 0 ? middle : whole->b, 0};
 
         LIST_PUSH(*halves, half);
         for (int k = 0; k < POINTS; k++)
@@ -162,9 +163,10 @@ done:
 }
 
 /* about a pole no pieces are short enough */
-static Status refuse_pole(const Course *course, const Pieces *halves, Diag *diag)
+static Status refuse_pole(const FigureCourse *course, const SessionFiguresPieces *halves,
+                          Diag *diag)
 {
-    const Piece *most = &halves->at[0];
+    const SessionFiguresPiece *most = &halves->at[0];
 
     for (int i = 1; i < halves->count; i++)
         if (fabs(halves->at[i].sum) > fabs(most->sum))
@@ -177,10 +179,10 @@ static Status refuse_pole(const Course *course, const Pieces *halves, Diag *diag
 }
 
 /* the mean of a power; pieces are halved where halves tell another integral */
-static Status mean_of(const Course *course, int power, double *out, Diag *diag)
+static Status mean_of(const FigureCourse *course, int power, double *out, Diag *diag)
 {
     const double span = course->ends.at[course->ends.count - 1] - course->ends.at[0];
-    Pieces open = {0}, halves = {0};
+    SessionFiguresPieces open = {0}, halves = {0};
     double sum = 0, size = 0, least = INFINITY, last_width = 0;
     Status status = OK;
 
@@ -188,7 +190,7 @@ static Status mean_of(const Course *course, int power, double *out, Diag *diag)
     if (!(span > 0))
         return OK;
     for (int i = 1; i < course->ends.count; i++) {
-        Piece piece = {course->ends.at[i - 1], course->ends.at[i], 0};
+        SessionFiguresPiece piece = {course->ends.at[i - 1], course->ends.at[i], 0};
 
         piece.sum = sum_up(&piece, course->values.at + (size_t)(i - 1) * SAMPLES + 1, power);
         size += fabs(piece.sum);
@@ -226,7 +228,7 @@ static Status mean_of(const Course *course, int power, double *out, Diag *diag)
         halves.count = left;
         last_width = width;
 
-        const Pieces swap = open;
+        const SessionFiguresPieces swap = open;
 
         open = halves;
         halves = swap;
@@ -238,13 +240,13 @@ done:
     return status;
 }
 
-static Status figure_mean(const Course *course, double band, double *out, Diag *diag)
+static Status figure_mean(const FigureCourse *course, double band, double *out, Diag *diag)
 {
     (void)band;
     return mean_of(course, 1, out, diag);
 }
 
-static Status figure_rms(const Course *course, double band, double *out, Diag *diag)
+static Status figure_rms(const FigureCourse *course, double band, double *out, Diag *diag)
 {
     (void)band;
     TRY(mean_of(course, 2, out, diag));
@@ -377,7 +379,7 @@ static void peak_narrow(Peak *peak, const double *times, const double *values, i
 }
 
 /* one pass over the course within all peaks */
-static Status peaks_search(const Course *course, double sign, Peaks *peaks, Diag *diag)
+static Status peaks_search(const FigureCourse *course, double sign, Peaks *peaks, Diag *diag)
 {
     double times[PEAKS * (ABOUT + 2)], values[PEAKS * (ABOUT + 2)];
     const int count = peaks_times(peaks, times);
@@ -392,7 +394,7 @@ static Status peaks_search(const Course *course, double sign, Peaks *peaks, Diag
 
 /* The largest of sign * value among the rows, which hold both sides of an event, and the samples;
  * and where the samples have peaks. NAN where a row or a sample has no value. */
-static Status sampled_extreme(const Course *course, double sign, double *best, Peaks *peaks,
+static Status sampled_extreme(const FigureCourse *course, double sign, double *best, Peaks *peaks,
                               Diag *diag)
 {
     const int rows = result_rows(course->grid->result), count = course->values.count;
@@ -422,7 +424,7 @@ done:
     return status;
 }
 
-static Status refuse_growth(const Course *course, double t, Diag *diag)
+static Status refuse_growth(const FigureCourse *course, double t, Diag *diag)
 {
     (void)diag_at(diag, E_VALUE, course->call->place,
                   "near t = %.6g s it grows without bound, and has no extreme", t);
@@ -431,7 +433,7 @@ static Status refuse_growth(const Course *course, double t, Diag *diag)
 }
 
 /* the largest of sign * value, times sign; NAN where a row or a sample has no value */
-static Status extreme(const Course *course, double sign, double *out, Diag *diag)
+static Status extreme(const FigureCourse *course, double sign, double *out, Diag *diag)
 {
     Peaks peaks = {0};
     bool grows[PEAKS];
@@ -456,19 +458,19 @@ static Status extreme(const Course *course, double sign, double *out, Diag *diag
     return OK;
 }
 
-static Status figure_max(const Course *course, double band, double *out, Diag *diag)
+static Status figure_max(const FigureCourse *course, double band, double *out, Diag *diag)
 {
     (void)band;
     return extreme(course, 1, out, diag);
 }
 
-static Status figure_min(const Course *course, double band, double *out, Diag *diag)
+static Status figure_min(const FigureCourse *course, double band, double *out, Diag *diag)
 {
     (void)band;
     return extreme(course, -1, out, diag);
 }
 
-static Status figure_final(const Course *course, double band, double *out, Diag *diag)
+static Status figure_final(const FigureCourse *course, double band, double *out, Diag *diag)
 {
     (void)band, (void)diag;
     *out = course->values.at[course->values.count - 1];
@@ -497,7 +499,7 @@ static bool is_within(double value, double level, double band)
 }
 
 /* where it begins to hold between sample k - 1, where it doesn't, and k */
-static Status instant(const Course *course, int k, Holds *holds, double level, double band,
+static Status instant(const FigureCourse *course, int k, Holds *holds, double level, double band,
                       double *out, Diag *diag)
 {
     double a = course->times.at[k - 1], b = course->times.at[k];
@@ -518,7 +520,7 @@ static Status instant(const Course *course, int k, Holds *holds, double level, d
     return OK;
 }
 
-static Status figure_first(const Course *course, double band, double *out, Diag *diag)
+static Status figure_first(const FigureCourse *course, double band, double *out, Diag *diag)
 {
     int k = 0;
 
@@ -535,7 +537,7 @@ static Status figure_first(const Course *course, double band, double *out, Diag 
     return k == 0 ? OK : instant(course, k, is_true, 0, 0, out, diag);
 }
 
-static Status figure_settling(const Course *course, double band, double *out, Diag *diag)
+static Status figure_settling(const FigureCourse *course, double band, double *out, Diag *diag)
 {
     const double level = course->values.at[course->values.count - 1];
     int k = course->values.count - 1;
@@ -553,7 +555,7 @@ static Status figure_settling(const Course *course, double band, double *out, Di
 }
 
 /* from the first to the last time that it rises through its mean */
-static Status figure_period(const Course *course, double band, double *out, Diag *diag)
+static Status figure_period(const FigureCourse *course, double band, double *out, Diag *diag)
 {
     double mean, from, to, least = INFINITY, most = 0;
     int first = -1, last = -1, crossings = 0;
@@ -595,7 +597,7 @@ static Status figure_period(const Course *course, double band, double *out, Diag
 typedef struct Figure {
     const char *name;
     int args;
-    Status (*value)(const Course *course, double band, double *out, Diag *diag);
+    Status (*value)(const FigureCourse *course, double band, double *out, Diag *diag);
 } Figure;
 
 static const Figure figures[] = {
@@ -621,7 +623,7 @@ Status figure_value(ct_session *session, const Syntax *call, const Formula *argu
                     double *out, Diag *diag)
 {
     const Figure *figure = find_figure(call);
-    Course course = {.session = session, .call = call, .formula = argument};
+    FigureCourse course = {.session = session, .call = call, .formula = argument};
     Status status = OK;
 
     course.source = session->runs.at + session->runs.count - 1;

@@ -304,7 +304,7 @@ static Status cut_pure(Cut *cut, const Syntax *syntax, int run, Expr *out, Diag 
         goto done;
     }
     CHECK(model_expression(session->model, run > 0 ? strip(pool, syntax) : syntax, &e, diag));
-    e = session_put_outputs(session->model, e);
+    e = session_add_outputs(session->model, e);
     CHECK(put_sizes(session, &e, diag));
     CHECK(put_shown(session, run, &e, diag));
     *out = expr_is_number(e)

@@ -55,14 +55,14 @@ static Status make_real(const void *context, Scene *out, Diag *diag)
 }
 
 /* the same start in trees of real edges; *out NULL where there is none to compare with */
-static Status assemble_real(ct_session *session, const Setting *setting, System **system,
+static Status assemble_real(ct_session *session, const SimulationInput *setting, System **system,
                             Result **out, ResultReader **reader, Diag *diag)
 {
     RealTrees trees = {.model = session->model};
     SystemOptions options = {.form =
                                  (NetworkForm)model_setting_value(session->model, SETTING_NETWORK),
                              .watch = &session->watch};
-    Setting plain = *setting;
+    SimulationInput plain = *setting;
     Scene scene = {0};
     Status status;
 
@@ -80,14 +80,14 @@ done:
     return status == E_STOPPED ? status : OK;
 }
 
-Status session_check_freedoms(ct_session *session, System *system, const Setting *setting,
+Status session_check_freedoms(ct_session *session, System *system, const SimulationInput *setting,
                               Diag *diag)
 {
     Branches branches = {0};
     System *real_system = NULL;
     Result *real = NULL, *with = NULL;
     ResultReader *real_reader = NULL, *with_reader = NULL;
-    Setting plain = *setting;
+    SimulationInput plain = *setting;
     Status status = OK;
     Diag ignored;
 

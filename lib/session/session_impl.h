@@ -37,7 +37,7 @@ typedef void Report(const ct_session *session, Text *out);
 
 struct ct_session {
     ct_hooks hooks;
-    Watch watch;       /* the hooks, as lib/ knows them */
+    CallMonitor watch; /* the hooks, as lib/ knows them */
     int polls;         /* of a try with failing allocations */
     const char *phase; /* that was reported last in this call; NULL: none */
     double fraction;   /* of it */
@@ -49,7 +49,7 @@ struct ct_session {
     Linear *linear;         /* the last linearisation; NULL */
     bool linear_is_old;     /* the model has changed since */
     Modes *modes;           /* and modes */
-    Report *told;           /* what ct_report() tells; NULL: as runs have it */
+    Report *reporter;       /* what ct_report() tells; NULL: as runs have it */
     bool start_is_later;    /* a bare name means the start, not the end of the last run */
     bool changed;           /* since the last run */
     uint64_t covered;       /* revision whose virtual branches lose no freedom, and 1 */
@@ -147,8 +147,8 @@ MUST_USE Status session_apply_text(Model *model, const char *text, int *count, D
 
 /* Assemble in trees of real edges and in those of the system, and compare the freedoms, once a
  * revision. E_BRANCH names a virtual branch that takes some away. */
-MUST_USE Status session_check_freedoms(ct_session *session, System *system, const Setting *setting,
-                                       Diag *diag);
+MUST_USE Status session_check_freedoms(ct_session *session, System *system,
+                                       const SimulationInput *setting, Diag *diag);
 /* The same for trees just chosen, quietly: E_BRANCH, or OK, also where nothing can be assembled. */
 MUST_USE Status session_try_trees(ct_session *session, Diag *diag);
 /* what an assembly of the model as it is told of its freedoms; -1: there was none */
@@ -177,7 +177,7 @@ typedef struct RunInput {
     Host *host;
     const Event **events;
     BoundWatch watch;
-    Setting setting;
+    SimulationInput setting;
 } RunInput;
 /* to run that System */
 void run_input_make(ct_session *session, const System *system, RunInput *input);
@@ -227,7 +227,7 @@ bool session_entry_dimension(void *session, const Syntax *call, Dimension *out);
 void session_unit(const ct_session *session, const char *name, Text *out);
 
 /* outputs written out, also in one another: a run older than an output knows its parts */
-Expr session_put_outputs(const Model *model, Expr e);
+Expr session_add_outputs(const Model *model, Expr e);
 
 /* An expression of the user's over variables, runs and counts, ready to be evaluated. */
 typedef enum LeafKind { LEAF_CONSTANT, LEAF_VARIABLE } LeafKind;

@@ -89,7 +89,7 @@ ct_status ct_import(ct_session *session, const ct_statement *statement, char **t
 
     session_begin(session);
     for (int i = 0; text == NULL && (name = model_name(session->model, i)) != NULL; i++)
-        import_take_name(import, name);
+        import_make_name(import, name);
     CHECK(session_read_file(session, file, &content, &diag));
     CHECK(importer_find(s->operands.at[0].value->text)(import, content.at != NULL ? content.at : "",
                                                        content.length, &diag));

@@ -96,15 +96,15 @@ void run_input_make(ct_session *session, const System *system, RunInput *input)
     for (int i = 0; i < model_event_count(model); i++)
         input->events[i] = model_event(model, i);
     input->setting =
-        (Setting){.parameter = parameter_value,
-                  .context = input->parameters,
-                  .scene = model_scene_source(model),
-                  .events = input->events,
-                  .event_count = model_event_count(model),
-                  .start = &input->start,
-                  .evaluator = (Evaluator)model_setting_value(model, SETTING_EVALUATOR),
-                  .threads = session->threads,
-                  .watch = &session->watch};
+        (SimulationInput){.parameter = parameter_value,
+                          .context = input->parameters,
+                          .scene = model_scene_source(model),
+                          .events = input->events,
+                          .event_count = model_event_count(model),
+                          .start = &input->start,
+                          .evaluator = (Evaluator)model_setting_value(model, SETTING_EVALUATOR),
+                          .threads = session->threads,
+                          .watch = &session->watch};
     input->setting.form =
         model_form(model, &input->setting.independent, &input->setting.independent_count);
 }

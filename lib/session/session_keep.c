@@ -54,7 +54,7 @@ static void note(ct_session *session, uint64_t revision, bool is_new)
         session->start_is_later = is_later;
 }
 
-static void tell_nothing(const ct_session *session, Text *out)
+static void report_nothing(const ct_session *session, Text *out)
 {
     (void)session, (void)out;
 }
@@ -101,7 +101,7 @@ Status session_keep(ct_session *session, const Statement *s, Diag *diag)
     for (int i = 0; i < texts.count; i++)
         session_remark(session, texts.at[i]);
     note(session, revision, is_new);
-    session->told = tell_nothing;
+    session->reporter = report_nothing;
 done:
     for (; status != OK && done_so_far > 0; done_so_far--)
         if (model_undo(session->model, &ignored) == OK)

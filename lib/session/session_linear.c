@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOST_TOLD 6 /* names in a remark */
+#define MOST_NAMES 6 /* names in a remark */
 
 static const Syntax *value_of_key(const Statement *s, const char *key)
 {
@@ -52,7 +52,7 @@ Status session_equilibrium(ct_session *session, const Statement *s, Diag *diag)
     session->start = found;
     found = (Run){0};
     session->start_is_later = true;
-    session->told = NULL;
+    session->reporter = NULL;
     session_remark_result(session, result);
 done:
     run_free(&found);
@@ -67,14 +67,14 @@ Status session_op(ct_session *session, const Statement *s, Diag *diag)
 
 /* --- what a linearisation is told --- */
 
-typedef struct Asked {
+typedef struct LinearQuery {
     LinearOrder order;
     LIST(LinearInput) inputs;
     LIST(Expr) outputs;
     LIST(char *) output_names;
-} Asked;
+} LinearQuery;
 
-static void asked_free(Asked *asked)
+static void asked_free(LinearQuery *asked)
 {
     LIST_FREE(asked->inputs);
     LIST_FREE(asked->outputs);
@@ -94,7 +94,7 @@ static const Syntax *item_of(const Syntax *list, int i)
 }
 
 /* about an instant of the last run, or about the start */
-static Status read_point(ct_session *session, const Statement *s, Asked *asked, Diag *diag)
+static Status read_point(ct_session *session, const Statement *s, LinearQuery *asked, Diag *diag)
 {
     const Syntax *at = value_of_key(s, "at");
     Run *run;
@@ -131,7 +131,7 @@ static bool is_parameter(const Model *model, const char *name)
     return false;
 }
 
-static Status read_input(const Model *model, const Syntax *syntax, Asked *asked, Diag *diag)
+static Status read_input(const Model *model, const Syntax *syntax, LinearQuery *asked, Diag *diag)
 {
     Suggest suggest = suggest_for(syntax->text);
     bool is_name = syntax->kind == SYNTAX_VARIABLE && syntax->primes == 0;
@@ -161,7 +161,7 @@ static Status read_input(const Model *model, const Syntax *syntax, Asked *asked,
     return E_NAME;
 }
 
-static Status read_lists(ct_session *session, const Statement *s, Asked *asked, Diag *diag)
+static Status read_lists(ct_session *session, const Statement *s, LinearQuery *asked, Diag *diag)
 {
     const Syntax *inputs = value_of_key(s, "inputs"), *outputs = value_of_key(s, "outputs");
     const Syntax *item;
@@ -177,7 +177,7 @@ static Status read_lists(ct_session *session, const Statement *s, Asked *asked, 
         if (status != OK && diag->place.line == 0)
             diag->place = item->place;
         CHECK(status);
-        LIST_PUSH(asked->outputs, session_put_outputs(session->model, e));
+        LIST_PUSH(asked->outputs, session_add_outputs(session->model, e));
         LIST_PUSH(asked->output_names, view_name(item));
     }
     asked->order.inputs = asked->inputs.at;
@@ -202,7 +202,7 @@ static void place_key(const Statement *s, Diag *diag)
 
 static Status find_linear(ct_session *session, const Statement *s, Linear **out, Diag *diag)
 {
-    Asked asked = {.order = {.at = 0}};
+    LinearQuery asked = {.order = {.at = 0}};
     Status status;
 
     CHECK(read_point(session, s, &asked, diag));
@@ -215,7 +215,7 @@ done:
     return status;
 }
 
-static void tell_linear(const ct_session *session, Text *out)
+static void report_linear(const ct_session *session, Text *out)
 {
     const View view = session_view(session);
 
@@ -231,7 +231,7 @@ Status session_linearize(ct_session *session, const Statement *s, Diag *diag)
     linear_free(session->linear);
     session->linear = linear;
     session->linear_is_old = false;
-    session->told = tell_linear;
+    session->reporter = report_linear;
 done:
     return status;
 }
@@ -247,10 +247,10 @@ static void remark_passing(ct_session *session, const Linear *linear, const char
     text_addf(&line,
               "no rest and no steady motion at t = %.6g s: the %s are those of the coordinates",
               linear->at, what);
-    for (int i = 0; i < linear->freedoms && i < MOST_TOLD; i++)
+    for (int i = 0; i < linear->freedoms && i < MOST_NAMES; i++)
         text_addf(&line, "%s %s", i == 0 ? "" : ",", linear->state_names[i]);
     text_addf(&line, "%s; other independent coordinates have others",
-              linear->freedoms > MOST_TOLD ? ", ..." : "");
+              linear->freedoms > MOST_NAMES ? ", ..." : "");
     session_remark(session, line.at);
     text_free(&line);
 }
@@ -264,7 +264,7 @@ void session_remark_linear(ct_session *session)
     remark_passing(session, session->linear, "poles");
 }
 
-static void tell_modes(const ct_session *session, Text *out)
+static void report_modes(const ct_session *session, Text *out)
 {
     const View view = session_view(session);
 
@@ -282,7 +282,7 @@ Status session_modes(ct_session *session, const Statement *s, Diag *diag)
     remark_passing(session, linear, "modes");
     modes_free(session->modes);
     session->modes = modes;
-    session->told = tell_modes;
+    session->reporter = report_modes;
 done:
     linear_free(linear);
     return status;

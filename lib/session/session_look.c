@@ -45,7 +45,7 @@ ct_status ct_show(ct_session *session, const ct_statement *statement, char **tex
     CHECK(check_no_units(s, &diag));
     CHECK(show_need(&view, s, &need, &diag));
     CHECK(session_prepare_formulas(session, need, &view, &diag));
-    report(&session->watch, "writing out", -1);
+    monitor_report(&session->watch, "writing out", -1);
     CHECK(show(&view, s, &out, &diag));
     if (need == NEED_LINEAR)
         session_remark_linear(session);
@@ -100,7 +100,7 @@ ct_status ct_count(ct_session *session, const ct_statement *statement, char **te
 
     session_begin(session);
     CHECK(session_shown(session, &view.system, &diag));
-    report(&session->watch, "counting", -1);
+    monitor_report(&session->watch, "counting", -1);
     CHECK(tree_cost(&view, &cost, &diag));
     session->cost_now = tree_costs_add(&session->costs, &cost);
     mem_keep(session->costs.at);

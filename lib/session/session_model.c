@@ -9,32 +9,32 @@
 #include <stdio.h>
 
 /* what is at hand while one is made */
-typedef struct Making {
+typedef struct SessionModelBuilder {
     ct_session *session;
     const Code *code;
     ct_model *model;
     Expr *inputs;
     const char *wanted; /* names of functions to be differentiated; NULL */
     Evaluator evaluator;
-} Making;
+} SessionModelBuilder;
 
 /* --- functions --- */
 
-static Status compile(const Making *making, const Expr *roots, int count, Program **program,
-                      Native **native, Diag *diag)
+static Status compile(const SessionModelBuilder *making, const Expr *roots, int count,
+                      Program **program, Native **native, Diag *diag)
 {
     Status status = OK;
 
     CHECK(program_new(roots, count, making->inputs, making->model->input_count, program, diag));
-    CHECK(poll(&making->session->watch));
-    *native = lanes_native(*program, making->model->lanes, making->evaluator);
+    CHECK(monitor_poll(&making->session->watch));
+    *native = simd_batch_native(*program, making->model->lanes, making->evaluator);
 done:
     return status;
 }
 
 /* by the symbols of a part, row by row */
-static Status differentiate(const Making *making, const Expr *roots, int count, CodeArray array,
-                            Slopes *out, Diag *diag)
+static Status differentiate(const SessionModelBuilder *making, const Expr *roots, int count,
+                            CodeArray array, SessionSlopes *out, Diag *diag)
 {
     Arena *arena = making->code->arena;
     const ct_model *model = making->model;
@@ -59,7 +59,7 @@ static Status differentiate(const Making *making, const Expr *roots, int count, 
                     LIST_PUSH(columns, model->inputs[i].place);
                 }
         mem_free(symbols);
-        CHECK(poll(&making->session->watch));
+        CHECK(monitor_poll(&making->session->watch));
     }
     if (arena_status(arena) != OK) {
         status = diag_set(diag, arena_status(arena), "the derivatives are too long: %s",
@@ -90,8 +90,8 @@ static bool is_among(const char *words, const char *name)
     return false;
 }
 
-static Status add_function(const Making *making, const char *name, const Expr *roots, int rows,
-                           int columns, Diag *diag)
+static Status add_function(const SessionModelBuilder *making, const char *name, const Expr *roots,
+                           int rows, int columns, Diag *diag)
 {
     static const CodeArray arrays[DIFFERENTIABLE] = {
         [CT_PARAMETERS] = CODE_P, [CT_STATE] = CODE_Y, [CT_SOLUTION] = CODE_S};
@@ -114,7 +114,7 @@ done:
     return status;
 }
 
-static Status add_functions(const Making *making, Diag *diag)
+static Status add_functions(const SessionModelBuilder *making, Diag *diag)
 {
     const Code *code = making->code;
     ct_model *model = making->model;
@@ -139,7 +139,7 @@ done:
     return status;
 }
 
-static Status check_wanted(const Making *making, Diag *diag)
+static Status check_wanted(const SessionModelBuilder *making, Diag *diag)
 {
     const char *c = making->wanted;
 
@@ -160,7 +160,7 @@ static Status check_wanted(const Making *making, Diag *diag)
 
 /* --- entries --- */
 
-static const char *unit_of(const Making *making, const char *name)
+static const char *unit_of(const SessionModelBuilder *making, const char *name)
 {
     Text text = {0};
     const char *out;
@@ -171,7 +171,7 @@ static const char *unit_of(const Making *making, const char *name)
     return out;
 }
 
-static void add_entry(const Making *making, ct_part part, const char *name)
+static void add_entry(const SessionModelBuilder *making, ct_part part, const char *name)
 {
     ct_model *model = making->model;
 
@@ -179,12 +179,12 @@ static void add_entry(const Making *making, ct_part part, const char *name)
               (ModelEntry){pool_text(model->texts, name, strlen(name)), unit_of(making, name)});
 }
 
-static void take_inputs(Making *making)
+static void take_inputs(SessionModelBuilder *making)
 {
     static const ct_part parts[] = {
         [CODE_P] = CT_PARAMETERS, [CODE_Y] = CT_STATE, [CODE_S] = CT_SOLUTION};
     const Code *code = making->code;
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
     ct_model *model = making->model;
 
     model->input_count = code->inputs.count;
@@ -210,7 +210,7 @@ static void take_inputs(Making *making)
         add_entry(making, CT_OUTPUTS, code->outputs.at[i]);
 }
 
-static void take_numbers(const Making *making)
+static void take_numbers(const SessionModelBuilder *making)
 {
     const Code *code = making->code;
     ct_model *model = making->model;
@@ -225,10 +225,10 @@ static void take_numbers(const Making *making)
     }
 }
 
-static void take_structure(const Making *making)
+static void take_structure(const SessionModelBuilder *making)
 {
     const Code *code = making->code;
-    const Layout *l = code->layout;
+    const VariableIndex *l = code->layout;
     ct_model *model = making->model;
 
     model->n = l->n;
@@ -254,8 +254,8 @@ static Status check_options(const ct_model_options *options, Diag *diag)
                : diag_set(diag, E_VALUE, "a model has 1, 2, 4 or 8 lanes, not %d", lanes);
 }
 
-static Status make(Making *making, const Exported *what, const ct_model_options *options,
-                   Diag *diag)
+static Status make(SessionModelBuilder *making, const Exported *what,
+                   const ct_model_options *options, Diag *diag)
 {
     ct_model *model = making->model = NEW(ct_model);
     Code *code = NEW(Code);
@@ -284,7 +284,7 @@ ct_status ct_model_new(ct_session *session, const ct_model_options *options, ct_
 {
     SESSION_WORK(session, error);
 
-    Making making = {.session = session};
+    SessionModelBuilder making = {.session = session};
     ct_model_options asked = options != NULL ? *options : (ct_model_options){0};
     Exported what = {.view = session_view(session)};
     CodeItems items = {0};

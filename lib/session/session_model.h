@@ -3,17 +3,17 @@
 #ifndef COTREE_SESSION_SESSION_MODEL_H
 #define COTREE_SESSION_SESSION_MODEL_H
 
-#include "compile/lanes.h"
+#include "compile/simd_batch.h"
 #include "cotree.h"
 #include "export/code.h"
 
 /* entries by entries of a part, those that aren't 0 */
-typedef struct Slopes {
+typedef struct SessionSlopes {
     int count;
     int *row, *column;
     Program *program;
     Native *native;
-} Slopes;
+} SessionSlopes;
 
 enum { DIFFERENTIABLE = CT_OUTPUTS }; /* parts that functions are differentiated by */
 
@@ -23,7 +23,7 @@ typedef struct ModelFunction {
     Program *program;
     Native *native;
     bool has_slopes;
-    Slopes slopes[DIFFERENTIABLE];
+    SessionSlopes slopes[DIFFERENTIABLE];
 } ModelFunction;
 
 typedef struct ModelEntry {

@@ -90,8 +90,9 @@ done:
 
 /* --- the verbs --- */
 
-typedef Status RunFunction(System *system, const Setting *setting, const RunOptions *options,
-                           Result **out, ResultReader **reader, Diag *diag);
+typedef Status RunFunction(System *system, const SimulationInput *setting,
+                           const RunOptions *options, Result **out, ResultReader **reader,
+                           Diag *diag);
 
 /* three-angle sequences that came near their critical angle, by joint and angle */
 static void remark_critical(ct_session *session, ResultReader *reader)
@@ -150,7 +151,7 @@ static Status run_new(ct_session *session, const RunOptions *options, RunFunctio
     System *system;
     Status status;
 
-    session->told = NULL;
+    session->reporter = NULL;
     if (graph_edge_count(model_graph(session->model)) == 0) {
         (void)diag_set(diag, E_MODEL, "the model is empty: there is nothing to run");
         diag_hint(diag, "body m1 mass=1 and capacitor C1 a 0 1 are parts; 'help' lists them all");
@@ -176,21 +177,21 @@ done:
 /* what isn't said again is as in the run that goes on */
 static RunOptions options_from(const Result *old, const RunOptions *said)
 {
-    const RunReport *report = result_report(old);
+    const RunReport *monitor_report = result_report(old);
     RunOptions options = *said;
 
     if (options.rtol == 0)
-        options.rtol = report->rtol;
+        options.rtol = monitor_report->rtol;
     if (options.atol == 0)
-        options.atol = report->atol;
+        options.atol = monitor_report->atol;
     if (options.method == NULL)
-        options.method = report->method;
+        options.method = monitor_report->method;
     if (options.every == 0)
-        options.every = report->every;
+        options.every = monitor_report->every;
     if (options.step == 0)
-        options.step = report->step;
+        options.step = monitor_report->step;
     if (options.most == 0)
-        options.most = report->most;
+        options.most = monitor_report->most;
     return options;
 }
 
@@ -203,7 +204,7 @@ static Status run_on(ct_session *session, const RunOptions *said, const Host *ho
     ResultReader *reader = NULL;
     Status status = OK;
 
-    session->told = NULL;
+    session->reporter = NULL;
     if (session->runs.count == 0) {
         (void)diag_set(diag, E_MISSING, "there is no run to go on with");
         diag_hint(diag, "'simulate 10' makes one");
@@ -264,7 +265,7 @@ Status session_assemble(ct_session *session, const Statement *s, Diag *diag)
     run_free(&session->start);
     CHECK(session_start(session, &start, diag));
     session->start_is_later = true;
-    session->told = NULL;
+    session->reporter = NULL;
 done:
     return status;
 }
@@ -336,7 +337,7 @@ ct_status ct_simulate(ct_session *session, const ct_run_options *given, ct_error
         Expr item;
 
         CHECK(model_expression(session->model, syntax_of(given->items[i]), &item, &diag));
-        LIST_PUSH(items, session_put_outputs(session->model, item));
+        LIST_PUSH(items, session_add_outputs(session->model, item));
     }
     host.items = items.at;
     host.item_count = items.count;
@@ -360,30 +361,30 @@ bool ct_run_figures(const ct_session *session, int run, ct_figures *out)
     const int count = session->runs.count;
     const int i = run == 0 ? count - 1 : run - 1;
     const Result *result;
-    const RunReport *report;
+    const RunReport *monitor_report;
     int rows;
 
     if (i < 0 || i >= count)
         return false;
     result = session->runs.at[i].result;
-    report = result_report(result);
+    monitor_report = result_report(result);
     rows = result_rows(result);
-    *out = (ct_figures){.method = report->method,
+    *out = (ct_figures){.method = monitor_report->method,
                         .rows = rows,
                         .from = rows > 0 ? result_times(result)[0] : NAN,
                         .to = rows > 0 ? result_times(result)[rows - 1] : NAN,
-                        .rtol = report->rtol,
-                        .atol = report->atol,
-                        .steps = report->steps,
-                        .rejected = report->rejected,
-                        .evaluations = report->evaluations,
-                        .position_residual = report->position_residual,
-                        .velocity_residual = report->velocity_residual,
-                        .energy_drift = report->energy_drift,
-                        .energy_scale = report->energy_scale,
-                        .global_error = report->global_error,
-                        .wall = report->wall,
-                        .stopped = report->stopped};
+                        .rtol = monitor_report->rtol,
+                        .atol = monitor_report->atol,
+                        .steps = monitor_report->steps,
+                        .rejected = monitor_report->rejected,
+                        .evaluations = monitor_report->evaluations,
+                        .position_residual = monitor_report->position_residual,
+                        .velocity_residual = monitor_report->velocity_residual,
+                        .energy_drift = monitor_report->energy_drift,
+                        .energy_scale = monitor_report->energy_scale,
+                        .global_error = monitor_report->global_error,
+                        .wall = monitor_report->wall,
+                        .stopped = monitor_report->stopped};
     return true;
 }
 
@@ -441,8 +442,8 @@ char *ct_report(ct_session *session)
     const int count = session->runs.count;
     char name[32];
 
-    if (session->told != NULL) {
-        session->told(session, &text);
+    if (session->reporter != NULL) {
+        session->reporter(session, &text);
     } else if (session->start_is_later && session->start.result != NULL) {
         print_configuration(&text, &view, &session->start);
     } else if (count > 0) {

@@ -28,7 +28,7 @@ static Expr *place_items(ct_session *session, const Mechanism *mechanism)
     for (int spot = 0; spot < mechanism->spots; spot++)
         for (int i = 0; mechanism->place[spot] >= 0 && i < mechanism_spot_items(mechanism, spot);
              i++)
-            out[mechanism->place[spot] + i] = session_put_outputs(
+            out[mechanism->place[spot] + i] = session_add_outputs(
                 session->model, mechanism->items.at[mechanism->place[spot] + i]);
     return out;
 }

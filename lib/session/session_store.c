@@ -69,14 +69,14 @@ ct_status ct_store(ct_session *session, const ct_statement *statement, char **te
 
 /* --- load --- */
 
-typedef struct Load {
+typedef struct SessionStoreLoad {
     Model *model;
     const Syntax *file;
     const char *text;
     size_t length;
     int lines; /* of the file's head */
     Text remarks;
-} Load;
+} SessionStoreLoad;
 
 /* what a file's first line tells */
 typedef struct Head {
@@ -118,7 +118,7 @@ static bool read_head(const char *text, Head *head)
 }
 
 /* the first line tells what follows; its own `rest` */
-static Status check_head(const Load *load, const char **rest, Diag *diag)
+static Status check_head(const SessionStoreLoad *load, const char **rest, Diag *diag)
 {
     const char *name = load->file->text;
     const char *scene = model_is_planar(load->model) ? "planar" : "spatial";
@@ -157,7 +157,7 @@ static bool is_definition(const Statement *s)
            (s->kind == STATEMENT_VERB && s->row.number == VERB_subsystem && s->body != NULL);
 }
 
-static Status load_statement(Load *load, const Statement *s, Diag *diag)
+static Status load_statement(SessionStoreLoad *load, const Statement *s, Diag *diag)
 {
     const char *there;
     bool same = false;
@@ -186,7 +186,7 @@ static Status load_statement(Load *load, const Statement *s, Diag *diag)
     return OK;
 }
 
-static Status load_all(Load *load, const char *text, Diag *diag)
+static Status load_all(SessionStoreLoad *load, const char *text, Diag *diag)
 {
     Cursor cursor = {text, 0, 1, 0};
     Statement *statement = NULL;
@@ -217,7 +217,7 @@ ct_status ct_load(ct_session *session, const ct_statement *statement, ct_error *
     SESSION_WORK(session, error);
 
     const Syntax *file = statement_of(statement)->operands.at[0].value;
-    Load load = {.model = session->model, .file = file, .lines = 1};
+    SessionStoreLoad load = {.model = session->model, .file = file, .lines = 1};
     const char *rest = NULL;
     Text content = {0}, called = {0};
     Diag diag = {0};

@@ -152,7 +152,7 @@ Status session_system_of(ct_session *session, NetworkForm form, bool has_literal
         put_last(session, *out);
         goto done;
     }
-    report(&session->watch, "equations", -1);
+    monitor_report(&session->watch, "equations", -1);
     CHECK(system_new_view(&scene, &options, &system, diag));
     system_set_watch(system, &session->watch);
     LIST_PUSH(session->systems, system);
@@ -246,7 +246,7 @@ View session_view(const ct_session *session)
                   .watch = &session->watch};
 }
 
-Expr session_put_outputs(const Model *model, Expr e)
+Expr session_add_outputs(const Model *model, Expr e)
 {
     const int count = model_output_count(model);
     Arena *arena = model_arena(model);

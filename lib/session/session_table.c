@@ -151,15 +151,15 @@ done:
 
 /* --- tables --- */
 
-typedef struct Sheet {
+typedef struct TableSheet {
     double *values;
     int rows, columns;
     bool is_spectral;   /* over frequency, not time */
     LIST(char *) names; /* ended by NULL once it is done */
     LIST(char *) units; /* of those that are exported */
-} Sheet;
+} TableSheet;
 
-static void sheet_free(Sheet *sheet)
+static void sheet_free(TableSheet *sheet)
 {
     mem_free(sheet->values);
     for (int i = 0; i < sheet->names.count; i++)
@@ -188,7 +188,7 @@ static char *column_name(const Syntax *item)
 }
 
 static Status read_items(ct_session *session, const Syntax *const *items, int count,
-                         Formula *formulas, Sheet *sheet, Diag *diag)
+                         Formula *formulas, TableSheet *sheet, Diag *diag)
 {
     Status status = OK;
 
@@ -213,7 +213,7 @@ static int state_count(const Run *source)
 }
 
 /* all coordinates, speeds and network states of the source */
-static void all_items(const Run *source, Formula *formulas, Sheet *sheet)
+static void all_items(const Run *source, Formula *formulas, TableSheet *sheet)
 {
     const System *system = result_system(source->result);
     const int n = system_n(system), moving = n + system_nu(system), count = state_count(source);
@@ -253,7 +253,7 @@ static double *even_times(const Run *grid, double every, int *rows)
 }
 
 static Status fill_sheet(ct_session *session, const Formula *formulas, int count, Run *grid,
-                         Run *source, double every, Sheet *sheet, Diag *diag)
+                         Run *source, double every, TableSheet *sheet, Diag *diag)
 {
     double *times = NULL;
     const double *stamps;
@@ -286,9 +286,9 @@ done:
 }
 
 static Status make_sheet(ct_session *session, const Syntax *const *items, int count, Run *source,
-                         double every, Sheet *out, Diag *diag)
+                         double every, TableSheet *out, Diag *diag)
 {
-    Sheet sheet = {0};
+    TableSheet sheet = {0};
     int columns = count;
     Formula *formulas = NULL;
     Status status = OK;
@@ -312,7 +312,7 @@ static Status make_sheet(ct_session *session, const Syntax *const *items, int co
                      source, every, &sheet, diag));
     LIST_PUSH(sheet.names, NULL);
     *out = sheet;
-    sheet = (Sheet){0};
+    sheet = (TableSheet){0};
 done:
     if (status != OK)
         session_place_item(items, count, diag);
@@ -345,7 +345,7 @@ Status session_last_run(ct_session *session, Run **out, Diag *diag)
 }
 
 static Status last_sheet(ct_session *session, const ct_expression *const *items, int count,
-                         double every, Sheet *out, Diag *diag)
+                         double every, TableSheet *out, Diag *diag)
 {
     const Syntax **list = NEW_ARRAY(const Syntax *, count);
     Run *source = NULL;
@@ -355,7 +355,7 @@ static Status last_sheet(ct_session *session, const ct_expression *const *items,
     for (int i = 0; i < count; i++)
         list[i] = syntax_of(items[i]);
     CHECK(session_last_run(session, &source, diag));
-    report(&session->watch, "reading rows", -1);
+    monitor_report(&session->watch, "reading rows", -1);
     CHECK(make_sheet(session, list, count, source, every, out, diag));
 done:
     mem_free(list);
@@ -367,7 +367,7 @@ ct_status ct_table(ct_session *session, const ct_expression *const *items, int c
 {
     SESSION_WORK(session, error);
 
-    Sheet sheet = {0};
+    TableSheet sheet = {0};
     Diag diag = {0};
     const Status status = last_sheet(session, items, count, every, &sheet, &diag);
 
@@ -422,7 +422,7 @@ ct_status ct_columns(ct_session *session, const ct_expression *const *items, int
 {
     SESSION_WORK(session, error);
 
-    Sheet sheet = {0};
+    TableSheet sheet = {0};
     Diag diag = {0};
     const Status status = last_sheet(session, items, count, every, &sheet, &diag);
 
@@ -460,7 +460,7 @@ static bool is_modes(const Statement *s)
 }
 
 /* `t` that was asked for is the first column, which stands there anyway. */
-static void drop_times(Sheet *sheet)
+static void drop_times(TableSheet *sheet)
 {
     for (int c = sheet->columns - 1; c > 0 && !sheet->is_spectral; c--) {
         const int columns = sheet->columns;
@@ -481,8 +481,8 @@ static void drop_times(Sheet *sheet)
 
 /* numbers of the last run or, with the word `start`, of the start; or the modes; units beside the
  * names, or in them */
-static Status read_numbers(ct_session *session, const Statement *s, bool splits_units, Sheet *sheet,
-                           Exported *what, Diag *diag)
+static Status read_numbers(ct_session *session, const Statement *s, bool splits_units,
+                           TableSheet *sheet, Exported *what, Diag *diag)
 {
     const bool is_start = begins_with(s, "start");
     const int first = is_start ? 2 : 1, count = s->operands.count - first;
@@ -531,7 +531,7 @@ Status session_code_item(ct_session *session, const Syntax *item, CodeItems *ite
 
     if (status != OK)
         return status;
-    LIST_PUSH(items->formulas, session_put_outputs(session->model, e));
+    LIST_PUSH(items->formulas, session_add_outputs(session->model, e));
     LIST_PUSH(items->names, column_name(item));
     return OK;
 }
@@ -556,8 +556,8 @@ done:
 }
 
 /* what the format needs; only numbers and code have items */
-static Status prepare(ct_session *session, const Statement *s, const Format *format, Sheet *sheet,
-                      CodeItems *items, Exported *what, Diag *diag)
+static Status prepare(ct_session *session, const Statement *s, const Format *format,
+                      TableSheet *sheet, CodeItems *items, Exported *what, Diag *diag)
 {
     const Need need = format->need;
     const bool is_inverse = need == NEED_CODE && begins_with(s, "inverse");
@@ -626,7 +626,7 @@ ct_status ct_export_archive(ct_session *session, const ct_statement *statement, 
     const Format *format =
         s->operands.count > 0 ? format_find(s->operands.at[0].value->text) : NULL;
     Exported what = {.view = session_view(session)};
-    Sheet sheet = {0};
+    TableSheet sheet = {0};
     CodeItems items = {0};
     Diag diag = {0};
     Archive *archive = NULL;
@@ -701,7 +701,7 @@ ct_status ct_export(ct_session *session, const ct_statement *statement, bool wit
     const char *name = s->operands.count > 0 ? s->operands.at[0].value->text : "";
     const Format *format = format_find(name);
     Exported what = {.view = session_view(session), .with_header = with_header};
-    Sheet sheet = {0};
+    TableSheet sheet = {0};
     CodeItems items = {0};
     Text out = {0};
     Diag diag = {0};

@@ -6,7 +6,7 @@
 #include "session/session_impl.h"
 
 #include "base/clock.h"
-#include "formulate/whole/tree_search.h"
+#include "formulate/system_build/tree_search.h"
 #include "language/verbs.h"
 
 #include <stdio.h>
@@ -29,14 +29,14 @@ typedef struct TreesSought {
     bool is_stopped; /* by the user */
     bool is_late;
     double began;
-    Watch watch; /* that stops at either */
+    CallMonitor watch; /* that stops at either */
 } TreesSought;
 
 static bool stop(void *context)
 {
     TreesSought *search = context;
 
-    search->is_stopped = search->is_stopped || poll(&search->session->watch) != OK;
+    search->is_stopped = search->is_stopped || monitor_poll(&search->session->watch) != OK;
     search->is_late = search->is_late || clock_now() - search->began > PATIENCE;
     return search->is_stopped || search->is_late;
 }
@@ -47,7 +47,7 @@ static void progress(void *context, const char *phase, double fraction)
 
     /* how far the search is, and not each of its systems */
     if (fraction >= 0)
-        report(&search->session->watch, phase, fraction);
+        monitor_report(&search->session->watch, phase, fraction);
 }
 
 static const Model *model_of(const TreesSought *search)
@@ -208,7 +208,7 @@ static Status open_search(TreesSought *search, Diag *diag)
     Model *model = search->session->model;
 
     search->began = clock_now();
-    search->watch = (Watch){.context = search, .stop = stop, .progress = progress};
+    search->watch = (CallMonitor){.context = search, .stop = stop, .progress = progress};
     search->mark = arena_mark(model_arena(model));
     TRY(model_scene(model, &search->scene, diag));
     if (search->scene.trees[TREE_TRANSLATION] == NULL)

@@ -348,7 +348,7 @@ static Status other_rows(ct_session *session, const Formula *formulas, int count
                 continue;
             }
             for (int r = 0; r < rows; r++) {
-                TRY(poll(&session->watch));
+                TRY(monitor_poll(&session->watch));
                 TRY(evaluate_leaf(session, leaf, run, &times[r], &columns[place][r], diag));
             }
         }

@@ -3,7 +3,7 @@
 # None of these installs anything: what is missing is named (or scripts/dev/packages lint).
 dev = $(SHELL) $(srcdir)/scripts/dev
 EXTRA_DIST += autogen.sh run-demo run-tests .clang-format .clang-tidy .shellcheckrc \
-	scripts/dev/bench-compare scripts/dev/bench-table scripts/dev/build scripts/dev/check-hacking scripts/dev/check-layers scripts/dev/check-size \
+	scripts/dev/bench-compare scripts/dev/bench-table scripts/dev/build scripts/dev/check-hacking scripts/dev/check-layers scripts/dev/check-names scripts/dev/names-out scripts/dev/check-size \
 	scripts/dev/check-tables scripts/dev/check-unused scripts/dev/coverage scripts/dev/lint \
 	scripts/dev/packages scripts/dev/pictures scripts/dev/precision-pictures scripts/dev/scaling-pictures scripts/dev/total scripts/dev/transcripts
 

@@ -1,7 +1,7 @@
 /* fmi.h: what the interface's two versions have alike
  *
  * A version (fmi2.c, fmi3.c) declares its types, tells them here as FmiInstance and so on, and its
- * names by FMI(), FMI_STATE() and FMI_...; it has how messages are handed out (fmu_say), what makes
+ * names by FMI(), FMI_STATE() and FMI_...; it has how messages are handed out (fmu_log), what makes
  * an instance, and what is its own. */
 #ifndef FMI_H
 #define FMI_H
@@ -39,7 +39,7 @@ static Fmu *allowed(FmiInstance instance, unsigned modes, const char *function)
     if (fmu == NULL || ((unsigned)fmu->now.mode & modes) != 0)
         return fmu;
     (void)snprintf(line, sizeof line, "%.60s can't be called here", function);
-    fmu_say(fmu, FMU_ERROR, line);
+    fmu_log(fmu, FMU_ERROR, line);
     return NULL;
 }
 

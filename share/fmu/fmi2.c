@@ -51,7 +51,7 @@ typedef fmi2ValueReference FmiReference;
 typedef fmi2Status FmiStatus;
 #include "fmi.h"
 
-void fmu_say(Fmu *fmu, FmuStatus status, const char *text)
+void fmu_log(Fmu *fmu, FmuStatus status, const char *text)
 {
     if (fmu->logger != NULL && (status >= FMU_ERROR || fmu->is_logging))
         ((fmi2CallbackLogger)fmu->logger)(fmu->environment, fmu->name, (fmi2Status)status,

@@ -61,7 +61,7 @@ typedef fmi3ValueReference FmiReference;
 typedef fmi3Status FmiStatus;
 #include "fmi.h"
 
-void fmu_say(Fmu *fmu, FmuStatus status, const char *text)
+void fmu_log(Fmu *fmu, FmuStatus status, const char *text)
 {
     if (fmu->logger != NULL && (status >= FMU_ERROR || fmu->is_logging))
         ((fmi3LogMessageCallback)fmu->logger)(fmu->environment, (fmi3Status)status,

@@ -21,7 +21,7 @@ FmuStatus fmu_fail(Fmu *fmu, FmuStatus status, const char *text, double value)
     char line[300];
 
     (void)snprintf(line, sizeof line, "%s at t = %.9g s (%.6g)", text, fmu->now.t, value);
-    fmu_say(fmu, status, line);
+    fmu_log(fmu, status, line);
     if (status >= FMU_ERROR)
         fmu->now.mode = FMU_FAILED;
     return status;
@@ -231,7 +231,7 @@ FmuStatus fmu_indicators(Fmu *fmu, double *out)
         double v = all[at];
 
         if (at >= FMU_SIDES)
-            v += fmu->now.side[at] * fmu->now.slack[at - FMU_SIDES];
+            v += fmu->now.side[at] * fmu->now.error_floor[at - FMU_SIDES];
         /* exactly on one it is on the side where it stays */
         out[i] = v > 0 || v < 0 ? v : fmu->now.side[at] * 1e-300;
     }
@@ -385,7 +385,7 @@ static double drift(Fmu *fmu)
     return most;
 }
 
-void fmu_take_references(Fmu *fmu)
+void fmu_set_references(Fmu *fmu)
 {
     FmuNumbers *now = &fmu->now;
 
@@ -415,15 +415,15 @@ static FmuStatus project(Fmu *fmu, int *moved)
 
 int fmu_has_drifted(Fmu *fmu)
 {
-    fmu_take_references(fmu);
+    fmu_set_references(fmu);
     return drift(fmu) > DRIFT * fmu->now.tolerance;
 }
 
-FmuStatus fmu_put_back(Fmu *fmu)
+FmuStatus fmu_restore(Fmu *fmu)
 {
     int moved = 0;
 
-    fmu_take_references(fmu);
+    fmu_set_references(fmu);
     return project(fmu, &moved);
 }
 
@@ -444,7 +444,7 @@ static FmuStatus happen(Fmu *fmu, const int *happens, int *moved)
 
             (void)snprintf(line, sizeof line, "event %.80s at t = %.17g s", fmu_event_name[i],
                            now->t);
-            fmu_say(fmu, FMU_OK, line);
+            fmu_log(fmu, FMU_OK, line);
         }
         now->is_stopped |= fmu_action[i] == FMU_STOPS;
         for (k = 0; fmu_action[i] == FMU_SETS && k < fmu_event_count[i]; k++)
@@ -453,7 +453,7 @@ static FmuStatus happen(Fmu *fmu, const int *happens, int *moved)
     if (!any)
         return FMU_OK;
     *moved = 1;
-    return fmu_put_values(fmu, chosen, values);
+    return fmu_set_values(fmu, chosen, values);
 }
 
 /* --- events --- */
@@ -632,7 +632,7 @@ static FmuStatus exchange(Fmu *fmu, int *changes, int *moved)
     if (margins(fmu, margin, &ended) != FMU_OK)
         return FMU_DISCARD;
     for (k = 0; k < FMU_SWITCHES; k++)
-        now->slack[k] = margin[k] < 0 ? -2 * margin[k] : 0;
+        now->error_floor[k] = margin[k] < 0 ? -2 * margin[k] : 0;
     return FMU_OK;
 }
 #endif
@@ -753,6 +753,6 @@ FmuStatus fmu_initialise(Fmu *fmu)
 
     fmu->now.t = fmu->now.start;
     fmu->now.is_solved = 0;
-    fmu_take_references(fmu);
+    fmu_set_references(fmu);
     return fmu_events(fmu, &moved);
 }

@@ -55,7 +55,7 @@ typedef struct FmuNumbers {
     double y[MODEL_Y + 1];
     double s[MODEL_S + FMU_SEEDS + 1];
     int side[FMU_MEASURES + 1];      /* of what is jumped at: -1 or 1; open or closed */
-    double slack[FMU_SWITCHES + 1];  /* a margin that has ended and all the same changes nothing */
+    double error_floor[FMU_SWITCHES + 1];  /* a margin that has ended and all the same changes nothing */
     int holds[FMU_EVENTS_COUNT + 1]; /* which events' conditions do */
 } FmuNumbers;
 
@@ -66,7 +66,7 @@ typedef struct Fmu {
     int may_return_early; /* from a step that an event ends, in version 3 */
     int has_no_state;     /* an error has left nothing to go on with */
     char *name;
-    void (*logger)(void); /* of the version's type, called by fmu_say() */
+    void (*logger)(void); /* of the version's type, called by fmu_log() */
     void *environment;
     void (*release)(void *);
     double work[3 * MODEL_WORK + 16 * (MODEL_Y + MODEL_S + FMU_MEASURES + FMU_TARGETS + 4) +
@@ -75,7 +75,7 @@ typedef struct Fmu {
 } Fmu;
 
 /* a message to the importer's logger; in the version's file */
-void fmu_say(Fmu *fmu, FmuStatus status, const char *text);
+void fmu_log(Fmu *fmu, FmuStatus status, const char *text);
 /* The same with a number at its end; returns the status. */
 FmuStatus fmu_fail(Fmu *fmu, FmuStatus status, const char *text, double value);
 
@@ -119,15 +119,15 @@ FmuStatus fmu_events(Fmu *fmu, int *moved);
 /* New values, of targets that are chosen, positions first, which ask speeds to meet the
  * constraints, too. Fails where they aren't met, and where they leave others open (fmu_values.c).
  */
-FmuStatus fmu_put_values(Fmu *fmu, const int *chosen, const double *values);
+FmuStatus fmu_set_values(Fmu *fmu, const int *chosen, const double *values);
 /* angles in the turn that is nearest to where they were */
-void fmu_take_references(Fmu *fmu);
+void fmu_set_references(Fmu *fmu);
 double fmu_larger(double a, double b);
 /* Behind a step of the importer's: whether states have left the constraints by more than the
  * tolerance. */
 int fmu_has_drifted(Fmu *fmu);
 /* states onto the constraints */
-FmuStatus fmu_put_back(Fmu *fmu);
+FmuStatus fmu_restore(Fmu *fmu);
 
 /* Brings the next event near enough for what time moves; `is_new`: that may be other than it was
  * (fmu_ahead.c). */

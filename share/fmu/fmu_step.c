@@ -390,7 +390,7 @@ FmuStatus fmu_advance(Fmu *fmu, double end)
         if (crossing || now->t >= now->next)
             status = fmu_events(fmu, &moved);
         else if (MODEL_M > 0 || FMU_QUATERNIONS > 0 || MODEL_A > 0 || FMU_SWITCHES > 0)
-            status = fmu_put_back(fmu);
+            status = fmu_restore(fmu);
     }
     return status == FMU_OK || status == FMU_FATAL ? status : FMU_ERROR;
 }

@@ -1,10 +1,10 @@
 /* fmu_values.c: new values of events, then the constraints again, as in a run
  *
- * Joints stay that what is given doesn't need (follow.h), and rates of what stays and was given,
+ * Joints stay that what is given doesn't need (row_closure.h), and rates of what stays and was given,
  * the same in any coordinates; speeds change as by a blow along those that are given. */
 #define FMU_TABLES
 #include "fmu.h"
-#include "follow.h"
+#include "row_closure.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -228,7 +228,7 @@ static int put_level(Fmu *fmu, int level, int by_mass, const int *chosen, const 
 
 /* --- what stays --- */
 
-enum { OF_JOINTS = FOLLOW_FIRST, OF_NAMED, OF_BODIES, ROWS_MOST = MODEL_M + FMU_TARGETS + 1 };
+enum { OF_JOINTS = ROW_CLASS_FIRST, OF_NAMED, OF_BODIES, ROWS_MOST = MODEL_M + FMU_TARGETS + 1 };
 
 typedef struct Decision {
     int keeps[FMU_TARGETS + 1];   /* it is given and tells something, or stays */
@@ -251,11 +251,11 @@ static void gather(Fmu *fmu, const int *of, Gathered *g, double *a)
 
     g->count = 0;
     for (i = 0; i < MODEL_M; i++) {
-        g->of[g->count] = FOLLOW_CONSTRAINT;
+        g->of[g->count] = ROW_CLASS_CONSTRAINT;
         g->target[g->count++] = -1;
     }
     for (k = 0; k < FMU_TARGETS; k++)
-        if (of[k] != FOLLOW_UNASKED) {
+        if (of[k] != ROW_CLASS_UNASKED) {
             g->of[g->count] = of[k];
             g->target[g->count++] = k;
         }
@@ -283,7 +283,7 @@ static void find_near(const Gathered *g, const double *a, int *is_near)
     while (more) {
         more = 0;
         for (r = 0; r < g->count; r++) {
-            int any = g->of[r] == FOLLOW_GIVEN;
+            int any = g->of[r] == ROW_CLASS_GIVEN;
 
             for (i = 0; i < MODEL_U; i++)
                 any |= is_near[i] && fabs(a[i * g->count + r]) > 0;
@@ -320,19 +320,19 @@ static void find_classes(const int *chosen, int *of)
     for (k = 0; k < FMU_TARGETS; k++) {
         int is_named = 0;
 
-        of[k] = FOLLOW_UNASKED;
+        of[k] = ROW_CLASS_UNASKED;
         if (fmu_level[k] != FMU_COORDINATE)
             continue;
         for (i = 0; i < FMU_GIVEN; i++)
             is_named |= chosen[i] && fmu_level[i] == FMU_COORDINATE && fmu_node[k] >= 0 &&
                         fmu_node[i] == fmu_node[k];
         if (k < FMU_GIVEN)
-            of[k] = chosen[k] ? FOLLOW_GIVEN : FOLLOW_UNASKED;
-        else if (fmu_stays[k] == FMU_JOINT)
+            of[k] = chosen[k] ? ROW_CLASS_GIVEN : ROW_CLASS_UNASKED;
+        else if (fmu_held_kind[k] == FMU_JOINT)
             of[k] = OF_JOINTS;
         else if (is_named)
             of[k] = OF_NAMED;
-        else if (fmu_stays[k] == FMU_BODY)
+        else if (fmu_held_kind[k] == FMU_BODY)
             of[k] = OF_BODIES;
     }
 }
@@ -345,7 +345,7 @@ static void keep_attitudes(const int *of, int *keeps)
     for (k = FMU_GIVEN; k < FMU_TARGETS; k++) {
         int others = 0;
 
-        if (of[k] == FOLLOW_UNASKED || fmu_attitude[k] < 0)
+        if (of[k] == ROW_CLASS_UNASKED || fmu_attitude[k] < 0)
             continue;
         for (i = FMU_GIVEN; i < FMU_TARGETS; i++)
             others += i != k && keeps[i] && fmu_attitude[i] == fmu_attitude[k];
@@ -368,13 +368,13 @@ static void decide(Fmu *fmu, const int *chosen, Decision *out)
     forget_far(&g, out->is_near, a);
     for (r = MODEL_M; r < g.count; r++)
         out->size[g.target[r]] = size_of(&g, a, r);
-    out->open = follow_find(a, MODEL_U, g.count, g.of, FOLLOW_LEAST, g.fate, g.place, g.set);
-    out->rank = follow_rank(g.fate, g.count);
+    out->open = row_closure_find(a, MODEL_U, g.count, g.of, FOLLOW_LEAST, g.fate, g.place, g.set);
+    out->rank = row_closure_rank(g.fate, g.count);
     for (r = MODEL_M; r < g.count; r++) {
         const char *name = fmu_target_name[g.target[r]];
 
-        out->keeps[g.target[r]] = g.fate[r] == TELLS || g.fate[r] == STAYS;
-        if (g.fate[r] == IS_OPEN && length + strlen(name) + 3 < sizeof out->names)
+        out->keeps[g.target[r]] = g.fate[r] == ROW_DETERMINES || g.fate[r] == ROW_HOLDS;
+        if (g.fate[r] == ROW_IS_OPEN && length + strlen(name) + 3 < sizeof out->names)
             length += (size_t)snprintf(out->names + length, sizeof out->names - length, "%s%s",
                                        length > 0 ? ", " : "", name);
     }
@@ -404,26 +404,26 @@ static int keep_rates(Fmu *fmu, const Decision *decision, const int *chosen, con
     for (k = 0; k < FMU_TARGETS; k++) {
         const int is_set = k < FMU_GIVEN && fmu_level[k] == FMU_SPEED && chosen[k];
 
-        of[k] = is_set ? FOLLOW_FIRST + 1 : FOLLOW_UNASKED;
+        of[k] = is_set ? ROW_CLASS_FIRST + 1 : ROW_CLASS_UNASKED;
         to[k] = is_set ? values[k] : before[k];
     }
     for (k = 0; k < FMU_TARGETS; k++) {
         const int rate = rate_of(chosen, k), is_given = k < FMU_GIVEN && chosen[k];
 
         if (rate >= 0 && (is_given || decision->keeps[k]))
-            of[rate] = is_given ? FOLLOW_GIVEN : FOLLOW_FIRST;
+            of[rate] = is_given ? ROW_CLASS_GIVEN : ROW_CLASS_FIRST;
     }
     gather(fmu, of, &g, a);
     forget_far(&g, decision->is_near, a);
     for (k = 0; k < FMU_TARGETS; k++) /* at the end of its way */
         for (r = MODEL_M; fmu_rate[k] >= 0 && decision->size[k] > 0 && r < g.count; r++)
             if (g.target[r] == fmu_rate[k] &&
-                size_of(&g, a, r) < FOLLOW_LEAST_SOLVED * decision->size[k])
-                g.of[r] = FOLLOW_UNASKED;
-    (void)follow_find(a, MODEL_U, g.count, g.of, FOLLOW_LEAST_SOLVED, g.fate, g.place, g.set);
+                size_of(&g, a, r) < ROW_CLOSURE_LEAST_SOLVED * decision->size[k])
+                g.of[r] = ROW_CLASS_UNASKED;
+    (void)row_closure_find(a, MODEL_U, g.count, g.of, ROW_CLOSURE_LEAST_SOLVED, g.fate, g.place, g.set);
     for (r = MODEL_M; r < g.count; r++)
-        take[g.target[r]] = g.fate[r] != FOLLOWS;
-    return follow_rank(g.fate, g.count) >= decision->rank && put_level(fmu, FMU_SPEED, 0, take, to);
+        take[g.target[r]] = g.fate[r] != ROW_FOLLOWS;
+    return row_closure_rank(g.fate, g.count) >= decision->rank && put_level(fmu, FMU_SPEED, 0, take, to);
 }
 
 /* --- new values --- */
@@ -476,7 +476,7 @@ static int go_by_stages(Fmu *fmu, const int *chosen, const double *from, const d
             way[k] = from[k] + (values[k] - from[k]) * i / count;
         even(chosen, way, stage);
         met = put_level(fmu, FMU_COORDINATE, 0, chosen, i == count ? values : stage);
-        fmu_take_references(fmu);
+        fmu_set_references(fmu);
     }
     return met;
 }
@@ -511,7 +511,7 @@ static FmuStatus put_positions(Fmu *fmu, const int *chosen, const double *values
         memcpy(now->y, begun, MODEL_Y * sizeof(double));
         if (!put_level(fmu, FMU_COORDINATE, 0, stay, to))
             return refuse(fmu, "an event's new values contradict the constraints", "", "");
-        fmu_take_references(fmu);
+        fmu_set_references(fmu);
     }
     if (!keep_rates(fmu, &decision, chosen, values, from))
         return refuse(fmu,
@@ -521,7 +521,7 @@ static FmuStatus put_positions(Fmu *fmu, const int *chosen, const double *values
     return FMU_OK;
 }
 
-FmuStatus fmu_put_values(Fmu *fmu, const int *chosen, const double *values)
+FmuStatus fmu_set_values(Fmu *fmu, const int *chosen, const double *values)
 {
     int k, any[FMU_STATE + 1] = {0}, met = 1;
 

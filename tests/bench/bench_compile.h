@@ -4,7 +4,7 @@
 
 #include "base/clock.h"
 #include "model/model.h"
-#include "simulate/equations/numbers.h"
+#include "simulate/equations/compiled_equations.h"
 
 #include <stdio.h>
 
@@ -17,18 +17,18 @@ static double bench_parameter(void *model, Expr symbol)
 static double bench_compile(const Model *model, System *system)
 {
     const double began = clock_now();
-    Layout *layout = layout_new(system);
+    VariableIndex *layout = variable_index_new(system);
     Parameters parameters = {.value = bench_parameter, .context = (void *)model};
-    Numbers *numbers = NULL;
+    CompiledEquations *numbers = NULL;
     Diag diag = {0};
-    const Status status = numbers_new(layout, &parameters, &numbers, &diag);
+    const Status status = compiled_new(layout, &parameters, &numbers, &diag);
     const double took = clock_now() - began;
 
     if (status != OK)
         printf("# %s\n", diag.message);
-    numbers_free(numbers);
+    compiled_free(numbers);
     parameters_free(&parameters);
-    layout_free(layout);
+    variable_index_free(layout);
     return took;
 }
 

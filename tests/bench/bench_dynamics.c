@@ -11,10 +11,10 @@
 
 #include "../unit/form.h"
 #include "formulate/dynamics/cutset_equations.h"
-#include "formulate/solved/accelerations.h"
-#include "formulate/solved/prescribed.h"
+#include "formulate/reduced/accelerations.h"
+#include "formulate/reduced/prescribed.h"
+#include "simulate/equations/compiled_equations.h"
 #include "simulate/equations/motion.h"
-#include "simulate/equations/numbers.h"
 
 #include <dlfcn.h>
 #include <math.h>
@@ -87,7 +87,7 @@ static void count(System *system, const char *name)
 
     memcpy(force, system_run(system)->force, (size_t)nu * sizeof(Expr));
     if (system_pushes(system, pushes, NULL) == OK &&
-        system_accelerations(system, force, pushes, told, told + nu) != TOLD_NOT) {
+        system_accelerations(system, force, pushes, told, told + nu) != ELIMINATED_NOT) {
         const OpCount ops = expr_count_beside(told, nu, 1U << SYMBOL_PARAMETER);
 
         line(name, "operations", (double)(ops.add + ops.mul), "ops");
@@ -257,9 +257,9 @@ static void measure(const char *text, const char *name, Asked asked)
     Model *model = bench_model(text);
     System *system = NULL;
     Parameters parameters = {.value = parameter, .context = model};
-    Numbers *numbers = NULL;
+    CompiledEquations *numbers = NULL;
     Motion *motion = NULL;
-    Layout *layout;
+    VariableIndex *layout;
     Diag diag = {0};
     double *rate, took;
     int *rows;
@@ -272,14 +272,14 @@ static void measure(const char *text, const char *name, Asked asked)
         count_inverse(system, name);
     else
         count(system, name);
-    layout = layout_new(system);
+    layout = variable_index_new(system);
     rows = NEW_ARRAY(int, layout->m);
     for (int k = 0; k < layout->m; k++)
         rows[k] = k;
     parameters.evaluator = EVALUATOR_STRICT;
-    if (numbers_new(layout, &parameters, &numbers, &diag) == OK) {
+    if (compiled_new(layout, &parameters, &numbers, &diag) == OK) {
         motion =
-            motion_new(numbers_equations(numbers),
+            motion_new(compiled_equations(numbers),
                        &(MotionOptions){.rows = rows, .row_count = layout->m, .tolerance = 1e-9});
         rate = NEW_ARRAY(double, motion_length(motion));
         took = asked == ASKED_TORQUES ? evaluation_inverse(motion, system)
@@ -291,9 +291,9 @@ static void measure(const char *text, const char *name, Asked asked)
     }
     mem_free(rows);
     motion_free(motion);
-    numbers_free(numbers);
+    compiled_free(numbers);
     parameters_free(&parameters);
-    layout_free(layout);
+    variable_index_free(layout);
     system_free(system);
     model_free(model);
 }

@@ -46,7 +46,7 @@ static void chain_line(int joints, const char *what, double value, const char *u
 
 static void count_operations(int joints, System *system)
 {
-    const Reading *reading = system_definitions(system);
+    const EquationForm *reading = system_definitions(system);
     int entries = joints * joints;
     Expr *both = NEW_ARRAY(Expr, entries + joints);
 

@@ -11,8 +11,8 @@
 #include "bench_model.h"
 
 #include "base/text.h"
-#include "compile/lanes.h"
 #include "compile/program.h"
+#include "compile/simd_batch.h"
 
 #include <math.h>
 
@@ -69,8 +69,8 @@ static double evaluation(const Program *program, Evaluator evaluator)
 static double side_by_side(const Program *program)
 {
     enum { LANES = 8 };
-    Native *native = lanes_native(program, LANES, EVALUATOR_NATIVE);
-    Lanes *lanes = native != NULL ? lanes_new(program, native, LANES) : NULL;
+    Native *native = simd_batch_native(program, LANES, EVALUATOR_NATIVE);
+    SimdBatch *lanes = native != NULL ? simd_batch_new(program, native, LANES) : NULL;
     double values[2][LANES], seconds = NAN;
 
     for (int i = program_input_count(program) - 1; lanes != NULL && i >= 0; i--) {
@@ -78,16 +78,16 @@ static double side_by_side(const Program *program)
             values[0][k] = 1 + 0.1 * sin(i) + 0.01 * k;
             values[1][k] = 0.1 + values[0][k];
         }
-        lanes_put(lanes, i, STAGE_TIME, values[0]);
+        simd_batch_set(lanes, i, STAGE_TIME, values[0]);
     }
     if (lanes != NULL)
         BENCH_LEAST(
             200, seconds, for (int i = 1; i <= 20; i++) { /* what is put again runs nothing */
-                                                          lanes_put(lanes, 0, STAGE_TIME,
-                                                                    values[i % 2]);
-                                                          lanes_run(lanes);
+                                                          simd_batch_set(lanes, 0, STAGE_TIME,
+                                                                         values[i % 2]);
+                                                          simd_batch_run(lanes);
             });
-    lanes_free(lanes);
+    simd_batch_free(lanes);
     native_free(native);
     return 1e9 * seconds / 20;
 }
@@ -122,7 +122,7 @@ static void measure_chain(bool is_planar, int joints, const char *name)
     Model *model = bench_model(text);
     System *system = NULL;
     Program *program = NULL;
-    const Reading *r;
+    const EquationForm *r;
     Expr *roots, *inputs;
     int count;
 

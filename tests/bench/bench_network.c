@@ -73,10 +73,10 @@ static void bench_ladder(const char *scripts, int sections)
 
     for (int i = 0; i < 3; i++) {
         Model *model = model_by(scripts, "ladder", sections);
-        Setting setting = {.parameter = parameter_value,
-                           .context = model,
-                           .scene = model_scene_source(model),
-                           .start = &none};
+        SimulationInput setting = {.parameter = parameter_value,
+                                   .context = model,
+                                   .scene = model_scene_source(model),
+                                   .start = &none};
         RunOptions options = {.duration = 2e-5, .rtol = 1e-6, .atol = 1e-6, .method = "dop853"};
         System *system = NULL;
         Result *result = NULL;
@@ -115,10 +115,10 @@ static void bench_diodes(const char *scripts, int count)
 
     for (int i = 0; i < 3; i++) {
         Model *model = model_by(scripts, "points/chain", count);
-        Setting setting = {.parameter = parameter_value,
-                           .context = model,
-                           .scene = model_scene_source(model),
-                           .start = &none};
+        SimulationInput setting = {.parameter = parameter_value,
+                                   .context = model,
+                                   .scene = model_scene_source(model),
+                                   .start = &none};
         System *system = NULL;
         Result *result = NULL;
         Diag diag = {0};
@@ -160,7 +160,7 @@ static Model *stiff_ladder(int sections)
     return model;
 }
 
-static double time_of(System *system, const Setting *setting, const char *method)
+static double time_of(System *system, const SimulationInput *setting, const char *method)
 {
     const RunOptions options = {
         .duration = 1, .every = 0.01, .rtol = 1e-6, .atol = 1e-9, .method = method};
@@ -179,10 +179,10 @@ static void bench_stiff(int sections)
 {
     Model *model = stiff_ladder(sections);
     StartValues none = {0};
-    const Setting setting = {.parameter = parameter_value,
-                             .context = model,
-                             .scene = model_scene_source(model),
-                             .start = &none};
+    const SimulationInput setting = {.parameter = parameter_value,
+                                     .context = model,
+                                     .scene = model_scene_source(model),
+                                     .start = &none};
     System *system = NULL;
     Diag diag = {0};
 
@@ -242,10 +242,10 @@ static Switched run_circuit(const char *name, Text *text, const RunOptions *opti
     Result *result = NULL;
     Diag diag = {0};
     Model *model = bench_model(text->at);
-    const Setting setting = {.parameter = parameter_value,
-                             .context = model,
-                             .scene = model_scene_source(model),
-                             .start = &none};
+    const SimulationInput setting = {.parameter = parameter_value,
+                                     .context = model,
+                                     .scene = model_scene_source(model),
+                                     .start = &none};
 
     text_free(text);
     if (model != NULL && form_system(model, &system, &diag) == OK && system_run(system) != NULL &&

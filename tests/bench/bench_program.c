@@ -19,7 +19,7 @@
 
 enum { MOST_LINKS = 40 };
 
-typedef struct Chain {
+typedef struct OrientationClass {
     Arena *arena;
     int links;
     Expr inputs[4 * MOST_LINKS + 1]; /* th, w, m, L of each, then g */
@@ -30,9 +30,9 @@ typedef struct Chain {
     Expr cosines[MOST_LINKS];
     Expr mass[MOST_LINKS][MOST_LINKS];
     Expr force[MOST_LINKS];
-} Chain;
+} OrientationClass;
 
-static Expr symbol(Chain *chain, const char *name, int i, SymbolKind kind)
+static Expr symbol(OrientationClass *chain, const char *name, int i, SymbolKind kind)
 {
     char text[24];
 
@@ -40,22 +40,23 @@ static Expr symbol(Chain *chain, const char *name, int i, SymbolKind kind)
     return chain->inputs[chain->input_count++] = expr_symbol(chain->arena, text, kind);
 }
 
-static Expr held_product(Chain *chain, Expr a, Expr b)
+static Expr held_product(OrientationClass *chain, Expr a, Expr b)
 {
-    return expr_hold(chain->arena, expr_mul(chain->arena, a, b));
+    return expr_name_temporary(chain->arena, expr_mul(chain->arena, a, b));
 }
 
 /* a*b - c*d, or with plus */
-static Expr two_products(Chain *chain, Expr a, Expr b, int sign, Expr c, Expr d)
+static Expr two_products(OrientationClass *chain, Expr a, Expr b, int sign, Expr c, Expr d)
 {
     Expr second = expr_mul(chain->arena, c, d);
 
     if (sign < 0)
         second = expr_neg(chain->arena, second);
-    return expr_hold(chain->arena, expr_add(chain->arena, expr_mul(chain->arena, a, b), second));
+    return expr_name_temporary(chain->arena,
+                               expr_add(chain->arena, expr_mul(chain->arena, a, b), second));
 }
 
-static void form(Chain *chain)
+static void form(OrientationClass *chain)
 {
     Arena *a = chain->arena;
     int n = chain->links;
@@ -77,7 +78,8 @@ static void form(Chain *chain)
     for (int i = n - 1; i >= 0; i--) {
         Expr mass = chain->inputs[2 * n + i];
 
-        chain->mu[i] = i == n - 1 ? mass : expr_hold(a, expr_add(a, chain->mu[i + 1], mass));
+        chain->mu[i] =
+            i == n - 1 ? mass : expr_name_temporary(a, expr_add(a, chain->mu[i + 1], mass));
         chain->sines[i] = expr_sin(a, angle[i]);
         chain->cosines[i] = expr_cos(a, angle[i]);
     }
@@ -100,12 +102,12 @@ static void form(Chain *chain)
                     a, chain->force[i], expr_mul(a, held_product(chain, factor, sine), rate2[j]));
             }
         }
-        chain->force[i] = expr_hold(a, chain->force[i]);
+        chain->force[i] = expr_name_temporary(a, chain->force[i]);
     }
 }
 
 /* R on and below the diagonal of mass, its diagonal inverted; then R y = f, R^T x = y */
-static void solve(Chain *chain)
+static void solve(OrientationClass *chain)
 {
     Arena *a = chain->arena;
     int n = chain->links;
@@ -119,28 +121,28 @@ static void solve(Chain *chain)
             for (int k = 0; k < j; k++)
                 sum = expr_sub(a, sum, expr_mul(a, R[i][k], R[j][k]));
             if (i == j)
-                R[i][j] =
-                    expr_hold(a, expr_div(a, expr_int(a, 1), expr_sqrt(a, expr_hold(a, sum))));
+                R[i][j] = expr_name_temporary(
+                    a, expr_div(a, expr_int(a, 1), expr_sqrt(a, expr_name_temporary(a, sum))));
             else
-                R[i][j] = held_product(chain, expr_hold(a, sum), R[j][j]);
+                R[i][j] = held_product(chain, expr_name_temporary(a, sum), R[j][j]);
         }
     }
     for (int i = 0; i < n; i++) {
         for (int k = 0; k < i; k++)
             x[i] = expr_sub(a, x[i], expr_mul(a, R[i][k], x[k]));
-        x[i] = held_product(chain, expr_hold(a, x[i]), R[i][i]);
+        x[i] = held_product(chain, expr_name_temporary(a, x[i]), R[i][i]);
     }
     for (int i = n - 1; i >= 0; i--) {
         for (int k = i + 1; k < n; k++)
             x[i] = expr_sub(a, x[i], expr_mul(a, R[k][i], x[k]));
-        x[i] = held_product(chain, expr_hold(a, x[i]), R[i][i]);
+        x[i] = held_product(chain, expr_name_temporary(a, x[i]), R[i][i]);
         chain->accelerations[i] = x[i];
     }
 }
 
-static Chain *chain_new(int links)
+static OrientationClass *chain_new(int links)
 {
-    Chain *chain = NEW(Chain);
+    OrientationClass *chain = NEW(OrientationClass);
 
     chain->arena = arena_new();
     chain->links = links;
@@ -149,13 +151,13 @@ static Chain *chain_new(int links)
     return chain;
 }
 
-static void chain_free(Chain *chain)
+static void chain_free(OrientationClass *chain)
 {
     arena_free(chain->arena);
     mem_free(chain);
 }
 
-static void set_inputs(const Chain *chain, double *inputs)
+static void set_inputs(const OrientationClass *chain, double *inputs)
 {
     for (int i = 0; i < chain->input_count; i++)
         inputs[i] = 1 + 0.1 * sin(i);
@@ -241,7 +243,7 @@ static void plain_run(const Plain *plain)
     }
 }
 
-static Plain *plain_new(const Chain *chain)
+static Plain *plain_new(const OrientationClass *chain)
 {
     Plain *plain = NEW(Plain);
 
@@ -276,7 +278,7 @@ static void line(const char *what, const char *size, double value, const char *u
 
 /* the same natively: of one, and a chain each of as many at once as the processor has it */
 /* the slots of so many evaluations side by side, with inputs and constants; new */
-static double *slots_of(const Chain *chain, const Program *program, int width)
+static double *slots_of(const OrientationClass *chain, const Program *program, int width)
 {
     double *slots = NEW_ARRAY(double, (program->slot_count + program->root_count) * width);
 
@@ -290,7 +292,8 @@ static double *slots_of(const Chain *chain, const Program *program, int width)
 }
 
 /* as rows are told: by the interpreter, eight at once */
-static void measure_abreast(const Chain *chain, const Program *program, const char *size, int calls)
+static void measure_abreast(const OrientationClass *chain, const Program *program, const char *size,
+                            int calls)
 {
     double *slots = slots_of(chain, program, ABREAST), seconds;
 
@@ -302,7 +305,8 @@ static void measure_abreast(const Chain *chain, const Program *program, const ch
     mem_free(slots);
 }
 
-static void measure_native(const Chain *chain, const Program *program, const char *size, int calls)
+static void measure_native(const OrientationClass *chain, const Program *program, const char *size,
+                           int calls)
 {
     const struct {
         const char *what;
@@ -343,7 +347,7 @@ static void measure_native(const Chain *chain, const Program *program, const cha
 
 static void measure(int links, const char *size)
 {
-    Chain *chain = chain_new(links);
+    OrientationClass *chain = chain_new(links);
     Plain *plain = plain_new(chain);
     Program *program = NULL;
     Workspace *workspace;

@@ -26,8 +26,8 @@ static const char *verb_of(Member *m, const Told *told)
 }
 
 /* Four parameters or those that leave no choice. q and -q are one attitude. */
-static void tell_attitude(Member *m, const char *verb, const char *name, const double *q,
-                          Scene *out)
+static void report_attitude(Member *m, const char *verb, const char *name, const double *q,
+                            Scene *out)
 {
     const int zeros = (q[1] == 0) + (q[2] == 0) + (q[3] == 0);
     double sign = pick(m, 2) ? 1 : -1;
@@ -43,7 +43,7 @@ static void tell_attitude(Member *m, const char *verb, const char *name, const d
             write(out, "%s %s.q%d = %.17g\n", verb, name, i, sign * q[i]);
 }
 
-static void tell_joint(Member *m, const Scene *s, int number, const Told *told, Scene *out)
+static void report_joint(Member *m, const Scene *s, int number, const Told *told, Scene *out)
 {
     const Joint *j = &s->joint[number];
     const char *verb = verb_of(m, told);
@@ -54,10 +54,10 @@ static void tell_joint(Member *m, const Scene *s, int number, const Told *told, 
         if (!is_parameter(j, k))
             write(out, "%s %s%s = %.17g\n", verb, name, coordinate_name(j, k), j->c[k]);
     if (first_parameter(j) >= 0)
-        tell_attitude(m, verb, name, j->c + first_parameter(j), out);
+        report_attitude(m, verb, name, j->c + first_parameter(j), out);
 }
 
-static void tell_body(Member *m, const Scene *s, int body, const Told *told, Scene *out)
+static void report_body(Member *m, const Scene *s, int body, const Told *told, Scene *out)
 {
     const Pose *p = &s->body[body];
     const char *verb = verb_of(m, told);
@@ -70,7 +70,7 @@ static void tell_body(Member *m, const Scene *s, int body, const Told *told, Sce
         write(out, "%s %s.theta = %.17g\n", verb, name,
               2 * atan2(p->q[3], p->q[0]) + 2 * M_PI * (pick(m, 3) - 1));
     else
-        tell_attitude(m, verb, name, p->q, out);
+        report_attitude(m, verb, name, p->q, out);
 }
 
 /* guesses of angles that follow from the rest: they choose the turn */
@@ -91,21 +91,21 @@ static void guess_turns(Member *m, const Scene *s, Told *told, Scene *out)
 }
 
 /* Each body once, now and then the same again by what follows. */
-static void tell_start(Member *m, const Scene *s, Told *told, Scene *out)
+static void report_start(Member *m, const Scene *s, Told *told, Scene *out)
 {
     *told = (Told){.way = pick(m, 3), .verbs = pick(m, 3)};
     for (int i = 0; i < s->bodies; i++) {
         told->joint[i] = told->way == 0 || (told->way == 2 && pick(m, 2) == 0);
         told->body[i] = !told->joint[i];
         if (told->joint[i])
-            tell_joint(m, s, i, told, out);
+            report_joint(m, s, i, told, out);
         else
-            tell_body(m, s, i, told, out);
+            report_body(m, s, i, told, out);
     }
     for (int i = s->bodies; i < s->all; i++) {
         told->joint[i] = pick(m, 5) == 0;
         if (told->joint[i])
-            tell_joint(m, s, i, told, out);
+            report_joint(m, s, i, told, out);
     }
     /* beside others guesses are met as far as they can be, all alike */
     if (told->verbs == 0)
@@ -204,7 +204,7 @@ static bool start_agrees(Member *m, const Scene *s, int choice)
     out.length = 0;
     write(&out, "%s", s->text);
     write_trees(m, s, choice, &out);
-    tell_start(m, s, &told, &out);
+    report_start(m, s, &told, &out);
     write(&out, "assemble\n");
     right = agrees(m, &kit, s, &told, NEAR, out.text);
     out.length = 0;
@@ -234,7 +234,7 @@ static Verdict told_member(Member *m)
 /* --- starts that are told in part --- */
 
 /* some bodies of those that the scene hangs up, and turns of loops */
-static void tell_part(Member *m, const Scene *s, Scene *out)
+static void report_part(Member *m, const Scene *s, Scene *out)
 {
     Told told = {.verbs = pick(m, 3)};
 
@@ -243,9 +243,9 @@ static void tell_part(Member *m, const Scene *s, Scene *out)
         const int how = s->joint[i].kind == SPHERICAL_ANGLES ? 1 : pick(m, 4);
 
         if (how == 0)
-            tell_body(m, s, i, &told, out);
+            report_body(m, s, i, &told, out);
         else if (how == 1)
-            tell_joint(m, s, i, &told, out);
+            report_joint(m, s, i, &told, out);
     }
 }
 
@@ -259,7 +259,7 @@ static Verdict part_member(Member *m)
     make_scene(m, &s, WITH_LOOPS);
     start.length = 0;
     start.text[0] = '\0';
-    tell_part(m, &s, &start);
+    report_part(m, &s, &start);
     tell(m, "%s%s", m->told ? s.text : "", start.text);
     for (int choice = 0; choice < 3; choice++) {
         Kit kit = kit_new();
@@ -303,7 +303,7 @@ static Verdict counted_member(Member *m)
     out.length = 0;
     write(&out, "%stree absolute\n", s.text);
     for (int i = 0; i < s.bodies; i++)
-        tell_joint(m, &s, i, &told, &out);
+        report_joint(m, &s, i, &told, &out);
     write(&out, "assemble\n");
     right = agrees(m, &kit, &s, &told, NEAR, out.text);
     kit_free(&kit);
@@ -336,7 +336,7 @@ static Verdict reversed_member(Member *m)
         out.length = 0;
         write(&out, "%s", s.text);
         write_trees(m, &s, choice, &out);
-        tell_start(m, &s, &told, &out);
+        report_start(m, &s, &told, &out);
         write(&out, "assemble\n");
         /* as reversed, or as open in trees that have the last joint as a branch */
         right = kit_do(&kit, out.text) != CT_OK && names_open_joint(kit.error.message);

@@ -20,10 +20,10 @@ enum { MOST = 60 };
 
 typedef long double Real;
 
-typedef struct Chain {
+typedef struct OrientationClass {
     int n;
     double length[MOST], mass[MOST], inertia[MOST], angle[MOST], speed[MOST]; /* of hinges */
-} Chain;
+} OrientationClass;
 
 /* --- Lagrange --- */
 
@@ -32,7 +32,7 @@ typedef struct Lagrange {
     Real m[MOST][3 * MOST];                        /* mass matrix beside right sides */
 } Lagrange;
 
-static void find_constants(const Chain *chain, Lagrange *e)
+static void find_constants(const OrientationClass *chain, Lagrange *e)
 {
     for (int i = 0; i < chain->n; i++) {
         Real beyond = 0;
@@ -128,7 +128,7 @@ static Real of_hinges(const Lagrange *e, int n, int row, int by, int first)
 
 /* --- members --- */
 
-static void make_chain(Member *m, Chain *chain)
+static void make_chain(Member *m, OrientationClass *chain)
 {
     const bool is_even = member_one_of(m, 2) == 0;
 
@@ -142,7 +142,7 @@ static void make_chain(Member *m, Chain *chain)
     }
 }
 
-static void write_chain(const Chain *chain, Text *out)
+static void write_chain(const OrientationClass *chain, Text *out)
 {
     text_add(out, "scene planar\ngravity [0, -9.81]\n");
     for (int i = 0; i < chain->n; i++) {
@@ -161,7 +161,7 @@ static void write_chain(const Chain *chain, Text *out)
 }
 
 /* the worst entry of A, beside the largest of its row */
-static double compare(const Chain *chain, const double *entries, int states)
+static double compare(const OrientationClass *chain, const double *entries, int states)
 {
     static Lagrange e;
     const int n = chain->n;
@@ -185,7 +185,7 @@ static double compare(const Chain *chain, const double *entries, int states)
 
 static Verdict chains_far_from_rest(Member *m)
 {
-    Chain chain;
+    OrientationClass chain;
     Text text = {0};
     Verdict verdict = REFUSED;
     char reason[200];

@@ -14,18 +14,18 @@
 enum { LINKS = 2, SHAPES = 6, POINTS = 12, MOST = LINKS * (1 + SHAPES), INSTANTS = 3, CUTS = 4 };
 
 /* a place along a link: shapes, their derivatives by x, and S of theory 9 */
-typedef struct Station {
+typedef struct SectionFrame {
     double x, weight;
     Shape at[SHAPES];
     double S[SHAPES][SHAPES];
-} Station;
+} SectionFrame;
 
 /* hangs with a hinge on what is before it, off its end */
 typedef struct Link {
     int basis, modes[FAMILIES_OF_SHAPES], count, first; /* first: the hinge's coordinate */
     int family[SHAPES], term[SHAPES];
     double L, rho, J[3], stiff[FAMILIES_OF_SHAPES], damping, load[3], axis[3], off[3];
-    Station stations[POINTS], pushed, end;
+    SectionFrame stations[POINTS], pushed, end;
     double push[3]; /* a force at a station, in ground axes */
 } Link;
 
@@ -89,9 +89,9 @@ static Shape shape_at(const Link *link, int i, double x)
     return (Shape){own.value, own.slope / L, own.curve / (L * L)};
 }
 
-static Station station_at(const Arm *arm, const Link *link, double x, double weight)
+static SectionFrame station_at(const Arm *arm, const Link *link, double x, double weight)
 {
-    Station out = {.x = x, .weight = weight};
+    SectionFrame out = {.x = x, .weight = weight};
 
     for (int i = 0; i < link->count; i++)
         out.at[i] = shape_at(link, i, x);
@@ -108,7 +108,7 @@ static Station station_at(const Arm *arm, const Link *link, double x, double wei
     return out;
 }
 
-static void stations_beyond(const Arm *arm, const Link *link, double x, Station out[POINTS])
+static void stations_beyond(const Arm *arm, const Link *link, double x, SectionFrame out[POINTS])
 {
     for (int p = 0; p < POINTS; p++) {
         double place, weight;
@@ -149,7 +149,8 @@ static void find_spin(const Link *link, const Frame *root, const double angle[3]
     add_turned((double(*)[3])root->R, false, h, out->h);
 }
 
-static Frame section(const Link *link, const Frame *root, const Station *at, const Motion *motion)
+static Frame section(const Link *link, const Frame *root, const SectionFrame *at,
+                     const Motion *motion)
 {
     static const double x[3] = {1, 0, 0}, y[3] = {0, 1, 0}, z[3] = {0, 0, 1};
     const double *q = motion->q + link->first + 1, *rate = motion->rate + link->first + 1;
@@ -214,7 +215,7 @@ static double stored_in(const Link *link, const double *q)
     double sum = 0;
 
     for (int p = 0; p < POINTS; p++) {
-        const Station *at = &link->stations[p];
+        const SectionFrame *at = &link->stations[p];
         double strain[FAMILIES_OF_SHAPES] = {0};
 
         for (int i = 0; i < link->count; i++)
@@ -250,7 +251,7 @@ static void add_point(const Frame *at, double mass, const double load[3], const 
 }
 
 static void add_link(const Arm *arm, const Link *link, const Frame *root,
-                     const Station stations[POINTS], const Motion *motion, Sums *sums)
+                     const SectionFrame stations[POINTS], const Motion *motion, Sums *sums)
 {
     for (int p = 0; p < POINTS; p++) {
         const double weight = stations[p].weight;
@@ -279,8 +280,8 @@ static void add_carried(const Arm *arm, const Frame *end, Sums *sums)
 }
 
 /* of what is beyond x of a link, whose stations from there on are told; *cut: the section there */
-static Sums sums_beyond(const Arm *arm, const Motion *motion, int first, const Station *from,
-                        const Station *stations, Frame *cut)
+static Sums sums_beyond(const Arm *arm, const Motion *motion, int first, const SectionFrame *from,
+                        const SectionFrame *stations, Frame *cut)
 {
     Frame tail = {.R = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
     Sums sums = {0};
@@ -306,7 +307,7 @@ static Sums sums_beyond(const Arm *arm, const Motion *motion, int first, const S
 
 static Sums sums_of(const Arm *arm, const Motion *motion)
 {
-    const Station root = {0};
+    const SectionFrame root = {0};
     Frame cut;
 
     return sums_beyond(arm, motion, 0, &root, arm->links[0].stations, &cut);
@@ -425,8 +426,8 @@ static void carried(const Arm *arm, const Motion *motion, const double *second, 
                     double out[6])
 {
     const Link *link = &arm->links[k];
-    const Station from = station_at(arm, link, x, 0);
-    Station stations[POINTS];
+    const SectionFrame from = station_at(arm, link, x, 0);
+    SectionFrame stations[POINTS];
     Frame cut, other;
     Sums sums;
     double moment[3];

@@ -84,8 +84,8 @@ static bool match(const Root *root, const Known *known, int n)
     return true;
 }
 
-static void tell_roots(Member *member, const char *what, const Root *root, const Known *known,
-                       int n)
+static void report_roots(Member *member, const char *what, const Root *root, const Known *known,
+                         int n)
 {
     tell(member, "%s\n", what);
     for (int i = 0; i < n; i++)
@@ -124,7 +124,7 @@ static bool sides_hold(const Root *root, const Known *known, int n)
 
 static Verdict judge(Member *member, const char *what, const Root *root, const Known *known, int n)
 {
-    tell_roots(member, what, root, known, n);
+    report_roots(member, what, root, known, n);
     if (!match(root, known, n) || !sides_hold(root, known, n))
         return DISAGREES;
     return is_undecided(root, known, n) ? REFUSED : AGREES;
@@ -758,7 +758,7 @@ static Verdict long_chains_known_badly(Member *member)
     spectrum = spectrum_new(a, error, n);
     if (spectrum == NULL)
         return DISAGREES;
-    tell_roots(member, "eigenvalues", spectrum_roots(spectrum), known, n);
+    report_roots(member, "eigenvalues", spectrum_roots(spectrum), known, n);
     sound = match(spectrum_roots(spectrum), known, n);
     spectrum_free(spectrum);
     return sound ? AGREES : DISAGREES;

@@ -127,7 +127,7 @@ static bool extremes_are(Member *member, Kit *kit, const Samples *s, int i)
 static bool first_is(Member *member, Kit *kit, const Samples *s, int i)
 {
     const double *x = s->at[i];
-    double least = INFINITY, most = -INFINITY, level, slack;
+    double least = INFINITY, most = -INFINITY, level, error_floor;
     char text[140];
     double found;
     int k = 0;
@@ -137,7 +137,7 @@ static bool first_is(Member *member, Kit *kit, const Samples *s, int i)
         most = fmax(most, x[j]);
     }
     level = least + 0.37 * (most - least);
-    slack = 1e-5 * s->scale[i];
+    error_floor = 1e-5 * s->scale[i];
     if (most - least < 1e-2 * s->scale[i])
         return true;
     while (k <= SAMPLES && !(x[k] > level))
@@ -148,7 +148,7 @@ static bool first_is(Member *member, Kit *kit, const Samples *s, int i)
             return true;
     (void)snprintf(text, sizeof text, "first(%s > %.17g)", s->name[i], level);
     found = kit_value(kit, text) / END * SAMPLES;
-    if (fabs(x[k] - level) < slack || (k > 0 && fabs(x[k - 1] - level) < slack))
+    if (fabs(x[k] - level) < error_floor || (k > 0 && fabs(x[k - 1] - level) < error_floor))
         return true;
     if (found <= k && found >= (k > 0 ? k - 1 : 0))
         return true;

@@ -36,7 +36,7 @@ static void work_close(const Work *w)
     (void)rmdir(w->folder);
 }
 
-static void tell_said(Member *member, const Work *w)
+static void report_said(Member *member, const Work *w)
 {
     char line[300];
     FILE *file = fopen(w->said, "r");
@@ -148,14 +148,14 @@ static Verdict unit_runs(Member *member)
     (void)snprintf(arguments, sizeof arguments, "-q %s", w.script);
     if (!write_script(member, &h, item, &w) || !write_numbers(&h, item, &w) ||
         !does("cotree", arguments, &w)) {
-        tell_said(member, &w);
+        report_said(member, &w);
         verdict = REFUSED;
     }
     for (int i = 0; i < 2 && verdict == AGREES; i++) {
         (void)snprintf(arguments, sizeof arguments, "%s %s %s 1e-6", w.unit, ways[i], w.numbers);
         if (!does("fmu_master", arguments, &w)) {
             tell(member, "%s\n", ways[i]);
-            tell_said(member, &w);
+            report_said(member, &w);
             verdict = DISAGREES;
         }
     }

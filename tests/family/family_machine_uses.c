@@ -24,7 +24,7 @@ typedef struct Changes {
 /* numbers that move no frame become parameters */
 static void draw_changes(Member *member, Hybrid *h, Changes *c)
 {
-    static Numbers numbers;
+    static CompiledEquations numbers;
     Machine *m = &h->d.m;
 
     c->count = 0;

@@ -34,7 +34,7 @@ static Verdict all_set_member(Member *m)
     out.length = 0;
     write(&out, "%s", s.text);
     write_trees(m, &s, pick(m, 4), &out);
-    tell_poses(&s, &out);
+    report_poses(&s, &out);
     write(&out, "event e when=t>0.5");
     for (int i = 0; i < s.bodies; i++)
         set_joint(&s, i, c[i], &now[i], &out);
@@ -95,10 +95,10 @@ static bool start(Member *m, const Scene *s, int choice, const Speeds *speeds, d
     text.length = 0;
     write(&text, "%s", s->text);
     write_trees(m, s, choice, &text);
-    tell_poses(s, &text);
+    report_poses(s, &text);
     for (int i = 0; i < s->joints; i++)
         if (speeds[i].told)
-            tell_speeds(&s->joint[i], i, &speeds[i], &text);
+            report_speeds(&s->joint[i], i, &speeds[i], &text);
     write(&text, "assemble\n");
     sound = kit_do(&kit, text.text) == CT_OK;
     if (!sound)
@@ -231,7 +231,7 @@ static bool follow_driver(Member *m, const Scene *s, int choice, const char *dri
     text.length = 0;
     write(&text, "%s", s->text);
     write_trees(m, s, choice, &text);
-    tell_poses(s, &text);
+    report_poses(s, &text);
     write(&text, "%s\nsimulate 0.1 every=0.02 rtol=1e-10 atol=1e-10\n", driver);
     sound = kit_do(&kit, text.text) == CT_OK;
     if (!sound)
@@ -259,7 +259,7 @@ static Verdict driven_loops_member(Member *m)
 
     make_scene(m, &s, WITH_LOOPS);
     number = pick(m, s.joints);
-    while (k < s.joint[number].count && is_loose(&s.joint[number], k))
+    while (k < s.joint[number].count && is_lifted(&s.joint[number], k))
         k++;
     if (k == s.joint[number].count)
         return REFUSED;

@@ -200,7 +200,7 @@ static void expected(const Program *program, bool fused, double *slots)
                       slots + program->slot_count);
 }
 
-typedef struct Lanes {
+typedef struct SimdBatch {
     const Program *program;
     NativeTarget target;
     Native *native;
@@ -208,15 +208,15 @@ typedef struct Lanes {
     double *slots; /* of all lanes, side by side */
     double *other; /* of one, and its roots */
     double inputs[WIDEST][INPUTS];
-} Lanes;
+} SimdBatch;
 
-static double *lane(const Lanes *l, int slot, int number)
+static double *lane(const SimdBatch *l, int slot, int number)
 {
     return &l->slots[slot * l->target.width + number];
 }
 
 /* other numbers for the inputs from a stage on */
-static void draw_inputs(Member *member, Lanes *l, Stage from)
+static void draw_inputs(Member *member, SimdBatch *l, Stage from)
 {
     for (int k = 0; k < l->target.width; k++)
         for (int i = 0; i < INPUTS; i++) {
@@ -226,7 +226,7 @@ static void draw_inputs(Member *member, Lanes *l, Stage from)
         }
 }
 
-static bool lanes_agree(Member *member, const Lanes *l, const char *what)
+static bool simd_batch_agree(Member *member, const SimdBatch *l, const char *what)
 {
     for (int k = 0; k < l->target.width; k++) {
         memcpy(l->other, l->inputs[k], sizeof l->inputs[k]);
@@ -244,23 +244,23 @@ static bool lanes_agree(Member *member, const Lanes *l, const char *what)
     return true;
 }
 
-static bool stages_agree(Member *member, Lanes *l)
+static bool stages_agree(Member *member, SimdBatch *l)
 {
     bool agrees;
 
     draw_inputs(member, l, STAGE_PARAMETER);
     native_run(l->native, STAGE_PARAMETER, STAGE_ACCELERATION, l->slots, l->frame);
-    agrees = lanes_agree(member, l, "all stages");
+    agrees = simd_batch_agree(member, l, "all stages");
     for (int stage = 0; stage < STAGE_COUNT && agrees; stage++) {
         draw_inputs(member, l, (Stage)stage);
         native_run(l->native, (Stage)stage, STAGE_ACCELERATION, l->slots, l->frame);
-        agrees = lanes_agree(member, l, "from a stage on");
+        agrees = simd_batch_agree(member, l, "from a stage on");
     }
     return agrees;
 }
 
 /* either goes on where the other has been */
-static bool turns_agree(Member *member, Lanes *l)
+static bool turns_agree(Member *member, SimdBatch *l)
 {
     if (l->target.width > 1 || l->target.fused)
         return true;
@@ -274,11 +274,11 @@ static bool turns_agree(Member *member, Lanes *l)
         program_hand_over(l->program, (Stage)stage, (Stage)stage, l->slots,
                           l->slots + l->program->slot_count);
     }
-    return lanes_agree(member, l, "by turns");
+    return simd_batch_agree(member, l, "by turns");
 }
 
 /* a function of joined stages does what their own do, behind them too */
-static bool joined_agrees(Member *member, Lanes *l)
+static bool joined_agrees(Member *member, SimdBatch *l)
 {
     NativeTarget target = l->target;
     Native *joined;
@@ -294,7 +294,7 @@ static bool joined_agrees(Member *member, Lanes *l)
     native_run(l->native, STAGE_PARAMETER, NATIVE_JOINED - 1, l->slots, l->frame);
     native_run(joined, NATIVE_JOINED, NATIVE_JOINED_END, l->slots, frame);
     native_run(l->native, NATIVE_JOINED_END + 1, STAGE_ACCELERATION, l->slots, l->frame);
-    agrees = lanes_agree(member, l, "joined");
+    agrees = simd_batch_agree(member, l, "joined");
     native_frame_free(frame);
     native_free(joined);
     return agrees;
@@ -303,7 +303,7 @@ static bool joined_agrees(Member *member, Lanes *l)
 static Verdict native_code(Member *member)
 {
     Sample made;
-    Lanes l = {.target = any_target(member)};
+    SimdBatch l = {.target = any_target(member)};
     Verdict verdict = REFUSED;
     int numbers;
 
@@ -339,7 +339,7 @@ static Verdict native_code(Member *member)
 static Verdict abreast(Member *member)
 {
     Sample made;
-    Lanes l = {.target = {.width = ABREAST}};
+    SimdBatch l = {.target = {.width = ABREAST}};
     bool agrees = true;
     int numbers;
 
@@ -356,7 +356,7 @@ static Verdict abreast(Member *member)
     for (int stage = 0; stage < STAGE_COUNT && agrees; stage++) {
         draw_inputs(member, &l, (Stage)stage);
         program_interpret_abreast(l.program, (Stage)stage, STAGE_ACCELERATION, l.slots);
-        agrees = lanes_agree(member, &l, "eight interpreted at once");
+        agrees = simd_batch_agree(member, &l, "eight interpreted at once");
     }
     MEM_FREE(l.slots, l.other);
     sample_free(&made);

@@ -23,12 +23,12 @@ typedef struct Arm {
     int turns;
 } Arm;
 
-typedef struct Chain {
+typedef struct OrientationClass {
     int count;
     double mass[BODIES], inertia[BODIES][3], q[BODIES];
     double axis[BODIES][3];
     Arm near[BODIES], far[BODIES];
-} Chain;
+} OrientationClass;
 
 /* --- in numbers --- */
 
@@ -79,7 +79,7 @@ static void cross(const double a[3], const double b[3], double out[3])
         out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
-static void mass_matrix(const Chain *chain, double M[BODIES][BODIES])
+static void mass_matrix(const OrientationClass *chain, double M[BODIES][BODIES])
 {
     Frame frame = {.R = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
     double axis[BODIES][3], hinge[BODIES][3], S[9], way[3];
@@ -145,11 +145,11 @@ static Arm draw_arm(Member *m, double length)
     return arm;
 }
 
-static Chain draw(Member *m, bool scaled)
+static OrientationClass draw(Member *m, bool scaled)
 {
     static const double axes[][3] = {{0, 0, 1}, {1, 0, 0},     {0, 1, 0},
                                      {1, 1, 0}, {0, 0.6, 0.8}, {1, 2, 3}};
-    Chain chain = {.count = 1 + member_one_of(m, BODIES)};
+    OrientationClass chain = {.count = 1 + member_one_of(m, BODIES)};
 
     for (int b = 0; b < chain.count; b++) {
         const double length = scaled ? member_decades(m, 1e-6, 10) : 1;
@@ -179,7 +179,7 @@ static void write_arm(Script *s, const char *name, int body, const Arm *arm)
     write_line(s, "%s", "");
 }
 
-static void write_chain(const Chain *chain, Script *s)
+static void write_chain(const OrientationClass *chain, Script *s)
 {
     for (int b = 0; b < chain->count; b++) {
         write_line(s, "body b%d mass=%.10g inertia=[%.10g, %.10g, %.10g]", b, chain->mass[b],
@@ -198,7 +198,7 @@ static void write_chain(const Chain *chain, Script *s)
     write_line(s, "tree joint");
 }
 
-static bool entries_agree(Member *m, Kit *kit, const Chain *chain)
+static bool entries_agree(Member *m, Kit *kit, const OrientationClass *chain)
 {
     double M[BODIES][BODIES], off = 0;
     char name[40];
@@ -217,7 +217,7 @@ static bool entries_agree(Member *m, Kit *kit, const Chain *chain)
 
 static Verdict small_terms_stay(Member *m)
 {
-    const Chain chain = draw(m, true);
+    const OrientationClass chain = draw(m, true);
     Script s = {.length = 0};
     Kit kit = kit_new();
     bool agrees;
@@ -249,7 +249,7 @@ static void count_decimals(const char *text, int *all, int *tiny)
 
 static Verdict rounding_vanishes(Member *m)
 {
-    const Chain chain = draw(m, false);
+    const OrientationClass chain = draw(m, false);
     Script s = {.length = 0};
     Kit kit = kit_new();
     Verdict verdict = DISAGREES;

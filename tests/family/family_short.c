@@ -36,7 +36,7 @@ typedef struct Problem {
     const void *of;
     double start[STATES];
     double duration, fastest; /* s */
-    double slack;             /* s a tolerance: by how much errors may bring forward what comes */
+    double error_floor;       /* s a tolerance: by how much errors may bring forward what comes */
 } Problem;
 
 static void fixed_steps(const Problem *p, double steps, double out[PLACES][STATES])
@@ -98,7 +98,7 @@ static void find_room(const Problem *p, const double *unit, int place, double x[
 
     p->rates(p->of, p->duration / PLACES * (place + 1), x, &guess, out);
     for (int i = 0; i < p->n; i++)
-        out[i] = unit[i] + p->slack * fabs(out[i]);
+        out[i] = unit[i] + p->error_floor * fabs(out[i]);
 }
 
 /* how far the run is off at the places, in tolerances */
@@ -519,7 +519,7 @@ static Verdict carts(Member *m)
     p.fastest = fmin(contact / 20, c.source.width / 5);
     if (c.friction > 0)
         p.fastest = fmin(p.fastest, c.slow * c.mass / c.friction);
-    p.slack = 1 / speed;
+    p.error_floor = 1 / speed;
     unit[0] = fmax(1, p.duration); /* the speed's tolerance lasts so long */
     unit[1] = fmax(1, speed);
     write_piece(&text,

@@ -31,7 +31,7 @@ static int list_rates(const Scene *s, Rate *rates)
         bool loose = false;
 
         for (int k = 0; k < j->count; k++)
-            if (is_loose(j, k))
+            if (is_lifted(j, k))
                 loose = true;
             else
                 rates[count++] = (Rate){i, k, 0};
@@ -222,10 +222,10 @@ static bool run(Member *m, const Scene *s, int choice, const Speeds *speeds, con
     text.length = 0;
     write(&text, "%s", s->text);
     write_trees(m, s, choice, &text);
-    tell_poses(s, &text);
+    report_poses(s, &text);
     for (int i = 0; i < s->joints; i++)
         if (speeds[i].told)
-            tell_speeds(&s->joint[i], i, &speeds[i], &text);
+            report_speeds(&s->joint[i], i, &speeds[i], &text);
     if (kit_do(&kit, text.text) != CT_OK || kit_do(&kit, "assemble") != CT_OK) {
         kit_free(&kit);
         return false;

@@ -133,16 +133,16 @@ typedef struct Placed {
     char length[40];   /* "": as drawn */
 } Placed;
 
-typedef struct Story {
+typedef struct Narrative {
     Module modules[MODULES];
     Placed used[USES];
     int uses;
     bool planar, closes;
     Writer flat, made;
-} Story;
+} Narrative;
 
 /* a frame that is there: ground, or the tip of one before */
-static void draw_place(Member *member, Story *s, int i)
+static void draw_place(Member *member, Narrative *s, int i)
 {
     const int other = i > 0 ? member_one_of(member, i + 1) : i;
 
@@ -169,7 +169,7 @@ static void put_base(Writer *w, bool moves, bool planar)
 }
 
 /* A loop over ports: a rod of any length between the tips of the first two, pinned to both. */
-static void put_loop(Writer *w, const Story *s, char dot)
+static void put_loop(Writer *w, const Narrative *s, char dot)
 {
     const char *joint = s->planar ? "revolute" : "spherical";
     const char *inertia = s->planar ? "0.05" : "[0.05, 0.06, 0.07]";
@@ -180,7 +180,7 @@ static void put_loop(Writer *w, const Story *s, char dot)
     put(w, "%s pin2 u1%ctip slider\nguess slot = 0.6\n", joint, dot);
 }
 
-static void draw_story(Member *member, Story *s)
+static void draw_story(Member *member, Narrative *s)
 {
     const bool moves = member_one_of(member, 2) == 0;
     const int kinds = 1 + member_one_of(member, MODULES); /* few: many instances of each */
@@ -264,7 +264,7 @@ static bool same_equations(Member *member, Kit *a, Kit *b)
     return same;
 }
 
-static bool same_motion(Member *member, const Story *s, Kit *a, Kit *b)
+static bool same_motion(Member *member, const Narrative *s, Kit *a, Kit *b)
 {
     static const char *const asked[] = {"h", "h'", "tip.x", "h.fx", "height", "b.vy"};
     bool same = true;
@@ -321,7 +321,7 @@ static bool again(Member *member, Kit *made, Kit *out, bool undo)
 static Verdict parts_and_subsystems_agree(Member *member)
 {
     static const char run[] = "simulate 0.3 every=0.3 rtol=1e-10 atol=1e-11\n";
-    static Story s;
+    static Narrative s;
     Kit flat = kit_new(), made = kit_new(), saved = kit_new();
     bool same, stands = false; /* a run that meets a singular position may be refused */
 

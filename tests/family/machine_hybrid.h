@@ -28,7 +28,7 @@ typedef struct Signal {
 } Signal;
 
 typedef enum WatchKind { WATCH_SWITCH, WATCH_DIODE, WATCH_EVENT } WatchKind;
-typedef struct Watch {
+typedef struct CallMonitor {
     WatchKind kind;
     Signal signal;
     int element;        /* the switch or the diode */
@@ -37,7 +37,7 @@ typedef struct Watch {
     int state;          /* or a network's state; -1 */
     double factor, add; /* the new value: factor times the old one, and this */
     bool stops;
-} Watch;
+} CallMonitor;
 
 typedef enum BlockKind {
     BLOCK_PD,
@@ -60,7 +60,7 @@ typedef struct Block {
 typedef struct Hybrid {
     Drawn d;
     int watches, blocks;
-    Watch watch[WATCHES];
+    CallMonitor watch[WATCHES];
     Block block[BLOCKS];
     bool unsure; /* a condition was touched, or sides are not plain */
     bool stopped;
@@ -96,7 +96,7 @@ static inline double signal_value(const Machine *m, const Instant *now, const Si
 }
 
 /* above 0 where the condition holds */
-static inline double watched(const Machine *m, const Instant *now, const Watch *w)
+static inline double watched(const Machine *m, const Instant *now, const CallMonitor *w)
 {
     const Element *e;
     double v;
@@ -133,7 +133,7 @@ static inline bool settle(Hybrid *h, const Real *y)
         if (!look(h, y, &now))
             continue;
         for (int k = 0; k < count && agrees; k++) {
-            Watch *w = &h->watch[diode[k]];
+            CallMonitor *w = &h->watch[diode[k]];
             const double g = watched(&h->d.m, &now, w);
 
             w->holds = h->d.m.element[w->element].on;
@@ -195,7 +195,7 @@ static inline bool blow(const Machine *m, Instant *now, int coordinate, double r
     return true;
 }
 
-static inline bool happen(Hybrid *h, Watch *w, Real *y)
+static inline bool happen(Hybrid *h, CallMonitor *w, Real *y)
 {
     static Instant now;
     Machine *m = &h->d.m;
@@ -345,7 +345,7 @@ static inline double enclose(Hybrid *h, const Extrapolation *by, const Real *bef
                              const Past *past, int i)
 {
     static Instant then;
-    const Watch *w = &h->watch[i];
+    const CallMonitor *w = &h->watch[i];
     double low = 0, last = 0, at_low = past->g[past->count - 1][i],
            at_high = past->g[past->count][i];
     Real tried[MOST_STATES];
@@ -385,7 +385,7 @@ static inline int first_change(Hybrid *h, const Extrapolation *by, const Real *b
 
     *soonest = INFINITY;
     for (int i = 0; i < h->watches; i++) {
-        const Watch *w = &h->watch[i];
+        const CallMonitor *w = &h->watch[i];
         double when;
 
         if ((past->g[past->count][i] > 0) == w->holds) {
@@ -481,7 +481,7 @@ static inline bool begin_asking(Hybrid *h, double at, Real *y)
     static Instant now;
 
     for (int i = 0; i < h->watches; i++) {
-        Watch *w = &h->watch[i];
+        CallMonitor *w = &h->watch[i];
 
         if (w->kind == WATCH_DIODE || w->signal.after != at)
             continue;
@@ -531,7 +531,7 @@ static inline bool hybrid_starts(Hybrid *h, Real *y)
     if (!look(h, y, &now))
         return false;
     for (int i = 0; i < h->watches; i++) {
-        Watch *w = &h->watch[i];
+        CallMonitor *w = &h->watch[i];
 
         if (w->kind == WATCH_DIODE)
             continue;

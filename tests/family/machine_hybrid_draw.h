@@ -87,10 +87,11 @@ static inline void draw_sides(Member *member, Element *e, bool ideal, Script *sc
 static inline void draw_switch(Member *member, Hybrid *h, int p, int m)
 {
     Drawn *d = &h->d;
-    Watch *w = &h->watch[h->watches++];
+    CallMonitor *w = &h->watch[h->watches++];
     Element *e;
 
-    *w = (Watch){.kind = WATCH_SWITCH, .signal = draw_signal(member, d), .element = d->m.elements};
+    *w = (CallMonitor){
+        .kind = WATCH_SWITCH, .signal = draw_signal(member, d), .element = d->m.elements};
     e = new_element(&d->m, SWITCH, p, m);
     write_element(d, "switch", e, "");
     write_piece(&d->script, " when=(%s)", w->signal.text);
@@ -101,10 +102,10 @@ static inline void draw_switch(Member *member, Hybrid *h, int p, int m)
 static inline void draw_diode(Member *member, Hybrid *h, int p, int m, bool ideal)
 {
     Drawn *d = &h->d;
-    Watch *w = &h->watch[h->watches++];
+    CallMonitor *w = &h->watch[h->watches++];
     Element *e;
 
-    *w = (Watch){.kind = WATCH_DIODE, .element = d->m.elements};
+    *w = (CallMonitor){.kind = WATCH_DIODE, .element = d->m.elements};
     e = new_element(&d->m, DIODE, p, m);
     write_element(d, "diode", e, "");
     draw_sides(member, e, ideal, &d->script);
@@ -235,11 +236,11 @@ static inline void draw_event(Member *member, Hybrid *h, int number, bool may_st
 {
     Drawn *d = &h->d;
     Machine *m = &d->m;
-    Watch *w = &h->watch[h->watches++];
+    CallMonitor *w = &h->watch[h->watches++];
     const int c = draw_coordinate(member, m, -1), e = draw_state(member, m),
               kind = member_one_of(member, 3);
 
-    *w = (Watch){.kind = WATCH_EVENT, .target = -1, .state = -1, .factor = some(member, 1)};
+    *w = (CallMonitor){.kind = WATCH_EVENT, .target = -1, .state = -1, .factor = some(member, 1)};
     w->signal = draw_signal(member, d);
     w->add = chance(member, 0.3) ? some(member, 0.5) : 0;
     write_piece(&d->script, "event ev%d when=(%s)", number, w->signal.text);

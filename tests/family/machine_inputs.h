@@ -7,18 +7,18 @@
 #include <ctype.h>
 
 /* numbers of a machine that a script may write as a parameter */
-typedef struct Numbers {
+typedef struct CompiledEquations {
     double *at[8 * LOADS + 20 * ELEMENTS + 3 * PLACES];
     int count;
-} Numbers;
+} CompiledEquations;
 
-static inline void take_numbers(Numbers *n, double *first, const double *last)
+static inline void take_numbers(CompiledEquations *n, double *first, const double *last)
 {
     for (; first <= last; first++)
         n->at[n->count++] = first;
 }
 
-static inline void find_numbers(Machine *m, Numbers *n)
+static inline void find_numbers(Machine *m, CompiledEquations *n)
 {
     n->count = 0;
     take_numbers(n, m->mass, m->mass + m->bodies - 1);
@@ -82,7 +82,7 @@ static inline void add_input(Slopes *s, double *number, double sign, const char 
 static inline void draw_inputs(Member *member, Slopes *s)
 {
     Machine *m = &s->d->m;
-    static Numbers numbers;
+    static CompiledEquations numbers;
 
     for (int i = 0; i < m->elements && s->inputs < 2; i++)
         if ((m->element[i].kind == ACROSS || m->element[i].kind == THROUGH) && chance(member, 0.6))

@@ -7,7 +7,7 @@
 
 /* --- poses --- */
 
-static inline void tell_poses(const Scene *s, Scene *out)
+static inline void report_poses(const Scene *s, Scene *out)
 {
     for (int i = 0; i < s->bodies; i++) {
         const Pose *p = &s->body[i];
@@ -45,7 +45,7 @@ typedef struct Speeds {            /* of a joint */
 } Speeds;
 
 /* an attitude by parameters or by three angles, which a chord has no names for */
-static inline bool is_loose(const Joint *j, int k)
+static inline bool is_lifted(const Joint *j, int k)
 {
     return is_parameter(j, k) || j->kind == SPHERICAL_ANGLES;
 }
@@ -55,17 +55,17 @@ static inline void draw_speeds(Member *m, const Joint *j, Speeds *speeds)
     memset(speeds, 0, sizeof *speeds);
     speeds->told = true;
     for (int k = 0; k < j->count; k++)
-        speeds->rate[k] = is_loose(j, k) ? 0 : between(m, -2, 2);
-    for (int k = 0; k < 3 && j->count > 0 && is_loose(j, j->count - 1); k++)
+        speeds->rate[k] = is_lifted(j, k) ? 0 : between(m, -2, 2);
+    for (int k = 0; k < 3 && j->count > 0 && is_lifted(j, j->count - 1); k++)
         speeds->W[k] = between(m, -2, 2);
 }
 
-static inline void tell_speeds(const Joint *j, int number, const Speeds *speeds, Scene *out)
+static inline void report_speeds(const Joint *j, int number, const Speeds *speeds, Scene *out)
 {
     for (int k = 0; k < j->count; k++)
-        if (!is_loose(j, k))
+        if (!is_lifted(j, k))
             write(out, "init j%d%s' = %.17g\n", number, coordinate_name(j, k), speeds->rate[k]);
-    for (int k = 0; k < 3 && j->count > 0 && is_loose(j, j->count - 1); k++)
+    for (int k = 0; k < 3 && j->count > 0 && is_lifted(j, j->count - 1); k++)
         write(out, "init j%d.W%c = %.17g\n", number, 'x' + k, speeds->W[k]);
 }
 

@@ -23,14 +23,14 @@
 
 enum { ENTRIES = ROOM + 12, LEVELS = 64, KEPT_MODES = 48, INSTANT = 28 /* a level: no time */ };
 
-typedef double Square[ENTRIES][ENTRIES];
+typedef double VerifiedSolve[ENTRIES][ENTRIES];
 
 typedef struct Mode {
     bool closed[PARTS];
     bool known;
     double volts[ROOM + 1][ENTRIES]; /* node voltages from z */
     int finest;
-    Square *grown; /* one a level: exp(M longest/2^level) - 1 */
+    VerifiedSolve *grown; /* one a level: exp(M longest/2^level) - 1 */
 } Mode;
 
 typedef struct Pieces {
@@ -235,11 +235,11 @@ static void find_volts(const Pieces *o, const bool *closed, double volts[ROOM + 
 
 /* z' = M z */
 static void find_rates(const Pieces *o, const Mode *mode, double g[ROOM][ROOM],
-                       double out[ROOM][ENTRIES], Square rates)
+                       double out[ROOM][ENTRIES], VerifiedSolve rates)
 {
     const int n = o->net->nodes;
 
-    memset(rates, 0, sizeof(Square));
+    memset(rates, 0, sizeof(VerifiedSolve));
     for (int i = 0; i < n; i++)
         for (int k = 0; k < o->size; k++)
             for (int j = 0; j < n; j++)
@@ -258,9 +258,9 @@ static void find_rates(const Pieces *o, const Mode *mode, double g[ROOM][ROOM],
     rates[o->size - 2][o->size - 3] = -o->net->omega;
 }
 
-static void multiply(int n, const Square a, const Square b, Square out)
+static void multiply(int n, const VerifiedSolve a, const VerifiedSolve b, VerifiedSolve out)
 {
-    memset(out, 0, sizeof(Square));
+    memset(out, 0, sizeof(VerifiedSolve));
     for (int i = 0; i < n; i++)
         for (int k = 0; k < n; k++)
             for (int j = 0; j < n && a[i][k] != 0; j++)
@@ -269,9 +269,9 @@ static void multiply(int n, const Square a, const Square b, Square out)
 
 /* exp(M h) - 1 by its series where h is next to nothing, and from there by exp(2x) - 1 = 2e + e^2,
  * e = exp(x) - 1 */
-static void find_growth(const Pieces *o, Mode *mode, Square rates)
+static void find_growth(const Pieces *o, Mode *mode, VerifiedSolve rates)
 {
-    static Square power, next;
+    static VerifiedSolve power, next;
     const int n = o->size;
     double norm = 0, h;
 
@@ -289,7 +289,7 @@ static void find_growth(const Pieces *o, Mode *mode, Square rates)
     for (int i = 0; i < n; i++)
         for (int k = 0; k < n; k++)
             power[i][k] = rates[i][k] *= h;
-    memcpy(mode->grown[mode->finest], rates, sizeof(Square));
+    memcpy(mode->grown[mode->finest], rates, sizeof(VerifiedSolve));
     for (int term = 2; term <= 6; term++) {
         multiply(n, power, rates, next);
         for (int i = 0; i < n; i++)
@@ -310,7 +310,7 @@ static void find_growth(const Pieces *o, Mode *mode, Square rates)
 static void take_mode(Pieces *o)
 {
     static double g[ROOM][ROOM], out[ROOM][ENTRIES];
-    static Square rates;
+    static VerifiedSolve rates;
     Mode *mode;
 
     for (int i = 0; i < KEPT_MODES; i++)
@@ -321,7 +321,7 @@ static void take_mode(Pieces *o)
     mode = o->now = &o->mode[o->next_mode];
     o->next_mode = (o->next_mode + 1) % KEPT_MODES;
     if (mode->grown == NULL)
-        mode->grown = malloc(LEVELS * sizeof(Square));
+        mode->grown = malloc(LEVELS * sizeof(VerifiedSolve));
     mode->known = true;
     memcpy(mode->closed, o->closed, sizeof o->closed);
     find_volts(o, mode->closed, mode->volts, g, out);

@@ -3,10 +3,10 @@
 
 #include "../unit/form.h"
 #include "formulate/dynamics/cutset_equations.h"
-#include "formulate/solved/along_trees.h"
+#include "formulate/reduced/along_trees.h"
 #include "formulate/system/system_impl.h"
+#include "simulate/equations/compiled_equations.h"
 #include "simulate/equations/motion.h"
-#include "simulate/equations/numbers.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,7 +15,7 @@
 struct TreesModel {
     Model *model;
     System *system;
-    Layout *layout;
+    VariableIndex *layout;
     Parameters parameters;
 };
 
@@ -51,7 +51,7 @@ TreesModel *trees_open(const char *text, char *message, size_t room)
         trees_close(trees);
         return NULL;
     }
-    trees->layout = layout_new(trees->system);
+    trees->layout = variable_index_new(trees->system);
     trees->parameters = (Parameters){.value = parameter, .context = trees->model};
     return trees;
 }
@@ -61,7 +61,7 @@ void trees_close(TreesModel *trees)
     if (trees == NULL)
         return;
     parameters_free(&trees->parameters);
-    layout_free(trees->layout);
+    variable_index_free(trees->layout);
     system_free(trees->system);
     model_free(trees->model);
     mem_free(trees);
@@ -107,7 +107,7 @@ static TreesAnswer evaluate(TreesModel *trees, const Expr *told, const double *y
 TreesAnswer trees_way(TreesModel *trees, int number, const char names[][TREES_NAME],
                       const double *q, const double *u, int n, double *out, char *what, size_t room)
 {
-    const Way way = {(Delay)(number / 4 % 3), number % 2 == 1, number % 4 > 1};
+    const EliminationOrder way = {(Delay)(number / 4 % 3), number % 2 == 1, number % 4 > 1};
     const bool moves = number >= 12;
     Groups *groups = system_nu(trees->system) == n ? groups_new(trees->system) : NULL;
     Expr *told = NEW_ARRAY(Expr, 3 * n);
@@ -157,14 +157,14 @@ static TreesAnswer solve(TreesModel *trees, const int *rows, int row_count, cons
                          double *out)
 {
     const int n = system_nu(trees->system);
-    Numbers *numbers = NULL;
+    CompiledEquations *numbers = NULL;
     Motion *motion = NULL;
     TreesAnswer answer = TREES_FAILED;
     Solved solved;
 
-    if (numbers_new(trees->layout, &trees->parameters, &numbers, NULL) == OK) {
+    if (compiled_new(trees->layout, &trees->parameters, &numbers, NULL) == OK) {
         motion =
-            motion_new(numbers_equations(numbers),
+            motion_new(compiled_equations(numbers),
                        &(MotionOptions){.rows = rows, .row_count = row_count, .tolerance = 1e-9});
         if (motion_solve(motion, 0, y, &solved)) {
             memcpy(out, solved.acceleration, (size_t)n * sizeof(double));
@@ -175,7 +175,7 @@ static TreesAnswer solve(TreesModel *trees, const int *rows, int row_count, cons
         }
     }
     motion_free(motion);
-    numbers_free(numbers);
+    compiled_free(numbers);
     return answer;
 }
 
@@ -196,7 +196,7 @@ TreesAnswer trees_torques(TreesModel *trees, int number, const char names[][TREE
                           const double *q, const double *u, const double *acceleration, int n,
                           double *out, char *what, size_t room)
 {
-    const Way way = {DELAY_NONE, number % 2 == 1, number % 4 > 1};
+    const EliminationOrder way = {DELAY_NONE, number % 2 == 1, number % 4 > 1};
     const bool is_one_pass = number == TREES_TORQUES - 1, moves = number >= 4;
     Groups *groups =
         system_nu(trees->system) == n && !is_one_pass ? groups_new(trees->system) : NULL;

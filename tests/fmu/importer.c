@@ -69,10 +69,10 @@ static void load(Unit *unit, zip_t *zip)
 
 /* --- its description --- */
 
-typedef struct Reading {
+typedef struct EquationForm {
     Unit *unit;
     char inside[40]; /* of the model's structure: which list */
-} Reading;
+} EquationForm;
 
 static const char *attribute(const char *const *pairs, const char *name)
 {
@@ -167,7 +167,7 @@ static void read_unknown(Unit *unit, const char *list, const char *const *at)
 
 static void XMLCALL begin(void *context, const char *element, const char **at)
 {
-    Reading *r = context;
+    EquationForm *r = context;
     Unit *unit = r->unit;
 
     if (strcmp(element, "fmiModelDescription") == 0) {
@@ -215,7 +215,7 @@ static void XMLCALL end(void *context, const char *element)
 Unit *unit_open(const char *path)
 {
     Unit *unit = room(sizeof *unit);
-    Reading reading = {unit, ""};
+    EquationForm reading = {unit, ""};
     XML_Parser parser = XML_ParserCreate(NULL);
     zip_t *zip = zip_open(path, ZIP_RDONLY, NULL);
     size_t length;

@@ -26,7 +26,7 @@ enum { STAGES = 7, COLUMNS = 200, MOST_EVENTS = 20000, CRUDE = 40 /* steps a row
 
 static int bad;
 
-static void complain(const char *what, double t, double is, double should)
+static void report_error(const char *what, double t, double is, double should)
 {
     if (bad++ < 5)
         printf("%s at t = %.17g: %.17g instead of %.17g\n", what, t, is, should);
@@ -320,7 +320,7 @@ static void compare(Instance *in, const Reference *r, int row, double tolerance)
             continue;
         expect_ok(instance_get(in, &v->reference, 1, &is), in, "GetReal");
         if (!(fabs(is - should) <= 10 * tolerance * (1 + r->size[c])))
-            complain(r->names[c], r->values[row * r->columns], is, should);
+            report_error(r->names[c], r->values[row * r->columns], is, should);
     }
 }
 
@@ -369,7 +369,7 @@ static void exchange(Unit *unit, const Reference *r, double tolerance)
         }
     }
     if (run.ends && fabs(run.t - r->values[(r->rows - 1) * r->columns]) > 10 * tolerance)
-        complain("it ends", run.t, run.t, r->values[(r->rows - 1) * r->columns]);
+        report_error("it ends", run.t, run.t, r->values[(r->rows - 1) * r->columns]);
     expect_ok(instance_terminate(&run.in), &run.in, "Terminate");
     printf("%d steps, %d events, %d times put back\n", run.steps, run.events, run.put_back);
     run_free(&run);
@@ -428,7 +428,7 @@ static void simulation(Unit *unit, const Reference *r, double tolerance, bool is
             expect_ok(instance_do_step(&in, t, to - t, &ends, &reached), &in, "DoStep");
         t = to;
         if (ends && fabs(reached - r->values[(r->rows - 1) * r->columns]) > 10 * tolerance)
-            complain("it ends", reached, reached, r->values[(r->rows - 1) * r->columns]);
+            report_error("it ends", reached, reached, r->values[(r->rows - 1) * r->columns]);
         if (is_row(r, row) && !is_other(unit, r, row) && !ends && !is_behind)
             compare(&in, r, row, tolerance);
         if (!ends)
@@ -460,7 +460,7 @@ static void expect_same(Instance *a, Instance *b, double t)
         expect_ok(instance_get(a, &unit->variables[i].reference, 1, &x), a, "GetReal");
         expect_ok(instance_get(b, &unit->variables[i].reference, 1, &y), b, "GetReal");
         if (x < y || x > y || isnan(x) != isnan(y))
-            complain(unit->variables[i].name, t, x, y);
+            report_error(unit->variables[i].name, t, x, y);
     }
 }
 
@@ -489,7 +489,7 @@ static void interleaved(Unit *unit)
         expect_ok(instance_do_step(&a, t, step, &ends_a, &reached), &a, "DoStep");
         expect_ok(instance_do_step(&b, t, step, &ends_b, &reached), &b, "DoStep");
         if (ends_a != ends_b)
-            complain("one of two ends", t, ends_a, ends_b);
+            report_error("one of two ends", t, ends_a, ends_b);
         expect_same(&a, &b, t);
         if (ends_a || ends_b)
             break;
@@ -551,7 +551,7 @@ static void derivatives_by(Run *run, const Knowns *knowns)
         const double size = 1 + fabs(exact[i]) + fabs(up[i]) * 1e-3;
 
         if (!(fabs(about - exact[i]) <= 1e-5 * size) && !(i >= n && isnan(exact[i])))
-            complain("a derivative", run->t, exact[i], about);
+            report_error("a derivative", run->t, exact[i], about);
     }
     free(unknowns), free(up), free(down), free(exact), free(from), free(at), free(seed_of);
 }
@@ -614,7 +614,7 @@ static void disturbed(Unit *unit)
             step_on(&other, to);
         for (int j = 0; j < run.n; j++)
             if (!(fabs(run.x[j] - other.x[j]) <= 1e-9 * (1 + fabs(other.x[j]))))
-                complain("a state after a disturbance", run.t, run.x[j], other.x[j]);
+                report_error("a state after a disturbance", run.t, run.x[j], other.x[j]);
     }
     run_free(&run);
     run_free(&other);
@@ -637,9 +637,9 @@ static void marked(Unit *unit, const char *names)
             continue;
         status = instance_derivative(&run.in, &v->reference, 1, unit->states, 1, &one, &value);
         if (isnan(value) != is_named || status != (is_named ? WARNING : OK))
-            complain(v->name, run.t, value, is_named ? NAN : 0);
+            report_error(v->name, run.t, value, is_named ? NAN : 0);
         if (instance_get(&run.in, &v->reference, 1, &value) != OK || isnan(value))
-            complain(v->name, run.t, value, 0);
+            report_error(v->name, run.t, value, 0);
     }
     run_free(&run);
 }
@@ -647,7 +647,7 @@ static void marked(Unit *unit, const char *names)
 static void expect_refused(int status, Unit *unit, int before, const char *what)
 {
     if (status < ERROR || unit->messages == before)
-        complain(what, 0, status, ERROR);
+        report_error(what, 0, status, ERROR);
 }
 
 /* what may not be called there is refused, with a message, and does no harm */
@@ -678,7 +678,7 @@ static void refused(Unit *unit)
     strcat(unit->token, "x");
     in = instance_new(unit, "a", false);
     if (in.handle != NULL)
-        complain("an instance of another token", 0, 1, 0);
+        report_error("an instance of another token", 0, 1, 0);
     unit->token[strlen(unit->token) - 1] = '\0';
     free(x);
 }
@@ -697,12 +697,12 @@ static void variables(Unit *unit)
             continue;
         expect_ok(instance_get(&in, &v->reference, 1, &value), &in, "GetReal");
         if (value < v->start || value > v->start)
-            complain(v->name, 0, value, v->start);
+            report_error(v->name, 0, value, v->start);
         other = value * 1.25 + 0.5;
         expect_ok(instance_set(&in, &v->reference, 1, &other), &in, "SetReal");
         expect_ok(instance_get(&in, &v->reference, 1, &value), &in, "GetReal");
         if (value < other || value > other)
-            complain(v->name, 0, value, other);
+            report_error(v->name, 0, value, other);
     }
     instance_free(&in);
 }

@@ -77,10 +77,10 @@ static void script_start(Script *script, StartValues *start)
 static void script_run(Script *script, const Statement *statement, const Changes *changes)
 {
     StartValues start;
-    Setting setting = {.parameter = script_parameter,
-                       .context = script->model,
-                       .scene = model_scene_source(script->model),
-                       .start = &start};
+    SimulationInput setting = {.parameter = script_parameter,
+                               .context = script->model,
+                               .scene = model_scene_source(script->model),
+                               .start = &start};
     RunOptions options = {.every = script_key(script, statement, "every"),
                           .rtol = script_key(script, statement, "rtol"),
                           .atol = script_key(script, statement, "atol")};
@@ -121,7 +121,7 @@ static Expr script_expression(Script *script, const Syntax *syntax)
 
     if (model_expression(script->model, syntax, &e, &diag) != OK)
         script_fail("an expression", &diag);
-    return e != NULL ? session_put_outputs(script->model, e) : NULL;
+    return e != NULL ? session_add_outputs(script->model, e) : NULL;
 }
 
 static void script_expect(Script *script, const Statement *statement)

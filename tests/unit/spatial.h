@@ -132,7 +132,7 @@ static double parameter_value(void *context, Expr symbol)
 static Result *assembled(Model *model, System *system, Diag *diag)
 {
     StartValues start = {model_start_count(model), NULL};
-    Setting setting = {.parameter = parameter_value, .context = model, .start = &start};
+    SimulationInput setting = {.parameter = parameter_value, .context = model, .start = &start};
     Result *result = NULL;
 
     start.at = NEW_ARRAY(struct StartValue, start.count);

@@ -1,13 +1,13 @@
 /* test_algebra.c: parts of lib/algebra by what they promise, on random matrices */
 #include "algebra/anderson.h"
-#include "algebra/blocks.h"
+#include "algebra/block_triangular.h"
 #include "algebra/dense.h"
 #include "algebra/enclosure.h"
 #include "algebra/gram.h"
 #include "algebra/independence.h"
 #include "algebra/linear.h"
+#include "algebra/markov_parameters.h"
 #include "algebra/rank.h"
-#include "algebra/remainders.h"
 #include "algebra/sparse.h"
 #include "base/memory.h"
 
@@ -45,11 +45,11 @@ static void blocks_are_what_acts_both_ways(void)
         const int n = turn % (MOST + 1);
         bool pattern[MOST * MOST], reach[MOST * MOST];
         int block[MOST] = {0};
-        Blocks blocks;
+        BlockTriangular blocks;
 
         fill_pattern(pattern, n, test_uniform(&seed, 0, 0.4), &seed);
         close_pattern(pattern, n, reach);
-        blocks = blocks_find(pattern, n);
+        blocks = block_triangular_find(pattern, n);
         EXPECT(blocks.start[0] == 0 && blocks.start[blocks.count] == n);
         for (int b = 0; b < blocks.count; b++)
             for (int k = blocks.start[b]; k < blocks.start[b + 1]; k++) {
@@ -63,7 +63,7 @@ static void blocks_are_what_acts_both_ways(void)
                 EXPECT((block[i] == block[j]) == both);
                 EXPECT(!pattern[i * n + j] || block[j] <= block[i]); /* what acts comes before */
             }
-        blocks_free(&blocks);
+        block_triangular_free(&blocks);
     }
 }
 
@@ -91,7 +91,7 @@ static void a_match_is_found_where_there_is_one(void)
         unsigned taken = 0;
 
         fill_pattern(pattern, n, test_uniform(&seed, 0.1, 0.7), &seed);
-        EXPECT(blocks_match(pattern, n, column) == can_match(pattern, n, 0, 0));
+        EXPECT(block_triangular_match(pattern, n, column) == can_match(pattern, n, 0, 0));
         if (!can_match(pattern, n, 0, 0))
             continue;
         for (int r = 0; r < n; r++) {
@@ -252,7 +252,7 @@ static int find_many(void *unused)
 {
     (void)unused;
     for (int k = 0; k < 3000; k++) {
-        const Wide a[4] = {wide_of(0), wide_of(1), wide_of(-1), wide_of(k)};
+        const DoubleDouble a[4] = {dd_of(0), dd_of(1), dd_of(-1), dd_of(k)};
         Enclosure e;
 
         (void)enclosure_find(a, 2, &e);
@@ -329,22 +329,22 @@ static void sums_that_cancel_keep_all_their_digits(void)
     const double even[] = {0x1p53 - 1, 0, 0, 0x1p53 - 2}, first[] = {1, 1};
     const double last[] = {0x1p53 - 1, -0x1p53}, road[] = {1, 1, 1, 0}, begin[] = {1, 0};
     int at;
-    Remainders *r = remainders_new(threes, near, apart, 2, 300);
-    double sum = remainders_value(r, 200, &at);
+    MarkovParameters *r = markov_parameters_new(threes, near, apart, 2, 300);
+    double sum = markov_parameters_value(r, 200, &at);
 
     EXPECT(fabs(ldexp(sum, at) / (pow(3, 200) * 0x1p-52) - 1) < 1e-14);
-    remainders_free(r);
-    r = remainders_new(even, first, last, 2, 2);
-    sum = remainders_value(r, 1, &at);
+    markov_parameters_free(r);
+    r = markov_parameters_new(even, first, last, 2, 2);
+    sum = markov_parameters_value(r, 1, &at);
     EXPECT(ldexp(sum, at) == 1);
-    remainders_free(r);
-    r = remainders_new(ways, begin, begin, 2, 2);
-    EXPECT(remainders_value(r, 1, &at) == 0);
-    remainders_free(r);
-    r = remainders_new(road, begin, apart, 2, 90);
-    sum = remainders_value(r, 80, &at); /* F_81 - F_80 = F_79 */
+    markov_parameters_free(r);
+    r = markov_parameters_new(ways, begin, begin, 2, 2);
+    EXPECT(markov_parameters_value(r, 1, &at) == 0);
+    markov_parameters_free(r);
+    r = markov_parameters_new(road, begin, apart, 2, 90);
+    sum = markov_parameters_value(r, 80, &at); /* F_81 - F_80 = F_79 */
     EXPECT(ldexp(sum, at) == 14472334024676221);
-    remainders_free(r);
+    markov_parameters_free(r);
 }
 
 /* x = c + sum_k a_k (b_k . x), whose eigenvalues are far above 1, in rank + 2 steps */

@@ -4,9 +4,9 @@
 
 #include "base/text.h"
 #include "formulate/dynamics/composite_mass.h"
-#include "formulate/solved/constrained.h"
+#include "formulate/reduced/constrained.h"
+#include "simulate/equations/compiled_equations.h"
 #include "simulate/equations/motion.h"
-#include "simulate/equations/numbers.h"
 
 #include <gsl/gsl_linalg.h>
 #include <math.h>
@@ -56,7 +56,7 @@ static double value(Expr e, SceneState *state)
 
 static Dense dense_new(System *system, SceneState *state)
 {
-    const Reading *r = system_run(system);
+    const EquationForm *r = system_run(system);
     const int nu = system_nu(system), m = system_m(system);
     Dense d = {.nu = nu, .m = m};
 
@@ -269,7 +269,7 @@ static void what_is_too_large_is_given_up(void)
     Model *model = scene_new(text);
     System *system = scene_system(model);
     Arena *arena = system_arena(system);
-    const Reading *r = system_run(system);
+    const EquationForm *r = system_run(system);
     const int m = system_m(system);
     int *rows = NEW_ARRAY(int, m);
     int64_t limit;
@@ -479,14 +479,16 @@ static void expect_alike(const Equations *eq, Motion *motion, const System *syst
     Diag diag = {0};
 
     /* it hasn't paid yet, and won't in as many more steps as there were */
-    EXPECT(motion_hasten(motion, 1e9, &diag) == OK && eq->eliminated == NULL);
+    EXPECT(motion_try_coordinate_partitioning(motion, 1e9, &diag) == OK && eq->eliminated == NULL);
     for (int i = 0; i < (foreseen ? MOTION_FACTORS_SEEN : MOTION_FACTORS_PAID - 1); i++)
         expect_motion(motion, system, n, 0.4 + 1e-4 * i, -1.5);
-    EXPECT(motion_hasten(motion, foreseen ? 2 : 0, &diag) == OK && eq->eliminated == NULL);
+    EXPECT(motion_try_coordinate_partitioning(motion, foreseen ? 2 : 0, &diag) == OK &&
+           eq->eliminated == NULL);
     expect_motion(motion, system, n, 0.3, -1.5);
     projected(motion, system, before);
     expect_near(motion, system);
-    EXPECT(motion_hasten(motion, foreseen ? 30 : 0, &diag) == OK && eq->eliminated != NULL);
+    EXPECT(motion_try_coordinate_partitioning(motion, foreseen ? 30 : 0, &diag) == OK &&
+           eq->eliminated != NULL);
     factored = motion_counts(motion).factorisations;
     for (int i = 0; i < 6; i++) /* near the flat position, where factors are due again, too */
         expect_motion(motion, system, n, 0.3 + 0.25 * i, 2 - 0.7 * i);
@@ -509,15 +511,15 @@ static void measure(int n, const char *coordinates, bool foreseen)
     char *text = parallelograms(n);
     Model *model = scene_new(text);
     Parameters parameters = {.value = parameter, .context = model};
-    Numbers *numbers = NULL;
-    Layout *layout;
+    CompiledEquations *numbers = NULL;
+    VariableIndex *layout;
     System *system;
     Diag diag = {0};
 
     scene_add(model, coordinates);
     system = scene_system(model);
-    layout = layout_new(system);
-    EXPECT(numbers_new(layout, &parameters, &numbers, &diag) == OK);
+    layout = variable_index_new(system);
+    EXPECT(compiled_new(layout, &parameters, &numbers, &diag) == OK);
     if (numbers != NULL) {
         int *rows = NEW_ARRAY(int, layout->m);
         Motion *motion;
@@ -525,15 +527,15 @@ static void measure(int n, const char *coordinates, bool foreseen)
         for (int k = 0; k < layout->m; k++)
             rows[k] = k;
         motion =
-            motion_new(numbers_equations(numbers),
+            motion_new(compiled_equations(numbers),
                        &(MotionOptions){.rows = rows, .row_count = layout->m, .tolerance = 1e-9});
-        expect_alike(numbers_equations(numbers), motion, system, n, foreseen);
+        expect_alike(compiled_equations(numbers), motion, system, n, foreseen);
         motion_free(motion);
         mem_free(rows);
     }
-    numbers_free(numbers);
+    compiled_free(numbers);
     parameters_free(&parameters);
-    layout_free(layout);
+    variable_index_free(layout);
     system_free(system);
     model_free(model);
     mem_free(text);

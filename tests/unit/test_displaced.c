@@ -148,11 +148,11 @@ static void a_driven_displaced_joint_carries_the_same(void)
 
 /* --- chains with parallel axes, with virtual hinges across them --- */
 
-typedef struct Chain {
+typedef struct OrientationClass {
     int bodies;
     Text scene;
     int between[MOST_JOINTS][2]; /* frames of virtual joints, bodies by number, -1 ground */
-} Chain;
+} OrientationClass;
 
 static void body_frame(int body, char name[16])
 {
@@ -162,7 +162,7 @@ static void body_frame(int body, char name[16])
         (void)snprintf(name, 16, "b%d", body);
 }
 
-static void build_chain(Chain *chain, uint64_t *random)
+static void build_chain(OrientationClass *chain, uint64_t *random)
 {
     static const char *const kinds[] = {"revolute", "revolute", "cylindrical", "screw"};
     Text *text = &chain->scene;
@@ -199,7 +199,7 @@ static void build_chain(Chain *chain, uint64_t *random)
 }
 
 /* v3 in the place of h3, now and then: each leads to the body that the other led to */
-static void displace(const Chain *chain, uint64_t *random, Text *text)
+static void displace(const OrientationClass *chain, uint64_t *random, Text *text)
 {
     for (int i = 1; i < chain->bodies; i++) {
         char screw[24];
@@ -215,7 +215,7 @@ static void joints_of_parallel_chains_carry_the_same(void)
     uint64_t random = 77;
 
     for (int i = 0; i < 6 && test_faults == 0; i++) {
-        Chain chain = {0};
+        OrientationClass chain = {0};
         Text start = {0}, trees = {0};
 
         build_chain(&chain, &random);

@@ -312,26 +312,26 @@ static void a_position_can_be_set_and_the_rest_follows(void)
     kit_free(&kit);
 }
 
-enum { STAYS = 4 };
+enum { ROW_HOLDS = 4 };
 
 /* what an event names not stays, in coordinates of joints and their rates */
 static void expect_joints_to_stay(const char *chain, const char *const *trees, int count)
 {
-    static const char *const stays[STAYS] = {"h2", "h1'", "h2'", "h1 - 0.2"};
-    double end[STAYS] = {0};
+    static const char *const stays[ROW_HOLDS] = {"h2", "h1'", "h2'", "h1 - 0.2"};
+    double end[ROW_HOLDS] = {0};
 
     for (int i = 0; i < count; i++) {
         Kit kit = kit_new();
-        double before[STAYS] = {0};
+        double before[ROW_HOLDS] = {0};
 
         EXPECT_DONE(&kit, chain);
         EXPECT_DONE(&kit, trees[i]);
         EXPECT_DONE(&kit, "simulate 0.1 rtol=1e-11 atol=1e-12");
-        for (int k = 0; k < STAYS - 1; k++)
+        for (int k = 0; k < ROW_HOLDS - 1; k++)
             before[k] = kit_value(&kit, stays[k]);
         EXPECT_DONE(&kit, "event kick when=t > 0.1 h1=0.2\n"
                           "simulate 0.2 every=0.1 rtol=1e-11 atol=1e-12");
-        for (int k = 0; k < STAYS; k++) {
+        for (int k = 0; k < ROW_HOLDS; k++) {
             char at[40];
 
             (void)snprintf(at, sizeof at, "%s at 0.1", stays[k]);

@@ -198,7 +198,7 @@ static Expr random_expression(Arena *arena, uint64_t *state, Expr *pool, int *co
         e = expr_sin(arena, expr_sub(arena, a, b));
         break;
     case 3:
-        e = expr_hold(arena, expr_add(arena, a, expr_cos(arena, b)));
+        e = expr_name_temporary(arena, expr_add(arena, a, expr_cos(arena, b)));
         break;
     default:
         e = expr_square(arena, expr_sub(arena, a, expr_cos(arena, b)));

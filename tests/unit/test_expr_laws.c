@@ -322,8 +322,8 @@ static void counting_follows_the_rule(void)
     count_rule("-1/x + a", expr_sub(arena, a, expr_div(arena, expr_int(arena, 1), x)), 1, 1, 0);
     count_rule("x^a", expr_pow(arena, x, a), 0, 0, 1);
     count_rule("sin(a*x + b)", expr_sin(arena, expr_add(arena, expr_mul(arena, a, x), b)), 1, 1, 1);
-    count_rule("hold(a + b)*x", expr_mul(arena, expr_hold(arena, expr_add(arena, a, b)), x), 1, 1,
-               0);
+    count_rule("hold(a + b)*x",
+               expr_mul(arena, expr_name_temporary(arena, expr_add(arena, a, b)), x), 1, 1, 0);
     arena_free(arena);
 }
 

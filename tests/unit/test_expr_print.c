@@ -93,8 +93,8 @@ static void brackets_stand_only_where_needed(void)
     EXPECT_EXPR(expr_call1(A, OP_NOT, a), "!a");
     EXPECT_EXPR(expr_call2(A, OP_LE, expr_call2(A, OP_LT, a, b), x), "(a < b) <= x");
     EXPECT_EXPR(expr_call2(A, OP_ATAN2, a, b), "atan2(a, b)");
-    EXPECT_EXPR(expr_add(A, x, expr_hold(A, expr_add(A, a, b))), "x + a + b");
-    EXPECT_EXPR(expr_sub(A, x, expr_hold(A, expr_add(A, a, b))), "x - (a + b)");
+    EXPECT_EXPR(expr_add(A, x, expr_name_temporary(A, expr_add(A, a, b))), "x + a + b");
+    EXPECT_EXPR(expr_sub(A, x, expr_name_temporary(A, expr_add(A, a, b))), "x - (a + b)");
     arena_free(A);
 }
 

@@ -248,7 +248,7 @@ static void a_long_count_can_be_stopped_anywhere(void)
         e = expr_add(w.arena, expr_mul(w.arena, e, w.symbols[1]), w.symbols[2]);
     {
         Asked asked = {.from = 1 << 30};
-        const Watch watch = {.context = &asked, .stop = says_stop};
+        const CallMonitor watch = {.context = &asked, .stop = says_stop};
 
         EXPECT(expr_count_watched(&e, 1, &watch, &count) == OK);
         EXPECT(count.add == 50000 && count.mul == 50000);
@@ -257,7 +257,7 @@ static void a_long_count_can_be_stopped_anywhere(void)
     }
     for (int from = 1; from <= all; from++) {
         Asked asked = {.from = from};
-        const Watch watch = {.context = &asked, .stop = says_stop};
+        const CallMonitor watch = {.context = &asked, .stop = says_stop};
 
         count.add = -1;
         EXPECT(expr_count_watched(&e, 1, &watch, &count) == E_STOPPED);

@@ -178,7 +178,7 @@ static void both_readings_give_the_same_numbers(void)
 
         for (uint64_t seed = 1; seed < 7 && system != NULL; seed++) {
             SceneState state = {model, seed * 1000003U};
-            const Reading *run = seed % 2 ? system_definitions(system) : system_run(system);
+            const EquationForm *run = seed % 2 ? system_definitions(system) : system_run(system);
             Diag diag = {0};
 
             EXPECT(system_form_mass(system, &diag) == OK);
@@ -236,7 +236,7 @@ static void a_program_takes_no_more_than_is_counted(void)
     for (int i = 0; i < COUNT(scenes); i++) {
         Model *model = scene_new(scenes[i]);
         System *system = scene_system(model);
-        const Reading *run = system_run(system);
+        const EquationForm *run = system_run(system);
         const int n = system_nu(system);
         const int m = system_m(system);
         Diag diag = {0};
@@ -292,7 +292,7 @@ static void energy_balances(void)
         Model *model = scene_new(scenes[scene]);
         System *system = scene_system(model);
         Arena *arena = model_arena(model);
-        const Reading *run = system_run(system);
+        const EquationForm *run = system_run(system);
         int n = system_nu(system);
         int nx = system_nx(system);
         SceneState state = {model, 4711};
@@ -390,7 +390,7 @@ static void embedded_form_projects_the_augmented_one(void)
 {
     Model *model = scene_new(scenes[1]);
     System *system = scene_system(model);
-    const Reading *run = system_run(system);
+    const EquationForm *run = system_run(system);
     SceneState state = {model, 99};
     double J = -value_of(run->phi_u[0], &state) / value_of(run->phi_u[1], &state);
     Diag diag = {0};
@@ -455,7 +455,7 @@ static void one_driver_has_an_explicit_effort(void)
     Model *model = scene_new(SLIDER_CRANK "tree translation h8 h9 h10\ntree rotation h8 h10 s11\n"
                                           "driver D1 h8 = 3*t^2\nform embedded");
     System *system = scene_system(model);
-    const Reading *run = system_run(system);
+    const EquationForm *run = system_run(system);
     Chosen chosen = {{model, 12345}, system, {0.0, 0.0}};
     double M[4];
     double rest[2];
@@ -528,7 +528,7 @@ static void a_circuit_of_capacitors_has_one_state_less(void)
     Model *model = scene_new("vsource V1 a 0 sin(3*t)\ncapacitor C1 a b 2\ncapacitor C2 b 0 5\n"
                              "resistor R1 b 0 7");
     System *system = scene_system(model);
-    const Reading *run = system != NULL ? system_run(system) : NULL;
+    const EquationForm *run = system != NULL ? system_run(system) : NULL;
     SceneState state = {model, 3};
 
     EXPECT(system != NULL && system_nx(system) == 1);
@@ -564,7 +564,7 @@ static void a_chain_grows_as_it_should(void)
         Text text = {0};
         Model *model;
         System *system;
-        const Reading *run;
+        const EquationForm *run;
 
         text_add(&text, "scene planar\ngravity [0, -9.81]\n");
         for (int i = 0; i < links; i++) {
@@ -718,7 +718,7 @@ static void a_key_too_long_is_none(void)
 
     for (int i = 1; i < MOST_KEY; i++)
         key_add(&key, &one, sizeof one);
-    derived_keep(&system, key_end(&system, &key), DERIVED_TURN, kept, sizeof kept);
+    derived_store(&system, key_end(&system, &key), DERIVED_TURN, kept, sizeof kept);
     EXPECT(derived_recall(&system, key_end(&system, &key), DERIVED_TURN, found, sizeof found));
     EXPECT(found[0] == kept[0]);
     key_add(&key, &one, sizeof one);

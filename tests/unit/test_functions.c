@@ -331,7 +331,7 @@ static void slopes_of_the_residual_are_quotients(void)
 }
 
 /* each lane another state: what is found in one is what is found alone */
-static void lanes_dont_know_of_each_other(void)
+static void simd_batch_dont_know_of_each_other(void)
 {
     static const char *const models[] = {ARM, FOUR_BAR, RECTIFIER, TURNING};
 
@@ -495,7 +495,7 @@ int main(void)
     RUN(derivatives_are_quotients);
     RUN(redundant_constraints_leave_accelerations_theirs);
     RUN(slopes_of_the_residual_are_quotients);
-    RUN(lanes_dont_know_of_each_other);
+    RUN(simd_batch_dont_know_of_each_other);
     RUN(a_state_is_put_onto_the_constraints);
     RUN(a_lane_without_a_solution_says_so);
     RUN(what_there_isnt_is_refused);

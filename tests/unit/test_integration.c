@@ -120,7 +120,7 @@ static void dop853_tells_what_decays_fast_in_between_as_well_as_at_the_end(void)
 
 /* y'' = -y, but at one instant, where rates are anything and are known to be */
 typedef struct Spoilt {
-    double at, blur;
+    double at, rounding_error;
     int evaluations;
 } Spoilt;
 
@@ -130,7 +130,7 @@ static bool spoilt_rate(void *context, double t, const double *y, double *rate)
     const double off = fabs(t - s->at) < 1e-9 ? 0.5 : 0;
 
     s->evaluations++;
-    s->blur = fmax(s->blur, off > 0 ? 1e-9 : 0);
+    s->rounding_error = fmax(s->rounding_error, off > 0 ? 1e-9 : 0);
     rate[0] = y[1] + off;
     rate[1] = -y[0] - off;
     return true;
@@ -139,17 +139,18 @@ static bool spoilt_rate(void *context, double t, const double *y, double *rate)
 static double spoilt_blur(void *context)
 {
     Spoilt *s = context;
-    const double blur = s->blur;
+    const double rounding_error = s->rounding_error;
 
-    s->blur = 0;
-    return blur;
+    s->rounding_error = 0;
+    return rounding_error;
 }
 
 /* the largest error within one step of h, with rates that are anything at `at` of it */
 static double error_within(double h, double at, int *evaluations)
 {
     Spoilt spoilt = {.at = at * h};
-    const Ode ode = {.n = 2, .context = &spoilt, .rate = spoilt_rate, .blur = spoilt_blur};
+    const Ode ode = {
+        .n = 2, .context = &spoilt, .rate = spoilt_rate, .rounding_error = spoilt_blur};
     const Control control = {.rtol = 1e-8, .atol = 1e-8, .step = h};
     Stepper *s = method_dop853.create(&ode, &control);
     double y[2] = {1, 0}, largest = 0;
@@ -519,7 +520,7 @@ static bool stop_at_once(void *context)
 static void a_stopped_run_keeps_its_rows(void)
 {
     int left = 20;
-    Watch watch = {.context = &left, .stop = stop_at_once};
+    CallMonitor watch = {.context = &left, .stop = stop_at_once};
     Problem p;
     MotionOptions options = {.rows = p.rows, .row_count = 2, .tolerance = 1e-10};
     Motion *motion;
@@ -668,7 +669,7 @@ static void condensed_equations_have_the_solutions_of_all(void)
         fill_jacobian(jacobian, n, positions, &random);
         for (int i = 0; i < n; i++)
             b[i] = c[i] = d[i] = i + 1;
-        condensed_take(condensed, jacobian);
+        condensed_set(condensed, jacobian);
         EXPECT(condensed_factor(condensed, s, alpha, beta));
         condensed_solve(condensed, b);
         condensed_solve_pair(condensed, c, d);

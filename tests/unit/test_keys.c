@@ -185,13 +185,14 @@ static void later_words_say_that_they_are(void)
 
 static void help_and_hints_offer_what_is_there(void)
 {
-    static const char *const habits[] = {"for", "while", "run", "joint", "bye", "list", "echo"};
+    static const char *const foreign_syntax[] = {"for", "while", "run", "joint",
+                                                 "bye", "list",  "echo"};
     char *overview = ct_help("");
     Kit kit = kit_new();
     Verb verb;
 
-    for (size_t i = 0; i < sizeof habits / sizeof habits[0]; i++) {
-        EXPECT(kit_do(&kit, habits[i]) == CT_FAILED);
+    for (size_t i = 0; i < sizeof foreign_syntax / sizeof foreign_syntax[0]; i++) {
+        EXPECT(kit_do(&kit, foreign_syntax[i]) == CT_FAILED);
         for (int v = 0; verb_at(v, &verb); v++) {
             char quoted[40];
 

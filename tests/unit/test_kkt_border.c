@@ -287,7 +287,7 @@ static void more_of_them_than_freedoms_do(void)
             EXPECT(left > 0 || solve_somewhere(&seed, &r, true) < 1e-5);
             EXPECT(kkt_factor(r.kkt, r.masses, r.entries, r.order));
             EXPECT(kkt_is_regularised(r.kkt) == (near * near <= 1e-5));
-            EXPECT((kkt_blur(r.kkt) > 0) == (near * near < 1e-2));
+            EXPECT((kkt_rounding_error(r.kkt) > 0) == (near * near < 1e-2));
             EXPECT(least > 5e-4 || kkt_is_regularised(r.kkt));
             close_robot(&r);
         }

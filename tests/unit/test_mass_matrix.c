@@ -4,7 +4,7 @@
 
 #include "base/text.h"
 #include "formulate/dynamics/cutset_equations.h"
-#include "formulate/solved/accelerations.h"
+#include "formulate/reduced/accelerations.h"
 #include "simulate/equations/articulated.h"
 #include "simulate/equations/mass_matrix.h"
 
@@ -111,8 +111,8 @@ static void compare_masses(Model *model, System *system, uint64_t seed)
         return;
     needs = mass_matrix_needs(matrix, &count);
     numbers = numbers_of(needs, count, &state);
-    mass_matrix_put(matrix, numbers);
-    mass_matrix_put(matrix, numbers); /* the last numbers leave nothing */
+    mass_matrix_set(matrix, numbers);
+    mass_matrix_set(matrix, numbers); /* the last numbers leave nothing */
     mass = pattern_spread(mass_matrix_places(matrix), mass_matrix_at(matrix));
     for (int i = 0; i < n * n; i++) {
         const double written = expr_evaluate(system_run(system)->mass[i], scene_value, &state);
@@ -154,7 +154,7 @@ static void compare_accelerations(System *system, SceneState *state)
 
     EXPECT(system_pushes(system, told + 2 * n, NULL) == OK);
     EXPECT(system_accelerations(system, system_run(system)->force, told + 2 * n, told, told + n) !=
-           TOLD_NOT);
+           ELIMINATED_NOT);
     du = numbers_of(told, told[0] != NULL ? 2 * n : 0, state);
     for (int j = 0; j < n && told[0] != NULL; j++) {
         const double force = expr_evaluate(system_run(system)->force[j], scene_value, state);
@@ -219,7 +219,7 @@ static void turns_askew_are_a_matrix_each(void)
     EXPECT(system != NULL && system_nu(system) == BODIES);
     EXPECT(system_pushes(system, told + 2 * (ptrdiff_t)BODIES, NULL) == OK);
     EXPECT(system_accelerations(system, system_run(system)->force, told + 2 * (ptrdiff_t)BODIES,
-                                told, told + BODIES) == TOLD_ALONG);
+                                told, told + BODIES) == ELIMINATED_ALONG_TREES);
     ops = expr_count_shared(told, BODIES);
     EXPECT(ops.add + ops.mul < MOST * BODIES);
     system_free(system);

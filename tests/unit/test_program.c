@@ -245,7 +245,7 @@ static void roots_may_be_inputs_constants_and_the_same(void)
                     u,
                     expr_neg(arena, q),
                     expr_int(arena, 0),
-                    expr_hold(arena, expr_add(arena, q, u))};
+                    expr_name_temporary(arena, expr_add(arena, q, u))};
     static const double wanted[] = {7, -0.25, 2, 7, -2, 0, 9};
     Program *program = compile(roots, COUNT(roots), inputs, 2);
     Workspace *workspace = workspace_new(program);

@@ -217,7 +217,7 @@ static bool run(Model *model, const Network *net, bool rates, System **system, T
     RunOptions options = {
         .duration = 2.0, .every = 0.25, .rtol = 1e-11, .atol = 1e-11, .step = 0.05};
     StartValues start = {model_start_count(model), NULL};
-    Setting setting = {.parameter = parameter_value, .context = model, .start = &start};
+    SimulationInput setting = {.parameter = parameter_value, .context = model, .start = &start};
     Items items = {0};
     Diag diag = {0};
     Status status;

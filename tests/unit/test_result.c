@@ -39,10 +39,10 @@ static void a_result_outlives_what_integrated_it(void)
     Script script = open_rectifier();
     StartValue value = {"C.v", 0, 2, false};
     StartValues start = {1, &value};
-    Setting setting = {.parameter = script_parameter,
-                       .context = script.model,
-                       .scene = model_scene_source(script.model),
-                       .start = &start};
+    SimulationInput setting = {.parameter = script_parameter,
+                               .context = script.model,
+                               .scene = model_scene_source(script.model),
+                               .start = &start};
     RunOptions options = {.duration = 0.02, .every = 0.001, .rtol = 1e-9};
     ResultReader *of_run = NULL, *later = NULL, *another = NULL;
     double values[3][INSTANTS * ASKED];
@@ -73,12 +73,12 @@ static void resuming_leaves_the_old_result_as_it_was(void)
     StartValue value = {"C.v", 0, 2, false};
     StartValues start = {1, &value};
     const Event *high = model_event(script.model, 0);
-    Setting setting = {.parameter = script_parameter,
-                       .context = script.model,
-                       .scene = model_scene_source(script.model),
-                       .events = &high,
-                       .event_count = 1,
-                       .start = &start};
+    SimulationInput setting = {.parameter = script_parameter,
+                               .context = script.model,
+                               .scene = model_scene_source(script.model),
+                               .events = &high,
+                               .event_count = 1,
+                               .start = &start};
     RunOptions options = {.duration = 0.02, .every = 0.001, .rtol = 1e-9};
     ResultReader *reader = NULL;
     Result *resumed = NULL;

@@ -16,7 +16,7 @@
     "revolute h12 ground m1 axis=z\nrevolute h13 r6 r7 axis=z\nrevolute h14 r8 r9 axis=z\n"        \
     "virtual revolute vh16 r6 m3 axis=z\ntree joint\n"
 
-static Kit wide_kit(void)
+static Kit dd_kit(void)
 {
     const ct_hooks hooks = {.columns = 0};
 
@@ -26,7 +26,7 @@ static Kit wide_kit(void)
 /* equations 4 to 6: the circuit of h9 in the paper's order */
 static void one_tree_gives_two_constraints(void)
 {
-    Kit kit = wide_kit();
+    Kit kit = dd_kit();
 
     EXPECT_DONE(&kit, PLANAR_CRANK "tree h8 h10 s11\nshow derivation h9");
     EXPECT_HOLDS(kit.text, "r(h9) = r(r6) - r(r7) + r(h10) + r(s11) - r(h8) + r(r4) - r(r5), the "
@@ -51,7 +51,7 @@ static void one_tree_gives_two_constraints(void)
 /* equation 7: the circuit of s11, projected on the normal of its axis */
 static void two_trees_give_one(void)
 {
-    Kit kit = wide_kit();
+    Kit kit = dd_kit();
 
     EXPECT_DONE(&kit, PLANAR_CRANK "tree translation h8 h9 h10\ntree rotation h8 h10 s11\n"
                                    "show derivation s11");
@@ -68,7 +68,7 @@ static void two_trees_give_one(void)
 
 static void entries_of_m_tell_what_moves(void)
 {
-    Kit kit = wide_kit();
+    Kit kit = dd_kit();
 
     EXPECT_DONE(&kit, ROBOT "show derivation mass(2,2)");
     EXPECT_HOLDS(kit.text, "T(m2) + T(m3) + T(h13) + T(vh16) = 0, the cutset of h13");
@@ -92,7 +92,7 @@ static void entries_of_m_tell_what_moves(void)
 /* equations 16 and 17 */
 static void motors_couple_two_graphs(void)
 {
-    Kit kit = wide_kit();
+    Kit kit = dd_kit();
 
     EXPECT_DONE(&kit, "scene planar\nR7 = 1.2\nLa = 0.05\nKv = 0.8\nbody m1 mass=2 inertia=0.03\n"
                       "arm p1 m1 [-0.2, 0]\nrevolute J1 ground p1 coord=theta1\n"
@@ -109,7 +109,7 @@ static void motors_couple_two_graphs(void)
 
 static void the_microphone_follows_its_circuit(void)
 {
-    Kit kit = wide_kit();
+    Kit kit = dd_kit();
 
     EXPECT_DONE(&kit, "scene planar\ngravity [0, -9.81]\neA = 5e-5\ns0 = 0.05\nR = 10\nL = 1\n"
                       "body m5 mass=0.1 inertia=0\nprismatic s ground m5 axis=y\n"

@@ -663,7 +663,7 @@ static void add_ladder(Kit *kit, int count)
 }
 
 /* the entries of A are those of the whole table */
-static void wide_matrices_stand_in_blocks_of_columns(void)
+static void dd_matrices_stand_in_blocks_of_columns(void)
 {
     static const struct {
         void (*add)(Kit *kit, int count);
@@ -702,7 +702,7 @@ static void wide_matrices_stand_in_blocks_of_columns(void)
 }
 
 /* crosses and dots of a full mass matrix of 45 speeds: each row has all of its columns */
-static void wide_patterns_stand_in_blocks_of_columns(void)
+static void dd_patterns_stand_in_blocks_of_columns(void)
 {
     static const int pages[] = {60, 80};
 
@@ -770,8 +770,8 @@ static void places_far_out_are_those_of_the_turns(void)
 int main(void)
 {
     RUN(places_far_out_are_those_of_the_turns);
-    RUN(wide_matrices_stand_in_blocks_of_columns);
-    RUN(wide_patterns_stand_in_blocks_of_columns);
+    RUN(dd_matrices_stand_in_blocks_of_columns);
+    RUN(dd_patterns_stand_in_blocks_of_columns);
     RUN(one_tree_gives_the_two_equations_of_the_paper);
     RUN(two_trees_give_the_one_equation_of_the_paper);
     RUN(rates_of_constraints_are_linear_in_rates);

@@ -441,7 +441,7 @@ static void a_massless_speed_hides_no_row_that_fades(void)
         }
         EXPECT(kkt_is_regularised(of[0]) == kkt_is_regularised(of[1]));
         EXPECT(kkt_is_regularised(of[0]) == (sine * sine < 1e-5));
-        EXPECT((kkt_blur(of[0]) > 0) == (sine * sine < 1e-2));
+        EXPECT((kkt_rounding_error(of[0]) > 0) == (sine * sine < 1e-2));
         full_close(&full[0]);
         full_close(&full[1]);
     }
@@ -515,7 +515,7 @@ static void long_work_asks_whether_to_stop(void)
     double matrix[N * N];
     int order[N], rank = -1, left = N / 2;
     uint64_t seed = 5;
-    const Watch watch = {.context = &left, .stop = count_down};
+    const CallMonitor watch = {.context = &left, .stop = count_down};
     Lu *lu = lu_new(N);
 
     random_matrix(&seed, matrix, N * N);

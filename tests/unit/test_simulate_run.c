@@ -140,10 +140,10 @@ static void forces_are_no_initial_values(void)
     Script script = run(CRANK, (Changes){0});
     StartValue value = {"h9.fx", 0, 3, false};
     StartValues start = {1, &value};
-    Setting setting = {.parameter = script_parameter,
-                       .context = script.model,
-                       .scene = model_scene_source(script.model),
-                       .start = &start};
+    SimulationInput setting = {.parameter = script_parameter,
+                               .context = script.model,
+                               .scene = model_scene_source(script.model),
+                               .start = &start};
     Diag diag = {0};
 
     EXPECT(form_system(script.model, &script.system, &diag) == OK);
@@ -322,9 +322,9 @@ static void a_resumed_run_is_one_run(void)
         run(PENDULUM "init h = 1, h' = 0\nsimulate 1 every=0.1 rtol=1e-11", (Changes){0});
     Script whole =
         run(PENDULUM "init h = 1, h' = 0\nsimulate 3 every=0.1 rtol=1e-11", (Changes){0});
-    Setting setting = {.parameter = script_parameter,
-                       .context = script.model,
-                       .scene = model_scene_source(script.model)};
+    SimulationInput setting = {.parameter = script_parameter,
+                               .context = script.model,
+                               .scene = model_scene_source(script.model)};
     RunOptions options = {.duration = 2, .every = 0.1, .rtol = 1e-11};
     Result *resumed = NULL;
     Diag diag = {0};
@@ -342,9 +342,9 @@ static void a_resumed_run_is_one_run(void)
 static void only_forward_runs_are_resumed(void)
 {
     Script script = run(PENDULUM "init h = 1, h' = 0\nassemble", (Changes){0});
-    Setting setting = {.parameter = script_parameter,
-                       .context = script.model,
-                       .scene = model_scene_source(script.model)};
+    SimulationInput setting = {.parameter = script_parameter,
+                               .context = script.model,
+                               .scene = model_scene_source(script.model)};
     RunOptions options = {.duration = 2};
     Result *resumed = NULL;
     Diag diag = {0};
@@ -387,10 +387,10 @@ static void a_second_run_estimates_the_error(void)
     Script script = run(PENDULUM "init h = 2, h' = 0", (Changes){0});
     StartValue values[2] = {{"h", 0, 2, false}, {"h", 1, 0, false}};
     StartValues start = {2, values};
-    Setting setting = {.parameter = script_parameter,
-                       .context = script.model,
-                       .scene = model_scene_source(script.model),
-                       .start = &start};
+    SimulationInput setting = {.parameter = script_parameter,
+                               .context = script.model,
+                               .scene = model_scene_source(script.model),
+                               .start = &start};
     RunOptions options = {.duration = 20, .rtol = 1e-6, .check = true};
     RunOptions exact = {.duration = 20, .rtol = 1e-12};
     Result *fine = NULL;
@@ -421,10 +421,10 @@ static void an_unresolved_run_is_told(void)
             (Changes){0});
     StartValue value = {"h", 0, 3, false};
     StartValues start = {1, &value};
-    Setting setting = {.parameter = script_parameter,
-                       .context = script.model,
-                       .scene = model_scene_source(script.model),
-                       .start = &start};
+    SimulationInput setting = {.parameter = script_parameter,
+                               .context = script.model,
+                               .scene = model_scene_source(script.model),
+                               .start = &start};
     RunOptions options = {.duration = 100, .rtol = 1e-5, .check = true};
     Diag diag = {0};
 
@@ -512,9 +512,9 @@ static void wrong_options_are_refused(void)
          "that makes 1e+09 rows",
          "take a larger step of output, every="},
     };
-    Setting setting = {.parameter = script_parameter,
-                       .context = script.model,
-                       .scene = model_scene_source(script.model)};
+    SimulationInput setting = {.parameter = script_parameter,
+                               .context = script.model,
+                               .scene = model_scene_source(script.model)};
 
     for (int i = 0; i < COUNT(wrong); i++) {
         Result *result = NULL;
@@ -551,14 +551,14 @@ static void ctrl_c_keeps_the_rows(void)
 {
     Script script = run(PENDULUM "init h = 1, h' = 0\nassemble", (Changes){0});
     int left = 50;
-    Watch watch = {.context = &left, .stop = stop_later};
+    CallMonitor watch = {.context = &left, .stop = stop_later};
     StartValue value = {"h", 0, 1, false};
     StartValues start = {1, &value};
-    Setting setting = {.parameter = script_parameter,
-                       .context = script.model,
-                       .scene = model_scene_source(script.model),
-                       .start = &start,
-                       .watch = &watch};
+    SimulationInput setting = {.parameter = script_parameter,
+                               .context = script.model,
+                               .scene = model_scene_source(script.model),
+                               .start = &start,
+                               .watch = &watch};
     RunOptions options = {.duration = 1000, .every = 0.1};
     Result *result = NULL;
     Diag diag = {0};

@@ -1,7 +1,7 @@
 /* test_state.c: state equations in symbols, against closed forms and against linearize */
 #include "session_kit.h"
 
-#include "formulate/solved/state_space.h"
+#include "formulate/reduced/state_space.h"
 #include "session/session_impl.h"
 
 /* --- closed forms --- */

@@ -250,7 +250,7 @@ static double *run_pair(Model *model, const Case *one, int *rows, int *count, in
     StartValues start = {model_start_count(model), NULL};
     RunOptions options = {
         .duration = one->duration, .every = one->every, .rtol = 1e-11, .atol = 1e-12};
-    Setting setting = {.parameter = parameter_value, .context = model, .start = &start};
+    SimulationInput setting = {.parameter = parameter_value, .context = model, .start = &start};
     Result *result = NULL;
     Items items = {0};
     double *values = NULL;

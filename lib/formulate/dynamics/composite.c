@@ -5,9 +5,9 @@
  * the branches nearer to the datum feel (Walker and Orin 1982, here on a linear graph). */
 #include "formulate/dynamics/composite.h"
 #include "formulate/dynamics/loads.h"
-#include "formulate/kinematics/alike.h"
 #include "formulate/kinematics/frames.h"
 #include "formulate/kinematics/identity.h"
+#include "formulate/kinematics/isomorphic.h"
 #include "formulate/system/dynamics.h"
 #include "formulate/system/kinematics.h"
 #include "formulate/system/origin.h"
@@ -83,9 +83,9 @@ static Rotation tensor_express(const System *system, Rotation tensor, int from, 
 /* whose composite is that of its instance alone, as of the first's */
 static const Follower *follows_whole(const System *system, int node, int *first)
 {
-    const Follower *follower = alike_node(system, node, first);
+    const Follower *follower = isomorphic_node(system, node, first);
 
-    return follower != NULL && alike_ends(follower) ? follower : NULL;
+    return follower != NULL && isomorphic_ends(follower) ? follower : NULL;
 }
 
 Composite composite_at(const System *system, const Composites *all, int node)
@@ -98,13 +98,13 @@ Composite composite_at(const System *system, const Composites *all, int node)
         return all->at[node];
     /* the first may follow another one, as deep as definitions stand in one another */
     own = composite_at(system, all, first);
-    own.mass = alike_take(follower, own.mass);
-    own.moment = alike_vec(follower, own.moment);
+    own.mass = isomorphic_take(follower, own.mass);
+    own.moment = isomorphic_vec(follower, own.moment);
     for (int k = 0; k < 9; k++)
-        own.inertia.at[k] = alike_take(follower, own.inertia.at[k]);
+        own.inertia.at[k] = isomorphic_take(follower, own.inertia.at[k]);
     all->at[node] = own;
     all->is_known[node] = true;
-    alike_keep(system, follower, all->key[node], DERIVED_COMPOSITE, &own, sizeof own);
+    isomorphic_keep(system, follower, all->key[node], DERIVED_COMPOSITE, &own, sizeof own);
     return own;
 }
 
@@ -187,11 +187,11 @@ static void pass_on(const System *system, Composites *all, int node)
     part.moment = vec_add(arena, part.moment, vec_scale(arena, part.mass, frame->step));
     part.moment = vec_carry(system, part.moment, axes, onto);
     part.inertia = tensor_express(system, part.inertia, axes, onto);
-    whole->mass = expr_hold(arena, expr_add(arena, whole->mass, part.mass));
+    whole->mass = expr_name_temporary(arena, expr_add(arena, whole->mass, part.mass));
     whole->moment = vec_hold(arena, vec_add(arena, whole->moment, part.moment));
     for (int k = 0; k < 9; k++)
         whole->inertia.at[k] =
-            expr_hold(arena, expr_add(arena, whole->inertia.at[k], part.inertia.at[k]));
+            expr_name_temporary(arena, expr_add(arena, whole->inertia.at[k], part.inertia.at[k]));
 }
 
 Composites composites_new(const System *system, const int *place)
@@ -203,7 +203,7 @@ Composites composites_new(const System *system, const int *place)
     Passing passing = {.place = place, .moves = frames_moving(system)};
     int first;
 
-    passing.inward = alike_inward(system, TREE_TRANSLATION, &passing.count);
+    passing.inward = isomorphic_inward(system, TREE_TRANSLATION, &passing.count);
     place_masses(system, &all);
     recall_composites(system, &passing, &all);
     for (int i = 0; i < passing.count; i++) {
@@ -212,8 +212,8 @@ Composites composites_new(const System *system, const int *place)
 
         if (!all.is_known[node] && !follows) {
             all.is_known[node] = true;
-            derived_keep(system, all.key[node], DERIVED_COMPOSITE, &all.at[node],
-                         sizeof all.at[node]);
+            derived_store(system, all.key[node], DERIVED_COMPOSITE, &all.at[node],
+                          sizeof all.at[node]);
         }
         if (passes_on(system, &passing, node) && !all.is_known[parent] &&
             !(follows && follows_whole(system, parent, &first) != NULL))

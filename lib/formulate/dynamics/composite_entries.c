@@ -61,7 +61,7 @@ static void add_entry(Arena *arena, const CompositeMass *mass, int row, int colu
     if (met->slides)
         sum = expr_add(arena, sum, vec_dot(arena, vec_at(mass, met->slide), force));
     if (!expr_is_zero(sum))
-        LIST_PUSH(*out, (Entry){row, column, expr_hold(arena, sum)});
+        LIST_PUSH(*out, (Entry){row, column, expr_name_temporary(arena, sum)});
 }
 
 static void add_column(Arena *arena, const CompositeMass *mass, int k, MassEntries *out)

@@ -4,7 +4,7 @@
 #include "formulate/kinematics/identity.h"
 
 #include "formulate/dynamics/composite.h"
-#include "formulate/kinematics/alike.h"
+#include "formulate/kinematics/isomorphic.h"
 #include "formulate/system/dynamics.h"
 #include "formulate/system/kinematics.h"
 #include "formulate/system/origin.h"
@@ -153,26 +153,26 @@ static void find_vectors(const System *system, const Composites *composites, Loa
 {
     const int node = speed_node(system, j);
     int first;
-    const Follower *follower = alike_speed(system, j, &first);
+    const Follower *follower = isomorphic_speed(system, j, &first);
     Key key = key_of(composites->key[node]);
-    const bool takes = follower != NULL && alike_ends(follower);
+    const bool takes = follower != NULL && isomorphic_ends(follower);
     Vec effect[2];
-    Expr told = NULL;
+    Expr identity = NULL;
 
     all[j] = speed_motion(system, j);
     key_add(&key, &all[j].turn, sizeof all[j].turn);
     key_add(&key, &all[j].slide, sizeof all[j].slide);
-    if (!takes || alike_is_heir(follower))
-        told = key_end(system, &key);
+    if (!takes || isomorphic_is_heir(follower))
+        identity = key_end(system, &key);
     if (takes) {
-        effect[0] = alike_vec(follower, all[first].force);
-        effect[1] = alike_vec(follower, all[first].torque);
-        alike_keep(system, follower, told, DERIVED_SPEED, effect, sizeof effect);
-    } else if (!derived_recall(system, told, DERIVED_SPEED, effect, sizeof effect)) {
+        effect[0] = isomorphic_vec(follower, all[first].force);
+        effect[1] = isomorphic_vec(follower, all[first].torque);
+        isomorphic_keep(system, follower, identity, DERIVED_SPEED, effect, sizeof effect);
+    } else if (!derived_recall(system, identity, DERIVED_SPEED, effect, sizeof effect)) {
         composite_loads(system, composite_at(system, composites, node), j, loads);
         effect[0] = loads->force[node];
         effect[1] = loads->torque[node];
-        derived_keep(system, told, DERIVED_SPEED, effect, sizeof effect);
+        derived_store(system, identity, DERIVED_SPEED, effect, sizeof effect);
     }
     all[j].force = effect[0];
     all[j].torque = effect[1];
@@ -223,7 +223,7 @@ static void add_speeds(System *system, CompositeMass *mass, const int *at)
         for (int j = 0; j < count; j++) {
             const int node = speed_node(system, j);
 
-            if (alike_level(system, node) != level)
+            if (isomorphic_level(system, node) != level)
                 continue;
             find_vectors(system, &composites, &loads, j, vectors);
             mass->speeds[j] = speed_of(mass, &vectors[j], at[node]);

@@ -10,10 +10,10 @@
 #include "formulate/dynamics/laws.h"
 #include "formulate/dynamics/loads.h"
 #include "formulate/dynamics/shapes.h"
-#include "formulate/kinematics/alike.h"
 #include "formulate/kinematics/coordinate.h"
 #include "formulate/kinematics/frames.h"
 #include "formulate/kinematics/identity.h"
+#include "formulate/kinematics/isomorphic.h"
 #include "formulate/kinematics/recursive.h"
 #include "formulate/system/constraints.h"
 #include "formulate/system/dynamics.h"
@@ -75,9 +75,9 @@ static Status unit_motion(const System *system, int speed, Vec *v)
         const Frame *frame = &system->kinematics->frames[n];
         int axes = node_axes(system, n);
 
-        TRY(poll(system->watch));
+        TRY(monitor_poll(system->watch));
         v[n] = vec_express(system, v[frame->parent], node_axes(system, frame->parent), axes);
-        if (turned >= 0 && chain_is_beyond(system, frame->step_chain, turned))
+        if (turned >= 0 && orientation_is_beyond(system, frame->step_chain, turned))
             v[n] = vec_add(arena, v[n],
                            vec_cross(arena, speed_axis(system, speed, axes), frame->step));
         if (n == system->kinematics->speeds[speed].slide_node)
@@ -94,7 +94,7 @@ static void unit_elastic(const System *system, const Elastic *elastic, int speed
     const int chain = system->kinematics->frames[elastic->node].chain;
     const int turned = system->kinematics->speeds[speed].chain;
     const int count = system->kinematics->u.count;
-    const bool turns = turned >= 0 && chain_is_beyond(system, chain, turned);
+    const bool turns = turned >= 0 && orientation_is_beyond(system, chain, turned);
     Expr *rates = NEW_ARRAY(Expr, count);
     const Vec w =
         turns ? speed_axis(system, speed, node_axes(system, elastic->node)) : vec_zero(arena);
@@ -114,9 +114,10 @@ static Status unit_loads(const System *system, int speed, const Vec *v, Loads *l
     for (int i = 0; i < system->dynamics->masses.count; i++) {
         const Mass *mass = &system->dynamics->masses.at[i];
         int chain = system->kinematics->frames[mass->node].chain;
-        bool turns = turned >= 0 && mass->has_inertia && chain_is_beyond(system, chain, turned);
+        bool turns =
+            turned >= 0 && mass->has_inertia && orientation_is_beyond(system, chain, turned);
 
-        TRY(poll(system->watch));
+        TRY(monitor_poll(system->watch));
         if (turns) {
             Vec w = speed_axis(system, speed, chain);
 
@@ -146,21 +147,21 @@ static int bodies_moved(const System *system, int speed, bool *moves)
 
         moves[order[i]] = moves[frame->parent] ||
                           order[i] == system->kinematics->speeds[speed].slide_node ||
-                          (turned >= 0 && chain_is_beyond(system, frame->step_chain, turned));
+                          (turned >= 0 && orientation_is_beyond(system, frame->step_chain, turned));
     }
     for (int i = 0; i < system->dynamics->masses.count; i++) {
         int node = system->dynamics->masses.at[i].node;
 
         moved += moves[node] ||
                  (turned >= 0 &&
-                  chain_is_beyond(system, system->kinematics->frames[node].chain, turned));
+                  orientation_is_beyond(system, system->kinematics->frames[node].chain, turned));
     }
     for (int i = 0; i < system->dynamics->elastics.count; i++) {
         int node = system->dynamics->elastics.at[i].node;
 
         moved += moves[node] || node == system->kinematics->speeds[speed].shape_node ||
                  (turned >= 0 &&
-                  chain_is_beyond(system, system->kinematics->frames[node].chain, turned));
+                  orientation_is_beyond(system, system->kinematics->frames[node].chain, turned));
     }
     return moved;
 }
@@ -200,7 +201,7 @@ static Expr *of_own_speeds(const System *system, const Expr *all, int n)
     }
     for (int j = 0; j < nu; j++)
         for (int k = 0; k < n; k++)
-            half[j * n + k] = expr_hold(arena, half[j * n + k]);
+            half[j * n + k] = expr_name_temporary(arena, half[j * n + k]);
     for (int j = 0; j < nu; j++)
         memcpy(mass + (ptrdiff_t)j * nu, half + (ptrdiff_t)j * n, (size_t)nu * sizeof(Expr));
     for (int k = nu; k < n; k++) {
@@ -215,7 +216,7 @@ static Expr *of_own_speeds(const System *system, const Expr *all, int n)
     }
     for (int j = 0; j < nu; j++)
         for (int k = j; k < nu; k++)
-            mass[j * nu + k] = mass[k * nu + j] = expr_hold(arena, mass[j * nu + k]);
+            mass[j * nu + k] = mass[k * nu + j] = expr_name_temporary(arena, mass[j * nu + k]);
     mem_free(half);
     return mass;
 }
@@ -248,14 +249,14 @@ static Status mass_matrix(System *system)
         for (int j = 0; j < n; j++)
             columns[(size_t)k * (size_t)n + (size_t)j] = sums_project(system, sums, j);
         pool_release(system->pool, mark);
-        CHECK(poll(system->watch));
+        CHECK(monitor_poll(system->watch));
     }
     for (int j = 0; j < n; j++)
         for (int k = 0; k < n; k++) {
             bool by_k = column_serves(system, moved, j, k);
 
             mass[j * n + k] =
-                expr_hold(system->arena, by_k ? columns[k * n + j] : columns[j * n + k]);
+                expr_name_temporary(system->arena, by_k ? columns[k * n + j] : columns[j * n + k]);
         }
     system->run.mass = n > system->kinematics->u.count ? of_own_speeds(system, mass, n) : mass;
 done:
@@ -293,20 +294,21 @@ static Inertia find_inertia(const System *system, const Loads *loads, const Mass
                             const Follower *follower, int first, Outward *gravity)
 {
     const Kinematics *kinematics = system->kinematics;
-    const bool takes = follower != NULL && alike_moves(follower);
-    const Expr told = !takes || alike_is_heir(follower) ? key_of_inertia(system, mass) : NULL;
+    const bool takes = follower != NULL && isomorphic_moves(follower);
+    const Expr identity =
+        !takes || isomorphic_is_heir(follower) ? key_of_inertia(system, mass) : NULL;
     Inertia inertia;
 
     if (takes) {
-        inertia = (Inertia){alike_vec(follower, loads->force[first]),
-                            alike_vec(follower, loads->torque[first])};
-        alike_keep(system, follower, told, DERIVED_INERTIA, &inertia, sizeof inertia);
+        inertia = (Inertia){isomorphic_vec(follower, loads->force[first]),
+                            isomorphic_vec(follower, loads->torque[first])};
+        isomorphic_keep(system, follower, identity, DERIVED_INERTIA, &inertia, sizeof inertia);
         return inertia;
     }
-    if (derived_recall(system, told, DERIVED_INERTIA, &inertia, sizeof inertia))
+    if (derived_recall(system, identity, DERIVED_INERTIA, &inertia, sizeof inertia))
         return inertia;
     inertia = inertia_of(system, mass, gravity, kinematics->alpha0, kinematics->a0);
-    derived_keep(system, told, DERIVED_INERTIA, &inertia, sizeof inertia);
+    derived_store(system, identity, DERIVED_INERTIA, &inertia, sizeof inertia);
     return inertia;
 }
 
@@ -321,10 +323,10 @@ void loads_add_inertia(const System *system, Loads *loads, const Vec *alpha, con
             const Mass *mass = &system->dynamics->masses.at[i];
             int first;
             const Follower *follower =
-                accelerations == NULL ? alike_node(system, mass->node, &first) : NULL;
+                accelerations == NULL ? isomorphic_node(system, mass->node, &first) : NULL;
             Inertia inertia;
 
-            if ((accelerations == NULL ? alike_level(system, mass->node) : 0) != level)
+            if ((accelerations == NULL ? isomorphic_level(system, mass->node) : 0) != level)
                 continue;
             inertia = accelerations == NULL
                           ? find_inertia(system, loads, mass, follower, first, &gravity)
@@ -356,7 +358,7 @@ static void add_on_coordinate(const System *system, Expr coordinate, Expr effort
     Expr *symbols;
     const int count = expr_symbols(&coordinate, 1, &symbols);
 
-    effort = expr_hold(arena, effort);
+    effort = expr_name_temporary(arena, effort);
     for (int i = 0; i < system->kinematics->q.count; i++) {
         const CoordinateRate *rate = &system->kinematics->coordinate_rates[i];
         const Expr symbol = system->kinematics->q.at[i].symbol;
@@ -420,7 +422,7 @@ static Status add_inertia(System *system, const Effort *effort, Diag *diag)
     for (int k = 0; law_is_inertial(effort->value) && k < n; k++) {
         Expr slope = effort->value;
 
-        TRY(law_take(system, effort->instance, k, &slope, diag));
+        TRY(law_add(system, effort->instance, k, &slope, diag));
         for (int j = 0; j < n && !expr_is_zero(slope); j++)
             add_share(
                 system, j, k,
@@ -438,18 +440,18 @@ static bool is_symmetric(const System *system, Sample *const *samples, int j, in
     const Expr *mass = system->run.mass;
     const int n = system->kinematics->u.count;
     const Expr a = mass[j * n + k], b = mass[k * n + j];
-    int told = a == b ? ENOUGH_SAMPLES : 0;
+    int identity = a == b ? ENOUGH_SAMPLES : 0;
 
-    for (int i = 0; i < MOST_SAMPLES && told < ENOUGH_SAMPLES; i++) {
+    for (int i = 0; i < MOST_SAMPLES && identity < ENOUGH_SAMPLES; i++) {
         const double off = sample_number(samples[i], a) - sample_number(samples[i], b);
         const double size =
             sample_number(samples[i], mass[j * n + j]) * sample_number(samples[i], mass[k * n + k]);
 
         if (fabs(off) > 1e-9 * sqrt(fabs(size)))
             return false;
-        told += !isnan(off) && !isnan(size);
+        identity += !isnan(off) && !isnan(size);
     }
-    return told >= ENOUGH_SAMPLES;
+    return identity >= ENOUGH_SAMPLES;
 }
 
 /* a part whose law holds one of two entries of u' */
@@ -502,7 +504,7 @@ static void take_shares(System *system)
         const Entry *share = &system->dynamics->shares.at[i];
         Expr *entry = &system->run.mass[share->row * system->kinematics->u.count + share->column];
 
-        *entry = expr_hold(system->arena, expr_add(system->arena, *entry, share->value));
+        *entry = expr_name_temporary(system->arena, expr_add(system->arena, *entry, share->value));
     }
 }
 
@@ -530,7 +532,7 @@ static Status joint_efforts(System *system, Diag *diag)
         if (instance->row->effort != NULL) {
             TRY(effort_of(system, instance, &effort, diag));
             TRY(add_inertia(system, &effort, diag));
-            TRY(law_take(system, instance, TAKE_AT_REST, &effort.value, diag));
+            TRY(law_add(system, instance, TAKE_AT_REST, &effort.value, diag));
             add_on_coordinate(system, effort.displacement, effort.value);
         }
         if (instance->row->rotor != NULL)
@@ -563,7 +565,7 @@ static void project(System *system, const Sums *sums, Expr *rows)
         rows[j] = sums_project(system, sums, j);
     for (int j = nu; j < system->kinematics->speed_count; j++) {
         const Dependent *own = &system->kinematics->dependents.at[j - nu];
-        const Expr row = expr_hold(arena, sums_project(system, sums, j));
+        const Expr row = expr_name_temporary(arena, sums_project(system, sums, j));
 
         for (int i = 0; i < own->count; i++) {
             Expr *at = &rows[own->first + i];
@@ -572,7 +574,7 @@ static void project(System *system, const Sums *sums, Expr *rows)
         }
     }
     for (int j = 0; j < nu; j++)
-        rows[j] = expr_hold(arena, rows[j]);
+        rows[j] = expr_name_temporary(arena, rows[j]);
 }
 
 /* what laws between frames hold of u' */
@@ -591,7 +593,7 @@ static Status take_inertial_laws(System *system, Diag *diag)
         pool_release(system->pool, mark);
         for (int j = 0; j < n; j++)
             add_share(system, j, k, expr_neg(system->arena, rows[j]));
-        CHECK(poll(system->watch));
+        CHECK(monitor_poll(system->watch));
     }
 done:
     mem_free(rows);
@@ -653,8 +655,9 @@ Status system_pushes(System *system, Expr *out, Diag *diag)
         const Sums *sums = loads_sum(system, &loads, SUMS_FOR_SPEEDS);
 
         for (int j = 0; j < system->kinematics->u.count; j++)
-            out[j] = expr_hold(system->arena, expr_add(system->arena, system->dynamics->pushes[j],
-                                                       sums_project(system, sums, j)));
+            out[j] = expr_name_temporary(system->arena,
+                                         expr_add(system->arena, system->dynamics->pushes[j],
+                                                  sums_project(system, sums, j)));
     }
     pool_release(system->pool, mark);
     return OK;
@@ -681,7 +684,7 @@ bool dynamics_lack(System *system, const Expr *acceleration, Expr *out)
     Vec *alpha, *a;
     PoolMark mark;
     Loads loads;
-    bool is_told = false;
+    bool is_determined = false;
 
     if (system->kinematics->speed_count > nu)
         return false;
@@ -699,15 +702,15 @@ bool dynamics_lack(System *system, const Expr *acceleration, Expr *out)
             const Expr there =
                 expr_add(system->arena, sums_project(system, sums, j), system->dynamics->pushes[j]);
 
-            out[j] =
-                expr_hold(system->arena,
-                          expr_sub(system->arena, shares_times(system, j, acceleration), there));
+            out[j] = expr_name_temporary(
+                system->arena,
+                expr_sub(system->arena, shares_times(system, j, acceleration), there));
         }
-        is_told = true;
+        is_determined = true;
     }
     MEM_FREE(alpha, a);
     pool_release(system->pool, mark);
-    return is_told;
+    return is_determined;
 }
 
 Status system_form_mass(System *system, Diag *diag)

@@ -23,7 +23,7 @@ static Status line_motion(System *system, const Instance *instance, Effort *effo
     Arena *arena = system->arena;
     Vec d = vec_hold(arena, vec_sub(arena, node_position(system, instance->head),
                                     node_position(system, instance->tail)));
-    Expr length = expr_hold(arena, expr_sqrt(arena, vec_dot(arena, d, d)));
+    Expr length = expr_name_temporary(arena, expr_sqrt(arena, vec_dot(arena, d, d)));
     Vec v[2];
     const int ends[2] = {instance->tail, instance->head};
 
@@ -47,7 +47,8 @@ static Status line_motion(System *system, const Instance *instance, Effort *effo
     effort->direction =
         vec_hold(arena, vec_scale(arena, expr_div(arena, expr_int(arena, 1), length), d));
     effort->displacement = length;
-    effort->rate = expr_hold(arena, vec_dot(arena, effort->direction, vec_sub(arena, v[1], v[0])));
+    effort->rate =
+        expr_name_temporary(arena, vec_dot(arena, effort->direction, vec_sub(arena, v[1], v[0])));
     return OK;
 }
 
@@ -109,8 +110,8 @@ Status wrench_of(System *system, const Instance *instance, int take, Vec *force,
     for (int i = 0; i < 3; i++) {
         TRY(law_read(system, instance, force->at[i], &force->at[i], diag));
         TRY(law_read(system, instance, torque->at[i], &torque->at[i], diag));
-        TRY(law_take(system, instance, take, &force->at[i], diag));
-        TRY(law_take(system, instance, take, &torque->at[i], diag));
+        TRY(law_add(system, instance, take, &force->at[i], diag));
+        TRY(law_add(system, instance, take, &torque->at[i], diag));
     }
     *chain = 0;
     if (in_body) {
@@ -240,8 +241,9 @@ Status efforts_add(System *system, Loads *loads, int take, Diag *diag)
                              instance->joint_coordinate, effort.value);
             continue;
         }
-        TRY(law_take(system, instance, take, &effort.value, diag));
-        force = vec_hold(arena, vec_scale(arena, expr_hold(arena, effort.value), effort.direction));
+        TRY(law_add(system, instance, take, &effort.value, diag));
+        force = vec_hold(
+            arena, vec_scale(arena, expr_name_temporary(arena, effort.value), effort.direction));
         loads_add_force(system, loads, instance->head, force, 0);
         loads_add_force(system, loads, instance->tail, vec_neg(arena, force), 0);
     }
@@ -280,7 +282,7 @@ void loads_add_row(System *system, Loads *loads, const Row *row, Expr lambda)
         along = vec_hold(arena, vec_cross(arena, b, along));
     }
     along = vec_scale(arena, push, along);
-    if (row->told.rotation) {
+    if (row->reported.rotation) {
         loads_add_torque(system, loads, row->head, along, chain);
         loads_add_torque(system, loads, row->tail, vec_neg(arena, along), chain);
         return;

@@ -17,14 +17,14 @@
 
 enum { SHORT = 4 }; /* terms of a sum that is not worth avoiding */
 
-typedef LIST(Expr) Terms;
+typedef LIST(Expr) EnergyTerms;
 
 static Expr half(Arena *arena)
 {
     return expr_rational(arena, 1, 2);
 }
 
-static void push(const System *system, Terms *terms, Expr scale, Expr a, Expr b)
+static void push(const System *system, EnergyTerms *terms, Expr scale, Expr a, Expr b)
 {
     LIST_PUSH(*terms, expr_product(system->arena, (Expr[]){scale, a, b}, 3));
 }
@@ -51,7 +51,7 @@ static bool is_of_motion(const System *system, const Branchlike *branch)
            branch->relation.kind == RELATION_CAPACITIVE;
 }
 
-static void push_stored(System *system, Terms *terms, bool of_motion)
+static void push_stored(System *system, EnergyTerms *terms, bool of_motion)
 {
     for (int i = 0; i < system->network->branches.count; i++)
         if (is_of_motion(system, &system->network->branches.at[i]) == of_motion)
@@ -62,7 +62,7 @@ Expr system_kinetic(System *system)
 {
     system_touch(system);
     Arena *arena = system->arena;
-    Terms terms = {0};
+    EnergyTerms terms = {0};
     Expr sum;
 
     for (int i = 0; i < system->dynamics->masses.count; i++) {
@@ -120,12 +120,13 @@ static Expr *falls_of(const System *system, const Vec *gravity)
         const Vec step = vec_carry_held(system, frame->shift, frame->step_chain, axes);
         const Expr further = vec_dot(arena, gravity[axes], step);
 
-        falls[order[i]] = expr_hold(arena, expr_add(arena, falls[frame->parent], further));
+        falls[order[i]] =
+            expr_name_temporary(arena, expr_add(arena, falls[frame->parent], further));
     }
     return falls;
 }
 
-static void push_weights(const System *system, Terms *terms)
+static void push_weights(const System *system, EnergyTerms *terms)
 {
     Arena *arena = system->arena;
     Vec *gravity;
@@ -158,7 +159,7 @@ Expr system_potential(System *system)
 {
     system_touch(system);
     Arena *arena = system->arena;
-    Terms terms = {0};
+    EnergyTerms terms = {0};
     Expr sum;
 
     push_weights(system, &terms);
@@ -193,7 +194,7 @@ static Expr lost_effort(System *system, const Effort *effort)
     return expr_add(arena, effort->value, stored);
 }
 
-static void push_wrench(System *system, Terms *terms, const Instance *instance)
+static void push_wrench(System *system, EnergyTerms *terms, const Instance *instance)
 {
     Arena *arena = system->arena;
     const Frame *frame = &system->kinematics->frames[instance->head];
@@ -237,7 +238,7 @@ static void power_of(System *system, const Branchlike *branch, Expr *v, Expr *i)
 
 /* minus the power that scalar edges take and don't store; heat is power by itself, and no balance
  * holds it */
-static void push_network(System *system, Terms *terms)
+static void push_network(System *system, EnergyTerms *terms)
 {
     Arena *arena = system->arena;
 
@@ -256,7 +257,7 @@ static void push_network(System *system, Terms *terms)
     }
 }
 
-static void push_drives(System *system, Terms *terms)
+static void push_drives(System *system, EnergyTerms *terms)
 {
     Arena *arena = system->arena;
     Expr rate;
@@ -272,7 +273,7 @@ static void push_drives(System *system, Terms *terms)
 }
 
 /* damping, and a load */
-static void push_elastic(System *system, const Elastic *elastic, Terms *terms)
+static void push_elastic(System *system, const Elastic *elastic, EnergyTerms *terms)
 {
     Arena *arena = system->arena;
     const ShapeInertia *b = &elastic->block;
@@ -296,7 +297,7 @@ Expr system_power(System *system)
 {
     system_touch(system);
     Arena *arena = system->arena;
-    Terms terms = {0};
+    EnergyTerms terms = {0};
     Expr *sum = &system->shown->power;
 
     if (*sum != NULL)

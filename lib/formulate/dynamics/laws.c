@@ -29,7 +29,7 @@ bool law_is_inertial(Expr law)
     return (expr_kinds(law) & 1U << SYMBOL_ACCELERATION) != 0;
 }
 
-Status law_take(const System *system, const Instance *instance, int take, Expr *law, Diag *diag)
+Status law_add(const System *system, const Instance *instance, int take, Expr *law, Diag *diag)
 {
     const Kinematics *kinematics = system->kinematics;
 

@@ -10,8 +10,8 @@ enum { TAKE_ALL = -2, TAKE_AT_REST = -1 };
 
 /* the law of an instance in the system's variables */
 MUST_USE Status law_read(System *system, const Instance *instance, Expr law, Expr *out, Diag *diag);
-MUST_USE Status law_take(const System *system, const Instance *instance, int take, Expr *law,
-                         Diag *diag);
+MUST_USE Status law_add(const System *system, const Instance *instance, int take, Expr *law,
+                        Diag *diag);
 bool law_is_inertial(Expr law); /* holds u' */
 
 #endif

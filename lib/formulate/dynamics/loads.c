@@ -3,9 +3,9 @@
  * Each is resolved in the axes of its chain's `resolve` chain and held, so that a program computes
  * it once. */
 #include "formulate/dynamics/loads.h"
-#include "formulate/kinematics/alike.h"
 #include "formulate/kinematics/frames.h"
 #include "formulate/kinematics/identity.h"
+#include "formulate/kinematics/isomorphic.h"
 #include "formulate/system/origin.h"
 #include "formulate/system/system_impl.h"
 
@@ -54,10 +54,10 @@ enum { FORCE, TORQUE };
 
 static Expr load_key(const System *system, int node, int what, Vec load)
 {
-    const Expr told = expr_int(system->arena, what);
+    const Expr instance_key = expr_int(system->arena, what);
     Key key = key_of(system->kinematics->frames[node].identity);
 
-    key_add(&key, &told, sizeof told);
+    key_add(&key, &instance_key, sizeof instance_key);
     key_add(&key, &load, sizeof load);
     return vec_is_zero(load) ? NULL : key_end(system, &key);
 }
@@ -112,13 +112,13 @@ static void recall_torques(Summing *s)
 static bool loaded_alike(const System *system, const Follower *follower, const Loads *loads)
 {
     int count, first;
-    const int *members = alike_members(follower, &count);
-    bool alike = alike_ends(follower);
+    const int *members = isomorphic_members(follower, &count);
+    bool alike = isomorphic_ends(follower);
 
     for (int k = 0; alike && k < count; k++) {
-        (void)alike_node(system, members[k], &first);
-        alike = vec_same(alike_vec(follower, loads->force[first]), loads->force[members[k]]) &&
-                vec_same(alike_vec(follower, loads->torque[first]), loads->torque[members[k]]);
+        (void)isomorphic_node(system, members[k], &first);
+        alike = vec_same(isomorphic_vec(follower, loads->force[first]), loads->force[members[k]]) &&
+                vec_same(isomorphic_vec(follower, loads->torque[first]), loads->torque[members[k]]);
     }
     return alike;
 }
@@ -132,14 +132,14 @@ static void find_alike(const Summing *s, const Loads *loads)
 
     for (int n = 0; n < count; n++) {
         int first, members;
-        const Follower *follower = alike_node(s->system, n, &first);
+        const Follower *follower = isomorphic_node(s->system, n, &first);
         const int *member;
 
         if (follower == NULL || asked[n] ||
             ((s->knows_force[n] || !s->asks_force[n]) &&
              (s->knows_torque[n] || !s->asks_torque[n])))
             continue;
-        member = alike_members(follower, &members);
+        member = isomorphic_members(follower, &members);
         for (int k = 0; k < members; k++)
             asked[member[k]] = true;
         alike = loaded_alike(s->system, follower, loads);
@@ -171,7 +171,7 @@ static void pass_force(const Summing *s, int n)
         passed.force = vec_carry_held(system, force, axes, node_axes(system, frame->parent));
         passed.moment = vec_carry_held(system, vec_cross(system->arena, frame->step, force), axes,
                                        node_axes(system, frame->base));
-        derived_keep(system, s->force_key[n], DERIVED_PASSED, &passed, sizeof passed);
+        derived_store(system, s->force_key[n], DERIVED_PASSED, &passed, sizeof passed);
     }
     if (adds)
         *onto = vec_add(system->arena, *onto, passed.force);
@@ -189,7 +189,7 @@ static void pass_torque(const Summing *s, int n, int parent)
     if (!derived_recall(system, s->torque_key[n], DERIVED_TURNED, &passed, sizeof passed)) {
         passed = vec_carry_held(system, s->sums->torque[n], node_axes(system, n),
                                 node_axes(system, parent));
-        derived_keep(system, s->torque_key[n], DERIVED_TURNED, &passed, sizeof passed);
+        derived_store(system, s->torque_key[n], DERIVED_TURNED, &passed, sizeof passed);
     }
     s->sums->torque[parent] = vec_add(system->arena, s->sums->torque[parent], passed);
 }
@@ -201,14 +201,14 @@ static void end_sum(const Summing *s, int n, bool is_known, Expr key, Derived wh
         return;
     if (s->alike[n]) {
         int first;
-        const Follower *follower = alike_node(s->system, n, &first);
+        const Follower *follower = isomorphic_node(s->system, n, &first);
 
-        of[n] = alike_vec(follower, of[first]);
-        alike_keep(s->system, follower, key, which, &of[n], sizeof of[n]);
+        of[n] = isomorphic_vec(follower, of[first]);
+        isomorphic_keep(s->system, follower, key, which, &of[n], sizeof of[n]);
         return;
     }
     of[n] = vec_hold(s->system->arena, of[n]);
-    derived_keep(s->system, key, which, &of[n], sizeof of[n]);
+    derived_store(s->system, key, which, &of[n], sizeof of[n]);
 }
 
 static void sum_forces(const Summing *s)
@@ -287,8 +287,8 @@ Sums *loads_sum(const System *system, const Loads *loads, SumsFor whom)
         if (s.asks_torque[n])
             s.torque_key[n] = load_key(system, n, TORQUE, loads->torque[n]);
     }
-    s.forces = alike_inward(system, TREE_TRANSLATION, &s.force_count);
-    s.torques = alike_inward(system, TREE_ROTATION, &s.torque_count);
+    s.forces = isomorphic_inward(system, TREE_TRANSLATION, &s.force_count);
+    s.torques = isomorphic_inward(system, TREE_ROTATION, &s.torque_count);
     recall_forces(&s);
     recall_torques(&s);
     find_alike(&s, loads);

@@ -90,7 +90,7 @@ static Vec row_reaction(const System *system, const Row *row, bool rotation)
     int tail = system->kinematics->frames[row->tail].chain;
     Vec along = row->n;
 
-    if (row->told.rotation != rotation && row->kind != ROW_TIE)
+    if (row->reported.rotation != rotation && row->kind != ROW_TIE)
         return vec_zero(arena);
     if (row->kind == ROW_TIE && rotation)
         along = vec_scale(arena, expr_neg(arena, row->pitch), along);
@@ -138,7 +138,7 @@ static Vec chord_reaction(System *system, const Instance *joint, bool rotation)
             v < 0 ? system->constraints->multipliers[k] : system->shown->recovery->multipliers[v];
 
         assert(row != NULL);
-        if (row->told.instance == joint->number)
+        if (row->reported.instance == joint->number)
             sum = vec_add(
                 arena, sum,
                 vec_scale(arena, expr_neg(arena, lambda), row_reaction(system, row, rotation)));
@@ -183,7 +183,7 @@ static Expr share_of(System *system, const Instance *joint, const void *wanted, 
     if (tree_has(tree, joint->edge))
         vector = branch_reaction(system, joint, system->shown->recovery->sums[redundant],
                                  part.moment, &chain);
-    else if (row->told.instance == joint->number)
+    else if (row->reported.instance == joint->number)
         vector = vec_neg(system->arena, row_reaction(system, row, part.moment));
     return component(system, joint, part, vector, chain);
 }
@@ -207,7 +207,7 @@ static const Row *open_row(const System *system, const double *shares, int insta
             if (fabs(term) > size)
                 size = fabs(term);
             /* another part's row says more */
-            if (term != 0 && (found == NULL || found->told.instance == instance))
+            if (term != 0 && (found == NULL || found->reported.instance == instance))
                 found = &system->constraints->redundant_rows.at[k];
         }
         if (fabs(sum) < size * pow(10, -DIGITS))
@@ -249,7 +249,7 @@ Status joint_reaction(System *system, const Instance *joint, ReactionPart part, 
     }
     open = reaction_open_row(system, joint, share_of, &part);
     if (open != NULL) {
-        const char *chord = system->origin->instances[open->told.instance].name;
+        const char *chord = system->origin->instances[open->reported.instance].name;
 
         (void)diag_set(diag, E_MISSING, "the %s of %s %s %c isn't determined",
                        part.moment ? "moment" : "force", joint->name,

@@ -94,14 +94,14 @@ static void unit_sums(System *system, Recovery *recovery)
  * By hand, since what it leaves goes into formulas: ones and zeros of directions along axes stay
  * what they are in Gauss's elimination, while orthogonal factors turn them into rounding. */
 
-typedef struct Elimination {
+typedef struct RedundancyElimination {
     int rows, columns;
     double *at;
     int *column; /* pivot columns, then free ones */
     int rank;
-} Elimination;
+} RedundancyElimination;
 
-static void swap_rows(Elimination *e, int a, int b)
+static void swap_rows(RedundancyElimination *e, int a, int b)
 {
     for (int c = 0; c < e->columns; c++) {
         double kept = e->at[a * e->columns + c];
@@ -112,7 +112,7 @@ static void swap_rows(Elimination *e, int a, int b)
 }
 
 /* the largest entry left becomes the pivot; false: it is none */
-static bool choose_pivot(Elimination *e)
+static bool choose_pivot(RedundancyElimination *e)
 {
     double largest = NONE;
     int row = -1;
@@ -135,7 +135,7 @@ static bool choose_pivot(Elimination *e)
 }
 
 /* Gauss and Jordan with full pivoting: unit columns at the pivots */
-static void eliminate(Elimination *e)
+static void eliminate(RedundancyElimination *e)
 {
     for (; e->rank < e->rows && choose_pivot(e); e->rank++) {
         double *own = e->at + (ptrdiff_t)e->rank * e->columns;
@@ -154,7 +154,7 @@ static void eliminate(Elimination *e)
 }
 
 /* the null space of W: a free column is one, the pivots balance it */
-static void find_open(System *system, const Elimination *e, Recovery *recovery)
+static void find_open(System *system, const RedundancyElimination *e, Recovery *recovery)
 {
     int count = e->columns - e->rank;
 
@@ -190,7 +190,7 @@ static Expr product(const System *system, const RedundancyMatrix *m, int a, int 
     /* axes that turn together leave 1 and 0 */
     if (b >= 0 && op_count_total(expr_count(&sum, 1)) < SHORT)
         sum = expr_fold(arena, expr_open(arena, sum));
-    return expr_hold(arena, sum);
+    return expr_name_temporary(arena, sum);
 }
 
 /* L D L^T y = b, L below the diagonal of `at` and D on it; y in the place of b */
@@ -204,22 +204,25 @@ static void solve(Arena *arena, int n, Expr *at, Expr *y)
                 *entry = expr_sub(
                     arena, *entry,
                     expr_product(arena, (Expr[]){at[i * n + k], at[j * n + k], at[k * n + k]}, 3));
-            *entry = expr_hold(arena, *entry);
+            *entry = expr_name_temporary(arena, *entry);
         }
         for (int i = j + 1; i < n; i++)
-            at[i * n + j] = expr_hold(arena, expr_div(arena, at[i * n + j], at[j * n + j]));
+            at[i * n + j] =
+                expr_name_temporary(arena, expr_div(arena, at[i * n + j], at[j * n + j]));
     }
     for (int i = 0; i < n; i++)
         for (int k = 0; k < i; k++)
-            y[i] = expr_hold(arena, expr_sub(arena, y[i], expr_mul(arena, at[i * n + k], y[k])));
+            y[i] = expr_name_temporary(arena,
+                                       expr_sub(arena, y[i], expr_mul(arena, at[i * n + k], y[k])));
     for (int i = 0; i < n; i++)
-        y[i] = expr_hold(arena, expr_div(arena, y[i], at[i * n + i]));
+        y[i] = expr_name_temporary(arena, expr_div(arena, y[i], at[i * n + i]));
     for (int i = n - 1; i >= 0; i--)
         for (int k = i + 1; k < n; k++)
-            y[i] = expr_hold(arena, expr_sub(arena, y[i], expr_mul(arena, at[k * n + i], y[k])));
+            y[i] = expr_name_temporary(arena,
+                                       expr_sub(arena, y[i], expr_mul(arena, at[k * n + i], y[k])));
 }
 
-static void solve_columns(System *system, const RedundancyMatrix *m, const Elimination *e,
+static void solve_columns(System *system, const RedundancyMatrix *m, const RedundancyElimination *e,
                           Recovery *recovery)
 {
     int n = e->rank;
@@ -245,7 +248,7 @@ static int by_number(const void *a, const void *b)
 /* what is open, and pivot columns in the order of the joints: L stays as sparse as their
  * neighbourhood */
 static void find_columns(System *system, const RedundancyMatrix *m, Recovery *recovery,
-                         Elimination *e)
+                         RedundancyElimination *e)
 {
     for (int i = 0; i < m->rows * m->columns; i++)
         e->at[i] = sample_number(recovery->sample, m->W.at[i]);
@@ -262,7 +265,7 @@ void recovery_build(System *system, const Loads *loads)
     int count = system->constraints->redundant_rows.count;
     const Sums *sums = loads_sum(system, loads, SUMS_FOR_JOINTS);
     RedundancyMatrix m = {.columns = count};
-    Elimination e;
+    RedundancyElimination e;
 
     system->shown->recovery = recovery;
     recovery->sample = sample_new(system, 5, false);
@@ -271,7 +274,7 @@ void recovery_build(System *system, const Loads *loads)
         recovery->multipliers[k] = expr_int(system->arena, 0);
     unit_sums(system, recovery);
     gather(system, recovery, sums, &m);
-    e = (Elimination){.rows = m.rows, .columns = count};
+    e = (RedundancyElimination){.rows = m.rows, .columns = count};
     e.at = NEW_ARRAY(double, m.rows *count);
     e.column = NEW_ARRAY(int, count);
     find_columns(system, &m, recovery, &e);

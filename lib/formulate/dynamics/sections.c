@@ -33,8 +33,10 @@ static Expr is_beyond(const System *system, const Instance *part, const Instance
 {
     static const double rounding = 1e-12; /* of the length */
     Arena *arena = system->arena;
-    const Expr slack = expr_mul(arena, expr_real(arena, rounding), instance_scalar(part, "length"));
-    const Expr way = expr_add(arena, expr_sub(arena, instance_scalar(frame, "at"), at), slack);
+    const Expr error_floor =
+        expr_mul(arena, expr_real(arena, rounding), instance_scalar(part, "length"));
+    const Expr way =
+        expr_add(arena, expr_sub(arena, instance_scalar(frame, "at"), at), error_floor);
 
     return expr_is_number(way) ? expr_int(arena, expr_value(way) >= 0)
                                : expr_if(arena, expr_call2(arena, OP_LT, way, expr_int(arena, 0)),
@@ -50,7 +52,7 @@ static void add_frames(const System *system, const Instance *part, Expr at, cons
 
     for (int i = 0; i < system->origin->instance_count; i++) {
         const Instance *frame = &system->origin->instances[i];
-        const Station *station;
+        const SectionFrame *station;
         int speed, chain;
         Wrench own;
         Expr share;
@@ -58,7 +60,7 @@ static void add_frames(const System *system, const Instance *part, Expr at, cons
 
         if (frame->row->family != FAMILY_ARM || frame->tail != part->head)
             continue;
-        station = station_of(system, frame, &speed);
+        station = section_frame_of(system, frame, &speed);
         if (station == NULL)
             continue;
         share = expr_neg(arena, is_beyond(system, part, frame, at));
@@ -94,7 +96,7 @@ static Status add_beam(System *system, const Instance *part, Expr at, Wrench *to
 }
 
 /* back by the turns of the section: about z, then the new y, then the newest x */
-static Vec in_section(Arena *arena, const Station *section, Vec v)
+static Vec in_section(Arena *arena, const SectionFrame *section, Vec v)
 {
     for (int k = 0; k < 3; k++) {
         const int i = k == 0 ? 0 : k == 1 ? 2 : 1, j = k == 0 ? 1 : k == 1 ? 0 : 2;
@@ -111,7 +113,7 @@ static Expr component(System *system, const Instance *part, const SectionPart *w
                       Wrench beyond)
 {
     Arena *arena = system->arena;
-    const Station *section = shapes_point(system, part, at);
+    const SectionFrame *section = shapes_point(system, part, at);
     const Rotation back = rotation_transpose(&system->kinematics->frames[part->head].zero);
     const Vec place = {{section->position[0], section->position[1], section->position[2]}};
     const Vec force = rotation_apply(arena, &back, beyond.force);
@@ -121,15 +123,15 @@ static Expr component(System *system, const Instance *part, const SectionPart *w
     return in_section(arena, section, wanted->moment ? moment : force).at[wanted->axis];
 }
 
-typedef struct Wanted {
+typedef struct SectionQuery {
     const SectionPart *part;
     Expr at;
-} Wanted;
+} SectionQuery;
 
 /* per unit of the multiplier of a row that vanished */
 static Expr share_of(System *system, const Instance *part, const void *wanted, int redundant)
 {
-    const Wanted *section = wanted;
+    const SectionQuery *section = wanted;
     Wrench own = {vec_zero(system->arena), vec_zero(system->arena)};
 
     add_frames(system, part, section->at, system->shown->recovery->sums[redundant], &own);
@@ -143,14 +145,14 @@ Status section_force(System *system, const Instance *part, const SectionPart *wa
     const Row *open;
 
     TRY(actual_build(system, diag));
-    open = reaction_open_row(system, part, share_of, &(Wanted){wanted, at});
+    open = reaction_open_row(system, part, share_of, &(SectionQuery){wanted, at});
     if (open != NULL) {
         (void)diag_set(diag, E_MISSING, "what the sections of %s carry isn't determined",
                        part->name);
         diag_hint(diag,
                   "an equation of %s repeats others in every position, so how they share the load "
                   "is open",
-                  system->origin->instances[open->told.instance].name);
+                  system->origin->instances[open->reported.instance].name);
         return E_MISSING;
     }
     add_frames(system, part, at, system->shown->actual, &beyond);

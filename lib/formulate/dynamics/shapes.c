@@ -20,7 +20,7 @@ static Expr *new_array(const System *system, int count)
 static void hold_all(const System *system, Expr *at, int count)
 {
     for (int i = 0; i < count; i++)
-        at[i] = expr_hold(system->arena, at[i]);
+        at[i] = expr_name_temporary(system->arena, at[i]);
 }
 
 Vec elastic_vector(const System *system, const Elastic *elastic, const Expr in_root[3])
@@ -185,7 +185,7 @@ Status elastic_add_load(System *system, const Elastic *elastic, int take, Loads 
         Expr drive;
 
         TRY(law_read(system, instance, b->drive[i], &drive, diag));
-        TRY(law_take(system, instance, take, &drive, diag));
+        TRY(law_add(system, instance, take, &drive, diag));
         put_own(system, elastic, loads, i, drive, 1);
     }
     for (int p = 0; p < elastic->load_powers; p++) {
@@ -194,7 +194,7 @@ Status elastic_add_load(System *system, const Elastic *elastic, int take, Loads 
 
         for (int k = 0; k < 3; k++) {
             TRY(law_read(system, instance, load.at[k], &load.at[k], diag));
-            TRY(law_take(system, instance, take, &load.at[k], diag));
+            TRY(law_add(system, instance, take, &load.at[k], diag));
         }
         load = vec_express(system, load, 0, frame->chain);
         load = vec_hold(arena, rotation_apply(arena, &back, load));

@@ -3,7 +3,7 @@
 #define COTREE_FORMULATE_DYNAMICS_SHAPES_H
 
 #include "formulate/dynamics/loads.h"
-#include "formulate/kinematics/stations.h"
+#include "formulate/kinematics/section_frames.h"
 
 /* a part that deforms, at the node of its root */
 typedef struct Elastic {

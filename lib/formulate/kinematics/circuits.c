@@ -1,10 +1,10 @@
 /* circuits.c: rows n.d and a_t.b_h, as they are shown and as they are run */
 #include "formulate/kinematics/circuits.h"
 
-#include "formulate/kinematics/alike.h"
 #include "formulate/kinematics/frames.h"
 #include "formulate/kinematics/framesum.h"
-#include "formulate/kinematics/stations.h"
+#include "formulate/kinematics/isomorphic.h"
+#include "formulate/kinematics/section_frames.h"
 #include "formulate/system/origin.h"
 #include "formulate/system/system_impl.h"
 
@@ -28,7 +28,7 @@ static Vec add_way(const System *system, int node, int ancestor, int chain, int 
         const Frame *frame = &system->kinematics->frames[node];
         int resolved = system->kinematics->chains.at[frame->chain].resolve;
 
-        if (chain >= 0 && !chain_is_beyond(system, frame->step_chain, chain))
+        if (chain >= 0 && !orientation_is_beyond(system, frame->step_chain, chain))
             continue;
         sum = vec_add(system->arena, sum, vec_express(system, frame->step, resolved, axes));
         sum = vec_hold(system->arena, sum);
@@ -41,24 +41,24 @@ static Vec add_way(const System *system, int node, int ancestor, int chain, int 
 static bool way_alike(const System *system, int *node, int ancestor, int chain, int axes, Vec *out)
 {
     int first, around;
-    const Follower *follower = alike_node(system, *node, &first);
+    const Follower *follower = isomorphic_node(system, *node, &first);
     FirstWay way = {.node = first};
 
-    if (follower == NULL || alike_node(system, ancestor, &around) == follower ||
-        !alike_chain_for(system, follower, axes, &way.axes) ||
-        !alike_chain_for(system, follower, chain, &way.chain))
+    if (follower == NULL || isomorphic_node(system, ancestor, &around) == follower ||
+        !isomorphic_chain_for(system, follower, axes, &way.axes) ||
+        !isomorphic_chain_for(system, follower, chain, &way.chain))
         return false;
-    for (; alike_node(system, *node, &around) == follower; first = around) {
+    for (; isomorphic_node(system, *node, &around) == follower; first = around) {
         if (*node == ancestor)
             return false;
         *node = system->kinematics->frames[*node].parent;
     }
-    if (!alike_find_way(follower, &way)) {
+    if (!isomorphic_find_way(follower, &way)) {
         way.sum = add_way(system, way.node, system->kinematics->frames[first].parent, way.chain,
                           way.axes, vec_zero(system->arena));
-        alike_keep_way(follower, &way);
+        isomorphic_keep_way(follower, &way);
     }
-    *out = alike_vec(follower, way.sum);
+    *out = isomorphic_vec(follower, way.sum);
     return true;
 }
 
@@ -128,7 +128,7 @@ static int row_axes(const System *system, const Row *row, Vec *n)
 static void mark_turns(const System *system, int chain, bool *moves)
 {
     for (; chain > 0; chain = system->kinematics->chains.at[chain].parent) {
-        const Chain *own = &system->kinematics->chains.at[chain];
+        const OrientationClass *own = &system->kinematics->chains.at[chain];
 
         if (moves[own->speed])
             return; /* and all nearer ones are marked */
@@ -184,7 +184,7 @@ static void put_entry(const System *system, int k, int speed, Expr value)
         return;
     }
     own = &system->kinematics->dependents.at[speed - nu];
-    value = expr_hold(arena, value);
+    value = expr_name_temporary(arena, value);
     for (int i = 0; i < own->count; i++)
         row[own->first + i] =
             expr_add(arena, row[own->first + i], expr_mul(arena, own->factor[i], value));
@@ -217,7 +217,7 @@ static void run_way(const System *system, const Row *row, int k, const int *spee
             continue;
         if (turned != seen) {
             D = circuit_turned(system, row, turned, axes);
-            if (turns_with_tail && chain_is_beyond(system, tail, turned))
+            if (turns_with_tail && orientation_is_beyond(system, tail, turned))
                 D = vec_sub(arena, D, d);
             seen = turned;
         }
@@ -261,8 +261,8 @@ static void run_dot(const System *system, const Row *row, int k, const int *spee
     system->run.phi[k] = vec_dot(arena, a, b);
     for (int i = 0; i < count; i++) {
         int j = speeds[i], turned = system->kinematics->speeds[j].chain;
-        int sense =
-            (int)chain_is_beyond(system, head, turned) - (int)chain_is_beyond(system, tail, turned);
+        int sense = (int)orientation_is_beyond(system, head, turned) -
+                    (int)orientation_is_beyond(system, tail, turned);
 
         if (sense == 0)
             continue;

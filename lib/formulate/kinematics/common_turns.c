@@ -12,7 +12,7 @@
 /* the chains between merge to one turn, and there are at least two of them */
 static bool merges(const System *system, int from, int to, Vec *axis)
 {
-    const Chain *chains = system->kinematics->chains.at;
+    const OrientationClass *chains = system->kinematics->chains.at;
     Turns turns = {0};
     bool one;
 

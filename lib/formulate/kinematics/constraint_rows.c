@@ -12,7 +12,7 @@
 #include "formulate/kinematics/identity.h"
 #include "formulate/kinematics/multi_turn.h"
 #include "formulate/kinematics/row_patterns.h"
-#include "formulate/kinematics/stations.h"
+#include "formulate/kinematics/section_frames.h"
 #include "formulate/system/constraints.h"
 #include "formulate/system/kinematics.h"
 #include "formulate/system/origin.h"
@@ -35,10 +35,10 @@ static void push_row(System *system, const Instance *joint, RowKind kind, Vec n,
 {
     Row row = {.kind = kind, .tail = joint->tail, .head = joint->head, .n = n, .b = b};
 
-    row.told = (ConstraintRow){.edge = joint->edge,
-                               .instance = joint->number,
-                               .rotation = kind == ROW_DOT || kind == ROW_ANGLE};
-    (void)strncpy(row.told.direction, direction, sizeof row.told.direction - 1);
+    row.reported = (ConstraintRow){.edge = joint->edge,
+                                   .instance = joint->number,
+                                   .rotation = kind == ROW_DOT || kind == ROW_ANGLE};
+    (void)strncpy(row.reported.direction, direction, sizeof row.reported.direction - 1);
     LIST_PUSH(system->constraints->rows, row);
 }
 
@@ -156,10 +156,10 @@ static void driver_row(System *system, const Instance *driver)
 
     row->owner = driver->joint;
     row->coordinate = driver->joint_coordinate;
-    row->told.is_driver = !couples;
-    row->told.is_coupler = couples;
-    row->told.instance = driver->number;
-    row->told.edge = driver->edge;
+    row->reported.is_driver = !couples;
+    row->reported.is_coupler = couples;
+    row->reported.instance = driver->number;
+    row->reported.edge = driver->edge;
 }
 
 /* --- rows to show --- */
@@ -189,7 +189,7 @@ static void compare_angle(System *system, const char *name, const ChordTurn *tur
 static Expr tie_shown(System *system, const Row *row)
 {
     Arena *arena = system->arena;
-    const Instance *joint = &system->origin->instances[row->told.instance];
+    const Instance *joint = &system->origin->instances[row->reported.instance];
     Steps steps;
     ChordTurn turn;
     Expr s;
@@ -212,7 +212,7 @@ static Expr tie_shown(System *system, const Row *row)
 static Status driver_shown(System *system, Row *row, Diag *diag)
 {
     Arena *arena = system->arena;
-    const Instance *driver = &system->origin->instances[row->told.instance];
+    const Instance *driver = &system->origin->instances[row->reported.instance];
     const Instance *owner = &system->origin->instances[row->owner];
     bool chord = system->kinematics->coordinate[row->owner][row->coordinate] < 0;
     Expr value;
@@ -242,7 +242,7 @@ static Status driver_shown(System *system, Row *row, Diag *diag)
 static Status coupler_shown(System *system, Row *row, Diag *diag)
 {
     Arena *arena = system->arena;
-    const Instance *coupler = &system->origin->instances[row->told.instance];
+    const Instance *coupler = &system->origin->instances[row->reported.instance];
     const Expr law = coupler->row->prescribed(coupler, arena);
     Expr *symbols = NULL;
     const int count = expr_symbols(&law, 1, &symbols);
@@ -290,7 +290,7 @@ static void circuit_find_shown(const System *system, RowPatterns *patterns, Row 
         return;
     if (patterns == NULL || !row_pattern_show(patterns, row, &row->phi))
         row->phi = circuit_shown(system, row);
-    derived_keep(system, row->key, DERIVED_ROW_SHOWN, &row->phi, sizeof row->phi);
+    derived_store(system, row->key, DERIVED_ROW_SHOWN, &row->phi, sizeof row->phi);
 }
 
 static Status row_shown(System *system, RowPatterns *patterns, Row *row, Diag *diag)
@@ -305,7 +305,7 @@ static Status row_shown(System *system, RowPatterns *patterns, Row *row, Diag *d
         circuit_find_shown(system, patterns, row);
         return OK;
     case ROW_ANGLE: {
-        const Instance *joint = &system->origin->instances[row->told.instance];
+        const Instance *joint = &system->origin->instances[row->reported.instance];
         Rotation constant;
         Steps steps;
 
@@ -373,7 +373,7 @@ static bool row_is_constant(const System *system, const Row *row, Sample *const 
             continue;
         /* whatever the parameters are: those of samples are no special ones */
         if (isfinite(off))
-            derived_keep(system, row->key, DERIVED_ROW_VARIES, &row->phi, sizeof row->phi);
+            derived_store(system, row->key, DERIVED_ROW_VARIES, &row->phi, sizeof row->phi);
         return false;
     }
     return true;
@@ -383,7 +383,7 @@ static bool row_is_constant(const System *system, const Row *row, Sample *const 
 static Status row_vanishes(System *system, const Row *row, Sample *const *samples, bool *vanishes,
                            Diag *diag)
 {
-    const char *joint = system->origin->instances[row->told.instance].name;
+    const char *joint = system->origin->instances[row->reported.instance].name;
     double value;
 
     *vanishes = false;
@@ -394,16 +394,16 @@ static Status row_vanishes(System *system, const Row *row, Sample *const *sample
     if (fabs(value) > MISFIT) {
         (void)diag_set(diag, E_ASSEMBLE,
                        "%s can't be assembled: its equation along %s is %.6g = 0 in every position",
-                       joint, row->told.direction, value);
+                       joint, row->reported.direction, value);
         diag_hint(diag, "lengths or axes on its circuit don't fit");
         return E_ASSEMBLE;
     }
     *vanishes = true;
     LIST_PUSH(system->constraints->redundant_rows, *row);
     LIST_PUSH(system->constraints->dropped,
-              system_keep(system, "%s: %s %s holds in every position", joint,
-                          row->told.rotation ? "turning about" : "position along",
-                          row->told.direction));
+              system_retain(system, "%s: %s %s holds in every position", joint,
+                            row->reported.rotation ? "turning about" : "position along",
+                            row->reported.direction));
     return OK;
 }
 
@@ -473,7 +473,7 @@ static void run_circuit(const System *system, RowPatterns *patterns, const Row *
             entries[i] = of_u[speeds[i]];
         entries[count] = system->run.phi[k];
         entries[count + 1] = system->run.gamma[k];
-        derived_keep(system, key, DERIVED_ROW_RUN, entries, size);
+        derived_store(system, key, DERIVED_ROW_RUN, entries, size);
     }
     mem_free(entries);
 }
@@ -500,7 +500,7 @@ static Status run_rows(System *system, RowPatterns *patterns, Diag *diag)
             run_circuit(system, patterns, row, k, speeds);
         else
             CHECK(run_plain(system, row, k, diag));
-        CHECK(poll(system->watch));
+        CHECK(monitor_poll(system->watch));
     }
 done:
     mem_free(speeds);

@@ -45,27 +45,27 @@ int system_coordinate(const System *system, const Instance *instance, int coordi
 }
 
 /* a member of the frame that bears the head of the name */
-static Stand frame_stand(const System *system, int node, const char *member)
+static VariableReferent frame_referent(const System *system, int node, const char *member)
 {
-    Stand stand = {.node = node};
+    VariableReferent referent = {.node = node};
 
     if (strlen(member) == 1 && member[0] >= 'x' && member[0] <= 'z') {
-        stand.kind = STANDS_POSITION;
-        stand.which = member[0] - 'x';
+        referent.kind = REFERENT_POSITION;
+        referent.which = member[0] - 'x';
     } else if (strcmp(member, "theta") == 0 && system->origin->planar) {
-        stand.kind = STANDS_ANGLE;
+        referent.kind = REFERENT_ANGLE;
     } else if (strlen(member) == 2 && member[0] == 'q' && member[1] >= '0' && member[1] <= '3') {
-        stand.kind = STANDS_PARAMETER;
-        stand.which = member[1] - '0';
+        referent.kind = REFERENT_PARAMETER;
+        referent.which = member[1] - '0';
     }
-    return stand;
+    return referent;
 }
 
-Stand system_stand(const System *system, const char *name)
+VariableReferent system_referent(const System *system, const char *name)
 {
     const char *dot = strrchr(name, '.');
     int number = names_find(system->origin->coordinate_names, name);
-    Stand stand = {0};
+    VariableReferent referent = {0};
     char *head;
     int node;
 
@@ -73,29 +73,30 @@ Stand system_stand(const System *system, const char *name)
         const CoordinateOwner *owner = &system->origin->coordinate_owners.at[number];
 
         if (owner->coordinate >= system->origin->instances[owner->instance].pose_count)
-            return stand; /* of a shape: it places no frame by itself */
+            return referent; /* of a shape: it places no frame by itself */
 
-        return (Stand){.kind = STANDS_COORDINATE,
-                       .instance = &system->origin->instances[owner->instance],
-                       .which = owner->coordinate};
+        return (VariableReferent){.kind = REFERENT_COORDINATE,
+                                  .instance = &system->origin->instances[owner->instance],
+                                  .which = owner->coordinate};
     }
     if (dot == NULL)
-        return stand;
+        return referent;
     head = mem_text(name, (size_t)(dot - name));
     node = graph_find_node(system->origin->graph, head);
     number = names_find(system->origin->instance_names, head);
     if (node >= 0 && graph_node(system->origin->graph, node)->domain == DOMAIN_MECHANICAL) {
-        stand = frame_stand(system, node, dot + 1);
+        referent = frame_referent(system, node, dot + 1);
     } else if (number >= 0 && strcmp(dot + 1, "s") == 0 &&
                system->origin->instances[number].row->family == FAMILY_JOINT) {
         Steps steps;
 
         instance_steps(system, &system->origin->instances[number], &steps);
         if (steps_are_tied(&steps))
-            stand = (Stand){.kind = STANDS_SHIFT, .instance = &system->origin->instances[number]};
+            referent = (VariableReferent){.kind = REFERENT_SHIFT,
+                                          .instance = &system->origin->instances[number]};
     }
     mem_free(head);
-    return stand;
+    return referent;
 }
 
 Expr system_driven(const System *system, int row, const Instance **owner, int *coordinate)

@@ -20,21 +20,21 @@ int system_coordinate(const System *system, const Instance *instance, int coordi
 
 /* What a name says about where frames stand. */
 typedef enum EdgeStanding {
-    STANDS_NOT,        /* something else */
-    STANDS_COORDINATE, /* a coordinate of an instance */
-    STANDS_SHIFT,      /* the shift of a screw: its scale times its coordinate */
-    STANDS_POSITION,   /* x, y or z of a frame */
-    STANDS_ANGLE,      /* theta of a frame in a plane */
-    STANDS_PARAMETER   /* q0 to q3 of a frame */
+    REFERENT_NONE,       /* something else */
+    REFERENT_COORDINATE, /* a coordinate of an instance */
+    REFERENT_SHIFT,      /* the shift of a screw: its scale times its coordinate */
+    REFERENT_POSITION,   /* x, y or z of a frame */
+    REFERENT_ANGLE,      /* theta of a frame in a plane */
+    REFERENT_PARAMETER   /* q0 to q3 of a frame */
 } EdgeStanding;
 
-typedef struct Stand {
+typedef struct VariableReferent {
     EdgeStanding kind;
     const Instance *instance; /* COORDINATE, SHIFT */
     int which;                /* coordinate; 0, 1, 2 of a position; 0 to 3 of the parameters */
     int node;                 /* POSITION, ANGLE, PARAMETER */
-} Stand;
-Stand system_stand(const System *system, const char *name);
+} VariableReferent;
+VariableReferent system_referent(const System *system, const char *name);
 
 /* What drives the coordinate in a constraint row, in t and parameters; NULL: the row is no driver's
  */

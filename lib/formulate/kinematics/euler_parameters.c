@@ -68,7 +68,7 @@ void frame_parameters(const System *system, int node, Expr p[4])
 
     parameters_of(system, &frame->zero, p);
     for (int c = frame->chain; c > 0; c = system->kinematics->chains.at[c].parent) {
-        const Chain *chain = &system->kinematics->chains.at[c];
+        const OrientationClass *chain = &system->kinematics->chains.at[c];
         Expr half = expr_mul(arena, expr_rational(arena, 1, 2),
                              chain->is_free ? expr_int(arena, 0) : chain->angle);
         Expr turn[4];
@@ -83,7 +83,7 @@ void frame_parameters(const System *system, int node, Expr p[4])
         }
         parameters_product(arena, turn, constant);
         for (int i = 0; i < 4; i++)
-            p[i] = expr_hold(arena, turn[i]);
+            p[i] = expr_name_temporary(arena, turn[i]);
     }
 }
 

@@ -1,7 +1,7 @@
 /* frames.c: chains of turns along the rotation tree, steps along the translation tree */
 #include "formulate/kinematics/frames.h"
 #include "formulate/kinematics/identity.h"
-#include "formulate/kinematics/stations.h"
+#include "formulate/kinematics/section_frames.h"
 #include "formulate/system/dynamics.h"
 #include "formulate/system/kinematics.h"
 #include "formulate/system/origin.h"
@@ -25,11 +25,11 @@ Vec frame_vector(const System *system, int node, Vec in_frame)
 /* a chain beyond `parent`, its speeds still to be told */
 static int add_chain(System *system, int parent, int speed)
 {
-    Chain chain = {.parent = parent,
-                   .depth = system->kinematics->chains.at[parent].depth + 1,
-                   .run = system->kinematics->chains.count,
-                   .speed = speed,
-                   .speed_count = 1};
+    OrientationClass chain = {.parent = parent,
+                              .depth = system->kinematics->chains.at[parent].depth + 1,
+                              .run = system->kinematics->chains.count,
+                              .speed = speed,
+                              .speed_count = 1};
 
     /* in a plane every turn is about one axis, and ground's axes serve all */
     chain.resolve = system->origin->planar ? 0 : system->kinematics->chains.count;
@@ -48,14 +48,15 @@ static int axis_sense(Arena *arena, Vec a, Vec b)
 /* held, so that the angles along a chain share their sums */
 static Expr turn_further(Arena *arena, Expr angle, int sense, Expr by)
 {
-    angle = expr_hold(arena, angle);
+    angle = expr_name_temporary(arena, angle);
     return sense > 0 ? expr_add(arena, angle, by) : expr_sub(arena, angle, by);
 }
 
 /* the turn of a chain goes on where that before it ended, about the same line */
-static void join_run(const System *system, Chain *chain)
+static void join_run(const System *system, OrientationClass *chain)
 {
-    const Chain *chains = system->kinematics->chains.at, *before = &chains[chain->parent];
+    const OrientationClass *chains = system->kinematics->chains.at,
+                           *before = &chains[chain->parent];
     const int sense = before->parent >= 0 && !before->is_free
                           ? axis_sense(system->arena, chains[before->run].axis, chain->axis)
                           : 0;
@@ -78,7 +79,7 @@ static Vec unit_axis(Arena *arena, int k)
 static Vec turn_vector(Arena *arena, const Turn *turn, Vec b);
 
 /* of a turn askew: what many vectors pass is formed once */
-static void add_matrix(Arena *arena, Chain *chain)
+static void add_matrix(Arena *arena, OrientationClass *chain)
 {
     const Turn turn = {chain->axis, chain->angle, NULL, false};
     int others = 0;
@@ -98,7 +99,7 @@ static int add_turn(System *system, int parent, Vec axis, Expr angle, int speed,
 {
     Arena *arena = system->arena;
     int number = add_chain(system, parent, speed);
-    Chain *chain = &system->kinematics->chains.at[number];
+    OrientationClass *chain = &system->kinematics->chains.at[number];
 
     chain->axis = axis;
     chain->angle = forward ? angle : expr_neg(arena, angle);
@@ -129,12 +130,14 @@ static Rotation parameter_matrix(Arena *arena, const Expr p[4])
                 Expr sum = expr_add(arena, square[0], square[1 + i]);
 
                 sum = expr_sub(arena, sum, square[1 + (i + 1) % 3]);
-                R.at[4 * i] = expr_hold(arena, expr_sub(arena, sum, square[1 + (i + 2) % 3]));
+                R.at[4 * i] =
+                    expr_name_temporary(arena, expr_sub(arena, sum, square[1 + (i + 2) % 3]));
                 continue;
             }
             turned = expr_mul(arena, p[0], p[1 + k]);
             mixed = ahead ? expr_sub(arena, mixed, turned) : expr_add(arena, mixed, turned);
-            R.at[3 * i + j] = expr_hold(arena, expr_mul(arena, expr_int(arena, 2), mixed));
+            R.at[3 * i + j] =
+                expr_name_temporary(arena, expr_mul(arena, expr_int(arena, 2), mixed));
         }
     return R;
 }
@@ -146,7 +149,7 @@ static int add_free(System *system, int parent, const Rotation *zero, int coordi
 {
     Arena *arena = system->arena;
     int number = add_chain(system, parent, speed);
-    Chain *chain = &system->kinematics->chains.at[number];
+    OrientationClass *chain = &system->kinematics->chains.at[number];
     Rotation back = rotation_transpose(zero);
     Expr p[4];
     Vec e;
@@ -177,8 +180,8 @@ static int add_free(System *system, int parent, const Rotation *zero, int coordi
 }
 
 /* a station turns about z, then the new y, then the newest x */
-static int turn_station(System *system, const Station *station, int first, int chain,
-                        const Rotation *zero, int node, bool forward)
+static int turn_section_frame(System *system, const SectionFrame *station, int first, int chain,
+                              const Rotation *zero, int node, bool forward)
 {
     const int turns = system->origin->planar ? 1 : 3;
 
@@ -207,7 +210,7 @@ static void turn_branch(System *system, int node)
     Rotation zero = parent->zero;
     Rotation constant;
     int first;
-    const Station *station = station_of(system, instance, &first);
+    const SectionFrame *station = section_frame_of(system, instance, &first);
     Steps steps;
 
     instance_steps(system, instance, &steps);
@@ -227,7 +230,7 @@ static void turn_branch(System *system, int node)
             system->kinematics->speeds[speed + i].turn_node = node;
     }
     if (station != NULL)
-        chain = turn_station(system, station, first, chain, &zero, node, forward);
+        chain = turn_section_frame(system, station, first, chain, &zero, node, forward);
     for (int k = 0; k < steps.turn_count; k++) {
         const Step *turn = &steps.turn[forward ? k : steps.turn_count - 1 - k];
         int place = system->kinematics->coordinate[instance->number][turn->coordinate];
@@ -256,7 +259,7 @@ static void step_branch(System *system, int node)
     Frame *frame = &system->kinematics->frames[node];
     bool forward = tree_is_forward(tree, node);
     int first;
-    const Station *station = station_of(system, instance, &first);
+    const SectionFrame *station = section_frame_of(system, instance, &first);
     const int slides = station != NULL ? 3 : 0;
     Steps steps;
     Vec shift;
@@ -297,7 +300,7 @@ static void step_branch(System *system, int node)
 /* number the chains so that what hangs beyond one has the numbers first..last */
 static void number_chains(System *system)
 {
-    Chain *chains = system->kinematics->chains.at;
+    OrientationClass *chains = system->kinematics->chains.at;
     int count = system->kinematics->chains.count;
     int *beyond = NEW_ARRAY(int, count);
     int *next = NEW_ARRAY(int, count);
@@ -348,11 +351,12 @@ void frames_build(System *system)
 
     system->kinematics->frames =
         pool_alloc(system->pool, (size_t)count * sizeof *system->kinematics->frames);
-    LIST_PUSH(system->kinematics->chains,
-              (Chain){.parent = -1, .axis = vec_zero(arena), .angle = expr_int(arena, 0)});
+    LIST_PUSH(
+        system->kinematics->chains,
+        (OrientationClass){.parent = -1, .axis = vec_zero(arena), .angle = expr_int(arena, 0)});
     if (system->origin->trees[TREE_ROTATION] == NULL)
         return;
-    stations_build(system);
+    section_frames_build(system);
     order = tree_nodes(system->origin->trees[TREE_ROTATION], &nodes);
     for (int i = 0; i < nodes; i++) {
         Frame *frame = &system->kinematics->frames[order[i]];
@@ -371,9 +375,9 @@ void frames_build(System *system)
 
 /* --- turns between chains --- */
 
-bool chain_is_beyond(const System *system, int chain, int turn)
+bool orientation_is_beyond(const System *system, int chain, int turn)
 {
-    const Chain *chains = system->kinematics->chains.at;
+    const OrientationClass *chains = system->kinematics->chains.at;
 
     return chains[chain].first >= chains[turn].first && chains[chain].first <= chains[turn].last;
 }
@@ -381,17 +385,17 @@ bool chain_is_beyond(const System *system, int chain, int turn)
 /* the next chain on the way from one to another, behind a whole run of turns where the way is */
 static int behind(const System *system, int chain, int other)
 {
-    const Chain *chains = system->kinematics->chains.at;
+    const OrientationClass *chains = system->kinematics->chains.at;
     const int run = chains[chain].run;
 
-    return chains[chain_is_beyond(system, other, run) ? chain : run].parent;
+    return chains[orientation_is_beyond(system, other, run) ? chain : run].parent;
 }
 
 /* the turn from `start` to a chain, or back: of a whole run, or that of the chain alone */
 static void append_turn(const System *system, Turns *turns, int start, int number, bool back)
 {
     Arena *arena = system->arena;
-    const Chain *chains = system->kinematics->chains.at, *chain = &chains[number];
+    const OrientationClass *chains = system->kinematics->chains.at, *chain = &chains[number];
     const bool whole = chains[chain->run].parent == start;
     const Vec axis = whole ? chains[chain->run].axis : chain->axis;
     Expr angle = whole ? chain->turned : chain->angle;
@@ -415,7 +419,7 @@ static void append_turn(const System *system, Turns *turns, int start, int numbe
 
 void turns_between(const System *system, int from, int to, Turns *turns)
 {
-    const Chain *chains = system->kinematics->chains.at;
+    const OrientationClass *chains = system->kinematics->chains.at;
     LIST(int) down = {0};
 
     turns->count = 0;
@@ -473,9 +477,9 @@ static bool is_along(Vec axis, Vec v)
 }
 
 /* all turns on the way are about the line of v */
-static bool stays(const System *system, Vec v, int from, int to)
+static bool is_carried_unchanged(const System *system, Vec v, int from, int to)
 {
-    const Chain *chains = system->kinematics->chains.at;
+    const OrientationClass *chains = system->kinematics->chains.at;
 
     while (from != to) {
         const bool climbs = chains[from].depth >= chains[to].depth;
@@ -493,7 +497,7 @@ Vec vec_express(const System *system, Vec v, int from, int to)
 {
     Turns turns = {0};
 
-    if (from == to || vec_is_zero(v) || stays(system, v, from, to))
+    if (from == to || vec_is_zero(v) || is_carried_unchanged(system, v, from, to))
         return v;
     turns_between(system, to, from, &turns);
     for (int k = turns.count - 1; k >= 0; k--)
@@ -504,7 +508,7 @@ Vec vec_express(const System *system, Vec v, int from, int to)
 
 void vec_express_outward(const System *system, Vec v, Vec *out)
 {
-    const Chain *chains = system->kinematics->chains.at;
+    const OrientationClass *chains = system->kinematics->chains.at;
 
     out[0] = v;
     for (int c = 1; c < system->kinematics->chains.count; c++) {
@@ -531,7 +535,7 @@ void outward_free(Outward *outward)
 
 Vec outward_at(const System *system, Outward *outward, int chain)
 {
-    const Chain *chains = system->kinematics->chains.at;
+    const OrientationClass *chains = system->kinematics->chains.at;
 
     /* from the last one that is known on: most who ask do so outward, too */
     while (!outward->is_known[chain]) {
@@ -550,12 +554,13 @@ Vec outward_at(const System *system, Outward *outward, int chain)
 
 Vec vec_carry(const System *system, Vec v, int from, int to)
 {
-    const Chain *chains = system->kinematics->chains.at;
+    const OrientationClass *chains = system->kinematics->chains.at;
     const bool back = chains[to].parent == from;
-    const Chain *turn = back ? &chains[to] : &chains[from];
+    const OrientationClass *turn = back ? &chains[to] : &chains[from];
     Rotation matrix;
 
-    if ((!back && turn->parent != to) || !turn->is_askew || stays(system, v, from, to))
+    if ((!back && turn->parent != to) || !turn->is_askew ||
+        is_carried_unchanged(system, v, from, to))
         return vec_express(system, v, from, to);
     matrix = back ? rotation_transpose(&turn->matrix) : turn->matrix;
     return rotation_apply(system->arena, &matrix, v);
@@ -574,22 +579,23 @@ int node_axes(const System *system, int node)
 /* several who sum up ask for it, and other Systems of the arena */
 Vec speed_axis(const System *system, int speed, int axes)
 {
-    const Chain *chains = system->kinematics->chains.at;
+    const OrientationClass *chains = system->kinematics->chains.at;
     const int from = system->kinematics->speeds[speed].axis_chain;
     Vec axis = system->kinematics->speeds[speed].axis;
     Key key;
-    Expr told;
+    Expr reported;
 
-    if (from < 0 || from == axes || vec_is_zero(axis) || stays(system, axis, from, axes))
+    if (from < 0 || from == axes || vec_is_zero(axis) ||
+        is_carried_unchanged(system, axis, from, axes))
         return axis;
     key = key_of(chains[from].identity);
     key_add(&key, &chains[axes].identity, sizeof(Expr));
     key_add(&key, &axis, sizeof axis);
-    told = key_end(system, &key);
-    if (derived_recall(system, told, DERIVED_AXIS, &axis, sizeof axis))
+    reported = key_end(system, &key);
+    if (derived_recall(system, reported, DERIVED_AXIS, &axis, sizeof axis))
         return axis;
     axis = vec_express(system, axis, from, axes);
-    derived_keep(system, told, DERIVED_AXIS, &axis, sizeof axis);
+    derived_store(system, reported, DERIVED_AXIS, &axis, sizeof axis);
     return axis;
 }
 

@@ -40,7 +40,7 @@ Vec speed_axis(const System *system, int speed, int axes);
 Vec speed_slide(const System *system, int speed, int axes);
 /* the node nearest to the datum that it moves */
 int speed_node(const System *system, int speed);
-bool chain_is_beyond(const System *system, int chain, int turn); /* or the same */
+bool orientation_is_beyond(const System *system, int chain, int turn); /* or the same */
 /* angle of a constant rotation about an axis */
 Expr rotation_angle(Arena *arena, const Rotation *rotation, Vec axis);
 /* axes of the frame of a joint's tail to zero-position components */

@@ -8,7 +8,7 @@
 
 Key key_of(Expr identity)
 {
-    return (Key){.at = {identity}, .count = 1, .is_told = identity != NULL};
+    return (Key){.at = {identity}, .count = 1, .is_determined = identity != NULL};
 }
 
 void key_add(Key *key, const void *entries, size_t size)
@@ -17,22 +17,22 @@ void key_add(Key *key, const void *entries, size_t size)
 
     /* whoever follows from more is derived anew each time */
     if (count > MOST_KEY - key->count) {
-        key->is_told = false;
+        key->is_determined = false;
         return;
     }
     memcpy(key->at + key->count, entries, size);
     for (int i = 0; i < count; i++)
-        key->is_told = key->is_told && key->at[key->count + i] != NULL;
+        key->is_determined = key->is_determined && key->at[key->count + i] != NULL;
     key->count += count;
 }
 
 Expr key_end(const System *system, const Key *key)
 {
-    return key->is_told ? expr_tuple(system->arena, key->at, key->count) : NULL;
+    return key->is_determined ? expr_tuple(system->arena, key->at, key->count) : NULL;
 }
 
 /* what a chain turns, beyond what is told of the one before it */
-static void add_turn(Key *key, const Chain *chain)
+static void add_turn(Key *key, const OrientationClass *chain)
 {
     if (chain->is_free) {
         key_add(key, &chain->matrix, sizeof chain->matrix);
@@ -46,7 +46,7 @@ static void add_turn(Key *key, const Chain *chain)
 /* the turns from one chain to another that hangs from it, or both as they are */
 static Expr turn_key(const System *system, int from, int to)
 {
-    const Chain *chains = system->kinematics->chains.at;
+    const OrientationClass *chains = system->kinematics->chains.at;
     Expr turns = chains[0].identity;
 
     if (to < from || chains[to].first < chains[from].first || chains[to].first > chains[from].last)
@@ -108,7 +108,7 @@ bool derived_recall(const System *system, Expr key, Derived which, void *out, si
     return key != NULL && expr_recall(system->arena, key, which, out, size);
 }
 
-void derived_keep(const System *system, Expr key, Derived which, const void *values, size_t size)
+void derived_store(const System *system, Expr key, Derived which, const void *values, size_t size)
 {
     if (key != NULL)
         expr_remember(system->arena, key, which, values, size);
@@ -120,10 +120,10 @@ static Expr datum_identity(const System *system)
     return expr_tuple(system->arena, (Expr[]){expr_int(system->arena, system->origin->planar)}, 1);
 }
 
-static Expr chain_identity(const System *system, int c)
+static Expr orientation_identity(const System *system, int c)
 {
     const Kinematics *kinematics = system->kinematics;
-    const Chain *chain = &kinematics->chains.at[c];
+    const OrientationClass *chain = &kinematics->chains.at[c];
     Key key = key_of(kinematics->chains.at[chain->parent].identity);
 
     add_turn(&key, chain);
@@ -164,7 +164,7 @@ void identities_build(System *system)
         return;
     kinematics->chains.at[0].identity = datum_identity(system);
     for (int c = 1; c < kinematics->chains.count; c++)
-        kinematics->chains.at[c].identity = chain_identity(system, c);
+        kinematics->chains.at[c].identity = orientation_identity(system, c);
     order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
     kinematics->frames[order[0]].identity = kinematics->chains.at[0].identity;
     for (int i = 1; i < nodes; i++)

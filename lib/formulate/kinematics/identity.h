@@ -13,7 +13,7 @@
 
 /* what follows from an identity, or from a key */
 typedef enum Derived {
-    DERIVED_TURN,      /* ChainMotion of a chain's identity */
+    DERIVED_TURN,      /* OrientationMotion of a chain's identity */
     DERIVED_TURN_REST, /* Vec: alpha0 */
     DERIVED_AXIS,      /* Vec: of a speed, in the axes of a chain */
     DERIVED_STEP,      /* step, v and product of a frame's */
@@ -40,7 +40,7 @@ enum { MOST_KEY = 48 };
 typedef struct Key {
     Expr at[MOST_KEY];
     int count;
-    bool is_told; /* no identity in it is missing, and all fitted in */
+    bool is_determined; /* no identity in it is missing, and all fitted in */
 } Key;
 Key key_of(Expr identity);
 void key_add(Key *key, const void *entries, size_t size); /* an array or a struct of expressions */
@@ -57,6 +57,6 @@ Expr key_join(const System *system, Expr identity, Expr own, Passed how, Expr pa
 /* expr_recall() and expr_remember(); of NULL nothing is. */
 bool derived_is_kept(const System *system, Expr key, Derived which);
 bool derived_recall(const System *system, Expr key, Derived which, void *out, size_t size);
-void derived_keep(const System *system, Expr key, Derived which, const void *values, size_t size);
+void derived_store(const System *system, Expr key, Derived which, const void *values, size_t size);
 
 #endif

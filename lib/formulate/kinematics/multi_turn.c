@@ -13,7 +13,7 @@ Expr multi_turn_whole(const System *system, int instance, int coordinate)
     for (int i = 0; i < system->constraints->counted.count; i++)
         if (system->constraints->counted.at[i].instance == instance &&
             system->constraints->counted.at[i].coordinate == coordinate)
-            return system->constraints->counted.at[i].told.symbol;
+            return system->constraints->counted.at[i].reported.symbol;
     return expr_int(system->arena, 0);
 }
 
@@ -24,7 +24,7 @@ int system_whole_turns_count(const System *system)
 
 const WholeTurns *system_whole_turns(const System *system, int i)
 {
-    return &system->constraints->counted.at[i].told;
+    return &system->constraints->counted.at[i].reported;
 }
 
 /* as an angle, in rad */
@@ -57,14 +57,14 @@ static bool reads_any(const System *system, const Expr *roots, int count)
 
     for (int i = 0; i < system->constraints->counted.count && !reads; i++)
         for (int k = 0; k < found && !reads; k++)
-            reads = symbols[k] == system->constraints->counted.at[i].told.symbol;
+            reads = symbols[k] == system->constraints->counted.at[i].reported.symbol;
     mem_free(symbols);
     return reads;
 }
 
 bool system_reads_turns(const System *system)
 {
-    const Reading *run = &system->run;
+    const EquationForm *run = &system->run;
 
     return system->constraints->counted.count > 0 &&
            (reads_any(system, run->phi, system->constraints->rows.count) ||
@@ -84,7 +84,7 @@ Expr system_plain(const System *system, Expr e)
     symbols = NEW_ARRAY(Expr, count);
     values = NEW_ARRAY(Expr, count);
     for (int i = 0; i < turns; i++) {
-        symbols[i] = system->constraints->counted.at[i].told.symbol;
+        symbols[i] = system->constraints->counted.at[i].reported.symbol;
         values[i] = full_turns(system, i);
     }
     for (int i = 1; i <= origin->literals; i++) {
@@ -111,7 +111,7 @@ Expr multi_turn_angle(const System *system, int instance, int coordinate)
 {
     const MultiTurnChord *chord = find(system, instance, coordinate);
 
-    return chord != NULL ? chord->told.angle : NULL;
+    return chord != NULL ? chord->reported.angle : NULL;
 }
 
 void multi_turn_drive(System *system, int instance, int coordinate, Expr prescribed)
@@ -119,7 +119,7 @@ void multi_turn_drive(System *system, int instance, int coordinate, Expr prescri
     MultiTurnChord *chord = find(system, instance, coordinate);
 
     if (chord != NULL)
-        chord->told.prescribed = prescribed;
+        chord->reported.prescribed = prescribed;
 }
 
 int system_multi_turn_count(const System *system)
@@ -129,7 +129,7 @@ int system_multi_turn_count(const System *system)
 
 const MultiTurn *system_multi_turn(const System *system, int i)
 {
-    return &system->constraints->multi_turns.at[i].told;
+    return &system->constraints->multi_turns.at[i].reported;
 }
 
 const AngleOff *system_angle_off(const System *system, int i)

@@ -23,7 +23,7 @@ static Expr whole_symbol(System *system, const char *name)
 static void add_counted(System *system, const Instance *joint, int coordinate, Expr sum)
 {
     const char *name = joint->coord[coordinate];
-    const CountedChord chord = {.told = {name, -1, sum, whole_symbol(system, name)},
+    const CountedChord chord = {.reported = {name, -1, sum, whole_symbol(system, name)},
                                 .instance = joint->number,
                                 .coordinate = coordinate};
 
@@ -34,18 +34,18 @@ void multi_turn_add_rows(System *system)
 {
     for (int k = 0; k < system->constraints->rows.count; k++) {
         const Row *row = &system->constraints->rows.at[k];
-        const char *const name = system->origin->instances[row->told.instance].name;
+        const char *const name = system->origin->instances[row->reported.instance].name;
         CountedChord chord = {.instance = -1, .coordinate = -1};
 
         if (row->kind != ROW_ANGLE)
             continue;
-        chord.told = (WholeTurns){NULL, k, row->phi,
-                                  whole_symbol(system, system_keep(system, "row %d, %s", k, name))};
+        chord.reported = (WholeTurns){
+            NULL, k, row->phi, whole_symbol(system, system_retain(system, "row %d, %s", k, name))};
         LIST_PUSH(system->constraints->counted, chord);
-        system->run.phi[k] = expr_add(system->arena, system->run.phi[k], chord.told.symbol);
+        system->run.phi[k] = expr_add(system->arena, system->run.phi[k], chord.reported.symbol);
         if (system->definitions.phi != system->run.phi)
             system->definitions.phi[k] =
-                expr_add(system->arena, system->definitions.phi[k], chord.told.symbol);
+                expr_add(system->arena, system->definitions.phi[k], chord.reported.symbol);
     }
 }
 
@@ -65,11 +65,11 @@ static void add_multi_turn(System *system, const Instance *joint, const Steps *s
         return; /* told by the shift */
     chord.sine = turn.sine;
     chord.cosine = turn.cosine;
-    chord.told.name = joint->coord[coordinate];
-    chord.told.reference =
-        expr_symbol(arena, system_join(system, chord.told.name, ".near"), SYMBOL_TURN);
-    chord.told.angle =
-        expr_call(arena, OP_UNWRAP, (Expr[]){turn.sine, turn.cosine, chord.told.reference});
+    chord.reported.name = joint->coord[coordinate];
+    chord.reported.reference =
+        expr_symbol(arena, system_join(system, chord.reported.name, ".near"), SYMBOL_TURN);
+    chord.reported.angle =
+        expr_call(arena, OP_UNWRAP, (Expr[]){turn.sine, turn.cosine, chord.reported.reference});
     LIST_PUSH(system->constraints->multi_turns, chord);
 }
 
@@ -109,7 +109,7 @@ Status system_multi_turn_rate(System *system, int i, Expr *out, Diag *diag)
     }
     TRY(system_rate_of(system, chord->sine, &sine_rate, diag));
     TRY(system_rate_of(system, chord->cosine, &cosine_rate, diag));
-    size = expr_hold(
+    size = expr_name_temporary(
         arena, expr_add(arena, expr_square(arena, chord->sine), expr_square(arena, chord->cosine)));
     *out = expr_sub(arena, expr_mul(arena, chord->cosine, sine_rate),
                     expr_mul(arena, chord->sine, cosine_rate));

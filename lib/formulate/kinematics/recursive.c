@@ -3,10 +3,10 @@
  * Each quantity is resolved in the axes of its chain's `resolve` chain and held, so that
  * a program computes it once. */
 #include "formulate/kinematics/recursive.h"
-#include "formulate/kinematics/alike.h"
 #include "formulate/kinematics/frames.h"
 #include "formulate/kinematics/identity.h"
-#include "formulate/kinematics/stations.h"
+#include "formulate/kinematics/isomorphic.h"
+#include "formulate/kinematics/section_frames.h"
 #include "formulate/system/kinematics.h"
 #include "formulate/system/origin.h"
 #include "formulate/system/shown.h"
@@ -20,21 +20,21 @@ enum { MANY_TURNS = 20 }; /* from the datum */
 /* whether what hangs from a chain turns as the first does: outside it is the same chain */
 static bool turns_alike(const System *system, Follower *follower, int chain)
 {
-    const ChainMotion *motion = &system->kinematics->motions[chain];
+    const OrientationMotion *motion = &system->kinematics->motions[chain];
     int first;
 
-    return alike_chain(system, chain, &first) == follower
-               ? alike_moves(follower)
-               : alike_hangs(follower, motion->w, motion->w);
+    return isomorphic_chain(system, chain, &first) == follower
+               ? isomorphic_moves(follower)
+               : isomorphic_hangs(follower, motion->w, motion->w);
 }
 
 /* w = w_parent + k rate; its rate is alpha_parent + w_parent x k rate + k rate' */
-static ChainMotion turn_motion(const System *system, int c)
+static OrientationMotion turn_motion(const System *system, int c)
 {
     Arena *arena = system->arena;
-    const Chain *chain = &system->kinematics->chains.at[c];
+    const OrientationClass *chain = &system->kinematics->chains.at[c];
     int before = system->kinematics->chains.at[chain->parent].resolve;
-    const ChainMotion *motions = system->kinematics->motions;
+    const OrientationMotion *motions = system->kinematics->motions;
     Vec turn = vec_zero(arena);
     Vec w;
 
@@ -44,29 +44,30 @@ static ChainMotion turn_motion(const System *system, int c)
         turn =
             vec_add(arena, turn,
                     vec_scale(arena, speed_rate(system, j), speed_axis(system, j, chain->resolve)));
-    return (ChainMotion){vec_hold(arena, vec_add(arena, w, turn)),
-                         vec_hold(arena, vec_cross(arena, w, turn))};
+    return (OrientationMotion){vec_hold(arena, vec_add(arena, w, turn)),
+                               vec_hold(arena, vec_cross(arena, w, turn))};
 }
 
 /* As the first's, or recalled, or derived. */
 static void find_turn_motion(const System *system, int c)
 {
-    const Chain *chain = &system->kinematics->chains.at[c];
-    ChainMotion *motions = system->kinematics->motions;
+    const OrientationClass *chain = &system->kinematics->chains.at[c];
+    OrientationMotion *motions = system->kinematics->motions;
     int first;
-    Follower *follower = alike_chain(system, c, &first);
+    Follower *follower = isomorphic_chain(system, c, &first);
     const bool is_alike = follower != NULL && turns_alike(system, follower, chain->parent);
 
     if (is_alike) {
-        motions[c] = (ChainMotion){alike_vec(follower, motions[first].w),
-                                   alike_vec(follower, motions[first].product)};
-        alike_keep(system, follower, chain->identity, DERIVED_TURN, &motions[c], sizeof motions[c]);
+        motions[c] = (OrientationMotion){isomorphic_vec(follower, motions[first].w),
+                                         isomorphic_vec(follower, motions[first].product)};
+        isomorphic_keep(system, follower, chain->identity, DERIVED_TURN, &motions[c],
+                        sizeof motions[c]);
         return;
     }
     if (derived_recall(system, chain->identity, DERIVED_TURN, &motions[c], sizeof motions[c]))
         return;
     motions[c] = turn_motion(system, c);
-    derived_keep(system, chain->identity, DERIVED_TURN, &motions[c], sizeof motions[c]);
+    derived_store(system, chain->identity, DERIVED_TURN, &motions[c], sizeof motions[c]);
 }
 
 /* whether a node moves as the first's does, of whose parent and whose own that is told */
@@ -76,9 +77,9 @@ static bool moves_alike(const System *system, Follower *follower, int node, Vec 
 
     if (follower == NULL)
         return false;
-    if (alike_node(system, system->kinematics->frames[node].parent, &first) == follower)
-        return alike_moves(follower);
-    return alike_hangs(follower, from, to);
+    if (isomorphic_node(system, system->kinematics->frames[node].parent, &first) == follower)
+        return isomorphic_moves(follower);
+    return isomorphic_hangs(follower, from, to);
 }
 
 typedef struct StepMotion { /* as in Frame */
@@ -116,7 +117,7 @@ static void find_step_motion(System *system, int node)
 {
     Frame *frame = &system->kinematics->frames[node];
     int first = node;
-    Follower *follower = alike_node(system, node, &first);
+    Follower *follower = isomorphic_node(system, node, &first);
     const Frame *frames = system->kinematics->frames, *like = &frames[first];
     const bool is_alike =
         follower != NULL && turns_alike(system, follower, frame->step_chain) &&
@@ -124,12 +125,13 @@ static void find_step_motion(System *system, int node)
     StepMotion motion;
 
     if (is_alike) {
-        motion = (StepMotion){alike_vec(follower, like->step), alike_vec(follower, like->v),
-                              alike_vec(follower, like->product)};
-        alike_keep(system, follower, frame->identity, DERIVED_STEP, &motion, sizeof motion);
+        motion =
+            (StepMotion){isomorphic_vec(follower, like->step), isomorphic_vec(follower, like->v),
+                         isomorphic_vec(follower, like->product)};
+        isomorphic_keep(system, follower, frame->identity, DERIVED_STEP, &motion, sizeof motion);
     } else if (!derived_recall(system, frame->identity, DERIVED_STEP, &motion, sizeof motion)) {
         motion = step_motion(system, node);
-        derived_keep(system, frame->identity, DERIVED_STEP, &motion, sizeof motion);
+        derived_store(system, frame->identity, DERIVED_STEP, &motion, sizeof motion);
     }
     frame->step = motion.step;
     frame->v = motion.v;
@@ -162,11 +164,11 @@ static Vec node_acceleration(const System *system, int n, const Expr *accelerati
     return vec_hold(arena, own);
 }
 
-static Vec chain_acceleration(const System *system, int c, const Expr *accelerations,
-                              const Vec *alpha)
+static Vec orientation_acceleration(const System *system, int c, const Expr *accelerations,
+                                    const Vec *alpha)
 {
     Arena *arena = system->arena;
-    const Chain *chain = &system->kinematics->chains.at[c];
+    const OrientationClass *chain = &system->kinematics->chains.at[c];
     int before = system->kinematics->chains.at[chain->parent].resolve;
     Vec own = vec_add(arena, vec_carry_held(system, alpha[chain->parent], before, chain->resolve),
                       system->kinematics->motions[c].product);
@@ -179,26 +181,27 @@ static Vec chain_acceleration(const System *system, int c, const Expr *accelerat
 }
 
 /* what is left of a chain's at u' = 0: as the first's, recalled, or derived */
-static Vec chain_rest(const System *system, int c, const Vec *alpha)
+static Vec orientation_rest(const System *system, int c, const Vec *alpha)
 {
-    const Chain *chain = &system->kinematics->chains.at[c];
+    const OrientationClass *chain = &system->kinematics->chains.at[c];
     int first, around;
-    Follower *follower = alike_chain(system, c, &first);
-    const bool is_alike = follower != NULL &&
-                          (alike_chain(system, chain->parent, &around) == follower
-                               ? alike_moves(follower)
-                               : alike_hangs(follower, alpha[chain->parent], alpha[chain->parent]));
+    Follower *follower = isomorphic_chain(system, c, &first);
+    const bool is_alike =
+        follower != NULL &&
+        (isomorphic_chain(system, chain->parent, &around) == follower
+             ? isomorphic_moves(follower)
+             : isomorphic_hangs(follower, alpha[chain->parent], alpha[chain->parent]));
     Vec rest;
 
     if (is_alike) {
-        rest = alike_vec(follower, alpha[first]);
-        alike_keep(system, follower, chain->identity, DERIVED_TURN_REST, &rest, sizeof rest);
+        rest = isomorphic_vec(follower, alpha[first]);
+        isomorphic_keep(system, follower, chain->identity, DERIVED_TURN_REST, &rest, sizeof rest);
         return rest;
     }
     if (derived_recall(system, chain->identity, DERIVED_TURN_REST, &rest, sizeof rest))
         return rest;
-    rest = chain_acceleration(system, c, NULL, alpha);
-    derived_keep(system, chain->identity, DERIVED_TURN_REST, &rest, sizeof rest);
+    rest = orientation_acceleration(system, c, NULL, alpha);
+    derived_store(system, chain->identity, DERIVED_TURN_REST, &rest, sizeof rest);
     return rest;
 }
 
@@ -207,20 +210,20 @@ static Vec node_rest(const System *system, int n, const Vec *alpha, const Vec *a
 {
     const Frame *frames = system->kinematics->frames, *frame = &frames[n];
     int first = n;
-    Follower *follower = alike_node(system, n, &first);
+    Follower *follower = isomorphic_node(system, n, &first);
     const bool is_alike =
         moves_alike(system, follower, n, a[frames[first].parent], a[frame->parent]);
     Vec rest;
 
     if (is_alike) {
-        rest = alike_vec(follower, a[first]);
-        alike_keep(system, follower, frame->identity, DERIVED_STEP_REST, &rest, sizeof rest);
+        rest = isomorphic_vec(follower, a[first]);
+        isomorphic_keep(system, follower, frame->identity, DERIVED_STEP_REST, &rest, sizeof rest);
         return rest;
     }
     if (derived_recall(system, frame->identity, DERIVED_STEP_REST, &rest, sizeof rest))
         return rest;
     rest = node_acceleration(system, n, NULL, alpha, a);
-    derived_keep(system, frame->identity, DERIVED_STEP_REST, &rest, sizeof rest);
+    derived_store(system, frame->identity, DERIVED_STEP_REST, &rest, sizeof rest);
     return rest;
 }
 
@@ -231,8 +234,9 @@ void accelerations_build(const System *system, const Expr *accelerations, Vec *a
 
     alpha[0] = vec_zero(system->arena);
     for (int c = 1; c < system->kinematics->chains.count; c++)
-        alpha[c] = accelerations == NULL ? chain_rest(system, c, alpha)
-                                         : chain_acceleration(system, c, accelerations, alpha);
+        alpha[c] = accelerations == NULL
+                       ? orientation_rest(system, c, alpha)
+                       : orientation_acceleration(system, c, accelerations, alpha);
     if (system->origin->trees[TREE_TRANSLATION] == NULL)
         return;
     order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
@@ -264,7 +268,7 @@ void motion_build(System *system)
     system->kinematics->alpha0 = pool_alloc(system->pool, chains * sizeof(Vec));
     system->kinematics->a0 =
         pool_alloc(system->pool, (size_t)graph_node_count(system->origin->graph) * sizeof(Vec));
-    system->kinematics->motions[0] = (ChainMotion){vec_zero(arena), vec_zero(arena)};
+    system->kinematics->motions[0] = (OrientationMotion){vec_zero(arena), vec_zero(arena)};
     for (int c = 1; c < system->kinematics->chains.count; c++)
         find_turn_motion(system, c);
     if (system->origin->trees[TREE_TRANSLATION] == NULL)
@@ -318,7 +322,7 @@ static const Vec *datum_axes(System *system)
  * there once, and not once for each step beyond it. */
 static Vec in_datum(System *system, Vec v, int chain)
 {
-    const Chain *chains = system->kinematics->chains.at;
+    const OrientationClass *chains = system->kinematics->chains.at;
     const Vec *axes;
     Vec out;
 

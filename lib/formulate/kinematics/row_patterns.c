@@ -1,8 +1,8 @@
 /* row_patterns.c: patterns of rows, and what they become */
 #include "formulate/kinematics/row_patterns.h"
 
-#include "formulate/kinematics/alike.h"
 #include "formulate/kinematics/circuits.h"
+#include "formulate/kinematics/isomorphic.h"
 #include "formulate/kinematics/recursive.h"
 #include "formulate/system/origin.h"
 
@@ -23,20 +23,20 @@ typedef struct PatternRow {
     Expr phi, gamma;
 } PatternRow;
 
-typedef struct Pattern {
+typedef struct RowPattern {
     System shadow; /* in which the holes are */
     Kinematics kinematics;
     int tail, head;
     LIST(Hole) holes;
     LIST(PatternRow) rows;
-} Pattern;
+} RowPattern;
 
 struct RowPatterns {
     System *system;
-    LIST(Pattern *) list;
+    LIST(RowPattern *) list;
     /* what was found last: a chord has several rows */
     int tail, head;
-    Pattern *pattern;
+    RowPattern *pattern;
     const Follower *follower;
 };
 
@@ -71,18 +71,18 @@ static bool is_constant(Expr e)
 }
 
 /* Its number may be another one: nothing moves with it but the chord's own end. */
-static bool may_differ(const System *system, const Pattern *pattern, int node)
+static bool may_differ(const System *system, const RowPattern *pattern, int node)
 {
     const Frame *frame = &system->kinematics->frames[node];
 
-    return alike_is_outside(system, node) && frame->slide_count == 0 &&
+    return isomorphic_is_outside(system, node) && frame->slide_count == 0 &&
            (node == pattern->tail || node == pattern->head ||
             (vec_is_zero(frame->v) && vec_is_zero(system->kinematics->a0[node])));
 }
 
 /* Where it or that of the instance isn't 0; outward, since what moves with one moves with those
  * before it. */
-static void add_holes(const RowPatterns *patterns, Pattern *pattern, int node, int own,
+static void add_holes(const RowPatterns *patterns, RowPattern *pattern, int node, int own,
                       int ancestor)
 {
     const System *system = patterns->system;
@@ -105,7 +105,7 @@ static void add_holes(const RowPatterns *patterns, Pattern *pattern, int node, i
                 continue;
             hole.symbol = expr_symbol(
                 system->arena,
-                system_keep(system, "#hole%d_%d", patterns->list.count, pattern->holes.count),
+                system_retain(system, "#hole%d_%d", patterns->list.count, pattern->holes.count),
                 SYMBOL_PARAMETER);
             shift->at[c] = hole.symbol;
             LIST_PUSH(pattern->holes, hole);
@@ -123,11 +123,11 @@ static void *copied(const System *system, const void *from, size_t size)
 }
 
 /* through the first of an instance, to where the chord of another one leads */
-static Pattern *add_pattern(RowPatterns *patterns, int tail, int head)
+static RowPattern *add_pattern(RowPatterns *patterns, int tail, int head)
 {
     const System *system = patterns->system;
     const size_t nodes = (size_t)graph_node_count(system->origin->graph);
-    Pattern *pattern = NEW(Pattern);
+    RowPattern *pattern = NEW(RowPattern);
     int ancestor;
 
     pattern->shadow = *system;
@@ -135,9 +135,9 @@ static Pattern *add_pattern(RowPatterns *patterns, int tail, int head)
     pattern->shadow.kinematics = &pattern->kinematics;
     pattern->kinematics.frames = copied(system, system->kinematics->frames, nodes * sizeof(Frame));
     pattern->kinematics.a0 = copied(system, system->kinematics->a0, nodes * sizeof(Vec));
-    if (alike_node(system, tail, &pattern->tail) == NULL)
+    if (isomorphic_node(system, tail, &pattern->tail) == NULL)
         pattern->tail = tail;
-    if (alike_node(system, head, &pattern->head) == NULL)
+    if (isomorphic_node(system, head, &pattern->head) == NULL)
         pattern->head = head;
     ancestor = circuit_parting(system, pattern->tail, pattern->head);
     add_holes(patterns, pattern, pattern->tail, tail, ancestor);
@@ -148,7 +148,7 @@ static Pattern *add_pattern(RowPatterns *patterns, int tail, int head)
 
 /* --- finding one --- */
 
-static Expr hole_at(const Pattern *pattern, int node, int component)
+static Expr hole_at(const RowPattern *pattern, int node, int component)
 {
     for (int i = 0; i < pattern->holes.count; i++)
         if (pattern->holes.at[i].node == node && pattern->holes.at[i].component == component)
@@ -157,8 +157,8 @@ static Expr hole_at(const Pattern *pattern, int node, int component)
 }
 
 /* whether one outside stands as the pattern's does, but for the numbers of holes */
-static bool stands_alike(const System *system, const Pattern *pattern, const Follower *follower,
-                         int node, int own)
+static bool is_same_pattern(const System *system, const RowPattern *pattern,
+                            const Follower *follower, int node, int own)
 {
     const Frame *a = &pattern->kinematics.frames[node], *b = &system->kinematics->frames[own];
 
@@ -170,13 +170,13 @@ static bool stands_alike(const System *system, const Pattern *pattern, const Fol
 
         if (hole == NULL
                 ? a->shift.at[c] != b->shift.at[c]
-                : !is_constant(b->shift.at[c]) || !alike_fill(follower, hole, b->shift.at[c]))
+                : !is_constant(b->shift.at[c]) || !isomorphic_fill(follower, hole, b->shift.at[c]))
             return false;
     }
     return true;
 }
 
-static bool same_way(const System *system, const Pattern *pattern, const Follower *follower,
+static bool same_way(const System *system, const RowPattern *pattern, const Follower *follower,
                      int node, int own, int parting, int own_parting)
 {
     const Frame *frames = system->kinematics->frames;
@@ -184,20 +184,20 @@ static bool same_way(const System *system, const Pattern *pattern, const Followe
 
     for (; node != parting && own != own_parting;
          node = frames[node].parent, own = frames[own].parent) {
-        const bool inside = alike_node(system, own, &first) == follower;
+        const bool inside = isomorphic_node(system, own, &first) == follower;
 
         if (inside ? first != node
-                   : alike_is_first(system, follower, node) ||
-                         !stands_alike(system, pattern, follower, node, own))
+                   : isomorphic_is_first(system, follower, node) ||
+                         !is_same_pattern(system, pattern, follower, node, own))
             return false;
     }
     if (node != parting || own != own_parting)
         return false;
-    return alike_node(system, own, &first) == follower ? first == node : own == node;
+    return isomorphic_node(system, own, &first) == follower ? first == node : own == node;
 }
 
-static bool matches(const RowPatterns *patterns, const Pattern *pattern, const Follower *follower,
-                    int tail, int head)
+static bool matches(const RowPatterns *patterns, const RowPattern *pattern,
+                    const Follower *follower, int tail, int head)
 {
     const System *system = patterns->system;
     const int parting = circuit_parting(system, pattern->tail, pattern->head),
@@ -207,12 +207,12 @@ static bool matches(const RowPatterns *patterns, const Pattern *pattern, const F
            same_way(system, pattern, follower, pattern->head, head, parting, own);
 }
 
-static Pattern *find(RowPatterns *patterns, const Row *row)
+static RowPattern *find(RowPatterns *patterns, const Row *row)
 {
     const System *system = patterns->system;
     int first;
-    const Follower *at_tail = alike_node(system, row->tail, &first),
-                   *at_head = alike_node(system, row->head, &first);
+    const Follower *at_tail = isomorphic_node(system, row->tail, &first),
+                   *at_head = isomorphic_node(system, row->head, &first);
 
     if (row->tail == patterns->tail && row->head == patterns->head)
         return patterns->pattern;
@@ -220,12 +220,12 @@ static Pattern *find(RowPatterns *patterns, const Row *row)
     patterns->head = row->head;
     patterns->pattern = NULL;
     patterns->follower = at_tail != NULL ? at_tail : at_head;
-    if (patterns->follower == NULL || !alike_moves(patterns->follower) ||
+    if (patterns->follower == NULL || !isomorphic_moves(patterns->follower) ||
         (at_tail != NULL && at_head != NULL && at_tail != at_head))
         return NULL;
     for (int i = 0; i < MOST && patterns->pattern == NULL; i++) {
         const bool is_new = i == patterns->list.count;
-        Pattern *pattern =
+        RowPattern *pattern =
             is_new ? add_pattern(patterns, row->tail, row->head) : patterns->list.at[i];
 
         if (matches(patterns, pattern, patterns->follower, row->tail, row->head))
@@ -239,7 +239,7 @@ static Pattern *find(RowPatterns *patterns, const Row *row)
 /* the same row of the pattern; NULL: it has none */
 static PatternRow *find_row(RowPatterns *patterns, const Row *row)
 {
-    Pattern *pattern = find(patterns, row);
+    RowPattern *pattern = find(patterns, row);
     PatternRow other = {.row = *row};
 
     if (pattern == NULL)
@@ -247,15 +247,16 @@ static PatternRow *find_row(RowPatterns *patterns, const Row *row)
     for (int i = 0; i < pattern->rows.count; i++) {
         const Row *own = &pattern->rows.at[i].row;
 
-        if (own->kind == row->kind && vec_same(alike_vec(patterns->follower, own->n), row->n) &&
-            vec_same(alike_vec(patterns->follower, own->b), row->b))
+        if (own->kind == row->kind &&
+            vec_same(isomorphic_vec(patterns->follower, own->n), row->n) &&
+            vec_same(isomorphic_vec(patterns->follower, own->b), row->b))
             return &pattern->rows.at[i];
     }
     other.row.tail = pattern->tail;
     other.row.head = pattern->head;
     /* directions are numbers, or the pattern's own ones aren't known */
-    if (!vec_same(alike_vec(patterns->follower, row->n), row->n) ||
-        !vec_same(alike_vec(patterns->follower, row->b), row->b))
+    if (!vec_same(isomorphic_vec(patterns->follower, row->n), row->n) ||
+        !vec_same(isomorphic_vec(patterns->follower, row->b), row->b))
         return NULL;
     other.shown = circuit_shown(&pattern->shadow, &other.row);
     LIST_PUSH(pattern->rows, other);
@@ -267,11 +268,11 @@ bool row_pattern_show(RowPatterns *patterns, const Row *row, Expr *phi)
     const PatternRow *pattern = find_row(patterns, row);
 
     if (pattern != NULL)
-        *phi = alike_take(patterns->follower, pattern->shown);
+        *phi = isomorphic_take(patterns->follower, pattern->shown);
     return pattern != NULL;
 }
 
-static void run(Pattern *pattern, PatternRow *row)
+static void run(RowPattern *pattern, PatternRow *row)
 {
     System *shadow = &pattern->shadow;
     const int all = shadow->kinematics->u.count;
@@ -297,15 +298,15 @@ bool row_pattern_run(RowPatterns *patterns, const Row *row, int k, const int *sp
         return false;
     if (pattern->phi_u == NULL)
         run(patterns->pattern, pattern);
-    system->run.phi[k] = alike_take(follower, pattern->phi);
-    system->run.gamma[k] = alike_take(follower, pattern->gamma);
+    system->run.phi[k] = isomorphic_take(follower, pattern->phi);
+    system->run.gamma[k] = isomorphic_take(follower, pattern->gamma);
     for (int i = 0; i < count; i++) {
         int j = speeds[i];
 
-        if (alike_speed(system, speeds[i], &j) != follower)
+        if (isomorphic_speed(system, speeds[i], &j) != follower)
             j = speeds[i];
         system->run.phi_u[k * system->kinematics->u.count + speeds[i]] =
-            alike_take(follower, pattern->phi_u[j]);
+            isomorphic_take(follower, pattern->phi_u[j]);
     }
     return true;
 }

@@ -72,7 +72,7 @@ static void one_side(System *system, bool closed, Relation *relation)
     }
 }
 
-void ideal_take_side(System *system, Branchlike *branch)
+void ideal_set_side(System *system, Branchlike *branch)
 {
     const Instance *instance = &system->origin->instances[branch->instance];
     const char *name = graph_edge(system->origin->graph, branch->edge)->name;
@@ -85,7 +85,7 @@ void ideal_take_side(System *system, Branchlike *branch)
     if (relation->switches ? system->network->takes_sides
                            : relation->kind == RELATION_IDEAL && system->network->takes_all) {
         branch->closed =
-            expr_symbol(system->arena, system_keep(system, "#%s.closed", name), SYMBOL_PARAMETER);
+            expr_symbol(system->arena, system_retain(system, "#%s.closed", name), SYMBOL_PARAMETER);
         relation->kind = RELATION_IDEAL;
         relation->value = either_side(system, branch->closed, &relation->ideal, v, i);
     } else if (relation->kind == RELATION_IDEAL && system->network->closed != NULL) {

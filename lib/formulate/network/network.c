@@ -31,7 +31,7 @@ Unknown network_unknown_of_branch(const System *system, const Branchlike *branch
 }
 
 /* a chord whose current is a function of its voltage, as a diode's: steep in that direction */
-static bool is_steep(const System *system, const Branchlike *branch)
+static bool is_stiff(const System *system, const Branchlike *branch)
 {
     const Relation *relation = &branch->relation;
 
@@ -46,20 +46,20 @@ static bool is_steep(const System *system, const Branchlike *branch)
  * equation is the circuit. */
 static Status keep_unknown(System *system, Branchlike *branch, Diag *diag)
 {
-    bool steep = is_steep(system, branch);
-    const char *name = branch_member(system, branch, !branch->branch && !steep);
+    bool stiff_elements = is_stiff(system, branch);
+    const char *name = branch_member(system, branch, !branch->branch && !stiff_elements);
     bool state_form = system->network->form == NETWORK_STATE;
 
     if (branch->unknown >= 0)
         return OK;
     branch->unknown = network_new_unknown(system, network_unknown_of_branch(system, branch), name,
                                           state_form ? SYMBOL_ALGEBRAIC : SYMBOL_STATE);
-    if (!steep)
+    if (!stiff_elements)
         return OK;
-    branch->is_steep = true;
+    branch->is_stiff = true;
     branch->v = system->network->unknowns.at[branch->unknown].symbol;
     TRY(variables_resolve(system, branch->relation.value, &branch->i, diag));
-    branch->i = expr_hold(system->arena, branch->i);
+    branch->i = expr_name_temporary(system->arena, branch->i);
     return OK;
 }
 
@@ -247,7 +247,7 @@ static Status own_variable(System *system, Branchlike *branch, Expr *out, Diag *
     /* it was met again on the way, or nothing gives it */
     if (!given)
         CHECK(keep_unknown(system, branch, diag));
-    if (branch->is_steep)
+    if (branch->is_stiff)
         *out = branch->i;
     else if (branch->unknown >= 0)
         *out = system->network->unknowns.at[branch->unknown].symbol;
@@ -262,8 +262,8 @@ Status network_across(System *system, Branchlike *branch, Expr *out, Diag *diag)
             TRY(own_variable(system, branch, out, diag));
         else
             TRY(circuit_across(system, branch, out, diag));
-        if (!branch->is_steep)
-            branch->v = expr_hold(system->arena, *out);
+        if (!branch->is_stiff)
+            branch->v = expr_name_temporary(system->arena, *out);
     }
     *out = branch->v;
     return OK;
@@ -276,8 +276,8 @@ Status network_through(System *system, Branchlike *branch, Expr *out, Diag *diag
             TRY(cutset_through(system, branch, out, diag));
         else
             TRY(own_variable(system, branch, out, diag));
-        if (!branch->is_steep)
-            branch->i = expr_hold(system->arena, *out);
+        if (!branch->is_stiff)
+            branch->i = expr_name_temporary(system->arena, *out);
     }
     *out = branch->i;
     return OK;

@@ -75,7 +75,7 @@ static void read_relation(System *system, Branchlike *branch)
     if (system->network->gmin != NULL)
         add_gmin(system, motion.across, &branch->relation);
     if (branch->relation.kind == RELATION_IDEAL || branch->relation.switches)
-        ideal_take_side(system, branch);
+        ideal_set_side(system, branch);
 }
 
 /* what couplings bring to the relations of two parts */
@@ -183,8 +183,8 @@ static void add_states(System *system)
             (void)add_state(
                 system,
                 (Unknown){.branchlike = -1, .own = k, .instance = branch->instance, .derives = -1},
-                system_keep(system, "%s%s%s", owner->name, own.member[0] != '\0' ? "." : "",
-                            own.member));
+                system_retain(system, "%s%s%s", owner->name, own.member[0] != '\0' ? "." : "",
+                              own.member));
         }
     }
 }
@@ -230,7 +230,7 @@ Status network_build(System *system, Diag *diag)
     for (int i = 0; i < system->network->branches.count; i++) {
         TRY(network_across(system, &system->network->branches.at[i], &value, diag));
         TRY(network_through(system, &system->network->branches.at[i], &value, diag));
-        TRY(poll(system->watch));
+        TRY(monitor_poll(system->watch));
     }
     TRY(check_smooth(system, diag));
     if (system->network->form == NETWORK_TREE) {

@@ -31,8 +31,8 @@ static Expr new_unknown(System *system, const Branchlike *branch, NodeLaw law, c
                              .derives = -1,
                              .law = law,
                              .towards = (int)(branch - system->network->branches.at)};
-    const char *name = system_keep(system, "#%s.%s",
-                                   graph_edge(system->origin->graph, branch->edge)->name, member);
+    const char *name = system_retain(system, "#%s.%s",
+                                     graph_edge(system->origin->graph, branch->edge)->name, member);
     const int k = network_new_unknown(system, unknown, name, SYMBOL_ALGEBRAIC);
 
     return system->network->unknowns.at[k].symbol;

@@ -90,7 +90,7 @@ static Expr highest(const Order *o, int j)
 
 static Status check_room(const Order *o, Diag *diag)
 {
-    Status status = poll(o->system->watch);
+    Status status = monitor_poll(o->system->watch);
 
     if (status == OK && arena_nodes(o->system->arena) - o->nodes > ROOM) {
         status = diag_set(diag, E_MODEL, "the equations of this tree grow too long");

@@ -1,8 +1,8 @@
 /* network_rows.c: equations of the network's unknowns, G([x'; z], ...) = 0, and their Jacobian */
 #include "formulate/network/ideal_sides.h"
-#include "formulate/network/network_alike.h"
 #include "formulate/network/network_build.h"
 #include "formulate/network/network_impl.h"
+#include "formulate/network/network_isomorphic.h"
 #include "formulate/network/scalar_edges.h"
 #include "formulate/system/kinematics.h"
 #include "formulate/system/network.h"
@@ -111,9 +111,9 @@ static Status relation_row(System *system, Unknown *y, Diag *diag)
         break;
     case RELATION_THROUGH:
     case RELATION_CONDUCTIVE:
-        y->left = branch->is_steep ? v : i;
+        y->left = branch->is_stiff ? v : i;
         y->right = value;
-        if (branch->is_steep)
+        if (branch->is_stiff)
             TRY(circuit_across(system, branch, &y->right, diag));
         break;
     case RELATION_RESISTIVE:
@@ -166,7 +166,7 @@ Status network_row(System *system, int unknown, Diag *diag)
 
     if (y.has_row)
         return OK;
-    TRY(network_alike_find(system, unknown, &y, &is_known, diag));
+    TRY(network_isomorphic_find(system, unknown, &y, &is_known, diag));
     if (is_known) {
         y.has_row = true;
         system->network->unknowns.at[unknown] = y;
@@ -196,7 +196,7 @@ Status network_row(System *system, int unknown, Diag *diag)
     y.lack = expr_sub(arena, expr_open(arena, y.left), expr_open(arena, y.right));
     y.has_row = true;
     system->network->unknowns.at[unknown] = y;
-    network_alike_keep(system, unknown, &y);
+    network_isomorphic_keep(system, unknown, &y);
     return OK;
 }
 
@@ -257,7 +257,7 @@ typedef struct NetworkRows {
     int count;        /* of equations and unknowns */
     LIST(int) column; /* by expr_symbol_number(): 1 + place in [x'; z]; 0: none */
     LIST(Entry) entries;
-    Slopes slopes; /* of a row */
+    NetworkSlopes slopes; /* of a row */
 } NetworkRows;
 
 static void place(NetworkRows *rows, Expr symbol, int column)
@@ -297,7 +297,7 @@ static Status cant_be_met(System *system, const Unknown *y, Diag *diag)
     return E_MODEL;
 }
 
-static void find_slopes(Arena *arena, Expr residual, Slopes *slopes)
+static void find_slopes(Arena *arena, Expr residual, NetworkSlopes *slopes)
 {
     Expr *symbols;
     const int count = expr_symbols(&residual, 1, &symbols);
@@ -327,13 +327,13 @@ static Status add_row(NetworkRows *rows, int row, Expr residual, int unknown, co
                       Diag *diag)
 {
     System *system = rows->system;
-    Reading *run = &system->run;
-    Slopes *slopes = &rows->slopes;
+    EquationForm *run = &system->run;
+    NetworkSlopes *slopes = &rows->slopes;
 
-    if (unknown < 0 || !network_alike_slopes(system, unknown, slopes)) {
+    if (unknown < 0 || !network_isomorphic_slopes(system, unknown, slopes)) {
         find_slopes(system->arena, residual, slopes);
         if (unknown >= 0)
-            network_alike_keep_slopes(system, unknown, slopes);
+            network_isomorphic_keep_slopes(system, unknown, slopes);
     }
     if (slopes->symbols.count == 0)
         return cant_be_met(system, y, diag);
@@ -403,7 +403,7 @@ static Status add_rows(NetworkRows *rows, Diag *diag)
             (expr_kinds(right) & 1U << SYMBOL_STATE_RATE) != 0 && !system->run.network_nonlinear)
             gather_rates(rows, first, &left, &right);
         show_equation(system, (NetworkEquation){left, right, unknown_edge(system, y)});
-        TRY(poll(system->watch));
+        TRY(monitor_poll(system->watch));
     }
     return OK;
 }
@@ -451,7 +451,7 @@ static Status differentiate_fixed(System *system, int unknown, Diag *diag)
 
 Status network_rows(System *system, Diag *diag)
 {
-    Reading *run = &system->run;
+    EquationForm *run = &system->run;
     NetworkRows rows = {.system = system};
     size_t bytes;
     Status status = OK;
@@ -482,7 +482,7 @@ done:
     LIST_FREE(rows.entries);
     LIST_FREE(rows.slopes.symbols);
     LIST_FREE(rows.slopes.values);
-    network_alike_free(system->network->alike);
+    network_isomorphic_free(system->network->alike);
     system->network->alike = NULL;
     return status;
 }

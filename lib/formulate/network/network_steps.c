@@ -12,7 +12,8 @@
 #include <string.h>
 
 /* the edge's law, for what is told of it where the law gives that */
-static void tell_law(const System *system, const Branchlike *branch, bool across, NetworkStep *step)
+static void report_law(const System *system, const Branchlike *branch, bool across,
+                       NetworkStep *step)
 {
     Arena *arena = system->arena;
     const Relation *relation = &branch->relation;
@@ -154,12 +155,12 @@ static void follow(const System *system, int at, NetworkSteps *steps)
     NetworkStep *step = &steps->steps.at[at];
     const Branchlike *branch =
         &system->network->branches.at[system->network->scalar_of_edge[step->edge]];
-    const bool is_own = step->is_across == (branch->branch || branch->is_steep);
+    const bool is_own = step->is_across == (branch->branch || branch->is_stiff);
 
     if (branch->unknown >= 0 && is_own) {
         step->is_unknown = true;
     } else if (step->is_across == branch->branch) {
-        tell_law(system, branch, step->is_across, step);
+        report_law(system, branch, step->is_across, step);
         if (step->right != NULL)
             ask_for_variables(system, step->right, steps);
     } else {
@@ -198,7 +199,7 @@ void system_network_steps(System *view, int equation, NetworkSteps *out)
     system_touch(view);
     if (branch != NULL) {
         first.is_across = !branch->branch;
-        tell_law(view, branch, first.is_across, &first);
+        report_law(view, branch, first.is_across, &first);
     } else if (y != NULL && y->own >= 0) {
         const Instance *instance = &view->origin->instances[y->instance];
         OwnState own;
@@ -208,14 +209,14 @@ void system_network_steps(System *view, int equation, NetworkSteps *out)
         first.right = own.rate;
         first.is_rate = true;
     }
-    if (branch != NULL && branch->is_steep) { /* its equation is the circuit, not its law */
+    if (branch != NULL && branch->is_stiff) { /* its equation is the circuit, not its law */
         first.left = first.right = NULL;
         LIST_PUSH(out->steps, first);
         sum_up(view, branch, 0, out);
     } else {
         LIST_PUSH(out->steps, first);
     }
-    if (branch != NULL && first.left == NULL && !branch->is_steep) {
+    if (branch != NULL && first.left == NULL && !branch->is_stiff) {
         ask_for(out, branch->edge, true); /* a switch: of its two laws each needs both */
         ask_for(out, branch->edge, false);
     }

@@ -19,8 +19,8 @@ const char *branch_member(const System *system, const Branchlike *branch, bool t
 {
     const Edge *edge = graph_edge(system->origin->graph, branch->edge);
 
-    return system_keep(system, "%s.%s", edge->name,
-                       through ? domain_through(edge->domain) : domain_across(edge->domain));
+    return system_retain(system, "%s.%s", edge->name,
+                         through ? domain_through(edge->domain) : domain_across(edge->domain));
 }
 
 TreeKind branch_tree(const System *system, const Branchlike *branch)
@@ -45,7 +45,7 @@ const char *network_company(const System *system, const Branchlike *branch)
         for (int i = matrix->start[r]; edges[r] == branch->edge && i < matrix->start[r + 1]; i++)
             text_addf(&names, "%s%s", i > matrix->start[r] ? " " : "",
                       graph_edge(system->origin->graph, matrix->column[i])->name);
-    kept = system_keep(system, "%s", names.at != NULL ? names.at : "");
+    kept = system_retain(system, "%s", names.at != NULL ? names.at : "");
     text_free(&names);
     sign_matrix_free(matrix);
     return kept;

@@ -36,11 +36,11 @@ typedef struct Row {
     Expr prescribed;
     Coupled *coupled; /* COUPLER: so many of the system's pool */
     int coupled_count;
-    ConstraintRow told;
+    ConstraintRow reported;
 } Row;
 
 typedef struct MultiTurnChord {
-    MultiTurn told;
+    MultiTurn reported;
     int instance;
     int coordinate;
     Expr sine; /* both times one factor, 1 where the joint holds */
@@ -48,7 +48,7 @@ typedef struct MultiTurnChord {
 } MultiTurnChord;
 
 typedef struct CountedChord { /* whose angle is a sum */
-    WholeTurns told;
+    WholeTurns reported;
     int instance, coordinate;
 } CountedChord;
 

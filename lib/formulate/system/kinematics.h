@@ -20,7 +20,7 @@
 #include "formulate/system/vector.h"
 
 /* one turn of the rotation tree, or one free rotation by Euler parameters */
-typedef struct Chain {
+typedef struct OrientationClass {
     int parent; /* -1: ground's own */
     int depth;
     int first; /* what hangs beyond it has the numbers first..last */
@@ -37,7 +37,7 @@ typedef struct Chain {
     Rotation matrix;   /* free or askew: zero-position components after it to those before it */
     Expr parameter[4]; /* free: Euler parameters of that matrix */
     Expr identity;     /* as identity.h tells it; NULL: not told */
-} Chain;
+} OrientationClass;
 
 /* a speed: what it moves, and along what */
 typedef struct Speed {
@@ -81,10 +81,10 @@ typedef struct Frame { /* a mechanical node */
     Expr identity; /* as identity.h tells it; NULL: not told */
 } Frame;
 
-typedef struct ChainMotion { /* in the axes of its resolve chain */
+typedef struct OrientationMotion { /* in the axes of its resolve chain */
     Vec w;
     Vec product; /* velocity products of the turn's angular acceleration */
-} ChainMotion;
+} OrientationMotion;
 
 struct Dependent;
 
@@ -97,13 +97,13 @@ typedef struct Kinematics {
     Speed *speeds;       /* those of u, then those that follow from shapes (shapes.h) */
     int speed_count;
     LIST(struct Dependent) dependents;
-    Station **stations;  /* of instances; NULL: it is none */
-    int *station_speeds; /* the first of its dependent speeds */
+    SectionFrame **stations;   /* of instances; NULL: it is none */
+    int *section_frame_speeds; /* the first of its dependent speeds */
     CoordinateRate *coordinate_rates;
     LIST(int) quaternions; /* the first of each four parameters */
-    LIST(Chain) chains;
+    LIST(OrientationClass) chains;
     Frame *frames; /* one a node of the graph; scalar nodes unused */
-    ChainMotion *motions;
+    OrientationMotion *motions;
     Vec *alpha0; /* of chains, in the axes of their resolve chain */
     Vec *a0;     /* of nodes */
 } Kinematics;

@@ -17,7 +17,7 @@ typedef struct Branchlike { /* a scalar edge */
     int cutset;       /* of a branch: its row among its tree's cutsets */
     int unknown;      /* its v or i is one; -1 */
     bool busy;        /* its v or i is being followed */
-    bool is_steep;    /* a chord whose v is the unknown, i following from it */
+    bool is_stiff;    /* a chord whose v is the unknown, i following from it */
     bool is_balanced; /* its i follows from its rate, its equation is a node's (network_nodes.c) */
     int ideal;        /* which of the switches it is; -1 */
     Expr closed; /* of one between two resistances: 1 or 0, a number of the run; NULL: it is none,
@@ -80,7 +80,8 @@ typedef struct Network {
     LIST(const char *) at_rest; /* in the form of the user's tree: states of state form, by name */
     LIST(Expr) invariants;      /* 0 throughout: rows that were differentiated */
     LIST(Expr) open;            /* potentials asked for of terminals on which nothing stands */
-    struct NetworkAlike *alike; /* while it is made: rows that needn't be derived; NULL: none */
+    struct NetworkIsomorphism
+        *alike; /* while it is made: rows that needn't be derived; NULL: none */
 } Network;
 
 #endif

@@ -107,7 +107,7 @@ static Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag)
     } else {
         /* algebraic, or the rate of a state: its equation differentiated tells it */
         Unknown more = {.branchlike = -1, .own = -1, .instance = y->instance, .derives = k};
-        const char *name = system_keep(system, "%s'", expr_name(symbol));
+        const char *name = system_retain(system, "%s'", expr_name(symbol));
         int added = network_new_unknown(system, more, name, SYMBOL_ALGEBRAIC);
 
         *out = system->network->unknowns.at[added].symbol;
@@ -163,7 +163,7 @@ static Status effort_rate(System *system, Expr symbol, Expr *out, Diag *diag)
 {
     if (!is_open(system, symbol))
         return late_rate(diag);
-    *out = network_open(system, system_keep(system, "%s'", expr_name(symbol)));
+    *out = network_open(system, system_retain(system, "%s'", expr_name(symbol)));
     return OK;
 }
 

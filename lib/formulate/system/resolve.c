@@ -75,7 +75,7 @@ Status variables_resolve(System *system, Expr user, Expr *out, Diag *diag)
 
 Status system_resolve(System *system, Expr user, Expr *out, Diag *diag)
 {
-    if (poll(system->watch) != OK)
+    if (monitor_poll(system->watch) != OK)
         return diag_set(diag, E_STOPPED, "stopped");
     system_touch(system);
     return variables_resolve(system, user, out, diag);

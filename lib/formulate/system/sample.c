@@ -93,7 +93,7 @@ static double symbol_value(void *context, Expr symbol)
         !isnan(sample->value[expr_symbol_number(symbol)]))
         return sample->value[expr_symbol_number(symbol)];
     for (int i = 0; i < system->constraints->counted.count; i++)
-        if (system->constraints->counted.at[i].told.symbol == symbol)
+        if (system->constraints->counted.at[i].reported.symbol == symbol)
             return 0;
     return sample->others != 0 ? some_value(&sample->others, symbol) : NAN;
 }

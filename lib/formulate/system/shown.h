@@ -22,7 +22,7 @@ typedef struct Shown {
     int *full_turns;            /* of sums of angles, an entry one; NULL: none has any */
     Expr power;                 /* that sources give and losses take */
     Expr *eliminated;           /* u' in symbols, the last told (accelerations.c); NULL: none yet */
-    int told;                   /* how it was */
+    int eliminated_how;         /* how it was */
     LIST(Switch) switches;
     LIST(Expr) surfaces; /* where they jump, in the state */
     int switches_of_time;

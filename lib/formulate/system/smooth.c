@@ -39,7 +39,7 @@ const char *system_rough_driver(const System *system, int order)
             continue;
         for (int i = 0; i <= order; i++) {
             if (expr_jumps(system->arena, f, 1U << SYMBOL_TIME))
-                return system->origin->instances[system->constraints->rows.at[k].told.instance]
+                return system->origin->instances[system->constraints->rows.at[k].reported.instance]
                     .name;
             f = expr_diff(system->arena, f, time);
         }

@@ -23,6 +23,6 @@ bool switch_jumps(Expr e);
 /* whether anything in e jumps with symbols of these kinds (bits as of expr_kinds()); O(nodes) */
 bool switch_jumps_over(Arena *arena, Expr e, unsigned kinds);
 /* e with the signs of these surfaces in the place of what jumps on them. O(nodes). */
-Expr surfaces_put(Arena *arena, Expr e, const Surface *surfaces, int count);
+Expr surfaces_substitute(Arena *arena, Expr e, const Surface *surfaces, int count);
 
 #endif

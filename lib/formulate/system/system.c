@@ -19,7 +19,7 @@ const char *system_join(const System *system, const char *one, const char *other
     return text;
 }
 
-const char *system_keep(const System *system, const char *format, ...)
+const char *system_retain(const System *system, const char *format, ...)
 {
     char text[600];
     va_list args;
@@ -30,7 +30,7 @@ const char *system_keep(const System *system, const char *format, ...)
     return pool_text(system->pool, text, strlen(text));
 }
 
-void system_set_watch(System *system, const Watch *watch)
+void system_set_watch(System *system, const CallMonitor *watch)
 {
     system->watch = watch;
 }
@@ -146,7 +146,7 @@ const Instanced *system_instanced(const System *system, int i)
 
 const ConstraintRow *system_constraint(const System *system, int k)
 {
-    return &system->constraints->rows.at[k].told;
+    return &system->constraints->rows.at[k].reported;
 }
 
 const char *system_dropped(const System *system, int i)
@@ -159,12 +159,12 @@ const char *system_remark(const System *system, int i)
     return i < system->remarks.count ? system->remarks.at[i] : NULL;
 }
 
-const Reading *system_definitions(const System *system)
+const EquationForm *system_definitions(const System *system)
 {
     return &system->definitions;
 }
 
-const Reading *system_run(const System *system)
+const EquationForm *system_run(const System *system)
 {
     return &system->run;
 }

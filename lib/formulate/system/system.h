@@ -11,7 +11,7 @@
 #ifndef COTREE_FORMULATE_SYSTEM_SYSTEM_H
 #define COTREE_FORMULATE_SYSTEM_SYSTEM_H
 
-#include "base/watch.h"
+#include "base/call_monitor.h"
 #include "model/scene.h"
 
 typedef struct System System;
@@ -27,8 +27,8 @@ typedef struct SystemOptions {
     Expr gmin; /* S, beside every scalar edge whose through variable is an expression of its across
                   variable: where a search for its state may begin; NULL: none */
     const System *like; /* in the mode of this one; NULL: in none */
-    bool has_literals;  /* numbers of parts may stand in it as parameters (literals.h) */
-    const Watch *watch;
+    bool has_literals;  /* numbers of parts may stand in it as parameters (lifted_constants.h) */
+    const CallMonitor *watch;
 } SystemOptions;
 
 /* New, and const ever after; free with system_free(). Copies what it needs of the scene; the arena
@@ -198,7 +198,7 @@ typedef struct Entry {
     Expr value;
 } Entry;
 
-typedef struct Reading {
+typedef struct EquationForm {
     Expr *phi;   /* m */
     Expr *phi_u; /* m x nu, row by row */
     Expr *nu;    /* m: Phi_u u = nu */
@@ -212,14 +212,14 @@ typedef struct Reading {
     Expr *network_rhs; /* nx+nz: r = -G at w = 0, so that A w = r where it is linear */
     bool network_nonlinear;
     Expr *q_rate; /* n */
-} Reading;
+} EquationForm;
 
 /* What is formed later, when somebody asks for it, can be stopped, too; borrowed. */
-void system_set_watch(System *system, const Watch *watch);
+void system_set_watch(System *system, const CallMonitor *watch);
 
 /* definitions by recursion; a run uses them, or where it is shorter what is shown */
-const Reading *system_definitions(const System *system);
-const Reading *system_run(const System *system);
+const EquationForm *system_definitions(const System *system);
+const EquationForm *system_run(const System *system);
 /* Write M out in both, for a view, where a run does without (composite_mass.h). Fails with
  * E_MEMORY.
  */
@@ -276,7 +276,7 @@ MUST_USE Status system_count(System *system, Block block, bool shared, OpCount *
 /* What one evaluation of the accelerations costs, in additions: operations of the program of a run,
  * what its blocks have in common counted once (*count), 20 for each function, and 2/3 N^3 + 2 N^2
  * for solving N = nu + m equations. To compare trees by. E_STOPPED, outputs unchanged. */
-MUST_USE Status system_price(const System *system, const Watch *watch, OpCount *count,
+MUST_USE Status system_price(const System *system, const CallMonitor *watch, OpCount *count,
                              double *price);
 
 /* --- frames that turn about one axis --- */
@@ -379,13 +379,13 @@ Expr system_side(const System *system, int i);
 MUST_USE Status system_ideal(System *system, int i, IdealSwitch *out, Diag *diag);
 /* The system from which sides are found: `whole` with both sides of ideal switches in one equation,
  * and numbers for those of others. Owned by it. Fails as system_mode(). */
-MUST_USE Status system_sided(System *whole, SceneSource source, const Watch *watch, System **out,
-                             Diag *diag);
+MUST_USE Status system_sided(System *whole, SceneSource source, const CallMonitor *watch,
+                             System **out, Diag *diag);
 /* The system in which they are on these sides, one a switch; those between resistances don't count.
  * Made when asked for first, and owned by `whole`. Fails as system_new() does where there is no
  * such network, and with E_MODEL where the scene is no longer what `whole` was made of. */
 MUST_USE Status system_mode(System *whole, SceneSource source, const bool *closed,
-                            const Watch *watch, System **out, Diag *diag);
+                            const CallMonitor *watch, System **out, Diag *diag);
 
 /* --- three-angle sequences, which lose a freedom where their first and last axis fall together ---
  */

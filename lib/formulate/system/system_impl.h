@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "formulate/system/system.h"
 
-typedef struct Alike Alike;
+typedef struct IsomorphicSubsystems IsomorphicSubsystems;
 typedef struct Constraints Constraints;
 typedef struct Dynamics Dynamics;
 typedef struct Kinematics Kinematics;
@@ -15,10 +15,10 @@ typedef struct Shown Shown;
 
 struct System {
     Arena *arena;
-    Pool *pool;         /* names and small arrays; of a view: of what is formed for it */
-    const Scene *scene; /* while it is made; NULL afterwards */
-    const Watch *watch; /* likewise, or set by system_set_watch() */
-    Alike *alike;       /* likewise, or where no definition has instances */
+    Pool *pool;                  /* names and small arrays; of a view: of what is formed for it */
+    const Scene *scene;          /* while it is made; NULL afterwards */
+    const CallMonitor *watch;    /* likewise, or set by system_set_watch() */
+    IsomorphicSubsystems *alike; /* likewise, or where no definition has instances */
 
     /* parts: a view borrows them */
     Origin *origin;
@@ -26,8 +26,8 @@ struct System {
     Constraints *constraints;
     Dynamics *dynamics;
     Network *network;
-    Reading definitions; /* by recursion, whatever the size */
-    Reading run;         /* these, or the shorter equations as shown */
+    EquationForm definitions; /* by recursion, whatever the size */
+    EquationForm run;         /* these, or the shorter equations as shown */
     LIST(const char *) remarks;
 
     bool is_early;    /* while it is made: reactions aren't there yet */
@@ -54,6 +54,6 @@ static inline void system_touch(System *view)
 
 /* texts in the pool: two joined, or as printf() does it */
 const char *system_join(const System *system, const char *one, const char *other);
-const char *system_keep(const System *system, const char *format, ...) PRINTF(2, 3);
+const char *system_retain(const System *system, const char *format, ...) PRINTF(2, 3);
 
 #endif

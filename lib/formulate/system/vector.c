@@ -72,7 +72,7 @@ Expr vec_dot(Arena *arena, Vec a, Vec b)
 Vec vec_hold(Arena *arena, Vec a)
 {
     for (int i = 0; i < 3; i++)
-        a.at[i] = expr_hold(arena, a.at[i]);
+        a.at[i] = expr_name_temporary(arena, a.at[i]);
     return a;
 }
 

@@ -11,8 +11,8 @@
 #include "algebra/linear.h"
 #include "base/memory.h"
 #include "simulate/analyse/search.h"
-#include "simulate/equations/causes.h"
 #include "simulate/equations/factors.h"
+#include "simulate/equations/failure_diagnosis.h"
 #include "simulate/equations/rows.h"
 #include "simulate/run/begin.h"
 
@@ -28,9 +28,9 @@
 
 typedef struct Quest {
     EquilibriumResidual *equations;
-    Search *search;
-    const Watch *watch;
-    const Layout *l;
+    EquilibriumSearch *search;
+    const CallMonitor *watch;
+    const VariableIndex *l;
     int n;         /* of equations */
     double *begun; /* base */
     double *kept;  /* the same, while something is tried */
@@ -143,8 +143,8 @@ static Status follow(Quest *e, const Path *path, bool *found)
     while (*found && reached < 1 && share > LEAST_SHARE) {
         const double next = fmin(1, reached + share);
 
-        CHECK(poll(e->watch));
-        report(e->watch, path->phase, reached);
+        CHECK(monitor_poll(e->watch));
+        monitor_report(e->watch, path->phase, reached);
         (void)path->turn(e->equations, next);
         if (seek(e)) {
             reached = next;
@@ -153,7 +153,7 @@ static Status follow(Quest *e, const Path *path, bool *found)
             share /= 4;
         }
     }
-    CHECK(poll(e->watch));
+    CHECK(monitor_poll(e->watch));
     *found = reached >= 1;
 done:
     (void)path->turn(e->equations, 1);
@@ -228,8 +228,8 @@ static Status creep(Quest *e, bool *found)
     for (int i = 0; i < CREEP_STEPS && resistance > 1e-10 && resistance < 1e12; i++) {
         double growth;
 
-        CHECK(poll(e->watch));
-        report(e->watch, "equilibrium: creeping", -1);
+        CHECK(monitor_poll(e->watch));
+        monitor_report(e->watch, "equilibrium: creeping", -1);
         if (!creep_step(e, &c, resistance)) {
             resistance *= 4;
             continue;
@@ -238,7 +238,7 @@ static Status creep(Quest *e, bool *found)
         resistance *= fmin(4, fmax(0.3, 0.7 * growth));
     }
     *found = seek(e);
-    CHECK(poll(e->watch));
+    CHECK(monitor_poll(e->watch));
 done:
     creep_close(&c);
     return status;
@@ -257,7 +257,7 @@ static const char *network_unknown(const Quest *e, int i)
 /* the same for a place in w; NULL: of the mechanics */
 static const char *network_place(const Quest *e, int i)
 {
-    const Layout *l = e->l;
+    const VariableIndex *l = e->l;
 
     if (i < l->nu || (i >= l->nu + l->nx && i < l->nu + l->nx + l->m))
         return NULL;
@@ -265,7 +265,7 @@ static const char *network_place(const Quest *e, int i)
 }
 
 /* " by 3.2", of what is missed */
-static void tell_missed(double missed, Text *text)
+static void report_missed(double missed, Text *text)
 {
     if (isfinite(missed))
         text_addf(text, " by %.3g", fabs(missed));
@@ -275,7 +275,7 @@ static void tell_missed(double missed, Text *text)
 
 static void name_row(const Quest *e, int i, double missed, Text *text)
 {
-    const Layout *l = e->l;
+    const VariableIndex *l = e->l;
 
     if (i < l->nu) {
         int q = speed_coordinate(l->system, i);
@@ -289,10 +289,10 @@ static void name_row(const Quest *e, int i, double missed, Text *text)
     } else {
         text_addf(text, "the equation of %s", network_unknown(e, i - l->nu - l->m));
     }
-    tell_missed(missed, text);
+    report_missed(missed, text);
 }
 
-static Status tell_beyond(const Quest *e, Diag *diag)
+static Status report_beyond(const Quest *e, Diag *diag)
 {
     const Bound *bound = &e->bounds[e->beyond];
     char *measure = expr_text(bound->measure);
@@ -308,13 +308,13 @@ static Status tell_beyond(const Quest *e, Diag *diag)
     return E_SOLVER;
 }
 
-static Status tell_failure(Quest *e, Diag *diag)
+static Status report_failure(Quest *e, Diag *diag)
 {
     Text text = {0};
     int shown = 0;
 
     if (e->beyond >= 0)
-        return tell_beyond(e, diag);
+        return report_beyond(e, diag);
 
     for (int i = 0; i < e->n && shown < 6; i++) {
         double missed;
@@ -367,7 +367,7 @@ static Status solve(Quest *e, Diag *diag)
     bool found = seek(e);
     Status status = OK;
 
-    CHECK(poll(e->watch));
+    CHECK(monitor_poll(e->watch));
     for (int i = 0; i < COUNT(paths) && !found; i++)
         CHECK(follow(e, &paths[i], &found));
     if (!found) {
@@ -376,7 +376,7 @@ static Status solve(Quest *e, Diag *diag)
         CHECK(creep(e, &found));
     }
     if (!found)
-        CHECK(tell_failure(e, diag));
+        CHECK(report_failure(e, diag));
 done:
     if (status == E_STOPPED)
         (void)diag_set(diag, E_STOPPED, "stopped while looking for an equilibrium");
@@ -403,9 +403,9 @@ done:
     return status;
 }
 
-static Status quest_open(Quest *e, const Setting *setting, ActiveRun *start, Diag *diag)
+static Status quest_open(Quest *e, const SimulationInput *setting, ActiveRun *start, Diag *diag)
 {
-    const Watch *watch = setting->watch;
+    const CallMonitor *watch = setting->watch;
     Scene scene = {0};
     size_t bytes;
     Status status = OK;
@@ -441,7 +441,7 @@ static void quest_close(Quest *e)
 /* what was found is where a search for z begins */
 static void guess_network(const Quest *e, ActiveRun *r)
 {
-    const Layout *l = phases_whole(r->phases)->layout;
+    const VariableIndex *l = phases_whole(r->phases)->layout;
 
     if (e->l->nz != l->nz)
         return;
@@ -450,12 +450,12 @@ static void guess_network(const Quest *e, ActiveRun *r)
            (size_t)l->nz * sizeof(double));
 }
 
-Status run_equilibrium(System *system, const Setting *setting, Result **out, ResultReader **reader,
-                       Diag *diag)
+Status run_equilibrium(System *system, const SimulationInput *setting, Result **out,
+                       ResultReader **reader, Diag *diag)
 {
     ActiveRun *r = NULL;
     Quest e = {0};
-    const Layout *l;
+    const VariableIndex *l;
     const double *v;
     double position = 0, velocity = 0;
     Status status = OK;
@@ -465,8 +465,8 @@ Status run_equilibrium(System *system, const Setting *setting, Result **out, Res
     CHECK(quest_open(&e, setting, r, diag));
     l = phases_whole(r->phases)->layout;
     status = solve(&e, diag);
-    if (status == E_SOLVER && cause_meeting(l, &r->phases->parameters, 0, r->result->start.y,
-                                            "no equilibrium can be found from there", diag))
+    if (status == E_SOLVER && failure_meeting(l, &r->phases->parameters, 0, r->result->start.y,
+                                              "no equilibrium can be found from there", diag))
         status = E_SINGULAR;
     CHECK(status);
     v = equilibrium_base(e.equations);
@@ -474,7 +474,7 @@ Status run_equilibrium(System *system, const Setting *setting, Result **out, Res
     for (int i = 0; i < l->n; i++) /* less than rounding of 1 rad or 1 m is nothing */
         r->result->start.y[i] = fabs(v[i]) < 1e-15 ? 0 : v[i];
     memcpy(r->result->start.y + l->n + l->nu, v + l->n, (size_t)l->nx * sizeof(double));
-    memcpy(r->result->start.y + layout_references(l),
+    memcpy(r->result->start.y + variable_index_references(l),
            v + equilibrium_length(e.equations) - l->multi_turns,
            (size_t)l->multi_turns * sizeof(double));
     guess_network(&e, r);
@@ -489,8 +489,8 @@ Status run_equilibrium(System *system, const Setting *setting, Result **out, Res
         remarks_add(&r->result->remarks, (Remark){.kind = REMARK_REST_DRIVEN});
     active_run_add_row(r, setting->at, r->begin);
     motion_residuals(r->phase->motion, setting->at, r->begin, &position, &velocity);
-    r->result->report.position_residual = position;
-    r->result->report.velocity_residual = velocity;
+    r->result->monitor_report.position_residual = position;
+    r->result->monitor_report.velocity_residual = velocity;
     active_run_finish(r, setting, out, reader);
     r = NULL;
 done:

@@ -20,15 +20,15 @@ typedef struct Map {
 } Map;
 
 /* derivatives of the rows by unknowns, or by their rates */
-typedef struct Part {
+typedef struct EquilibriumResidualPart {
     Jacobian *jacobian;
     double *values;
     int *place; /* in the Jacobian of all */
-} Part;
+} EquilibriumResidualPart;
 
 struct EquilibriumResidual {
     System *system;
-    Layout *l;
+    VariableIndex *l;
     ActiveRun *start; /* on the system of the user */
     Parameters parameters;
     Expr load, gmin;
@@ -39,8 +39,8 @@ struct EquilibriumResidual {
     double *v;      /* base */
     Probe *probe;   /* residuals, angles that count turns from place to place */
     Map map;
-    Part slopes, inertia; /* inertia: M, and A by rates of storage elements */
-    double *by;           /* of the moves of slopes: those by coordinates first, as in dq/ds */
+    EquilibriumResidualPart slopes, inertia; /* inertia: M, and A by rates of storage elements */
+    double *by; /* of the moves of slopes: those by coordinates first, as in dq/ds */
     Pattern pattern;
     double *jacobian;
     double *w, *place; /* of the last values; v there */
@@ -74,10 +74,10 @@ static double parameter(void *context, Expr symbol)
                                : parameters_value(&s->start->phases->parameters, symbol);
 }
 
-static Status make_system(EquilibriumResidual *s, const Scene *scene, const Watch *watch,
+static Status make_system(EquilibriumResidual *s, const Scene *scene, const CallMonitor *watch,
                           bool keeps, Diag *diag)
 {
-    const Layout *theirs = phases_whole(s->start->phases)->layout;
+    const VariableIndex *theirs = phases_whole(s->start->phases)->layout;
     Arena *arena = scene->arena;
     EquilibriumResidualVary of = {.arena = arena,
                                   .time = expr_symbol(arena, "t", SYMBOL_TIME),
@@ -91,7 +91,7 @@ static Status make_system(EquilibriumResidual *s, const Scene *scene, const Watc
     s->parameters = (Parameters){
         .value = parameter, .context = s, .evaluator = s->start->phases->parameters.evaluator};
     TRY(system_new_view(scene, &options, &s->system, diag));
-    s->l = layout_new(s->system);
+    s->l = variable_index_new(s->system);
     s->n = s->l->nu + s->l->nx + s->l->m + s->l->nz;
     s->references = s->l->n + s->l->nx + s->l->m + s->l->nz;
     s->length = s->references + s->l->multi_turns;
@@ -103,7 +103,7 @@ static Status make_system(EquilibriumResidual *s, const Scene *scene, const Watc
 
 /* --- dq/ds --- */
 
-typedef LIST(Expr) Roots;
+typedef LIST(Expr) EquilibriumResidualRoots;
 
 static bool is_euler(const System *system, int coordinate)
 {
@@ -115,9 +115,10 @@ static bool is_euler(const System *system, int coordinate)
 }
 
 /* the entries of `count` coordinates for whichever speed one of them holds */
-static void map_coordinates(EquilibriumResidual *s, int first, int count, Roots *roots)
+static void map_coordinates(EquilibriumResidual *s, int first, int count,
+                            EquilibriumResidualRoots *roots)
 {
-    const Layout *l = s->l;
+    const VariableIndex *l = s->l;
     Map *map = &s->map;
     LIST(int) speeds = {0};
 
@@ -144,7 +145,7 @@ static void map_coordinates(EquilibriumResidual *s, int first, int count, Roots 
 static Status make_map(EquilibriumResidual *s, Diag *diag)
 {
     Map *map = &s->map;
-    Roots roots = {0};
+    EquilibriumResidualRoots roots = {0};
     Status status;
 
     map->start = NEW_ARRAY(int, s->l->n + 1);
@@ -204,7 +205,7 @@ static void place_coordinates(const EquilibriumResidual *s, const double *w, dou
 static Status hold_samples(const EquilibriumResidual *s, Expr *rows, Diag *diag)
 {
     Arena *arena = system_arena(s->system);
-    const Layout *l = s->l;
+    const VariableIndex *l = s->l;
     const OwnSample *own;
 
     for (int k = 0; (own = system_sample(s->system, k)) != NULL; k++) {
@@ -224,9 +225,9 @@ static Status hold_samples(const EquilibriumResidual *s, Expr *rows, Diag *diag)
 }
 
 /* the rows; then angles that count turns */
-static Status push_roots(const EquilibriumResidual *s, Roots *roots, Diag *diag)
+static Status push_roots(const EquilibriumResidual *s, EquilibriumResidualRoots *roots, Diag *diag)
 {
-    const Layout *l = s->l;
+    const VariableIndex *l = s->l;
 
     LIST_ROOM(*roots, l->nu);
     TRY(rows_balance(l, roots->at, diag));
@@ -241,7 +242,7 @@ static Status push_roots(const EquilibriumResidual *s, Roots *roots, Diag *diag)
     return OK;
 }
 
-static void make_part(EquilibriumResidual *s, ColumnMoves *moves, Part *out)
+static void make_part(EquilibriumResidual *s, ColumnMoves *moves, EquilibriumResidualPart *out)
 {
     out->jacobian = jacobian_new(residual_program(probe_residual(s->probe)), s->n, s->n, moves->at,
                                  moves->count);
@@ -249,7 +250,7 @@ static void make_part(EquilibriumResidual *s, ColumnMoves *moves, Part *out)
     LIST_FREE(*moves);
 }
 
-static void free_part(Part *part)
+static void free_part(EquilibriumResidualPart *part)
 {
     jacobian_free(part->jacobian);
     MEM_FREE(part->values, part->place);
@@ -258,7 +259,7 @@ static void free_part(Part *part)
 /* by steps, which move coordinates by dq/ds, and by the other unknowns */
 static void make_slopes(EquilibriumResidual *s)
 {
-    const Layout *l = s->l;
+    const VariableIndex *l = s->l;
     ColumnMoves moves = {0};
 
     for (int i = 0; i < l->n; i++)
@@ -276,7 +277,7 @@ static void make_slopes(EquilibriumResidual *s)
 /* by u' and x' */
 static void make_inertia(EquilibriumResidual *s)
 {
-    const Layout *l = s->l;
+    const VariableIndex *l = s->l;
     ColumnMoves moves = {0};
 
     moves_push(&moves, 0, l->acceleration, l->nu);
@@ -291,18 +292,18 @@ static int own_column(const EquilibriumResidual *s, int row)
 }
 
 /* what stands somewhere in the Jacobian */
-typedef struct Terms {
+typedef struct EquilibriumResidualTerms {
     LIST(int) row;
     LIST(int) column;
-} Terms;
+} EquilibriumResidualTerms;
 
-static void add_term(Terms *terms, int row, int column)
+static void add_term(EquilibriumResidualTerms *terms, int row, int column)
 {
     LIST_PUSH(terms->row, row);
     LIST_PUSH(terms->column, column);
 }
 
-static void add_part(Terms *terms, const Part *part)
+static void add_part(EquilibriumResidualTerms *terms, const EquilibriumResidualPart *part)
 {
     const Pattern *p = jacobian_pattern(part->jacobian);
 
@@ -311,7 +312,7 @@ static void add_part(Terms *terms, const Part *part)
 }
 
 /* where a part's entries are to be added, from places of terms; how many there are */
-static int take_places(Part *part, const int *place)
+static int take_places(EquilibriumResidualPart *part, const int *place)
 {
     const int count = jacobian_pattern(part->jacobian)->count;
 
@@ -324,7 +325,7 @@ static int take_places(Part *part, const int *place)
 /* the pattern of the Jacobian with inertia and each mechanical unknown's own place */
 static void make_pattern(EquilibriumResidual *s)
 {
-    Terms terms = {0};
+    EquilibriumResidualTerms terms = {0};
     int *place, slopes;
 
     add_part(&terms, &s->slopes);
@@ -343,7 +344,7 @@ static void make_pattern(EquilibriumResidual *s)
 
 static Status make_rows(EquilibriumResidual *s, Diag *diag)
 {
-    Roots roots = {0};
+    EquilibriumResidualRoots roots = {0};
     Status status = OK;
 
     CHECK(push_roots(s, &roots, diag));
@@ -361,7 +362,7 @@ done:
 static RowValues row_of(const EquilibriumResidual *s, const double *v);
 
 /* whose rate a driver's row gives alone; -1: no driver's, or of several speeds */
-static int driven_speed(const Layout *l, int row, const double *phi_u)
+static int driven_speed(const VariableIndex *l, int row, const double *phi_u)
 {
     int own = -1;
 
@@ -378,7 +379,7 @@ static int driven_speed(const Layout *l, int row, const double *phi_u)
 static Status check_driven(const EquilibriumResidual *s, const double *phi_u, const double *rates,
                            Diag *diag)
 {
-    const Layout *l = s->l;
+    const VariableIndex *l = s->l;
     const double most = vector_largest(rates, l->nu);
 
     for (int j = 0; j < l->nu; j++) {
@@ -403,7 +404,7 @@ static Status check_driven(const EquilibriumResidual *s, const double *phi_u, co
 static Status rates_of(const EquilibriumResidual *s, Probe *probe, const double *u, double *out,
                        int right, Diag *diag)
 {
-    const Layout *l = s->l;
+    const VariableIndex *l = s->l;
     RowValues row = row_of(s, s->v);
     const double *values;
 
@@ -419,11 +420,11 @@ static Status rates_of(const EquilibriumResidual *s, Probe *probe, const double 
 /* Speeds of drivers, and their accelerations beside these. */
 static Status drive(EquilibriumResidual *s, Diag *diag)
 {
-    const Layout *l = s->l;
-    const Reading *run = system_run(l->system);
+    const VariableIndex *l = s->l;
+    const EquationForm *run = system_run(l->system);
     double *none = NEW_ARRAY(double, l->nu);
     Probe *probe = NULL;
-    Roots roots = {0};
+    EquilibriumResidualRoots roots = {0};
     Status status = OK;
 
     s->speeds = NEW_ARRAY(double, l->nu);
@@ -449,7 +450,7 @@ done:
 /* --- life --- */
 
 /* what the user guessed, where a search for it begins */
-static void guess_network(EquilibriumResidual *s, const Layout *theirs)
+static void guess_network(EquilibriumResidual *s, const VariableIndex *theirs)
 {
     double *z = s->v + s->l->n + s->l->nx + s->l->m;
 
@@ -459,11 +460,11 @@ static void guess_network(EquilibriumResidual *s, const Layout *theirs)
                 z[i] = s->start->result->start.guess[k];
 }
 
-Status equilibrium_new(const Scene *scene, ActiveRun *start, const Watch *watch, bool keeps,
+Status equilibrium_new(const Scene *scene, ActiveRun *start, const CallMonitor *watch, bool keeps,
                        double at, EquilibriumResidual **out, Diag *diag)
 {
     EquilibriumResidual *s = NEW(EquilibriumResidual);
-    const Layout *theirs = phases_whole(start->phases)->layout;
+    const VariableIndex *theirs = phases_whole(start->phases)->layout;
     Status status = OK;
 
     s->start = start;
@@ -477,7 +478,7 @@ Status equilibrium_new(const Scene *scene, ActiveRun *start, const Watch *watch,
     memcpy(s->v, start->result->start.y, (size_t)theirs->n * sizeof(double));
     memcpy(s->v + theirs->n, start->result->start.y + theirs->n + theirs->nu,
            (size_t)theirs->nx * sizeof(double));
-    memcpy(s->v + s->references, start->result->start.y + layout_references(theirs),
+    memcpy(s->v + s->references, start->result->start.y + variable_index_references(theirs),
            (size_t)theirs->multi_turns * sizeof(double));
     guess_network(s, theirs);
     equilibrium_rebase(s);
@@ -502,7 +503,7 @@ void equilibrium_free(EquilibriumResidual *s)
     free_part(&s->inertia);
     pattern_free(&s->pattern);
     MEM_FREE(s->by, s->jacobian, s->v, s->w, s->place, s->speeds, s->accelerations);
-    layout_free(s->l);
+    variable_index_free(s->l);
     system_free(s->system);
     mem_free(s);
 }
@@ -512,7 +513,7 @@ const double *equilibrium_speeds(const EquilibriumResidual *s)
     return s->speeds;
 }
 
-const Layout *equilibrium_layout(const EquilibriumResidual *s)
+const VariableIndex *equilibrium_layout(const EquilibriumResidual *s)
 {
     return s->l;
 }
@@ -548,7 +549,7 @@ bool equilibrium_step_gmin(EquilibriumResidual *s, double gmin)
 
 static RowValues row_of(const EquilibriumResidual *s, const double *v)
 {
-    const Layout *l = s->l;
+    const VariableIndex *l = s->l;
 
     return (RowValues){.t = s->at,
                        .references = v + s->references,
@@ -613,8 +614,8 @@ const double *equilibrium_residual(EquilibriumResidual *s, const double *w)
 }
 
 /* add a part's entries where the last values were told; NULL: each of its moves is 1 */
-static void add_entries(EquilibriumResidual *s, const Part *part, const double *by, double factor,
-                        double *jacobian)
+static void add_entries(EquilibriumResidual *s, const EquilibriumResidualPart *part,
+                        const double *by, double factor, double *jacobian)
 {
     jacobian_at(part->jacobian, probe_inputs(s->probe), by, part->values);
     for (int k = 0; k < jacobian_pattern(part->jacobian)->count; k++)
@@ -650,7 +651,7 @@ void equilibrium_sizes(const EquilibriumResidual *s, const double *w, double *si
 
 void equilibrium_hold(const EquilibriumResidual *s, double *residual, double *jacobian)
 {
-    const Layout *l = s->l;
+    const VariableIndex *l = s->l;
     const int rows = l->nu + l->m;
 
     for (int i = 0; i < rows && residual != NULL; i++)

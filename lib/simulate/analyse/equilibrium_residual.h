@@ -24,13 +24,13 @@ typedef struct EquilibriumResidual EquilibriumResidual;
  * keeps. The base is the assembled start of `start`, a run of the
  * system of the user, which is borrowed: its parameters are asked for. Fails as system_new() and
  * probe_new() do. O(symbols in the equations) derivatives. */
-MUST_USE Status equilibrium_new(const Scene *scene, ActiveRun *start, const Watch *watch,
+MUST_USE Status equilibrium_new(const Scene *scene, ActiveRun *start, const CallMonitor *watch,
                                 bool keeps, double at, EquilibriumResidual **out, Diag *diag);
 void equilibrium_free(EquilibriumResidual *equilibrium); /* NULL is fine */
 
 /* u_d; NULL: everything rests */
 const double *equilibrium_speeds(const EquilibriumResidual *equilibrium);
-const Layout *equilibrium_layout(const EquilibriumResidual *equilibrium);
+const VariableIndex *equilibrium_layout(const EquilibriumResidual *equilibrium);
 int equilibrium_length(const EquilibriumResidual *equilibrium);      /* of v */
 int equilibrium_count(const EquilibriumResidual *equilibrium);       /* of equations, and of w */
 bool equilibrium_is_network(const EquilibriumResidual *equilibrium); /* there is no mechanics */

@@ -25,7 +25,7 @@ typedef LIST(Turning) Turnings;
 /* admissible speeds at the start: freedoms x nu, row by row; new */
 static double *find_motions(ResultReader *reader)
 {
-    const Equations *eq = numbers_equations(result_reader_first(reader)->numbers);
+    const Equations *eq = compiled_equations(result_reader_first(reader)->numbers);
     const Assembled *start = &reader->result->start;
     const int nu = eq->nu, m = eq->m, rank = start->row_count;
     double *motions = NEW_ARRAY(double, (nu - rank) * nu);
@@ -76,7 +76,7 @@ static void angular_velocity(ResultReader *reader, const char *frame, Expr out[3
 static Status find_turnings(ResultReader *reader, const char *tail, const char *head, Turnings *out,
                             Diag *diag)
 {
-    const Layout *l = result_reader_first(reader)->layout;
+    const VariableIndex *l = result_reader_first(reader)->layout;
     double *motions = find_motions(reader);
     Probe *probe = NULL;
     Expr roots[3], of_tail[3];

@@ -2,10 +2,11 @@
  *
  * Two bounds go along: what entries may be off by, which decides what can be told at all, and what
  * is rounded here, in twice the digits. Where the second leaves open what the first doesn't, as
- * where entries are exact and cancel, the sums are formed to the last digit (remainders.h). */
+ * where entries are exact and cancel, the sums are formed to the last digit (markov_parameters.h).
+ */
 #include "simulate/analyse/gain.h"
 
-#include "algebra/remainders.h"
+#include "algebra/markov_parameters.h"
 #include "base/memory.h"
 
 #include <float.h>
@@ -14,38 +15,38 @@
 
 /* A^k b, what that may be off by, and what rounding may add */
 typedef struct Power {
-    Wide *v;
+    DoubleDouble *v;
     double *off, *noise;
 } Power;
 
 /* c A^k b likewise */
-typedef struct Value {
+typedef struct GainValue {
     double at, off, noise;
-} Value;
+} GainValue;
 
-typedef struct Search {
-    const Single *s;
+typedef struct GainSearch {
+    const Siso *s;
     double *a, *a_error; /* in units of time in which A is about 1: powers of it stay in range */
     int unit;
     Power now, next;
-    Remainders *exact; /* NULL: not needed yet */
-} Search;
+    MarkovParameters *exact; /* NULL: not needed yet */
+} GainSearch;
 
 static Power power_new(int n)
 {
-    return (Power){NEW_ARRAY(Wide, n), NEW_ARRAY(double, n), NEW_ARRAY(double, n)};
+    return (Power){NEW_ARRAY(DoubleDouble, n), NEW_ARRAY(double, n), NEW_ARRAY(double, n)};
 }
 
-static void search_open(Search *search, const Single *s)
+static void search_open(GainSearch *search, const Siso *s)
 {
     const int n = s->n;
     double norm = 0;
 
-    *search = (Search){.s = s,
-                       .a = NEW_ARRAY(double, n *n),
-                       .a_error = NEW_ARRAY(double, n *n),
-                       .now = power_new(n),
-                       .next = power_new(n)};
+    *search = (GainSearch){.s = s,
+                           .a = NEW_ARRAY(double, n *n),
+                           .a_error = NEW_ARRAY(double, n *n),
+                           .now = power_new(n),
+                           .next = power_new(n)};
     for (int i = 0; i < n * n; i++)
         norm = fmax(norm, fabs(s->a[i]));
     search->unit = norm > 0 ? ilogb(norm) : 0;
@@ -54,54 +55,54 @@ static void search_open(Search *search, const Single *s)
         search->a_error[i] = ldexp(s->a_error[i], -search->unit);
     }
     for (int i = 0; i < n; i++) {
-        search->now.v[i] = wide_of(s->b[i]);
+        search->now.v[i] = dd_of(s->b[i]);
         search->now.off[i] = s->b_error[i];
     }
 }
 
-static void search_close(Search *search)
+static void search_close(GainSearch *search)
 {
-    remainders_free(search->exact);
+    markov_parameters_free(search->exact);
     MEM_FREE(search->a, search->a_error, search->now.v, search->now.off, search->now.noise,
              search->next.v, search->next.off, search->next.noise);
 }
 
 /* add a product, whose first factor may be off by `error` */
-static inline void add(Wide *sum, Value *bound, double by, double error, const Power *p, int j,
-                       int n)
+static inline void add(DoubleDouble *sum, GainValue *bound, double by, double error, const Power *p,
+                       int j, int n)
 {
     const double size = fabs(p->v[j].high);
 
     if (by == 0 && error == 0)
         return;
-    *sum = wide_add(*sum, wide_times(p->v[j], by));
+    *sum = dd_add(*sum, dd_times(p->v[j], by));
     bound->off += fabs(by) * p->off[j] + error * (size + p->off[j] + p->noise[j]);
     if (size != 0 || p->noise[j] != 0)
-        bound->noise += fmax(fabs(by) * (p->noise[j] + n * WIDE_UNIT * size), LEAST);
+        bound->noise += fmax(fabs(by) * (p->noise[j] + n * DOUBLE_DOUBLE_ROUNDING * size), LEAST);
 }
 
 /* along c */
-static Value value_of(const Search *search)
+static GainValue value_of(const GainSearch *search)
 {
-    const Single *s = search->s;
-    Wide sum = wide_of(0);
-    Value out = {0};
+    const Siso *s = search->s;
+    DoubleDouble sum = dd_of(0);
+    GainValue out = {0};
 
     for (int j = 0; j < s->n; j++)
         add(&sum, &out, s->c[j], s->c_error[j], &search->now, j, s->n);
-    out.at = wide_double(sum);
+    out.at = dd_double(sum);
     return out;
 }
 
-static void step(Search *search)
+static void step(GainSearch *search)
 {
     const int n = search->s->n;
     const Power kept = search->now;
 
     for (int i = 0; i < n; i++) {
-        Value bound = {0};
+        GainValue bound = {0};
 
-        search->next.v[i] = wide_of(0);
+        search->next.v[i] = dd_of(0);
         for (int j = 0; j < n; j++)
             add(&search->next.v[i], &bound, search->a[i * n + j], search->a_error[i * n + j],
                 &search->now, j, n);
@@ -113,16 +114,16 @@ static void step(Search *search)
 }
 
 /* c A^k b to the last digit; false: there are too many, or it is too small for numbers */
-static bool settle(Search *search, int k, Value *value)
+static bool settle(GainSearch *search, int k, GainValue *value)
 {
-    const Single *s = search->s;
+    const Siso *s = search->s;
     int exponent;
 
     if (search->exact == NULL)
-        search->exact = remainders_new(search->a, s->b, s->c, s->n, s->n);
+        search->exact = markov_parameters_new(search->a, s->b, s->c, s->n, s->n);
     if (search->exact == NULL)
         return false;
-    value->at = remainders_value(search->exact, k, &exponent);
+    value->at = markov_parameters_value(search->exact, k, &exponent);
     value->noise = 0;
     if (value->at != 0 && ilogb(value->at) + exponent < DBL_MIN_EXP)
         return false;
@@ -130,15 +131,15 @@ static bool settle(Search *search, int k, Value *value)
     return true;
 }
 
-static bool is_told(const Value *value)
+static bool is_determined(const GainValue *value)
 {
     return fabs(value->at) > value->off + value->noise;
 }
 
 /* Whether rounding decides: what entries leave open doesn't hold it all. */
-static bool is_open(const Value *value)
+static bool is_open(const GainValue *value)
 {
-    return !is_told(value) && fabs(value->at) + value->noise > value->off;
+    return !is_determined(value) && fabs(value->at) + value->noise > value->off;
 }
 
 /* out of the units of time */
@@ -149,28 +150,28 @@ static double scaled(double value, int by)
     return size < DBL_MIN_EXP || size >= DBL_MAX_EXP ? INFINITY : ldexp(value, by);
 }
 
-bool gain_find(const Single *s, Gain *out)
+bool gain_find(const Siso *s, Gain *out)
 {
-    Search search;
-    Value value = {s->d, s->d_error, 0};
+    GainSearch search;
+    GainValue value = {s->d, s->d_error, 0};
     bool sound = true;
 
     search_open(&search, s);
     *out = (Gain){0};
-    while (sound && !is_told(&value) && out->degree <= s->n) {
+    while (sound && !is_determined(&value) && out->degree <= s->n) {
         const int k = out->degree++;
 
         if (k > 0)
             step(&search);
-        value = k < s->n ? value_of(&search) : (Value){0};
+        value = k < s->n ? value_of(&search) : (GainValue){0};
         if (is_open(&value))
             sound = settle(&search, k, &value);
         out->is_open = out->is_open || value.off > 0;
     }
-    out->is_open = out->is_open && !is_told(&value);
-    out->value = !is_told(&value)  ? 0
-                 : out->degree > 1 ? scaled(value.at, (out->degree - 1) * search.unit)
-                                   : value.at;
+    out->is_open = out->is_open && !is_determined(&value);
+    out->value = !is_determined(&value) ? 0
+                 : out->degree > 1      ? scaled(value.at, (out->degree - 1) * search.unit)
+                                        : value.at;
     search_close(&search);
     return sound;
 }

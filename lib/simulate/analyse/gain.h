@@ -3,7 +3,7 @@
 #define COTREE_SIMULATE_ANALYSE_GAIN_H
 
 #include "base/diag.h"
-#include "simulate/analyse/single.h"
+#include "simulate/analyse/siso.h"
 
 typedef struct Gain {
     int degree;   /* 0: d, 1: c b, 2: c A b ...; n + 1 where none can be told from 0 */
@@ -12,6 +12,6 @@ typedef struct Gain {
 } Gain;
 
 /* False where rounding leaves open what the entries decide. O(n^3). */
-MUST_USE bool gain_find(const Single *single, Gain *out);
+MUST_USE bool gain_find(const Siso *single, Gain *out);
 
 #endif

@@ -113,9 +113,9 @@ static Status open_system(Work *w, Diag *diag)
         CHECK(system_new_view(&scene, &options, &w->varied, diag));
         w->system = w->varied;
     }
-    w->l = layout_new(w->system);
+    w->l = variable_index_new(w->system);
     if (w->phase->closed != NULL)
-        layout_take_sides(w->l, w->phase->closed);
+        variable_index_set_sides(w->l, w->phase->closed);
     w->parameters = (Parameters){.value = parameter,
                                  .context = w,
                                  .evaluator = w->order->about->phases->parameters.evaluator};
@@ -128,7 +128,7 @@ done:
 
 static void place_columns(Work *w)
 {
-    const Layout *l = w->l;
+    const VariableIndex *l = w->l;
     Columns *at = &w->at;
     const struct {
         int *place;
@@ -151,12 +151,12 @@ static void place_columns(Work *w)
     }
 }
 
-typedef LIST(Expr) Roots;
+typedef LIST(Expr) LinearizeRoots;
 
-static Status push_rows(Work *w, Roots *roots, Diag *diag)
+static Status push_rows(Work *w, LinearizeRoots *roots, Diag *diag)
 {
-    const Layout *l = w->l;
-    const Reading *run = system_run(l->system);
+    const VariableIndex *l = w->l;
+    const EquationForm *run = system_run(l->system);
 
     w->rows.balance = 0;
     LIST_ROOM(*roots, l->nu);
@@ -190,9 +190,9 @@ static Status push_rows(Work *w, Roots *roots, Diag *diag)
 
 static Status compile(Work *w, Diag *diag)
 {
-    const Layout *l = w->l;
-    const Reading *run = system_run(l->system);
-    Roots rows = {0}, geometry = {0};
+    const VariableIndex *l = w->l;
+    const EquationForm *run = system_run(l->system);
+    LinearizeRoots rows = {0}, geometry = {0};
     Status status = OK;
 
     CHECK(push_rows(w, &rows, diag));
@@ -221,12 +221,12 @@ static void work_free(Work *w)
     probe_free(w->derived);
     probe_free(w->geometry);
     parameters_free(&w->parameters);
-    layout_free(w->l);
+    variable_index_free(w->l);
     system_free(w->varied);
     partitioning_free(w->partitioning);
     MEM_FREE(w->inputs, w->at.place, w->is_independent);
-    square_free(w->equations);
-    square_free(w->held);
+    verified_solve_free(w->equations);
+    verified_solve_free(w->held);
     MEM_FREE(w->y, w->y_error, w->follow, w->follow_error, w->values, w->phi_u, w->in_use, w->map,
              w->matrix, w->matrix_error, w->dependent, w->dependent_error);
 }
@@ -238,7 +238,7 @@ Status linearize(const LinearOrder *order, Linear **out, Diag *diag)
 
     CHECK(phase_refuse_by(result_reader_first(order->about), diag));
     CHECK(open_system(&w, diag));
-    report(order->watch, "linearizing", -1);
+    monitor_report(order->watch, "linearizing", -1);
     CHECK(compile(&w, diag));
     CHECK(linear_point(&w, diag));
     CHECK(linear_settled(&w, out, diag));

@@ -27,7 +27,7 @@ typedef struct LinearOrder {
     int output_count;
     const char *const *independent; /* coordinates wanted as independent */
     int independent_count;
-    const Watch *watch;
+    const CallMonitor *watch;
 } LinearOrder;
 
 /* New; free with linear_free(). Fails with E_SINGULAR where the equations are dependent, E_VALUE

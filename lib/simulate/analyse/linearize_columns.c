@@ -87,7 +87,7 @@ static void solve(const Work *w, Deviation *d)
         b[r] = -d->right[r].value;
         error[r] = d->right[r].error;
     }
-    square_solve(w->equations, b, error, found, off);
+    verified_solve_solve(w->equations, b, error, found, off);
     for (int k = 0; k < n; k++)
         d->follow[k] = (LinearNumber){found[k], off[k]};
     MEM_FREE(b, error, found, off);
@@ -195,8 +195,8 @@ static void put(const LinearColumn *column, int row, LinearNumber number)
 static void drop(const LinearColumn *column, int count)
 {
     for (int i = 0; i < count; i++)
-        if (linear_is_untold(column->at[(ptrdiff_t)i * column->stride],
-                             column->error[(ptrdiff_t)i * column->stride]))
+        if (linear_is_undetermined(column->at[(ptrdiff_t)i * column->stride],
+                                   column->error[(ptrdiff_t)i * column->stride]))
             column->at[(ptrdiff_t)i * column->stride] = 0;
 }
 
@@ -209,7 +209,7 @@ static LinearNumber get(const LinearColumn *column, int row)
 static void write_column(const Work *w, const Deviation *d, const LinearColumn *rates,
                          const LinearColumn *outputs)
 {
-    const Layout *l = w->l;
+    const VariableIndex *l = w->l;
     const int *independent = partitioning_independent(w->partitioning);
     int f = w->freedoms;
 
@@ -294,10 +294,10 @@ static void begin(const Work *w, const Linear *out, int c, Deviation *d)
 /* --- M s'' + K s + C s' = 0 --- */
 
 /* T, how all speeds move with independent ones, and what is left of the balances along it */
-typedef struct Balance {
+typedef struct ColumnBalance {
     LinearNumber *along;  /* T, nu x freedoms */
     LinearNumber *moment; /* nu: room */
-} Balance;
+} ColumnBalance;
 
 static LinearNumber mass_entry(const Work *w, int i, int j)
 {
@@ -318,7 +318,7 @@ static bool is_mechanical(const Work *w)
 }
 
 /* of what acts on all speeds: along the independent ones */
-static void put_along(const Work *w, const Balance *b, double sign, double *at, double *error,
+static void put_along(const Work *w, const ColumnBalance *b, double sign, double *at, double *error,
                       int stride)
 {
     for (int i = 0; i < w->freedoms; i++) {
@@ -339,7 +339,7 @@ static void add_mass(const Work *w, const LinearNumber *acceleration, LinearNumb
 }
 
 /* T, and M of independent coordinates T^T M T */
-static void open_balance(const Work *w, Balance *b, Linear *out)
+static void open_balance(const Work *w, ColumnBalance *b, Linear *out)
 {
     const int nu = w->l->nu, f = w->freedoms;
     LinearNumber *v = NEW_ARRAY(LinearNumber, nu), *still = NEW_ARRAY(LinearNumber, w->used);
@@ -368,13 +368,13 @@ static void open_balance(const Work *w, Balance *b, Linear *out)
     MEM_FREE(v, still);
 }
 
-static void close_balance(const Balance *b)
+static void close_balance(const ColumnBalance *b)
 {
     MEM_FREE(b->along, b->moment);
 }
 
 /* -T^T (what the balances miss + M u'), u' being what constraints ask of dependent ones alone */
-static void write_force(const Work *w, const Balance *b, const Deviation *d, int column,
+static void write_force(const Work *w, const ColumnBalance *b, const Deviation *d, int column,
                         Linear *out)
 {
     const int nu = w->l->nu;
@@ -432,19 +432,19 @@ Status linear_columns(const Work *w, Linear *out, Diag *diag)
 {
     const int columns = out->states + out->inputs;
     const bool is_whole = w->beside == 0 && is_mechanical(w);
-    Balance balance = {0};
-    Deviation d[TANGENT_LANES];
+    ColumnBalance balance = {0};
+    Deviation d[TANGENT_BATCH];
     Status status = OK;
 
-    for (int lane = 0; lane < TANGENT_LANES; lane++)
+    for (int lane = 0; lane < TANGENT_BATCH; lane++)
         deviation_open(w, &d[lane]);
     if (is_whole)
         open_balance(w, &balance, out);
-    for (int first = 0; first < columns; first += TANGENT_LANES) {
-        const int count = columns - first < TANGENT_LANES ? columns - first : TANGENT_LANES;
+    for (int first = 0; first < columns; first += TANGENT_BATCH) {
+        const int count = columns - first < TANGENT_BATCH ? columns - first : TANGENT_BATCH;
 
-        report(w->order->watch, "linearizing", (double)first / columns);
-        CHECK(poll(w->order->watch));
+        monitor_report(w->order->watch, "linearizing", (double)first / columns);
+        CHECK(monitor_poll(w->order->watch));
         for (int lane = 0; lane < count; lane++)
             begin(w, out, first + lane, &d[lane]);
         spread(w, d, count);
@@ -459,7 +459,7 @@ Status linear_columns(const Work *w, Linear *out, Diag *diag)
     for (int i = 0; i < out->inputs; i++)
         CHECK(take_rate(w, &d[0], i, out, diag));
 done:
-    for (int lane = 0; lane < TANGENT_LANES; lane++)
+    for (int lane = 0; lane < TANGENT_BATCH; lane++)
         deviation_close(&d[lane]);
     close_balance(&balance);
     return status;

@@ -6,8 +6,8 @@
 #ifndef COTREE_SIMULATE_ANALYSE_LINEARIZE_IMPL_H
 #define COTREE_SIMULATE_ANALYSE_LINEARIZE_IMPL_H
 
-#include "algebra/square.h"
-#include "algebra/wide.h"
+#include "algebra/double_double.h"
+#include "algebra/verified_solve.h"
 #include "simulate/analyse/linearize.h"
 #include "simulate/equations/partitioning.h"
 #include "simulate/equations/rows.h"
@@ -32,8 +32,8 @@ typedef struct LinearNumber {
 /* add a product; what that rounds away is known */
 static inline void number_add(LinearNumber *sum, LinearNumber a, LinearNumber b)
 {
-    const Wide product = wide_product(a.value, b.value);
-    const Wide total = wide_sum(sum->value, product.high);
+    const DoubleDouble product = dd_product(a.value, b.value);
+    const DoubleDouble total = dd_sum(sum->value, product.high);
 
     sum->value = total.high;
     sum->error += fabs(product.low) + fabs(total.low) + fabs(a.value) * b.error +
@@ -41,7 +41,7 @@ static inline void number_add(LinearNumber *sum, LinearNumber a, LinearNumber b)
 }
 
 /* of 0, by what it may be off: whether that is all it is */
-static inline bool linear_is_untold(double value, double error)
+static inline bool linear_is_undetermined(double value, double error)
 {
     return value != 0 && fabs(value) <= error;
 }
@@ -51,7 +51,7 @@ typedef struct Work {
     Phase *phase;   /* of the result, at the point */
     System *varied; /* NULL: the result's own will do */
     System *system;
-    Layout *l;
+    VariableIndex *l;
     Parameters parameters;
     Expr *inputs; /* symbols, then of their rates */
     Columns at;
@@ -66,9 +66,9 @@ typedef struct Work {
     LinearNumber *values;                 /* of rows, at the point */
     LinearNumber *phi_u, *map, *map_rate; /* Phi_u, N, N' */
     double *matrix, *matrix_error;        /* E_e over the rows in use */
-    Square *equations;                    /* its factors */
+    VerifiedSolve *equations;             /* its factors */
     double *dependent, *dependent_error;
-    Square *held; /* factors of Phi_u's dependent columns, over the rows in use */
+    VerifiedSolve *held; /* factors of Phi_u's dependent columns, over the rows in use */
     Partitioning *partitioning;
     int used, freedoms, unknowns; /* unknowns: nu + used + nx + nz */
     uint64_t beside;              /* seed by which all numbers are moved; 0: they aren't, and errors
@@ -108,7 +108,7 @@ void linear_complete(const Work *w, const LinearNumber *right, LinearNumber *v);
 
 /* Everything evaluated anew a little beside the point, by w->beside, for the same equations and
  * coordinates; false: it can't be. */
-bool linear_beside(Work *w);
+bool linear_perturbed(Work *w);
 
 /* Whether coefficients of the mechanical equations change as it moves on from the point, whose
  * deviations `linear` tells of: what leaves them alone keeps the eigenvalues of A the same in all

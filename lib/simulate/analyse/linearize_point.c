@@ -7,7 +7,7 @@
 #include "algebra/rank.h"
 #include "base/memory.h"
 #include "base/random.h"
-#include "simulate/equations/causes.h"
+#include "simulate/equations/failure_diagnosis.h"
 
 #include <string.h>
 
@@ -22,7 +22,7 @@ enum { MOST_STEPS = 8 }; /* of Newton's method; equations that are linear in it 
 
 int linear_equation(const Work *w, int r)
 {
-    const Layout *l = w->l;
+    const VariableIndex *l = w->l;
 
     if (r < l->nu)
         return w->rows.balance + r;
@@ -33,7 +33,7 @@ int linear_equation(const Work *w, int r)
 
 int linear_unknown(const Work *w, int k)
 {
-    const Layout *l = w->l;
+    const VariableIndex *l = w->l;
 
     if (k < l->nu)
         return w->at.acceleration + k;
@@ -45,7 +45,7 @@ int linear_unknown(const Work *w, int k)
 
 static RowValues row_with(const Work *w, double t, const double *y, const double *follow)
 {
-    const Layout *l = w->l;
+    const VariableIndex *l = w->l;
     RowValues row = row_of_state(l, t, y);
 
     row.acceleration = follow;
@@ -68,8 +68,8 @@ static bool fill_matrix(const Work *w)
     const int n = w->unknowns;
     bool is_new = false;
 
-    for (int first = 0; first < n; first += TANGENT_LANES) {
-        const int count = n - first < TANGENT_LANES ? n - first : TANGENT_LANES;
+    for (int first = 0; first < n; first += TANGENT_BATCH) {
+        const int count = n - first < TANGENT_BATCH ? n - first : TANGENT_BATCH;
 
         tangents_clear(w->along);
         for (int lane = 0; lane < count; lane++)
@@ -108,8 +108,8 @@ static void evaluate(Work *w, bool is_bounded)
 
 static void factor(Work *w)
 {
-    square_free(w->equations);
-    w->equations = square_new(w->matrix, w->matrix_error, w->unknowns);
+    verified_solve_free(w->equations);
+    w->equations = verified_solve_new(w->matrix, w->matrix_error, w->unknowns);
 }
 
 static void residuals(const Work *w, double *right, double *error)
@@ -134,9 +134,9 @@ static bool find_rates(Work *w)
         if (fill_matrix(w) || w->equations == NULL)
             factor(w);
         residuals(w, right, error);
-        sound = square_is_regular(w->equations);
+        sound = verified_solve_is_regular(w->equations);
         if (sound)
-            square_solve(w->equations, right, NULL, step, NULL);
+            verified_solve_solve(w->equations, right, NULL, step, NULL);
         moves = false;
         for (int k = 0; k < w->unknowns && sound; k++) {
             double *follow = &w->follow[linear_unknown(w, k) - w->at.acceleration];
@@ -160,10 +160,10 @@ static bool bound_rates(Work *w)
     bool sound;
 
     factor(w);
-    sound = square_is_regular(w->equations);
+    sound = verified_solve_is_regular(w->equations);
     residuals(w, right, error);
     if (sound)
-        square_solve(w->equations, right, error, step, off);
+        verified_solve_solve(w->equations, right, error, step, off);
     for (int k = 0; k < w->unknowns && sound; k++)
         w->follow_error[linear_unknown(w, k) - w->at.acceleration] = fabs(step[k]) + off[k];
     MEM_FREE(right, error, step, off);
@@ -175,7 +175,7 @@ static bool bound_rates(Work *w)
 /* N' is N along q' */
 static void turn_map(Work *w)
 {
-    const Layout *l = w->l;
+    const VariableIndex *l = w->l;
     const int constraints = l->m * l->nu;
 
     for (int i = 0; i < l->n; i++) {
@@ -191,7 +191,7 @@ static void turn_map(Work *w)
 /* after evaluate() */
 static void evaluate_geometry(Work *w)
 {
-    const Layout *l = w->l;
+    const VariableIndex *l = w->l;
     const int constraints = l->m * l->nu, map = l->n * l->nu;
     const RowValues row = row_of_state(l, w->order->at, w->y);
     RowValues off = row_of_state(l, number_error(w->order->at), w->y_error);
@@ -275,9 +275,9 @@ static bool factor_dependent(Work *w)
             w->dependent[r * m + column] = entry.value;
             w->dependent_error[r * m + column++] = entry.error;
         }
-    square_free(w->held);
-    w->held = square_new(w->dependent, w->dependent_error, m);
-    return square_is_regular(w->held);
+    verified_solve_free(w->held);
+    w->held = verified_solve_new(w->dependent, w->dependent_error, m);
+    return verified_solve_is_regular(w->held);
 }
 
 void linear_complete(const Work *w, const LinearNumber *right, LinearNumber *v)
@@ -296,7 +296,7 @@ void linear_complete(const Work *w, const LinearNumber *right, LinearNumber *v)
         b[r] = -sum.value;
         error[r] = sum.error;
     }
-    square_solve(w->held, b, error, found, off);
+    verified_solve_solve(w->held, b, error, found, off);
     for (int j = 0, column = 0; j < nu; j++)
         if (!w->is_independent[j]) {
             v[j] = (LinearNumber){found[column], off[column]};
@@ -325,7 +325,7 @@ static void miss(const Work *w, int first, LinearNumber *moves)
 
 static void bound_state(Work *w)
 {
-    const Layout *l = w->l;
+    const VariableIndex *l = w->l;
     LinearNumber *moves = NEW_ARRAY(LinearNumber, l->nu);
 
     miss(w, w->rows.phi, moves);
@@ -344,7 +344,7 @@ static void bound_state(Work *w)
 
 static void open_room(Work *w)
 {
-    const Layout *l = w->l;
+    const VariableIndex *l = w->l;
     const int follow = l->nu + l->m + l->nx + l->nz;
 
     w->used = w->order->about->result->start.row_count;
@@ -352,7 +352,7 @@ static void open_room(Work *w)
     w->unknowns = l->nu + w->used + l->nx + l->nz;
     w->follow = NEW_ARRAY(double, follow);
     w->follow_error = NEW_ARRAY(double, follow);
-    w->y_error = NEW_ARRAY(double, layout_references(l) + l->multi_turns);
+    w->y_error = NEW_ARRAY(double, variable_index_references(l) + l->multi_turns);
     w->values = NEW_ARRAY(LinearNumber, w->rows.count);
     w->is_independent = NEW_ARRAY(bool, l->nu);
     w->matrix = NEW_ARRAY(double, w->unknowns * w->unknowns);
@@ -362,7 +362,7 @@ static void open_room(Work *w)
     w->map_rate = w->map + l->n * l->nu;
     w->dependent = NEW_ARRAY(double, w->used * w->used);
     w->dependent_error = NEW_ARRAY(double, w->used * w->used);
-    for (int i = 0; i < layout_references(l); i++)
+    for (int i = 0; i < variable_index_references(l); i++)
         w->y_error[i] = number_error(w->y[i]);
 }
 
@@ -370,7 +370,7 @@ static void open_room(Work *w)
  * exponential. */
 static void begin_at_network(Work *w)
 {
-    const Layout *l = w->l;
+    const VariableIndex *l = w->l;
     Motion *motion = w->phase->motion;
     const double *known = motion != NULL && l->nz == w->phase->layout->nz && l->nx + l->nz > 0
                               ? motion_network(motion, w->order->at, w->y)
@@ -383,8 +383,8 @@ static void begin_at_network(Work *w)
 
 static Status refuse_dependent(Work *w, Diag *diag)
 {
-    if (cause_tell(w->l, &w->parameters, w->order->at, w->y, "nothing linear tells how it moves",
-                   diag))
+    if (failure_diagnose(w->l, &w->parameters, w->order->at, w->y,
+                         "nothing linear tells how it moves", diag))
         return E_SINGULAR;
     (void)diag_set(diag, E_SINGULAR,
                    "the equations are dependent there: nothing linear tells how "
@@ -395,7 +395,7 @@ static Status refuse_dependent(Work *w, Diag *diag)
 
 Status linear_point(Work *w, Diag *diag)
 {
-    const Layout *l = w->l, *theirs = w->phase->layout;
+    const VariableIndex *l = w->l, *theirs = w->phase->layout;
 
     if (l->n != theirs->n || l->nu != theirs->nu || l->m != theirs->m || l->nx != theirs->nx)
         return diag_set(diag, E_MODEL, "with these inputs the model has other unknowns");
@@ -418,12 +418,12 @@ Status linear_point(Work *w, Diag *diag)
     evaluate(w, true);
     (void)fill_matrix(w);
     factor(w);
-    if (!square_is_regular(w->equations))
+    if (!verified_solve_is_regular(w->equations))
         TRY(refuse_dependent(w, diag));
     return OK;
 }
 
-bool linear_beside(Work *w)
+bool linear_perturbed(Work *w)
 {
     if (!find_rates(w))
         return false;
@@ -432,7 +432,7 @@ bool linear_beside(Work *w)
         return false;
     (void)fill_matrix(w);
     factor(w);
-    return square_is_regular(w->equations);
+    return verified_solve_is_regular(w->equations);
 }
 
 /* --- how it goes on --- */
@@ -454,7 +454,7 @@ static double quickness(const Linear *linear)
 /* where coordinates and speeds are after a time, with the rates of now */
 static void move_on(const Work *w, double time, double *y)
 {
-    const Layout *l = w->l;
+    const VariableIndex *l = w->l;
 
     memcpy(y, w->y, (size_t)w->phase->length * sizeof(double));
     for (int i = 0; i < l->n; i++) {
@@ -488,8 +488,8 @@ static double *coefficients(const Work *w)
     const int nu = w->l->nu, count = w->at.rates;
     double *out = NEW_ARRAY(double, (nu + w->used) * count);
 
-    for (int first = 0; first < count; first += TANGENT_LANES) {
-        const int lanes = count - first < TANGENT_LANES ? count - first : TANGENT_LANES;
+    for (int first = 0; first < count; first += TANGENT_BATCH) {
+        const int lanes = count - first < TANGENT_BATCH ? count - first : TANGENT_BATCH;
 
         tangents_clear(w->along);
         for (int lane = 0; lane < lanes; lane++)

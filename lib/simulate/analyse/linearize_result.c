@@ -31,7 +31,7 @@ static char *copy(const char *text)
 Linear *linear_new(const Work *w)
 {
     const LinearOrder *order = w->order;
-    const Layout *l = w->l;
+    const VariableIndex *l = w->l;
     Linear *out = NEW(Linear);
     int f = w->freedoms;
 

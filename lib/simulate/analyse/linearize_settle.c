@@ -35,7 +35,7 @@ static bool is_doubtful(const Entries *m, int row, int k)
     const double *at = m->at + (ptrdiff_t)row * m->columns;
     double largest = 0;
 
-    if (!linear_is_untold(at[k], m->error[(ptrdiff_t)row * m->columns + k]))
+    if (!linear_is_undetermined(at[k], m->error[(ptrdiff_t)row * m->columns + k]))
         return false;
     for (int i = 0; i < m->columns; i++)
         largest = fmax(largest, fabs(at[i]));
@@ -67,12 +67,12 @@ static void settle(Linear *linear, Linear *const *samples, int count)
     for (int i = 0; i < MATRICES; i++)
         for (ptrdiff_t at = 0; at < (ptrdiff_t)m[i].rows * m[i].columns; at++) {
             const double value = m[i].at[at];
-            bool stays = count == SAMPLES &&
-                         is_doubtful(&m[i], (int)(at / m[i].columns), (int)(at % m[i].columns));
+            bool is_constant = count == SAMPLES && is_doubtful(&m[i], (int)(at / m[i].columns),
+                                                               (int)(at % m[i].columns));
 
-            for (int s = 0; s < count && stays; s++)
-                stays = fabs(sampled[s][i].at[at] - value) <= ALIKE * fabs(value);
-            if (linear_is_untold(value, m[i].error[at]) && !stays) {
+            for (int s = 0; s < count && is_constant; s++)
+                is_constant = fabs(sampled[s][i].at[at] - value) <= ALIKE * fabs(value);
+            if (linear_is_undetermined(value, m[i].error[at]) && !is_constant) {
                 m[i].error[at] += fabs(value);
                 m[i].at[at] = 0;
             }
@@ -87,7 +87,7 @@ static Status sample(Work *w, uint64_t seed, Linear **out, Diag *diag)
 
     *out = NULL;
     w->beside = seed;
-    if (linear_beside(w)) {
+    if (linear_perturbed(w)) {
         linear = linear_new(w);
         status = linear_columns(w, linear, diag);
         if (status == OK)

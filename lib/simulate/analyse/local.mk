@@ -15,8 +15,8 @@ libcore_la_SOURCES += \
   lib/simulate/analyse/modes.c \
   lib/simulate/analyse/search.c \
   lib/simulate/analyse/search.h \
-  lib/simulate/analyse/single.c \
-  lib/simulate/analyse/single.h \
+  lib/simulate/analyse/siso.c \
+  lib/simulate/analyse/siso.h \
   lib/simulate/analyse/equilibrium_residual.c \
   lib/simulate/analyse/equilibrium_residual.h \
   lib/simulate/analyse/transfer.c \

@@ -36,10 +36,10 @@
 #define MOST_FULL 300 /* unknowns of a network */
 #define FEW_SVD   100 /* unknowns to find what moves most */
 
-struct Search {
+struct EquilibriumSearch {
     Cleanup cleanup;
     EquilibriumResidual *equations;
-    const Watch *watch;
+    const CallMonitor *watch;
     int n;
     int speeds;             /* of w: steps */
     const int *start, *row; /* pattern of the Jacobian */
@@ -70,14 +70,14 @@ static SUNLinearSolver_ID solver_id(SUNLinearSolver solver)
 
 static int solver_setup(SUNLinearSolver solver, SUNMatrix matrix)
 {
-    const Search *s = solver->content;
+    const EquilibriumSearch *s = solver->content;
 
     return factors_make(s->factors, SUNSparseMatrix_Data(matrix)) ? SUNLS_SUCCESS
                                                                   : SUNLS_LUFACT_FAIL;
 }
 
 /* a step's length as KINSOL measures it once it was made */
-static double length_of(const Search *s, const double *step)
+static double length_of(const EquilibriumSearch *s, const double *step)
 {
     double length = 0;
 
@@ -95,7 +95,7 @@ static double length_of(const Search *s, const double *step)
 static int solver_solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector step, N_Vector right,
                         realtype tolerance)
 {
-    const Search *s = solver->content;
+    const EquilibriumSearch *s = solver->content;
     double *w = N_VGetArrayPointer(step);
     double furthest;
 
@@ -110,7 +110,7 @@ static int solver_solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector step,
                : SUNLS_PACKAGE_FAIL_UNREC;
 }
 
-static void residual_at(const Search *s, const double *w, double *out)
+static void residual_at(const EquilibriumSearch *s, const double *w, double *out)
 {
     memcpy(out, equilibrium_residual(s->equations, w), (size_t)s->n * sizeof(double));
     if (s->is_held)
@@ -119,10 +119,10 @@ static void residual_at(const Search *s, const double *w, double *out)
 
 static int residual(N_Vector w, N_Vector out, void *data)
 {
-    const Search *s = data;
+    const EquilibriumSearch *s = data;
     double *values = N_VGetArrayPointer(out);
 
-    if (poll(s->watch) != OK)
+    if (monitor_poll(s->watch) != OK)
         return -1;
     residual_at(s, N_VGetArrayPointer(w), values);
     for (int i = 0; i < s->n; i++)
@@ -133,7 +133,7 @@ static int residual(N_Vector w, N_Vector out, void *data)
 
 static int jacobian(N_Vector w, N_Vector f, SUNMatrix matrix, void *data, N_Vector a, N_Vector b)
 {
-    const Search *s = data;
+    const EquilibriumSearch *s = data;
     const double *values = equilibrium_jacobian(s->equations, N_VGetArrayPointer(w));
 
     (void)f, (void)a, (void)b;
@@ -159,7 +159,7 @@ static void keep_quiet(int code, const char *module, const char *function, char 
 
 static void close_solver(void *object)
 {
-    Search *s = object;
+    EquilibriumSearch *s = object;
 
     KINFree(&s->memory);
     if (s->linear != NULL)
@@ -173,7 +173,7 @@ static void close_solver(void *object)
     cleanup_close(&s->cleanup);
 }
 
-static void open_linear(Search *s)
+static void open_linear(EquilibriumSearch *s)
 {
     s->linear = MEM_GIVEN(SUNLinSolNewEmpty(s->context));
     s->linear->content = s;
@@ -183,7 +183,7 @@ static void open_linear(Search *s)
     s->linear->ops->solve = solver_solve;
 }
 
-static bool open_solver(Search *s)
+static bool open_solver(EquilibriumSearch *s)
 {
     int code;
 
@@ -221,9 +221,9 @@ static bool open_solver(Search *s)
     return code == 0 && KINSetScaledStepTol(s->memory, STILL) == 0;
 }
 
-Search *search_new(EquilibriumResidual *equations, const Watch *watch)
+EquilibriumSearch *search_new(EquilibriumResidual *equations, const CallMonitor *watch)
 {
-    Search *s = NEW(Search);
+    EquilibriumSearch *s = NEW(EquilibriumSearch);
 
     s->equations = equations;
     s->watch = watch;
@@ -242,7 +242,7 @@ Search *search_new(EquilibriumResidual *equations, const Watch *watch)
     return NULL;
 }
 
-void search_free(Search *s)
+void search_free(EquilibriumSearch *s)
 {
     if (s == NULL)
         return;
@@ -255,7 +255,7 @@ void search_free(Search *s)
 /* --- rounds --- */
 
 /* w at the base, its residuals and sizes of rows; false where something isn't finite */
-static bool look(Search *s)
+static bool look(EquilibriumSearch *s)
 {
     double *w = N_VGetArrayPointer(s->w);
     const double *values;
@@ -272,14 +272,14 @@ static bool look(Search *s)
     return true;
 }
 
-static bool holds(const Search *s, int i, double missed)
+static bool holds(const EquilibriumSearch *s, int i, double missed)
 {
     return fabs(missed) <= fmax(ENOUGH * s->size[i], LEAST * s->entry[i]);
 }
 
 /* After look(): what a residual is measured by, its terms or itself; but by `share` of the largest
  * force, or of an unknown of 1, at least, while reactions and currents are still to come. */
-static void weigh(Search *s, double share)
+static void weigh(EquilibriumSearch *s, double share)
 {
     double force = 0;
 
@@ -294,7 +294,7 @@ static void weigh(Search *s, double share)
 }
 
 /* after look() */
-static bool all_hold(const Search *s)
+static bool all_hold(const EquilibriumSearch *s)
 {
 
     for (int i = 0; i < s->n; i++)
@@ -304,7 +304,7 @@ static bool all_hold(const Search *s)
 }
 
 /* after weigh(): the residuals as KINSOL sums them */
-static double measure(const Search *s)
+static double measure(const EquilibriumSearch *s)
 {
     double sum = 0;
 
@@ -314,7 +314,7 @@ static double measure(const Search *s)
 }
 
 /* after weigh(): the largest */
-static double worst(const Search *s, const double *missed)
+static double worst(const EquilibriumSearch *s, const double *missed)
 {
     double largest = 0;
 
@@ -324,7 +324,7 @@ static double worst(const Search *s, const double *missed)
 }
 
 /* the rounds of search_run(), which leave the base where they end */
-static bool go_on(Search *s)
+static bool go_on(EquilibriumSearch *s)
 {
     bool is_stuck = false;
     double share = 1; /* each balance is measured by the largest, until all hold */
@@ -338,7 +338,7 @@ static bool go_on(Search *s)
         weigh(s, share);
         before = measure(s);
         code = KINSol(s->memory, s->w, KIN_LINESEARCH, s->unit, s->weight);
-        if (poll(s->watch) != OK || !vector_is_finite(N_VGetArrayPointer(s->w), s->n))
+        if (monitor_poll(s->watch) != OK || !vector_is_finite(N_VGetArrayPointer(s->w), s->n))
             return false;
         equilibrium_place(s->equations, N_VGetArrayPointer(s->w), equilibrium_base(s->equations));
         equilibrium_rebase(s->equations);
@@ -361,7 +361,7 @@ static bool go_on(Search *s)
     return all_hold(s);
 }
 
-bool search_run(Search *s)
+bool search_run(EquilibriumSearch *s)
 {
     const size_t bytes = (size_t)equilibrium_length(s->equations) * sizeof(double);
     double *base = equilibrium_base(s->equations);
@@ -376,7 +376,7 @@ bool search_run(Search *s)
     return false;
 }
 
-bool search_settle(Search *s)
+bool search_settle(EquilibriumSearch *s)
 {
     bool found;
 
@@ -388,7 +388,7 @@ bool search_settle(Search *s)
 
 /* --- about the base --- */
 
-double search_growth(Search *s, const double *w)
+double search_growth(EquilibriumSearch *s, const double *w)
 {
     if (!look(s))
         return INFINITY;
@@ -396,7 +396,7 @@ double search_growth(Search *s, const double *w)
     return worst(s, equilibrium_residual(s->equations, w));
 }
 
-bool search_holds(Search *s, int i, double *missed)
+bool search_holds(EquilibriumSearch *s, int i, double *missed)
 {
     const bool finite = look(s);
 
@@ -404,7 +404,7 @@ bool search_holds(Search *s, int i, double *missed)
     return finite && holds(s, i, *missed);
 }
 
-int search_rank(Search *s)
+int search_rank(EquilibriumSearch *s)
 {
     if (s->n == 0)
         return 0;
@@ -415,13 +415,13 @@ int search_rank(Search *s)
 }
 
 /* what moves most where the equations stay as they are; -1: nothing may. O(n^3) */
-static int loosest(const Search *s, const double *values)
+static int loosest(const EquilibriumSearch *s, const double *values)
 {
     const size_t n = (size_t)s->n;
     gsl_matrix *u = dense_matrix(n, n), *moves = dense_matrix(n, n);
     gsl_vector *sizes = dense_vector(n), *work = dense_vector(n);
     size_t most = 0;
-    bool is_loose;
+    bool is_lifted;
 
     for (int c = 0; c < s->n; c++)
         for (int k = s->start[c]; k < s->start[c + 1]; k++)
@@ -432,12 +432,12 @@ static int loosest(const Search *s, const double *values)
         if (fabs(gsl_matrix_get(moves, i, n - 1)) >
             fabs(gsl_matrix_get(moves, most, n - 1)) * (1 + 1e-9))
             most = i;
-    is_loose = gsl_vector_get(sizes, n - 1) <= 1e-13 * gsl_vector_get(sizes, 0);
+    is_lifted = gsl_vector_get(sizes, n - 1) <= 1e-13 * gsl_vector_get(sizes, 0);
     MEM_FREE(u, moves, sizes, work);
-    return is_loose ? (int)most : -1;
+    return is_lifted ? (int)most : -1;
 }
 
-int search_undetermined(Search *s)
+int search_undetermined(EquilibriumSearch *s)
 {
     const double *values;
     int column;
@@ -449,7 +449,7 @@ int search_undetermined(Search *s)
     return column < 0 && s->n <= FEW_SVD ? loosest(s, values) : column;
 }
 
-bool search_may_be_full(const Search *s)
+bool search_may_be_full(const EquilibriumSearch *s)
 {
     return factors_may_be_full(s->factors);
 }

@@ -7,7 +7,7 @@
 #include "simulate/analyse/transfer.h"
 
 #include "base/memory.h"
-#include "simulate/analyse/single.h"
+#include "simulate/analyse/siso.h"
 #include "simulate/analyse/zeros.h"
 
 #include <math.h>
@@ -41,7 +41,7 @@ static void sort(Root *roots, int count)
         qsort(roots, (size_t)count, sizeof *roots, by_size);
 }
 
-static bool find_poles(const Single *s, Root *pole)
+static bool find_poles(const Siso *s, Root *pole)
 {
     Spectrum *spectrum = spectrum_new(s->a, s->a_error, s->n);
     const bool sound = spectrum != NULL;
@@ -159,7 +159,7 @@ static Status refuse_open(const Linear *linear, int output, int input, Diag *dia
 
 Status transfer_new(const Linear *linear, int output, int input, Transfer **out, Diag *diag)
 {
-    Single s = single_new(linear, output, input);
+    Siso s = siso_new(linear, output, input);
     Transfer *t = NEW(Transfer);
     Gain gain;
     double largest;
@@ -189,7 +189,7 @@ Status transfer_new(const Linear *linear, int output, int input, Transfer **out,
     t = NULL;
 done:
     transfer_free(t);
-    single_free(&s);
+    siso_free(&s);
     return status;
 }
 
@@ -251,28 +251,28 @@ static double gain_by_roots(const Transfer *t, double omega)
                  decades_of(t->pole, t->poles, omega));
 }
 
-static Wide *widen(const double *from, int count)
+static DoubleDouble *widen(const double *from, int count)
 {
-    Wide *out = NEW_ARRAY(Wide, count);
+    DoubleDouble *out = NEW_ARRAY(DoubleDouble, count);
 
     for (int i = 0; i < count; i++)
-        out[i] = wide_of(from[i]);
+        out[i] = dd_of(from[i]);
     return out;
 }
 
 /* d + c (s - A)^-1 b; INFINITY at a pole */
-static double complex respond(const Single *s, Resolvent *resolvent, double omega)
+static double complex respond(const Siso *s, Resolvent *resolvent, double omega)
 {
-    if (!resolvent_at(resolvent, wide_complex(wide_of(0), wide_of(omega))))
+    if (!resolvent_at(resolvent, dd_complex(dd_of(0), dd_of(omega))))
         return INFINITY;
-    return wide_to(wide_cadd(resolvent_value(resolvent), wide_real(wide_of(s->d))));
+    return dd_to(dd_cadd(resolvent_value(resolvent), dd_real(dd_of(s->d))));
 }
 
 void transfer_response(const Linear *linear, int output, int input, const Transfer *transfer,
                        const double *omega, int count, double *gain, double *phase)
 {
-    Single s = single_new(linear, output, input);
-    Wide *a = widen(s.a, s.n * s.n), *b = widen(s.b, s.n), *c = widen(s.c, s.n);
+    Siso s = siso_new(linear, output, input);
+    DoubleDouble *a = widen(s.a, s.n * s.n), *b = widen(s.b, s.n), *c = widen(s.c, s.n);
     Resolvent *resolvent = resolvent_new(a, b, c, s.n);
 
     for (int i = 0; i < count; i++) {
@@ -294,5 +294,5 @@ void transfer_response(const Linear *linear, int output, int input, const Transf
     }
     MEM_FREE(a, b, c);
     resolvent_free(resolvent);
-    single_free(&s);
+    siso_free(&s);
 }

@@ -17,7 +17,7 @@ enum { SWEEPS = 3 };
 typedef double complex Complex;
 
 /* row by row, m x m; transposed: columns for rows */
-static Complex *pencil_new(const Single *s, Complex z, bool transposed)
+static Complex *pencil_new(const Siso *s, Complex z, bool transposed)
 {
     const int n = s->n, m = n + 1;
     Complex *p = mem_array((size_t)m * (size_t)m, sizeof *p);
@@ -104,7 +104,7 @@ static double off(double value, double error)
 }
 
 /* |l|^T |dP| |r| */
-static double moved(const Single *s, const Complex *left, const Complex *right)
+static double moved(const Siso *s, const Complex *left, const Complex *right)
 {
     const int n = s->n;
     double sum = 0;
@@ -132,7 +132,7 @@ static double left_over(const Complex *p, int m, const Complex *left, const Comp
     return cabs(sum);
 }
 
-double zero_pencil_error(const Single *s, double complex z)
+double zero_pencil_error(const Siso *s, double complex z)
 {
     const int m = s->n + 1;
     Complex *p = pencil_new(s, z, false), *turned = pencil_new(s, z, true);

@@ -9,12 +9,12 @@
 #ifndef COTREE_SIMULATE_ANALYSE_ZERO_PENCIL_H
 #define COTREE_SIMULATE_ANALYSE_ZERO_PENCIL_H
 
-#include "simulate/analyse/single.h"
+#include "simulate/analyse/siso.h"
 
 #include <complex.h>
 
 /* A bound, to first order, of how far the zero is from z, by the errors of the entries, their last
  * places, and what is left where z is no zero; INFINITY where several lie there. O(n^3) */
-double zero_pencil_error(const Single *single, double complex z);
+double zero_pencil_error(const Siso *single, double complex z);
 
 #endif

@@ -36,8 +36,8 @@ enum {
 /* in more digits */
 typedef struct Wider {
     int n, stride;
-    Wide *a, *b, *c;
-    Wide d;
+    DoubleDouble *a, *b, *c;
+    DoubleDouble d;
 } Wider;
 
 /* --- one state less --- */
@@ -46,28 +46,28 @@ typedef struct Wider {
 static void turn_output(Wider *s)
 {
     const int n = s->n;
-    Wide *v = NEW_ARRAY(Wide, n), square = wide_of(0), norm, beta;
+    DoubleDouble *v = NEW_ARRAY(DoubleDouble, n), square = dd_of(0), norm, beta;
     double largest = 0;
 
     for (int i = 0; i < n; i++)
         largest = fmax(largest, fabs(s->c[i].high));
     for (int i = 0; i < n && largest > 0; i++) {
-        v[i] = wide_times(s->c[i], ldexp(1, -ilogb(largest)));
-        square = wide_add(square, wide_mul(v[i], v[i]));
+        v[i] = dd_times(s->c[i], ldexp(1, -ilogb(largest)));
+        square = dd_add(square, dd_mul(v[i], v[i]));
     }
-    norm = wide_sqrt(square);
+    norm = dd_sqrt(square);
     if (v[n - 1].high < 0)
-        norm = wide_neg(norm);
+        norm = dd_neg(norm);
     /* v^T v = 2 norm (norm + v_n) */
-    beta = wide_mul(norm, wide_add(norm, v[n - 1]));
-    v[n - 1] = wide_add(v[n - 1], norm);
+    beta = dd_mul(norm, dd_add(norm, v[n - 1]));
+    v[n - 1] = dd_add(v[n - 1], norm);
     if (beta.high > 0) {
-        beta = wide_div(wide_of(1), beta);
+        beta = dd_div(dd_of(1), beta);
         for (int i = 0; i < n; i++)
-            wide_reflect(s->a + (ptrdiff_t)i * s->stride, n, 1, 0, v, beta);
+            dd_reflect(s->a + (ptrdiff_t)i * s->stride, n, 1, 0, v, beta);
         for (int j = 0; j < n; j++)
-            wide_reflect(s->a + j, n, s->stride, 0, v, beta);
-        wide_reflect(s->b, n, 1, 0, v, beta);
+            dd_reflect(s->a + j, n, s->stride, 0, v, beta);
+        dd_reflect(s->b, n, 1, 0, v, beta);
     }
     mem_free(v);
 }
@@ -94,7 +94,7 @@ static double nearest_of(const double complex *value, int count, int k)
 
 /* Eigenvalues that doubles tell apart, to their rounding or so well that Newton's method gets
  * there; false: there are others. */
-static bool enclosed_values(const Wide *a, int n, double complex *value)
+static bool enclosed_values(const DoubleDouble *a, int n, double complex *value)
 {
     Enclosure e;
     bool sound = enclosure_find(a, n, &e);
@@ -109,18 +109,18 @@ static bool enclosed_values(const Wide *a, int n, double complex *value)
 }
 
 /* with a disturbed by rounding */
-static bool disturbed_values(Wide *a, int n, double complex *value)
+static bool disturbed_values(DoubleDouble *a, int n, double complex *value)
 {
-    WideComplex *t = NEW_ARRAY(WideComplex, n * n);
+    DoubleDoubleComplex *t = NEW_ARRAY(DoubleDoubleComplex, n * n);
     bool sound;
 
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
             a[i * n + j] =
-                wide_add(a[i * n + j], wide_product(a[i * n + j].high, UNIT * disturbance(i, j)));
+                dd_add(a[i * n + j], dd_product(a[i * n + j].high, UNIT * disturbance(i, j)));
     sound = schur(a, n, t, NULL);
     for (int i = 0; i < n; i++)
-        value[i] = wide_to(t[i * n + i]);
+        value[i] = dd_to(t[i * n + i]);
     mem_free(t);
     return sound;
 }
@@ -129,23 +129,23 @@ static double complex *reduced_roots(const Wider *s)
 {
     const int n = s->n;
     double complex *value = mem_array((size_t)n, sizeof *value);
-    Wide *a = NEW_ARRAY(Wide, n * n);
+    DoubleDouble *a = NEW_ARRAY(DoubleDouble, n * n);
     double *size = NEW_ARRAY(double, n *n), *scale = NEW_ARRAY(double, n);
 
     for (int i = 0; i < n; i++) {
-        const Wide factor = wide_div(s->b[i], s->d);
+        const DoubleDouble factor = dd_div(s->b[i], s->d);
 
         for (int j = 0; j < n; j++) {
-            Wide *entry = &a[i * n + j];
+            DoubleDouble *entry = &a[i * n + j];
 
-            *entry = wide_sub(s->a[i * s->stride + j], wide_mul(factor, s->c[j]));
+            *entry = dd_sub(s->a[i * s->stride + j], dd_mul(factor, s->c[j]));
             size[i * n + j] = fabs(entry->high);
         }
     }
     matrix_balance(size, n, scale);
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
-            a[i * n + j] = wide_times(a[i * n + j], scale[i] / scale[j]);
+            a[i * n + j] = dd_times(a[i * n + j], scale[i] / scale[j]);
     if (!enclosed_values(a, n, value) && !disturbed_values(a, n, value)) {
         mem_free(value);
         value = NULL;
@@ -157,8 +157,8 @@ static double complex *reduced_roots(const Wider *s)
 /* --- errors --- */
 
 /* H at a place, with what its vectors tell */
-typedef struct Trial {
-    const Single *s;
+typedef struct ZerosTrial {
+    const Siso *s;
     const Wider *wide;
     Resolvent *resolvent;
     double complex *x, *y; /* (z - A)^-1 b, (z - A)^-T c */
@@ -166,19 +166,19 @@ typedef struct Trial {
     double complex value, slope;
     double error; /* of the value */
     double least; /* what counts as a size beside 0: the least pole's that isn't 0 */
-} Trial;
+} ZerosTrial;
 
-static Trial trial_new(const Single *s, const Wider *wide)
+static ZerosTrial trial_new(const Siso *s, const Wider *wide)
 {
-    return (Trial){.s = s,
-                   .wide = wide,
-                   .resolvent = resolvent_new(wide->a, wide->b, wide->c, s->n),
-                   .x = mem_array((size_t)s->n, sizeof(double complex)),
-                   .y = mem_array((size_t)s->n, sizeof(double complex)),
-                   .x_size = NEW_ARRAY(double, s->n)};
+    return (ZerosTrial){.s = s,
+                        .wide = wide,
+                        .resolvent = resolvent_new(wide->a, wide->b, wide->c, s->n),
+                        .x = mem_array((size_t)s->n, sizeof(double complex)),
+                        .y = mem_array((size_t)s->n, sizeof(double complex)),
+                        .x_size = NEW_ARRAY(double, s->n)};
 }
 
-static void trial_free(Trial *at)
+static void trial_free(ZerosTrial *at)
 {
     resolvent_free(at->resolvent);
     MEM_FREE(at->x, at->y, at->x_size);
@@ -190,9 +190,9 @@ static double least_error(double value, double error)
 }
 
 /* |dH|: |y|^T |dA| |x| + |y|^T |db| + |dc| |x| + |dd| */
-static double value_error(const Trial *at)
+static double value_error(const ZerosTrial *at)
 {
-    const Single *s = at->s;
+    const Siso *s = at->s;
     const int n = s->n;
     double sum = least_error(s->d, s->d_error);
 
@@ -209,9 +209,9 @@ static double value_error(const Trial *at)
 }
 
 /* what the method rounds, which has the scaled matrices as a whole before it */
-static double method_error(const Trial *at)
+static double method_error(const ZerosTrial *at)
 {
-    const Single *s = at->s;
+    const Siso *s = at->s;
     const int n = s->n;
     double norm = fabs(s->d), right = 1, left = 1;
 
@@ -222,14 +222,14 @@ static double method_error(const Trial *at)
         right += cabs(at->x[i]);
         left += cabs(at->y[i]);
     }
-    return n * WIDE_UNIT * norm * right * left;
+    return n * DOUBLE_DOUBLE_ROUNDING * norm * right * left;
 }
 
-static void go_to(Trial *at, double complex z)
+static void go_to(ZerosTrial *at, double complex z)
 {
-    (void)resolvent_at(at->resolvent, wide_from(z));
-    at->value = wide_to(wide_cadd(resolvent_value(at->resolvent), wide_real(at->wide->d)));
-    at->slope = wide_to(resolvent_slope(at->resolvent));
+    (void)resolvent_at(at->resolvent, dd_from(z));
+    at->value = dd_to(dd_cadd(resolvent_value(at->resolvent), dd_real(at->wide->d)));
+    at->slope = dd_to(resolvent_slope(at->resolvent));
     resolvent_vectors(at->resolvent, at->x, at->y);
     at->error = value_error(at);
 }
@@ -251,7 +251,7 @@ static double complex split_of(const double complex *first, int count, int k, do
 }
 
 /* Newton's method where others are far; how far it is off then */
-static double improve(Trial *at, const double complex *first, double complex *value, int count,
+static double improve(ZerosTrial *at, const double complex *first, double complex *value, int count,
                       int k)
 {
     const double nearest = nearest_of(first, count, k);
@@ -278,7 +278,7 @@ static double improve(Trial *at, const double complex *first, double complex *va
 
 /* As it was found, if that is the better known and others are far: where a pole all but equals it,
  * and where it is so far beyond all poles that H there is rounding alone, and 0 stands for it. */
-static void take_from_pencil(const Single *s, const double complex *first, int count, int k,
+static void take_from_pencil(const Siso *s, const double complex *first, int count, int k,
                              double complex *value, double *error)
 {
     const double by_pencil = zero_pencil_error(s, first[k]);
@@ -309,10 +309,10 @@ static double group_error(void *context, const int *members, int count, double c
     return largest;
 }
 
-static void bound_zeros(const Single *s, const Wider *wide, double least, double complex *value,
+static void bound_zeros(const Siso *s, const Wider *wide, double least, double complex *value,
                         int count, Root *zero)
 {
-    Trial at = trial_new(s, wide);
+    ZerosTrial at = trial_new(s, wide);
     double complex *first = mem_array((size_t)count, sizeof *first);
     double *error = NEW_ARRAY(double, count);
     Split split = {value, error};
@@ -339,7 +339,12 @@ static void bound_zeros(const Single *s, const Wider *wide, double least, double
 
 static Wider wider_new(int n)
 {
-    return (Wider){n, n, NEW_ARRAY(Wide, n * n), NEW_ARRAY(Wide, n), NEW_ARRAY(Wide, n), {0, 0}};
+    return (Wider){n,
+                   n,
+                   NEW_ARRAY(DoubleDouble, n * n),
+                   NEW_ARRAY(DoubleDouble, n),
+                   NEW_ARRAY(DoubleDouble, n),
+                   {0, 0}};
 }
 
 static void wider_free(Wider *wider)
@@ -347,15 +352,15 @@ static void wider_free(Wider *wider)
     MEM_FREE(wider->a, wider->b, wider->c);
 }
 
-static void widen(const Single *s, Wider *out)
+static void widen(const Siso *s, Wider *out)
 {
     for (int i = 0; i < s->n; i++) {
-        out->b[i] = wide_of(s->b[i]);
-        out->c[i] = wide_of(s->c[i]);
+        out->b[i] = dd_of(s->b[i]);
+        out->c[i] = dd_of(s->c[i]);
         for (int j = 0; j < s->n; j++)
-            out->a[i * s->n + j] = wide_of(s->a[i * s->n + j]);
+            out->a[i * s->n + j] = dd_of(s->a[i * s->n + j]);
     }
-    out->d = wide_of(s->d);
+    out->d = dd_of(s->d);
 }
 
 static double least_of(const Root *root, int count)
@@ -370,7 +375,7 @@ static double least_of(const Root *root, int count)
     return least > 0 ? least : 1;
 }
 
-bool zeros_find(const Single *single, const Gain *gain, const Root *pole, Root *zero, int *count)
+bool zeros_find(const Siso *single, const Gain *gain, const Root *pole, Root *zero, int *count)
 {
     const int n = single->n;
     Wider whole = wider_new(n), left = wider_new(n);
@@ -422,7 +427,7 @@ static double complex log_product(const Root *root, int count, double complex z,
 }
 
 /* at one place */
-static bool agrees_at(Trial *at, const Answer *a, double complex z, double *largest)
+static bool agrees_at(ZerosTrial *at, const Answer *a, double complex z, double *largest)
 {
     double error = 0, open;
     double complex log = log_product(a->zero, a->zeros, z, &error), product = 0;
@@ -439,14 +444,14 @@ static bool agrees_at(Trial *at, const Answer *a, double complex z, double *larg
            cabs(at->value - product) <= SAME * cabs(at->value) + 2 * error * cabs(product) + open;
 }
 
-bool zeros_agree(const Single *single, const Answer *answer, double *largest)
+bool zeros_agree(const Siso *single, const Answer *answer, double *largest)
 {
     const int n = single->n;
     Wider whole = wider_new(n);
     double *size = NEW_ARRAY(double, n + answer->zeros);
     bool agrees = true;
     int count = 0;
-    Trial at;
+    ZerosTrial at;
 
     *largest = 0;
     for (int i = 0; i < n + answer->zeros; i++) {

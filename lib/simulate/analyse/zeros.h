@@ -7,7 +7,7 @@
 
 /* From gain and poles (n), write the zeros of d + c (s - A)^-1 b (room for n). False where they
  * can't be found. O(n^3). */
-MUST_USE bool zeros_find(const Single *single, const Gain *gain, const Root *pole, Root *zero,
+MUST_USE bool zeros_find(const Siso *single, const Gain *gain, const Root *pole, Root *zero,
                          int *count);
 
 /* all together, borrowed */
@@ -20,6 +20,6 @@ typedef struct Answer {
 /* Whether the response at some places is what these tell of it, as far as errors of entries and
  * roots and the rounding of both go; what is known to little is passed over. *largest: what it may
  * be there at most. O(n^3). */
-bool zeros_agree(const Single *single, const Answer *answer, double *largest);
+bool zeros_agree(const Siso *single, const Answer *answer, double *largest);
 
 #endif

@@ -29,7 +29,7 @@ static Status pull(Assembly *a, Diag *diag)
 
     for (int i = 0; i < a->given_count; i++)
         needed = needed || (a->given[i].level == LEVEL_POSITION && a->given[i].value->is_guess &&
-                            a->given[i].stand.kind == STANDS_NOT);
+                            a->given[i].referent.kind == REFERENT_NONE);
     if (!needed)
         return OK;
     CHECK(initial_open_problem(&p, a, LEVEL_POSITION, true, diag));
@@ -43,7 +43,7 @@ done:
 
 static void remark_moved(Assembly *a, const double *begun)
 {
-    const Layout *l = a->l;
+    const VariableIndex *l = a->l;
     int furthest = 0;
 
     for (int i = 1; i < l->n; i++)
@@ -62,13 +62,13 @@ static bool try_around(Problem *p, const Rows *rows, const bool *held, const dou
     Assembly *a = p->a;
     uint64_t seed = 1;
 
-    for (int k = 0; k < TRIES && poll(rows->watch) == OK; k++) {
+    for (int k = 0; k < TRIES && monitor_poll(rows->watch) == OK; k++) {
         double size = k < TRIES / 3 ? 0.1 : k < 2 * TRIES / 3 ? 0.5 : 1.5;
 
         for (int i = 0; i < a->l->n; i++)
             a->y[i] = begun[i] + (held[i] ? 0 : size * random_unit(&seed));
         if (initial_meet(rows, held, a->y, NULL) &&
-            skeleton_reversal(a->skeleton, a->y).link == NULL) {
+            kinematic_tree_reversal(a->kinematic_tree, a->y).link == NULL) {
             remarks_add(&a->out->remarks, (Remark){.kind = REMARK_ASSEMBLED_AROUND, .size = size});
             return true;
         }
@@ -81,7 +81,7 @@ static Status refuse_reversed(const Assembly *a, const Reversal *reversal, Diag 
 {
     Text text = {0};
 
-    reversal_tell(a->skeleton, reversal, &text);
+    reversal_report(a->kinematic_tree, reversal, &text);
     (void)diag_set(diag, E_ASSEMBLE, "%s closes only with %s wherever everything else holds",
                    reversal->link->instance->name, text.at);
     diag_hint(diag, "turn one of its frames by half a turn (rotation= of an arm), or guess a start "
@@ -91,7 +91,7 @@ static Status refuse_reversed(const Assembly *a, const Reversal *reversal, Diag 
 }
 
 /* Coordinates that have no expression are where they were given, also once positions moved. */
-static Status check_told(Assembly *a, Diag *diag)
+static Status check_given_values(Assembly *a, Diag *diag)
 {
     Status status = OK;
 
@@ -102,9 +102,11 @@ static Status check_told(Assembly *a, Diag *diag)
         if (given->expr != NULL || given->value->is_guess)
             continue;
         for (int j = 0; j < a->given_count; j++)
-            if (a->given[j].expr == NULL && a->given[j].stand.instance == given->stand.instance)
-                near[a->given[j].stand.which] = a->given[j].target;
-        value = skeleton_value(a->skeleton, a->y, given->stand.instance, given->stand.which, near);
+            if (a->given[j].expr == NULL &&
+                a->given[j].referent.instance == given->referent.instance)
+                near[a->given[j].referent.which] = a->given[j].target;
+        value = kinematic_tree_value(a->kinematic_tree, a->y, given->referent.instance,
+                                     given->referent.which, near);
         if (!(fabs(value - given->target) < 1e-9)) {
             status = diag_set(diag, E_ASSEMBLE,
                               "the parts can't be put together; missed: %s = %.6g by %.3g",
@@ -121,19 +123,19 @@ static bool meet_with_shapes_held(const Rows *rows, Assembly *a, const bool *hel
 {
     const int n = a->l->n, nu = a->l->nu;
     double *begun = NEW_ARRAY(double, n);
-    bool *stays = NEW_ARRAY(bool, nu + n);
+    bool *is_held = NEW_ARRAY(bool, nu + n);
     bool met = false, any = false;
 
     memcpy(begun, a->y, (size_t)n * sizeof(double));
-    memcpy(stays, held, (size_t)(nu + n) * sizeof(bool));
+    memcpy(is_held, held, (size_t)(nu + n) * sizeof(bool));
     for (int j = 0; j < nu; j++)
         if (system_u(a->l->system, j)->is_shape)
-            stays[j] = any = true;
+            is_held[j] = any = true;
     if (any)
-        met = initial_meet(rows, stays, a->y, NULL);
+        met = initial_meet(rows, is_held, a->y, NULL);
     if (any && !met)
         memcpy(a->y, begun, (size_t)n * sizeof(double));
-    MEM_FREE(begun, stays);
+    MEM_FREE(begun, is_held);
     return met;
 }
 
@@ -156,12 +158,12 @@ static Status correct(Problem *p, const bool *held, const double *begun, bool cl
         goto done;
     met = meet_with_shapes_held(&rows, a, held) || initial_meet(&rows, held, a->y, missed);
     if (met)
-        reversed = skeleton_reversal(a->skeleton, a->y);
+        reversed = kinematic_tree_reversal(a->kinematic_tree, a->y);
     if ((!met || reversed.link != NULL) && !try_around(p, &rows, held, begun))
         CHECK(reversed.link != NULL
                   ? refuse_reversed(a, &reversed, diag)
                   : initial_conflict(p, missed, "the parts can't be put together", diag));
-    CHECK(check_told(a, diag));
+    CHECK(check_given_values(a, diag));
     remark_moved(a, begun);
 done:
     MEM_FREE(residual, missed);
@@ -201,14 +203,14 @@ static void begin_others(Assembly *a)
         const GivenValue *given = &a->given[i];
 
         if (given->level == LEVEL_POSITION && given->place >= 0 && !given->is_own &&
-            given->stand.kind == STANDS_NOT)
+            given->referent.kind == REFERENT_NONE)
             a->y[given->place] = given->target;
     }
 }
 
 static Status find_position(Assembly *a, bool closed, Diag *diag)
 {
-    const Layout *l = a->l;
+    const VariableIndex *l = a->l;
     Problem p = {0};
     double *begun = NEW_ARRAY(double, l->n);
     bool *held = NEW_ARRAY(bool, l->nu + l->n);
@@ -237,7 +239,7 @@ done:
 
 static Status find_velocity(Assembly *a, Diag *diag)
 {
-    const Layout *l = a->l;
+    const VariableIndex *l = a->l;
     Problem p = {0};
     bool *held = NEW_ARRAY(bool, l->nu);
     double *residual = NULL;
@@ -292,7 +294,7 @@ static Status rank_here(const Assembly *a, double threshold, int *rank, int *ord
  * only is a singularity, not a redundancy. */
 static Status find_rank(Assembly *a, Diag *diag)
 {
-    const Layout *l = a->l;
+    const VariableIndex *l = a->l;
     int *order = NEW_ARRAY(int, l->m);
     double *q = NEW_ARRAY(double, l->n);
     double *residual = NEW_ARRAY(double, l->m);
@@ -338,38 +340,39 @@ done:
     return status;
 }
 
-Status initial_find(const Layout *layout, Parameters *parameters, Numbers *numbers,
-                    const Setting *setting, bool has_modes, Assembled *out, Diag *diag)
+Status initial_find(const VariableIndex *layout, Parameters *parameters, CompiledEquations *numbers,
+                    const SimulationInput *setting, bool has_modes, Assembled *out, Diag *diag)
 {
     Assembly a = {.l = layout,
                   .parameters = parameters,
                   .numbers = numbers,
-                  .eq = numbers_equations(numbers),
+                  .eq = compiled_equations(numbers),
                   .setting = setting,
                   .has_modes = has_modes,
                   .out = out};
     bool closed;
     Status status = OK;
 
-    report(setting->watch, "assembling", -1);
-    *out = (Assembled){.y = NEW_ARRAY(double, layout_references(layout) + layout->multi_turns + 1),
-                       .network = NEW_ARRAY(double, layout->nx + layout->nz),
-                       .guess = NEW_ARRAY(double, layout->nz),
-                       .rows = NEW_ARRAY(int, layout->m)};
+    monitor_report(setting->watch, "assembling", -1);
+    *out = (Assembled){
+        .y = NEW_ARRAY(double, variable_index_references(layout) + layout->multi_turns + 1),
+        .network = NEW_ARRAY(double, layout->nx + layout->nz),
+        .guess = NEW_ARRAY(double, layout->nz),
+        .rows = NEW_ARRAY(int, layout->m)};
     a.y = out->y;
-    a.skeleton = skeleton_new(layout, parameters);
+    a.kinematic_tree = kinematic_tree_new(layout, parameters);
     CHECK(initial_read_given(&a, diag));
     CHECK(initial_place(&a, &closed, diag));
     CHECK(find_position(&a, closed, diag));
-    equations_turn(a.eq, 0, a.y, a.y + layout_references(layout));
+    equations_turn(a.eq, 0, a.y, a.y + variable_index_references(layout));
     CHECK(find_rank(&a, diag));
     CHECK(find_velocity(&a, diag));
     CHECK(initial_find_network(&a, diag));
 done:
     /* what was stopped has found nothing, and says so in many ways */
-    if (poll(setting->watch) != OK)
+    if (monitor_poll(setting->watch) != OK)
         status = diag_set(diag, E_STOPPED, "stopped while the start was looked for");
-    skeleton_free(a.skeleton);
+    kinematic_tree_free(a.kinematic_tree);
     MEM_FREE(a.given, a.own);
     return status;
 }

@@ -7,8 +7,8 @@
 #ifndef COTREE_SIMULATE_ASSEMBLE_INITIAL_H
 #define COTREE_SIMULATE_ASSEMBLE_INITIAL_H
 
-#include "simulate/assemble/skeleton.h"
-#include "simulate/equations/numbers.h"
+#include "simulate/assemble/kinematic_tree.h"
+#include "simulate/equations/compiled_equations.h"
 #include "simulate/equations/remark.h"
 
 typedef struct Assembled {
@@ -23,17 +23,18 @@ typedef struct Assembled {
 /* Fails with E_ASSEMBLE, naming what can't be met, and the errors of system_variable(). With
  * `has_modes` the network's equations are solved later, once the sides of its switches are known.
  */
-MUST_USE Status initial_find(const Layout *layout, Parameters *parameters, Numbers *numbers,
-                             const Setting *setting, bool has_modes, Assembled *out, Diag *diag);
+MUST_USE Status initial_find(const VariableIndex *layout, Parameters *parameters,
+                             CompiledEquations *numbers, const SimulationInput *setting,
+                             bool has_modes, Assembled *out, Diag *diag);
 /* What is put in place in the middle of a run: borrowed. */
 typedef struct NewPlaces {
-    const Layout *layout;
+    const VariableIndex *layout;
     Parameters *parameters;
     const Equations *equations;
-    Skeleton *skeleton;
+    KinematicTree *kinematic_tree;
     double t;
     int count;
-    const Stand *stands;
+    const VariableReferent *referents;
     const double *values;
 } NewPlaces;
 /* Coordinates and references of angles in y = (q, u, x, references): frames stand as y has them,
@@ -44,8 +45,8 @@ MUST_USE Status initial_place_again(const NewPlaces *places, double *y, Diag *di
 /* x' and z at y = (q, u, x, references of angles), of t = 0, from a guess [x'; z] (NULL: 0): into
  * `out`, unless NULL. Fails with E_SINGULAR where there are none, naming what nothing determines.
  */
-MUST_USE Status initial_solve(const Layout *layout, const Numbers *numbers, const double *y,
-                              const double *guess, double *out, Diag *diag);
+MUST_USE Status initial_solve(const VariableIndex *layout, const CompiledEquations *numbers,
+                              const double *y, const double *guess, double *out, Diag *diag);
 /* The way out where a network has no solution, if an ideal diode or switch may be why. */
 void network_hint(System *system, Diag *diag);
 void initial_free(Assembled *start); /* what it holds */

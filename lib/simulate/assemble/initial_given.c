@@ -11,7 +11,7 @@
 
 static int place_of(const Assembly *a, Expr e, StateLevel level)
 {
-    const Layout *l = a->l;
+    const VariableIndex *l = a->l;
     int first = level == LEVEL_POSITION ? l->q : level == LEVEL_VELOCITY ? l->u : l->x;
     int count = level == LEVEL_POSITION ? l->n : level == LEVEL_VELOCITY ? l->nu : l->nx;
 
@@ -60,15 +60,15 @@ Status initial_classify(Assembly *a, GivenValue *given, Diag *diag)
 }
 
 /* whether it is one of three angles that tell an attitude */
-static bool is_of_three_angles(const Stand *stand)
+static bool is_of_three_angles(const VariableReferent *referent)
 {
     int angles = 0;
 
-    if (stand->kind != STANDS_COORDINATE ||
-        stand->instance->coord_kind[stand->which] != COORDINATE_ANGLE)
+    if (referent->kind != REFERENT_COORDINATE ||
+        referent->instance->coord_kind[referent->which] != COORDINATE_ANGLE)
         return false;
-    for (int i = 0; i < stand->instance->coord_count; i++)
-        angles += stand->instance->coord_kind[i] == COORDINATE_ANGLE;
+    for (int i = 0; i < referent->instance->coord_count; i++)
+        angles += referent->instance->coord_kind[i] == COORDINATE_ANGLE;
     return angles == 3;
 }
 
@@ -99,28 +99,30 @@ static bool is_other_set(const Assembly *a, const Instance *instance)
 /* Three angles of a chord tell where frames are placed, which needs no expressions. These know one
  * of the two sets of angles that an attitude has: in the other the middle angle falls where it
  * rises here. */
-static void read_three_angles(const Assembly *a, const Stand *stand, GivenValue *given)
+static void read_three_angles(const Assembly *a, const VariableReferent *referent,
+                              GivenValue *given)
 {
     if (given->value->primes == 0)
         given->expr = NULL;
-    else if (stand->which == middle_angle(stand->instance) && is_other_set(a, stand->instance))
+    else if (referent->which == middle_angle(referent->instance) &&
+             is_other_set(a, referent->instance))
         given->expr = expr_neg(system_arena(a->l->system), given->expr);
 }
 
 static Status read_one(Assembly *a, GivenValue *given, Diag *diag)
 {
     const StartValue *value = given->value;
-    const Stand stand = system_stand(a->l->system, value->name);
+    const VariableReferent referent = system_referent(a->l->system, value->name);
     Status status = OK;
 
     CHECK(system_variable(a->l->system, value->name, value->primes, &given->expr, diag));
     CHECK(initial_classify(a, given, diag));
-    if (is_of_three_angles(&stand) && given->place < 0)
-        read_three_angles(a, &stand, given);
+    if (is_of_three_angles(&referent) && given->place < 0)
+        read_three_angles(a, &referent, given);
     if (value->primes == 0 && given->level == LEVEL_POSITION)
-        given->stand = stand;
+        given->referent = referent;
     else if (given->level == LEVEL_VELOCITY && value->primes == 1)
-        given->rate_of = system_stand(a->l->system, value->name);
+        given->rate_of = system_referent(a->l->system, value->name);
 done:
     return status;
 }
@@ -141,7 +143,7 @@ static void add_own(Assembly *a, StartValue value, GivenValue given)
  * open is for joints to take up, whatever polynomials the shapes are. */
 static void rest_shapes(Assembly *a)
 {
-    const Layout *l = a->l;
+    const VariableIndex *l = a->l;
 
     for (int j = 0; j < l->nu; j++) {
         const Variable *speed = system_u(l->system, j);
@@ -153,7 +155,7 @@ static void rest_shapes(Assembly *a)
     }
 }
 
-static int shapes_of(const Layout *l)
+static int shapes_of(const VariableIndex *l)
 {
     int count = 0;
 
@@ -217,29 +219,30 @@ void initial_unit(double p[4])
 }
 
 /* which of the four it is; -1: none */
-static int parameter_of(const Stand *stand)
+static int parameter_of(const VariableReferent *referent)
 {
-    const Instance *owner = stand->instance;
+    const Instance *owner = referent->instance;
     int first = 0;
 
-    if (stand->kind == STANDS_PARAMETER)
-        return stand->which;
-    if (stand->kind != STANDS_COORDINATE || owner->coord_kind[stand->which] != COORDINATE_PARAMETER)
+    if (referent->kind == REFERENT_PARAMETER)
+        return referent->which;
+    if (referent->kind != REFERENT_COORDINATE ||
+        owner->coord_kind[referent->which] != COORDINATE_PARAMETER)
         return -1;
     while (owner->coord_kind[first] != COORDINATE_PARAMETER)
         first++;
-    return stand->which - first;
+    return referent->which - first;
 }
 
 /* of two Euler parameters */
-static bool is_one_attitude(const Stand *a, const Stand *b)
+static bool is_one_attitude(const VariableReferent *a, const VariableReferent *b)
 {
     return a->kind == b->kind && a->instance == b->instance && a->node == b->node;
 }
 
 static bool are_together(const GivenValue *a, const GivenValue *b)
 {
-    return is_one_attitude(&a->stand, &b->stand) && a->value->is_guess == b->value->is_guess;
+    return is_one_attitude(&a->referent, &b->referent) && a->value->is_guess == b->value->is_guess;
 }
 
 /* All four of a group to unit length; likewise fewer that leave nothing to the others. */
@@ -251,7 +254,7 @@ static void finish_group(Assembly *a, int group)
 
     for (int i = 0; i < a->given_count; i++)
         if (a->given[i].group == group)
-            members[parameter_of(&a->given[i].stand)] = &a->given[i];
+            members[parameter_of(&a->given[i].referent)] = &a->given[i];
     for (int i = 0; i < 4; i++)
         if (members[i] != NULL) {
             p[i] = members[i]->target;
@@ -271,7 +274,7 @@ void initial_group(Assembly *a)
     for (int i = 0; i < a->given_count; i++) {
         GivenValue *given = &a->given[i];
 
-        if (given->is_own || parameter_of(&given->stand) < 0)
+        if (given->is_own || parameter_of(&given->referent) < 0)
             continue;
         for (int j = 0; j < i && given->group < 0; j++)
             if (a->given[j].group >= 0 && are_together(given, &a->given[j]))
@@ -307,8 +310,8 @@ void initial_align(Problem *p)
 }
 
 /* sum of q_i p_i: q at y, p as given (or as guessed) for the attitude of which that is a rate */
-static Status find_sense(const Assembly *a, const Stand *rate_of, bool guesses, double *out,
-                         Diag *diag)
+static Status find_sense(const Assembly *a, const VariableReferent *rate_of, bool guesses,
+                         double *out, Diag *diag)
 {
     const RowValues row = row_of_state(a->l, a->t, a->y);
 
@@ -318,7 +321,7 @@ static Status find_sense(const Assembly *a, const Stand *rate_of, bool guesses, 
         double q;
 
         if (given->group < 0 || given->value->is_guess != guesses ||
-            !is_one_attitude(&given->stand, rate_of))
+            !is_one_attitude(&given->referent, rate_of))
             continue;
         TRY(probe_at(a->l, a->parameters, given->expr, &row, &q, diag));
         *out += q * given->value->value;

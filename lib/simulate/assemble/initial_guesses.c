@@ -172,7 +172,7 @@ static void search_starts(Nearest *n)
     memcpy(n->s.p->c, n->begun, bytes);
     find_concerned(n, step);
     count = count_starts(n);
-    for (int k = 1; k < count && n->distance > MET && poll(n->s.rows.watch) == OK; k++) {
+    for (int k = 1; k < count && n->distance > MET && monitor_poll(n->s.rows.watch) == OK; k++) {
         begin_anywhere(n, k % 4 < 2 ? NEAR_GUESS : NOT_FAR, &seed, step);
         /* what isn't guessed goes to where guesses want it first */
         minimise(n, 1, n->is_guessed);
@@ -241,8 +241,8 @@ void place_by_guesses(Placing *p)
     bool is_any = false;
     Nearest n;
 
-    for (int i = 0; i < p->wishes.count; i++)
-        is_any = is_any || p->wishes.at[i].is_guess;
+    for (int i = 0; i < p->guess_list.count; i++)
+        is_any = is_any || p->guess_list.at[i].is_guess;
     if (!is_any || p->columns.count == 0)
         return;
     open_nearest(&n, p);
@@ -262,8 +262,8 @@ void place_remark_guesses(Placing *p)
 {
     const double size = place_size(p);
 
-    for (int i = 0; i < p->wishes.count; i++) {
-        const Wish *wish = &p->wishes.at[i];
+    for (int i = 0; i < p->guess_list.count; i++) {
+        const InitialGuess *wish = &p->guess_list.at[i];
         bool is_length;
         double off;
 

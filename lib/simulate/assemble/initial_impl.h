@@ -5,31 +5,32 @@
 #include "base/memory.h"
 #include "formulate/kinematics/edges.h"
 #include "simulate/assemble/initial.h"
+#include "simulate/assemble/kinematic_tree.h"
 #include "simulate/assemble/level_rows.h"
-#include "simulate/assemble/skeleton.h"
 
 /* one initial value or guess */
 typedef struct GivenValue {
     const StartValue *value;
     Expr expr; /* NULL: it has none, and is met by placing frames alone */
     StateLevel level;
-    int place;     /* coordinate, speed or state that it is, alone; -1 */
-    int column;    /* unknown that holding it holds: the place, or a coordinate's speed; -1 */
-    bool is_own;   /* the system's: the user said nothing of it */
-    Stand stand;   /* what it says of frames, if it does */
+    int place;   /* coordinate, speed or state that it is, alone; -1 */
+    int column;  /* unknown that holding it holds: the place, or a coordinate's speed; -1 */
+    bool is_own; /* the system's: the user said nothing of it */
+    VariableReferent referent; /* what it says of frames, if it does */
     double target; /* the value; Euler parameters are of unit length, and of the sign that the
                       system's own expression has */
     int group;     /* of Euler parameters of one attitude, given or guessed; -1 */
-    Stand rate_of; /* coordinate or parameter whose first derivative it is, if it is one */
+    VariableReferent
+        rate_of; /* coordinate or parameter whose first derivative it is, if it is one */
 } GivenValue;
 
 typedef struct Assembly {
-    const Layout *l;
+    const VariableIndex *l;
     Parameters *parameters;
-    Numbers *numbers;
+    CompiledEquations *numbers;
     const Equations *eq;
-    const Setting *setting;
-    Skeleton *skeleton; /* NULL: nothing is mechanical */
+    const SimulationInput *setting;
+    KinematicTree *kinematic_tree; /* NULL: nothing is mechanical */
     Assembled *out;
     double t;       /* s: 0, but in the middle of a run */
     bool has_modes; /* sides of switches are found behind the states */

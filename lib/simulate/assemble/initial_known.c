@@ -6,67 +6,69 @@
 #include <math.h>
 #include <string.h>
 
-static void wish(Placing *p, const Stand *stand, double value, const char *guess, int group)
+static void add_guess(Placing *p, const VariableReferent *referent, double value, const char *guess,
+                      int group)
 {
-    Wish wish = {.link = -1,
-                 .head = stand->node,
-                 .value = value,
-                 .is_guess = guess != NULL,
-                 .group = group,
-                 .name = guess};
+    InitialGuess initial_guess = {.link = -1,
+                                  .head = referent->node,
+                                  .value = value,
+                                  .is_guess = guess != NULL,
+                                  .group = group,
+                                  .name = guess};
 
-    if (stand->kind == STANDS_COORDINATE || stand->kind == STANDS_SHIFT) {
-        wish.link = p->s->link_at[stand->instance->edge];
-        wish.k = stand->which;
-        if (stand->kind == STANDS_SHIFT)
-            wish.value /= p->s->links[wish.link].shift[0].scale;
-    } else if (stand->kind == STANDS_POSITION) {
-        wish.k = stand->which;
+    if (referent->kind == REFERENT_COORDINATE || referent->kind == REFERENT_SHIFT) {
+        initial_guess.link = p->s->link_at[referent->instance->edge];
+        initial_guess.k = referent->which;
+        if (referent->kind == REFERENT_SHIFT)
+            initial_guess.value /= p->s->links[initial_guess.link].shift[0].scale;
+    } else if (referent->kind == REFERENT_POSITION) {
+        initial_guess.k = referent->which;
     } else {
-        wish.k = p->s->frame.shift_count + stand->which;
+        initial_guess.k = p->s->frame.shift_count + referent->which;
     }
-    LIST_PUSH(p->wishes, wish);
+    LIST_PUSH(p->guess_list, initial_guess);
 }
 
 /* signs of Euler parameters are told by all that belong together */
 static void gather_groups(Placing *p)
 {
     p->groups = NEW_ARRAY(double, p->a->group_count *POSE_COORDS);
-    for (int i = 0; i < p->wishes.count; i++)
-        if (p->wishes.at[i].group >= 0)
-            p->groups[place_at(p->wishes.at[i].group, p->wishes.at[i].k)] = p->wishes.at[i].value;
+    for (int i = 0; i < p->guess_list.count; i++)
+        if (p->guess_list.at[i].group >= 0)
+            p->groups[place_at(p->guess_list.at[i].group, p->guess_list.at[i].k)] =
+                p->guess_list.at[i].value;
 }
 
 /* a plane has no parameters of its frames in these */
-static bool is_told(const Placing *p, const Stand *stand)
+static bool is_known_referent(const Placing *p, const VariableReferent *referent)
 {
-    return stand->kind != STANDS_NOT &&
-           !(stand->kind == STANDS_PARAMETER && !p->s->frame.has_parameters) &&
-           !(stand->kind == STANDS_POSITION && stand->which >= p->s->frame.shift_count);
+    return referent->kind != REFERENT_NONE &&
+           !(referent->kind == REFERENT_PARAMETER && !p->s->frame.has_parameters) &&
+           !(referent->kind == REFERENT_POSITION && referent->which >= p->s->frame.shift_count);
 }
 
-Status place_take_wishes(Placing *p, Diag *diag)
+Status place_read_guesses(Placing *p, Diag *diag)
 {
     Assembly *a = p->a;
 
     for (int guesses = 1; guesses >= 0; guesses--) {
         for (int k = 0; k < a->l->m && guesses == 0; k++) {
-            Stand stand = {.kind = STANDS_COORDINATE};
-            Expr prescribed = system_driven(a->l->system, k, &stand.instance, &stand.which);
+            VariableReferent referent = {.kind = REFERENT_COORDINATE};
+            Expr prescribed = system_driven(a->l->system, k, &referent.instance, &referent.which);
             double value;
 
             if (prescribed == NULL)
                 continue;
             TRY(initial_driven(a, prescribed, &value, diag));
-            wish(p, &stand, value, NULL, -1);
+            add_guess(p, &referent, value, NULL, -1);
         }
         for (int i = 0; i < a->given_count; i++) {
             const GivenValue *given = &a->given[i];
 
-            if (given->stand.kind != STANDS_NOT && is_told(p, &given->stand) &&
+            if (given->referent.kind != REFERENT_NONE && is_known_referent(p, &given->referent) &&
                 given->value->is_guess == (guesses == 1))
-                wish(p, &given->stand, given->target, guesses == 1 ? given->value->name : NULL,
-                     given->group);
+                add_guess(p, &given->referent, given->target,
+                          guesses == 1 ? given->value->name : NULL, given->group);
         }
     }
     gather_groups(p);
@@ -133,7 +135,7 @@ static void complete_parameters(Placing *p)
 }
 
 /* the link by which each frame is made: a body's own edge, or an arm; -1 */
-static int *makers_of(const Skeleton *s)
+static int *makers_of(const KinematicTree *s)
 {
     int *maker = NEW_ARRAY(int, s->node_count);
 
@@ -171,7 +173,7 @@ static int body_of(const Placing *p, const int *maker, int node, Pose *in_body)
     return -1;
 }
 
-static bool is_half_told(const Placing *p, int link, bool rotation)
+static bool is_half_determined(const Placing *p, int link, bool rotation)
 {
     const Instance *instance = p->s->links[link].instance;
 
@@ -194,74 +196,77 @@ static void know_half(Placing *p, int link, bool rotation, const double *c, Know
 
 /* A frame of which all is told says where its body stands: its attitude, and with that its place.
  */
-static void place_body(Placing *p, const int *maker, int node, const double *told, Knowledge known)
+static void place_body(Placing *p, const int *maker, int node, const double *wanted,
+                       Knowledge known)
 {
     const int shifts = p->s->frame.shift_count;
     double c[POSE_COORDS] = {0}, back[9];
     bool whole = true;
-    Pose in_body, stands;
+    Pose in_body, referents;
     int body = body_of(p, maker, node, &in_body);
 
-    memcpy(c, told, sizeof c);
+    memcpy(c, wanted, sizeof c);
     if (p->s->frame.has_parameters)
         known = lesser(known, complete_four(c + shifts, 1));
-    else if (isnan(told[shifts]))
+    else if (isnan(wanted[shifts]))
         known = KNOWN_NOT;
-    if (body < 0 || known == KNOWN_NOT || is_half_told(p, body, true))
+    if (body < 0 || known == KNOWN_NOT || is_half_determined(p, body, true))
         return;
-    link_pose(&p->s->frame, c, &stands);
+    link_pose(&p->s->frame, c, &referents);
     matrix3_transpose(in_body.R, back);
-    matrix3_times(stands.R, back, stands.R);
-    matrix3_apply(stands.R, in_body.p, in_body.p);
+    matrix3_times(referents.R, back, referents.R);
+    matrix3_apply(referents.R, in_body.p, in_body.p);
     for (int k = 0; k < 3; k++) {
-        whole = whole && (k >= shifts || !isnan(told[k]));
-        stands.p[k] = whole ? stands.p[k] - in_body.p[k] : 0;
+        whole = whole && (k >= shifts || !isnan(wanted[k]));
+        referents.p[k] = whole ? referents.p[k] - in_body.p[k] : 0;
     }
     memset(c, 0, sizeof c);
     if (!p->s->frame.has_parameters)
-        c[shifts] = told[shifts]; /* of a plane: with its turns */
-    link_read(&p->s->links[body], &stands, c);
+        c[shifts] = wanted[shifts]; /* of a plane: with its turns */
+    link_read(&p->s->links[body], &referents, c);
     know_half(p, body, true, c, known);
-    if (whole && !is_half_told(p, body, false))
+    if (whole && !is_half_determined(p, body, false))
         know_half(p, body, false, c, known);
 }
 
 /* frames that were told as a whole */
 static void place_bodies(Placing *p, bool guesses)
 {
-    double *told = NEW_ARRAY(double, p->s->node_count *POSE_COORDS);
+    double *wanted = NEW_ARRAY(double, p->s->node_count *POSE_COORDS);
     int *maker = makers_of(p->s);
 
     for (int i = 0; i < p->s->node_count * POSE_COORDS; i++)
-        told[i] = NAN;
-    for (int i = 0; i < p->wishes.count; i++) {
-        const Wish *wish = &p->wishes.at[i];
+        wanted[i] = NAN;
+    for (int i = 0; i < p->guess_list.count; i++) {
+        const InitialGuess *initial_guess = &p->guess_list.at[i];
 
-        if (wish->is_guess != guesses)
+        if (initial_guess->is_guess != guesses)
             continue;
-        if (wish->link < 0)
-            told[place_at(wish->head, wish->k)] = wish->value;
+        if (initial_guess->link < 0)
+            wanted[place_at(initial_guess->head, initial_guess->k)] = initial_guess->value;
         /* places of bodies in Cartesian coordinates are named as their coordinates are */
-        else if (p->s->links[wish->link].instance->row->family == FAMILY_BODY &&
-                 wish->k < p->s->frame.shift_count)
-            told[place_at(p->s->links[wish->link].head, wish->k)] = wish->value;
+        else if (p->s->links[initial_guess->link].instance->row->family == FAMILY_BODY &&
+                 initial_guess->k < p->s->frame.shift_count)
+            wanted[place_at(p->s->links[initial_guess->link].head, initial_guess->k)] =
+                initial_guess->value;
     }
     for (int node = 0; node < p->s->node_count; node++)
-        place_body(p, maker, node, told + place_at(node, 0), guesses ? KNOWN_GUESSED : KNOWN_GIVEN);
-    MEM_FREE(told, maker);
+        place_body(p, maker, node, wanted + place_at(node, 0),
+                   guesses ? KNOWN_GUESSED : KNOWN_GIVEN);
+    MEM_FREE(wanted, maker);
 }
 
 void place_mark_known(Placing *p)
 {
-    for (int i = 0; i < p->wishes.count; i++) {
-        const Wish *told = &p->wishes.at[i];
-        Knowledge known = told->is_guess ? KNOWN_GUESSED : KNOWN_GIVEN;
+    for (int i = 0; i < p->guess_list.count; i++) {
+        const InitialGuess *wanted = &p->guess_list.at[i];
+        Knowledge known = wanted->is_guess ? KNOWN_GUESSED : KNOWN_GIVEN;
 
-        if (told->link < 0)
+        if (wanted->link < 0)
             continue;
-        p->begun[place_at(told->link, told->k)] = told->value;
-        if (known > p->known[place_at(told->link, told->k)])
-            p->known[place_at(told->link, told->k)] = known;
+        p->begun[place_at(wanted->link, wanted->k)] = wanted->value;
+        if (known > p->known[place_at(wanted->link, wanted->k)])
+            p->known[place_at(wanted->link, wanted->k)] = known;
     }
     complete_parameters(p);
     place_bodies(p, false);

@@ -21,10 +21,10 @@ void network_hint(System *system, Diag *diag)
                   ideal.name);
 }
 
-Status initial_solve(const Layout *l, const Numbers *numbers, const double *y, const double *guess,
-                     double *out, Diag *diag)
+Status initial_solve(const VariableIndex *l, const CompiledEquations *numbers, const double *y,
+                     const double *guess, double *out, Diag *diag)
 {
-    const Equations *eq = numbers_equations(numbers);
+    const Equations *eq = compiled_equations(numbers);
     NetSolve *solve;
     int lost;
     Status status = OK;
@@ -35,7 +35,7 @@ Status initial_solve(const Layout *l, const Numbers *numbers, const double *y, c
     if (guess != NULL)
         memcpy(netsolve_values(solve), guess, (size_t)(l->nx + l->nz) * sizeof(double));
     if (l->multi_turns > 0)
-        eq->take_references(eq->context, y + layout_references(l));
+        eq->take_references(eq->context, y + variable_index_references(l));
     eq->position(eq->context, 0, y);
     eq->velocity(eq->context, y + l->n, y + l->n + l->nu);
     if (netsolve_find(solve)) {
@@ -65,7 +65,7 @@ done:
 /* v at rest: what are states in state form is 0 */
 static Status rest_network(Assembly *a, double *v, Diag *diag)
 {
-    const Layout *l = a->l;
+    const VariableIndex *l = a->l;
     Assembly rest = *a;
     Problem p = {0};
     StartValue *values = NULL;
@@ -94,7 +94,7 @@ done:
 }
 
 /* where in z a guess of the user belongs; -1: it is of something else */
-static int guessed_place(const Layout *l, const GivenValue *given)
+static int guessed_place(const VariableIndex *l, const GivenValue *given)
 {
     for (int i = 0; i < l->nz && given->value->is_guess; i++)
         if (l->symbols[l->z + i] == given->expr)
@@ -104,7 +104,7 @@ static int guessed_place(const Layout *l, const GivenValue *given)
 
 Status initial_find_network(Assembly *a, Diag *diag)
 {
-    const Layout *l = a->l;
+    const VariableIndex *l = a->l;
     Problem p = {0};
     double *v = NEW_ARRAY(double, 2 * l->nx + l->nz);
     double *residual = NULL;

@@ -106,19 +106,19 @@ typedef LIST(Outlet) Outlets;
 /* the angle of a chord that has that name goes to the outlet's place */
 static void push_named(const Placing *p, const char *name, Outlet outlet, Outlets *outlets)
 {
-    const Stand stand = system_stand(p->s->system, name);
+    const VariableReferent referent = system_referent(p->s->system, name);
 
-    if (stand.kind != STANDS_COORDINATE)
+    if (referent.kind != REFERENT_COORDINATE)
         return;
-    outlet.link = p->s->link_at[stand.instance->edge];
-    outlet.k = stand.which;
+    outlet.link = p->s->link_at[referent.instance->edge];
+    outlet.k = referent.which;
     LIST_PUSH(*outlets, outlet);
 }
 
 /* q and references of angles */
 static void list_outlets(const Placing *p, Outlets *outlets)
 {
-    const Layout *l = p->a->l;
+    const VariableIndex *l = p->a->l;
 
     for (int i = 0; i < p->s->link_count; i++)
         for (int k = 0; k < p->s->links[i].instance->pose_count; k++) {
@@ -129,7 +129,7 @@ static void list_outlets(const Placing *p, Outlets *outlets)
         }
     for (int i = 0; i < l->multi_turns; i++)
         push_named(p, system_multi_turn(l->system, i)->name,
-                   (Outlet){.to = &p->a->y[layout_references(l) + i]}, outlets);
+                   (Outlet){.to = &p->a->y[variable_index_references(l) + i]}, outlets);
 }
 
 static void fill_outlets(Placing *p, const Outlets *outlets)
@@ -266,7 +266,7 @@ void placing_free(Placing *p)
     tree_free(p->trees[TREE_TRANSLATION]);
     tree_free(p->trees[TREE_ROTATION]);
     MEM_FREE(p->c, p->begun, p->known, p->poses, p->turned, p->shifted, p->groups);
-    LIST_FREE(p->wishes);
+    LIST_FREE(p->guess_list);
     LIST_FREE(p->columns);
     LIST_FREE(p->asks);
 }
@@ -288,7 +288,7 @@ static void open_placing(Placing *p)
 /* what isn't given begins where it is at y */
 static void begin_as_it_stands(Placing *p, const Outlets *outlets)
 {
-    Pose *poses = skeleton_poses_at(p->s, p->a->y);
+    Pose *poses = kinematic_tree_poses_at(p->s, p->a->y);
 
     for (int i = 0; i < outlets->count; i++) {
         double *begun = &p->begun[place_at(outlets->at[i].link, outlets->at[i].k)];
@@ -314,16 +314,16 @@ static void begin_as_it_stands(Placing *p, const Outlets *outlets)
 Status initial_place_again(const NewPlaces *places, double *y, Diag *diag)
 {
     static const StartValue given; /* no guess */
-    const Setting setting = {0};
+    const SimulationInput setting = {0};
     Assembled out = {0};
     Assembly a = {.l = places->layout,
                   .parameters = places->parameters,
                   .eq = places->equations,
                   .setting = &setting,
-                  .skeleton = places->skeleton,
+                  .kinematic_tree = places->kinematic_tree,
                   .out = &out,
                   .t = places->t};
-    Placing p = {.a = &a, .s = a.skeleton, .goes_on = true};
+    Placing p = {.a = &a, .s = a.kinematic_tree, .goes_on = true};
     Outlets outlets = {0};
     Status status = OK;
 
@@ -331,12 +331,12 @@ Status initial_place_again(const NewPlaces *places, double *y, Diag *diag)
     a.given = NEW_ARRAY(GivenValue, places->count);
     for (; a.given_count < places->count; a.given_count++)
         a.given[a.given_count] = (GivenValue){.value = &given,
-                                              .stand = places->stands[a.given_count],
+                                              .referent = places->referents[a.given_count],
                                               .target = places->values[a.given_count],
                                               .group = -1};
     initial_group(&a);
     open_placing(&p);
-    CHECK(place_take_wishes(&p, diag));
+    CHECK(place_read_guesses(&p, diag));
     place_mark_known(&p);
     list_outlets(&p, &outlets);
     begin_as_it_stands(&p, &outlets);
@@ -356,7 +356,7 @@ done:
 
 Status initial_place(Assembly *a, bool *closed, Diag *diag)
 {
-    Placing p = {.a = a, .s = a->skeleton};
+    Placing p = {.a = a, .s = a->kinematic_tree};
     double *from = NULL; /* where the search began that guesses have no part in */
     int size;
     Status status = OK;
@@ -366,7 +366,7 @@ Status initial_place(Assembly *a, bool *closed, Diag *diag)
         return OK;
     size = p.s->link_count * POSE_COORDS;
     open_placing(&p);
-    CHECK(place_take_wishes(&p, diag));
+    CHECK(place_read_guesses(&p, diag));
     place_mark_known(&p);
     CHECK(place_choose_trees(&p, diag));
     begin(&p);

@@ -7,7 +7,7 @@
 typedef enum Knowledge { KNOWN_NOT, KNOWN_GUESSED, KNOWN_GIVEN } Knowledge;
 
 /* a value that was told, of a coordinate or of a frame against the datum */
-typedef struct Wish {
+typedef struct InitialGuess {
     int link; /* number; -1: of a frame, */
     int head; /* this node */
     int k;    /* coordinate of the link */
@@ -15,7 +15,7 @@ typedef struct Wish {
     bool is_guess;
     int group;        /* of Euler parameters told together; -1 */
     const char *name; /* of a guess, borrowed; NULL of others */
-} Wish;
+} InitialGuess;
 
 typedef enum ColumnKind { COLUMN_SLIDE, COLUMN_TURN, COLUMN_FREE } ColumnKind;
 
@@ -25,25 +25,25 @@ typedef struct PlaceColumn { /* an unknown of the search */
     int k; /* shift or turn; axis of a free rotation */
 } PlaceColumn;
 
-typedef enum AskKind { ASK_SHIFT, ASK_TURN, ASK_TIE, ASK_WISH } AskKind;
+typedef enum QueryKind { QUERY_SHIFT, QUERY_TURN, QUERY_TIE, QUERY_GUESS } QueryKind;
 
-typedef struct Ask { /* rows of the search */
-    AskKind kind;
+typedef struct Query { /* rows of the search */
+    QueryKind kind;
     int link; /* or wish */
-} Ask;
+} Query;
 
 typedef struct Placing {
     Assembly *a;
-    const Skeleton *s;
+    const KinematicTree *s;
     Tree *trees[2];   /* translation, rotation */
     double *c;        /* links x POSE_COORDS */
     double *begun;    /* likewise: where what isn't given starts, NAN: not asked yet */
     Knowledge *known; /* likewise */
     Pose *poses;
-    LIST(Wish) wishes;
+    LIST(InitialGuess) guess_list;
     double *groups; /* x POSE_COORDS: what was told of each, the rest 0 */
     LIST(PlaceColumn) columns;
-    LIST(Ask) asks;
+    LIST(Query) asks;
     int row_count, guess_count; /* the last ones are of guesses, one each */
     double *turned, *shifted;   /* nodes x 3: what a unit of a column does to them */
     bool goes_on;               /* whole turns of angles are those of before */
@@ -56,7 +56,7 @@ static inline int place_at(int link, int k)
 }
 
 /* Guesses, drivers, given values: what comes later has the last word (initial_known.c). */
-MUST_USE Status place_take_wishes(Placing *p, Diag *diag);
+MUST_USE Status place_read_guesses(Placing *p, Diag *diag);
 void place_mark_known(Placing *p);
 /* How little is known of a half of a link: OPEN for each freedom that is, 1 for a guessed one. */
 enum { OPEN = 16 }; /* above the number of coordinates of a link */

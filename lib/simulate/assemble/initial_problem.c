@@ -9,9 +9,9 @@
 #include <math.h>
 #include <string.h>
 
-#define TOLERANCE 1e-12 /* of scaled residuals */
-#define CLOSED    1e-13 /* m, rad: what rounding leaves of residuals */
-#define TOLD      1e-9  /* m, rad: less isn't worth a word beside what is missed by more */
+#define TOLERANCE      1e-12 /* of scaled residuals */
+#define CLOSED         1e-13 /* m, rad: what rounding leaves of residuals */
+#define LEAST_REPORTED 1e-9  /* m, rad: less isn't worth a word beside what is missed by more */
 
 bool initial_is_of_states(const GivenValue *given)
 {
@@ -26,7 +26,7 @@ static bool is_of_level(const GivenValue *given, StateLevel level)
 }
 
 /* what states have to satisfy by themselves */
-static int invariants_of(const Layout *l)
+static int invariants_of(const VariableIndex *l)
 {
     int count = 0;
 
@@ -37,7 +37,7 @@ static int invariants_of(const Layout *l)
 
 Status initial_open_problem(Problem *p, Assembly *a, StateLevel level, bool guesses, Diag *diag)
 {
-    const Layout *l = a->l;
+    const VariableIndex *l = a->l;
     int equations = level == LEVEL_NETWORK ? l->nx + l->nz : 0;
     int extra = level >= LEVEL_NETWORK ? equations + invariants_of(l) : 0;
     LIST(Expr) wanted = {0};
@@ -102,7 +102,7 @@ static void name_given(Text *text, const StartValue *value)
     text_addf(text, "%s%.*s = %.6g", value->name, value->primes, "''''", value->value);
 }
 
-static void name_row(Text *text, const Layout *l, int k)
+static void name_row(Text *text, const VariableIndex *l, int k)
 {
     const ConstraintRow *row = system_constraint(l->system, k);
 
@@ -110,19 +110,19 @@ static void name_row(Text *text, const Layout *l, int k)
 }
 
 /* Of what is missed by little all that comes near the most is told. */
-static double least_told(const double *residual, int count)
+static double least_reported(const double *residual, int count)
 {
     double most = 0;
 
     for (int k = 0; k < count; k++)
         most = isfinite(residual[k]) ? fmax(most, fabs(residual[k])) : INFINITY;
-    return fmin(TOLD, 0.1 * most);
+    return fmin(LEAST_REPORTED, 0.1 * most);
 }
 
 /* "h9 (x) is missed by 0.03; ..." with the values that were given */
 Status initial_conflict(const Problem *p, const double *residual, const char *what, Diag *diag)
 {
-    const double least = least_told(residual, p->system_rows + p->count);
+    const double least = least_reported(residual, p->system_rows + p->count);
     Text text = {0}, values = {0};
     int shown = 0;
 

@@ -144,23 +144,23 @@ static void move_columns(void *context, double *v, const double *step)
 
 /* --- rows --- */
 
-static void ask(Placing *p, AskKind kind, int link)
+static void ask(Placing *p, QueryKind kind, int link)
 {
     const Pose nothing = {.R = {1, 0, 0, 0, 1, 0, 0, 0, 1}};
     LinkRow rows[LINK_ROWS];
 
-    LIST_PUSH(p->asks, (Ask){kind, link});
-    p->row_count += kind == ASK_SHIFT  ? link_shift_rows(&p->s->links[link], &nothing, rows)
-                    : kind == ASK_TURN ? link_turn_rows(&p->s->links[link], &nothing, rows)
-                                       : 1;
+    LIST_PUSH(p->asks, (Query){kind, link});
+    p->row_count += kind == QUERY_SHIFT  ? link_shift_rows(&p->s->links[link], &nothing, rows)
+                    : kind == QUERY_TURN ? link_turn_rows(&p->s->links[link], &nothing, rows)
+                                         : 1;
 }
 
 /* whether coordinates of the trees hold a value by themselves */
-static bool is_held(const Placing *p, const Wish *told)
+static bool is_held(const Placing *p, const InitialGuess *wanted)
 {
-    return !told->is_guess && told->link >= 0 && place_has(p, told->link, told->k) &&
-           (told->group < 0 || p->known[place_at(told->link, told->k)] != KNOWN_GIVEN ||
-            place_ignorance(p, told->link, TREE_ROTATION) == 0);
+    return !wanted->is_guess && wanted->link >= 0 && place_has(p, wanted->link, wanted->k) &&
+           (wanted->group < 0 || p->known[place_at(wanted->link, wanted->k)] != KNOWN_GIVEN ||
+            place_ignorance(p, wanted->link, TREE_ROTATION) == 0);
 }
 
 /* joints, given values, guesses */
@@ -173,48 +173,48 @@ static void list_asks(Placing *p, bool guesses)
         if (!l->holds)
             continue;
         if (!place_shifts(p, i))
-            ask(p, ASK_SHIFT, i);
+            ask(p, QUERY_SHIFT, i);
         if (!place_turns(p, i))
-            ask(p, ASK_TURN, i);
+            ask(p, QUERY_TURN, i);
         if (l->is_tied && !(place_shifts(p, i) && place_turns(p, i)))
-            ask(p, ASK_TIE, i);
+            ask(p, QUERY_TIE, i);
     }
-    for (int i = 0; i < p->wishes.count; i++)
-        if (!p->wishes.at[i].is_guess && !is_held(p, &p->wishes.at[i]))
-            ask(p, ASK_WISH, i);
-    for (int i = 0; i < p->wishes.count && guesses; i++)
-        if (p->wishes.at[i].is_guess) {
-            ask(p, ASK_WISH, i);
+    for (int i = 0; i < p->guess_list.count; i++)
+        if (!p->guess_list.at[i].is_guess && !is_held(p, &p->guess_list.at[i]))
+            ask(p, QUERY_GUESS, i);
+    for (int i = 0; i < p->guess_list.count && guesses; i++)
+        if (p->guess_list.at[i].is_guess) {
+            ask(p, QUERY_GUESS, i);
             p->guess_count++;
         }
 }
 
-static int ask_rows(const Placing *p, const Ask *asked, LinkRow *rows, int *tail, int *head)
+static int ask_rows(const Placing *p, const Query *asked, LinkRow *rows, int *tail, int *head)
 {
-    const Wish *told = asked->kind == ASK_WISH ? &p->wishes.at[asked->link] : NULL;
-    const int number = told != NULL ? told->link : asked->link;
+    const InitialGuess *wanted = asked->kind == QUERY_GUESS ? &p->guess_list.at[asked->link] : NULL;
+    const int number = wanted != NULL ? wanted->link : asked->link;
     const Link *link = number >= 0 ? &p->s->links[number] : &p->s->frame;
     double near[POSE_COORDS] = {0};
     Pose relative;
 
     *tail = link->tail;
-    *head = number >= 0 || told == NULL ? link->head : told->head;
+    *head = number >= 0 || wanted == NULL ? link->head : wanted->head;
     pose_between(&p->poses[*tail], &p->poses[*head], &relative);
     switch (asked->kind) {
-    case ASK_SHIFT:
+    case QUERY_SHIFT:
         return link_shift_rows(link, &relative, rows);
-    case ASK_TURN:
+    case QUERY_TURN:
         return link_turn_rows(link, &relative, rows);
-    case ASK_TIE:
+    case QUERY_TIE:
         link_tie_row(link, &relative, rows);
         return 1;
-    case ASK_WISH:
-        if (told == NULL)
+    case QUERY_GUESS:
+        if (wanted == NULL)
             return 0;
-        if (told->group >= 0)
-            memcpy(near, p->groups + place_at(told->group, 0), sizeof near);
-        near[told->k] = told->value;
-        link_value_row(link, &relative, near, told->k, told->value, rows);
+        if (wanted->group >= 0)
+            memcpy(near, p->groups + place_at(wanted->group, 0), sizeof near);
+        near[wanted->k] = wanted->value;
+        link_value_row(link, &relative, near, wanted->k, wanted->value, rows);
         return 1;
     }
     return 0;
@@ -222,7 +222,7 @@ static int ask_rows(const Placing *p, const Ask *asked, LinkRow *rows, int *tail
 
 /* whether the column that nodes were moved by leaves this one where it is, as most of another leg's
  * do */
-static bool stands(const Placing *p, int node)
+static bool referents(const Placing *p, int node)
 {
     return is_nothing(p->turned + (ptrdiff_t)3 * node) &&
            is_nothing(p->shifted + (ptrdiff_t)3 * node);
@@ -234,7 +234,7 @@ static double row_slope(const PlaceSearch *s, int row)
     const int t = s->tails[row], h = s->heads[row];
     double turn[3], shift[3], d[3], carried[3], back[9];
 
-    if (stands(p, t) && stands(p, h))
+    if (referents(p, t) && referents(p, h))
         return 0;
     for (int i = 0; i < 3; i++) {
         turn[i] = p->turned[3 * h + i] - p->turned[3 * t + i];
@@ -281,7 +281,7 @@ static void move(void *context, double *v, const double *step)
 
 double place_missed(Placing *p, int number, bool *is_length)
 {
-    const Ask asked = {ASK_WISH, number};
+    const Query asked = {QUERY_GUESS, number};
     LinkRow rows[LINK_ROWS] = {0};
     int tail, head;
 
@@ -344,7 +344,7 @@ static bool try_around(Placing *p, const Rows *rows, const double *from, const b
     bool met = false;
 
     tries = tries < TRIES ? TRIES : tries > MOST_TRIES ? MOST_TRIES : tries;
-    for (int k = 0; k < tries && !met && poll(rows->watch) == OK; k++) {
+    for (int k = 0; k < tries && !met && monitor_poll(rows->watch) == OK; k++) {
         const double size = size_of_try(k);
 
         for (int j = 0; j < rows->columns; j++)

@@ -8,8 +8,8 @@
  * The rates are A u. Among all u with C u = d, which are Phi_u u = nu and what was given, the least
  * |A u| is wanted. Let L L^T = A^T A + P^T P with P the rows of Phi_u, each of length 1: |P u| is
  * the same for all of them, and it is the least |L^T u|. */
-#include "simulate/assemble/beside.h"
 #include "simulate/assemble/initial_place_impl.h"
+#include "simulate/assemble/perturbed_points.h"
 
 #include "algebra/kkt.h"
 #include "algebra/linear.h"
@@ -62,7 +62,7 @@ static void know_half(Placing *p, int link, bool rotation, bool is_guess)
 }
 
 /* vx, wx, Wx and so on: a half is known once all of its components are */
-static void count_component(Placing *p, int *told, const char *name, bool is_guess)
+static void count_component(Placing *p, int *wanted, const char *name, bool is_guess)
 {
     const char *dot = strrchr(name, '.');
     const bool is_component = dot != NULL && strlen(dot) == 3 && strchr("vwW", dot[1]) != NULL &&
@@ -70,29 +70,29 @@ static void count_component(Placing *p, int *told, const char *name, bool is_gue
     const int link = is_component ? link_named(p, name, (size_t)(dot - name)) : -1;
     const int half = is_component && dot[1] != 'v';
 
-    if (link >= 0 && ++told[2 * link + half] == p->s->frame.shift_count)
+    if (link >= 0 && ++wanted[2 * link + half] == p->s->frame.shift_count)
         know_half(p, link, half == 1, is_guess);
 }
 
 static void mark_rates(Placing *p)
 {
     const Assembly *a = p->a;
-    int *told = NEW_ARRAY(int, 2 * p->s->link_count);
+    int *wanted = NEW_ARRAY(int, 2 * p->s->link_count);
 
     for (int i = 0; i < a->given_count; i++) {
         const StartValue *value = a->given[i].value;
-        Stand stand = {.kind = STANDS_NOT};
+        VariableReferent referent = {.kind = REFERENT_NONE};
 
         if (a->given[i].is_own)
             continue;
         if (value->primes == 1)
-            stand = system_stand(a->l->system, value->name);
-        if (stand.kind == STANDS_COORDINATE || stand.kind == STANDS_SHIFT)
-            know(p, p->s->link_at[stand.instance->edge], stand.which, value->is_guess);
+            referent = system_referent(a->l->system, value->name);
+        if (referent.kind == REFERENT_COORDINATE || referent.kind == REFERENT_SHIFT)
+            know(p, p->s->link_at[referent.instance->edge], referent.which, value->is_guess);
         else if (value->primes == 0)
-            count_component(p, told, value->name, value->is_guess);
+            count_component(p, wanted, value->name, value->is_guess);
     }
-    mem_free(told);
+    mem_free(wanted);
 }
 
 /* --- rates of joints by speeds --- */
@@ -127,12 +127,12 @@ static double column_rate(const Placing *p, const PlaceColumn *column, const Pos
 }
 
 /* terms of a matrix, of which several may share a place */
-typedef struct Terms {
+typedef struct InitialSpeedTerms {
     LIST(int) row, column;
     LIST(double) value;
-} Terms;
+} InitialSpeedTerms;
 
-static void push_term(Terms *terms, int row, int column, double value)
+static void push_term(InitialSpeedTerms *terms, int row, int column, double value)
 {
     LIST_PUSH(terms->row, row);
     LIST_PUSH(terms->column, column);
@@ -140,7 +140,7 @@ static void push_term(Terms *terms, int row, int column, double value)
 }
 
 /* their sums, new, by places of *pattern, which is new too; the terms are used up */
-static double *sum_terms(Terms *terms, int rows, int columns, Pattern *pattern)
+static double *sum_terms(InitialSpeedTerms *terms, int rows, int columns, Pattern *pattern)
 {
     const int count = terms->value.count;
     int *place = NEW_ARRAY(int, count);
@@ -161,24 +161,25 @@ static double *sum_terms(Terms *terms, int rows, int columns, Pattern *pattern)
 static double *find_rates(const Placing *p, Pattern *pattern)
 {
     const int nu = p->a->eq->nu;
-    Sides *sides = sides_new(p->s, p->a->eq, p->a->y, STEP);
-    Terms terms = {0};
+    PerturbedPoints *sides = perturbed_points_new(p->s, p->a->eq, p->a->y, STEP);
+    InitialSpeedTerms terms = {0};
 
     for (int j = 0; j < nu; j++) {
-        sides_look(sides, j);
+        perturbed_points_find(sides, j);
         for (int i = 0; i < p->columns.count; i++) {
             const PlaceColumn *column = &p->columns.at[i];
             double rate;
 
-            if (sides_keep(sides, column->link))
+            if (perturbed_points_stores(sides, column->link))
                 continue;
-            rate = column_rate(p, column, sides_low(sides), sides_high(sides));
+            rate =
+                column_rate(p, column, perturbed_points_low(sides), perturbed_points_high(sides));
             rate = GRID * round(rate / GRID);
             if (rate != 0)
                 push_term(&terms, j, i, rate);
         }
     }
-    sides_free(sides);
+    perturbed_points_free(sides);
     return sum_terms(&terms, nu, p->columns.count, pattern);
 }
 
@@ -191,7 +192,8 @@ typedef struct Weighed { /* rows in w = L^T u */
 } Weighed;
 
 /* += scale row^T row */
-static void add_square(Terms *sum, const Pattern *rows, const double *values, int row, double scale)
+static void add_square(InitialSpeedTerms *sum, const Pattern *rows, const double *values, int row,
+                       double scale)
 {
     for (int i = rows->start[row]; i < rows->start[row + 1]; i++)
         for (int j = rows->start[row]; j < rows->start[row + 1]; j++)
@@ -202,7 +204,7 @@ static void add_square(Terms *sum, const Pattern *rows, const double *values, in
 static double *weigh(const Assembly *a, const Pattern *rates, const double *values, Pattern *square)
 {
     const Equations *eq = a->eq;
-    Terms sum = {0};
+    InitialSpeedTerms sum = {0};
 
     for (int i = 0; i < rates->columns; i++)
         add_square(&sum, rates, values, i, 1);
@@ -338,7 +340,7 @@ static Status solve_sparse(Assembly *a, const Pattern *square, const double *wei
             u[j] += du[j];
         rows.evaluate(rows.context, u, residual, NULL);
     }
-    CHECK(poll(a->setting->watch));
+    CHECK(monitor_poll(a->setting->watch));
     *solved = sound && vector_is_finite(u, nu) && are_met(rows.pattern, values, residual);
 done:
     if (!*solved)
@@ -428,7 +430,7 @@ done:
 
 Status initial_speeds(Assembly *a, Diag *diag)
 {
-    Placing p = {.a = a, .s = a->skeleton};
+    Placing p = {.a = a, .s = a->kinematic_tree};
     Pattern of_rates = {0}, square = {0};
     double *rates = NULL, *weight = NULL;
     bool open = false;

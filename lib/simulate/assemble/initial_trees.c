@@ -11,11 +11,11 @@
 static bool may_place(const Placing *p, int link, TreeKind kind)
 {
     const Link *l = &p->s->links[link];
-    const bool is_loose =
+    const bool is_lifted =
         kind == TREE_TRANSLATION ? l->shift_count == 3 : l->has_parameters || l->turn_count == 3;
 
     return !l->instance->is_virtual ||
-           ((is_loose || tree_has(system_tree(p->s->system, kind), l->edge)) &&
+           ((is_lifted || tree_has(system_tree(p->s->system, kind), l->edge)) &&
             place_ignorance(p, link, kind) < OPEN);
 }
 
@@ -102,5 +102,5 @@ bool place_has(const Placing *p, int link, int k)
 
 void place_poses(Placing *p, const double *c)
 {
-    skeleton_poses(p->s, p->trees[TREE_ROTATION], p->trees[TREE_TRANSLATION], c, p->poses);
+    kinematic_tree_poses(p->s, p->trees[TREE_ROTATION], p->trees[TREE_TRANSLATION], c, p->poses);
 }

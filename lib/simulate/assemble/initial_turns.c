@@ -18,7 +18,7 @@ static double whole(double angle)
 
 Status initial_whole_turns(Assembly *a, const double *angles, Diag *diag)
 {
-    const Layout *l = a->l;
+    const VariableIndex *l = a->l;
     const int count = system_whole_turns_count(l->system);
     Expr *sums = NEW_ARRAY(Expr, count);
     double *turns = NEW_ARRAY(double, count);
@@ -42,7 +42,7 @@ Status initial_whole_turns(Assembly *a, const double *angles, Diag *diag)
 
         turns[i] = whole(of->name != NULL ? angles[i] - values[i] : -values[i]);
         parameters_set(a->parameters, of->symbol, turns[i]);
-        numbers_set(a->numbers, of->symbol, turns[i]);
+        compiled_set(a->numbers, of->symbol, turns[i]);
     }
 done:
     probe_free(probe);

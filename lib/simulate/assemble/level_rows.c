@@ -6,12 +6,12 @@
 #include <math.h>
 #include <string.h>
 
-int level_first(const Layout *l, StateLevel level)
+int level_first(const VariableIndex *l, StateLevel level)
 {
     return level == LEVEL_POSITION ? 0 : level == LEVEL_VELOCITY ? l->n : l->n + l->nu;
 }
 
-int level_count(const Layout *l, StateLevel level)
+int level_count(const VariableIndex *l, StateLevel level)
 {
     const int counts[LEVEL_COUNT] = {[LEVEL_POSITION] = l->n,
                                      [LEVEL_VELOCITY] = l->nu,
@@ -22,14 +22,14 @@ int level_count(const Layout *l, StateLevel level)
 }
 
 /* new */
-static Expr *unknowns_of(const Layout *l, StateLevel level)
+static Expr *unknowns_of(const VariableIndex *l, StateLevel level)
 {
     const int count = level_count(l, level);
     const int first = level == LEVEL_POSITION ? l->q : level == LEVEL_VELOCITY ? l->u : l->x;
     Expr *out;
 
     if (level == LEVEL_NETWORK)
-        return layout_network(l);
+        return variable_index_network(l);
     out = NEW_ARRAY(Expr, count);
     memcpy(out, l->symbols + first, (size_t)count * sizeof(Expr));
     return out;
@@ -44,8 +44,8 @@ static bool maps(const LevelRows *rows, int coordinate, int speed)
 static void list_entries(LevelRows *rows)
 {
     const bool is_mapped = rows->level == LEVEL_POSITION && rows->eq->map != NULL;
-    typedef LIST(int) Numbers;
-    Numbers slope = {0}, by = {0}, speed = {0};
+    typedef LIST(int) CompiledEquations;
+    CompiledEquations slope = {0}, by = {0}, speed = {0};
     int count;
     const Slope *slopes = residual_slopes(probe_residual(rows->probe), &count);
 
@@ -65,7 +65,7 @@ static void list_entries(LevelRows *rows)
     rows->is_row = NEW_ARRAY(bool, rows->count);
 }
 
-Status level_rows_new(StateLevel level, const Layout *l, const Equations *eq,
+Status level_rows_new(StateLevel level, const VariableIndex *l, const Equations *eq,
                       Parameters *parameters, const Expr *wanted, int count, LevelRows **out,
                       Diag *diag)
 {
@@ -141,12 +141,12 @@ static void put_slopes(const LevelRows *rows, const double *slopes, double *jaco
 
 static void evaluate_expressions(const LevelRows *rows, double *residual, double *jacobian)
 {
-    const Layout *l = rows->l;
+    const VariableIndex *l = rows->l;
     const double *tail = rows->place + l->n + l->nu + l->nx;
     RowValues at = row_of_state(l, rows->t, rows->place);
     const double *values;
 
-    at.references = rows->y + layout_references(l);
+    at.references = rows->y + variable_index_references(l);
     at.rates = tail;
     at.z = tail + l->nx;
     values = probe_values(rows->probe, &at);
@@ -165,7 +165,7 @@ static int columns_of(const LevelRows *rows)
 static void evaluate(void *context, const double *v, double *residual, double *jacobian)
 {
     const LevelRows *rows = context;
-    const Layout *l = rows->l;
+    const VariableIndex *l = rows->l;
 
     memcpy(rows->place, rows->y, (size_t)(l->n + l->nu + l->nx) * sizeof(double));
     memcpy(rows->place + level_first(l, rows->level), v,
@@ -231,7 +231,7 @@ static bool has_pattern(const LevelRows *rows)
     return same;
 }
 
-Rows level_rows(LevelRows *rows, const Watch *watch)
+Rows level_rows(LevelRows *rows, const CallMonitor *watch)
 {
     Rows out = {.rows = rows->system_rows,
                 .columns = columns_of(rows),

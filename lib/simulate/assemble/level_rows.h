@@ -21,11 +21,11 @@ typedef enum StateLevel {
 } StateLevel;
 
 /* of its unknowns: the place of the first in (q, u, x), and how many */
-int level_first(const Layout *layout, StateLevel level);
-int level_count(const Layout *layout, StateLevel level);
+int level_first(const VariableIndex *layout, StateLevel level);
+int level_count(const VariableIndex *layout, StateLevel level);
 
 typedef struct LevelRows {
-    const Layout *l;
+    const VariableIndex *l;
     const Equations *eq;
     StateLevel level;
     int system_rows; /* of the system, first: m, or none */
@@ -45,11 +45,11 @@ typedef struct LevelRows {
 
 /* New; level_rows_free(). Borrows all but the expressions; `equations` may be used by others
  * between calls. Fails as probe_new() does. */
-MUST_USE Status level_rows_new(StateLevel level, const Layout *layout, const Equations *equations,
-                               Parameters *parameters, const Expr *wanted, int count,
-                               LevelRows **out, Diag *diag);
+MUST_USE Status level_rows_new(StateLevel level, const VariableIndex *layout,
+                               const Equations *equations, Parameters *parameters,
+                               const Expr *wanted, int count, LevelRows **out, Diag *diag);
 void level_rows_free(LevelRows *rows); /* NULL is fine */
 /* With the targets as they are now. On velocity the equations are at the position. */
-Rows level_rows(LevelRows *rows, const Watch *watch);
+Rows level_rows(LevelRows *rows, const CallMonitor *watch);
 
 #endif

@@ -10,10 +10,10 @@ libcore_la_SOURCES += \
   lib/simulate/assemble/mode_search.h \
   lib/simulate/assemble/mode_search_impl.h \
   lib/simulate/assemble/mode_search_jump.c \
-  lib/simulate/assemble/skeleton.c \
-  lib/simulate/assemble/skeleton.h \
-  lib/simulate/assemble/skeleton_rows.c \
-  lib/simulate/assemble/beside.c lib/simulate/assemble/beside.h \
+  lib/simulate/assemble/kinematic_tree.c \
+  lib/simulate/assemble/kinematic_tree.h \
+  lib/simulate/assemble/kinematic_tree_rows.c \
+  lib/simulate/assemble/perturbed_points.c lib/simulate/assemble/perturbed_points.h \
   lib/simulate/assemble/initial.c \
   lib/simulate/assemble/initial.h \
   lib/simulate/assemble/initial_given.c \

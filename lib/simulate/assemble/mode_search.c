@@ -127,10 +127,11 @@ static void bring_linear(ModeSearch *s)
 
 /* --- making --- */
 
-typedef LIST(Expr) Roots;
+typedef LIST(Expr) ModeSearchRoots;
 
 /* one row, or one side of it */
-static void add_row(ModeSearch *s, Roots *roots, int row, Expr residual, int ideal, When when)
+static void add_row(ModeSearch *s, ModeSearchRoots *roots, int row, Expr residual, int ideal,
+                    When when)
 {
     const bool averaged = (expr_kinds(residual) & 1U << SYMBOL_STATE_RATE) != 0;
 
@@ -140,7 +141,7 @@ static void add_row(ModeSearch *s, Roots *roots, int row, Expr residual, int ide
 }
 
 /* closed: v - least = on i; open: i = v/off, or 0; and a leak beside each */
-static void add_sides(ModeSearch *s, Roots *roots, int k, const IdealSwitch *ideal)
+static void add_sides(ModeSearch *s, ModeSearchRoots *roots, int k, const IdealSwitch *ideal)
 {
     Arena *arena = system_arena(s->l->system);
     Expr v = expr_add(arena, ideal->across, ideal->least);
@@ -166,10 +167,11 @@ static Status refuse_form(const ModeSearch *s, const char *name, Diag *diag)
 }
 
 /* both sides of a switch share their places, and x and x' theirs */
-static Status compile_rows(ModeSearch *s, Parameters *parameters, const Roots *roots, Diag *diag)
+static Status compile_rows(ModeSearch *s, Parameters *parameters, const ModeSearchRoots *roots,
+                           Diag *diag)
 {
     const unsigned solved = 1U << SYMBOL_STATE | 1U << SYMBOL_STATE_RATE | 1U << SYMBOL_ALGEBRAIC;
-    Expr *unknowns = layout_network(s->l);
+    Expr *unknowns = variable_index_network(s->l);
     const ProbeOrder order = {.roots = roots->at,
                               .root_count = roots->count,
                               .row_count = roots->count,
@@ -199,10 +201,10 @@ done:
 
 static Status compile(ModeSearch *s, Parameters *parameters, Diag *diag)
 {
-    const Reading *run = system_run(s->l->system);
+    const EquationForm *run = system_run(s->l->system);
     Arena *arena = system_arena(s->l->system);
     bool *taken = NEW_ARRAY(bool, s->n);
-    Roots roots = {0};
+    ModeSearchRoots roots = {0};
     LIST(Expr) looks = {0};
     ScalarPair edge;
     const bool of_tree =
@@ -254,7 +256,7 @@ Status mode_search_new(System *system, Parameters *parameters, ModeSearch **out,
     ModeSearch *s = NEW(ModeSearch);
     Status status = OK;
 
-    s->l = layout_new(system);
+    s->l = variable_index_new(system);
     s->n = s->l->nx + s->l->nz;
     s->is_linear = true;
     s->count = system_ideal_count(system);
@@ -305,7 +307,7 @@ void mode_search_free(ModeSearch *s)
     pattern_free(&s->pattern);
     MEM_FREE(s->place, s->network, s->residual, s->rhs, s->zeros, s->has_when, s->x, s->through,
              s->across, s->on, s->domain, s->source, s->gives);
-    layout_free(s->l);
+    variable_index_free(s->l);
     mem_free(s);
 }
 
@@ -329,7 +331,7 @@ bool mode_search_solve(ModeSearch *s)
     RowValues row;
     const double *values;
 
-    layout_take_sides(s->l, s->closed);
+    variable_index_set_sides(s->l, s->closed);
     if (s->is_linear)
         bring_linear(s);
     if (!netsolve_find(s->solve))
@@ -444,7 +446,7 @@ static bool follow_conditions(ModeSearch *s, int *which)
     return changed;
 }
 
-static Status tell_none(const ModeSearch *s, Diag *diag)
+static Status report_none(const ModeSearch *s, Diag *diag)
 {
     Text names = {0};
 
@@ -474,7 +476,7 @@ Status mode_search_find(ModeSearch *s, const ModeSearchAt *at, bool *closed, Dia
     memset(netsolve_values(s->solve), 0, (size_t)s->l->nx * sizeof(double));
     for (int round = 0;; round++) {
         if (!settle_shares(s)) {
-            status = tell_none(s, diag);
+            status = report_none(s, diag);
             goto done;
         }
         if (!follow_conditions(s, &which))

@@ -8,7 +8,7 @@
 #ifndef COTREE_SIMULATE_ASSEMBLE_MODE_SEARCH_H
 #define COTREE_SIMULATE_ASSEMBLE_MODE_SEARCH_H
 
-#include "simulate/equations/numbers.h"
+#include "simulate/equations/compiled_equations.h"
 
 typedef struct ModeSearch ModeSearch;
 

@@ -24,8 +24,8 @@ typedef struct ResidualRow {
 enum { THROUGH, ACROSS, WHEN, ON, LOOKS }; /* at each switch */
 
 struct ModeSearch {
-    Layout *l;    /* of the system in which sides are open or numbers */
-    int n, count; /* unknowns [x'; z]; switches */
+    VariableIndex *l; /* of the system in which sides are open or numbers */
+    int n, count;     /* unknowns [x'; z]; switches */
     LIST(ResidualRow) rows;
     Pattern pattern;
     int *place;   /* in it, of a slope */

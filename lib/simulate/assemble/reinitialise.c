@@ -27,9 +27,9 @@ void reinit_free(Reinit *reinit)
         return;
     LIST_FREE(reinit->targets);
     LIST_FREE(reinit->named);
-    stays_free(reinit->stays, reinit->stay_count);
+    held_coordinates_free(reinit->stays, reinit->held_count);
     mem_free(reinit->storages);
-    skeleton_free(reinit->skeleton);
+    kinematic_tree_free(reinit->kinematic_tree);
     for (int level = 0; level < LEVEL_COUNT; level++)
         level_rows_free(reinit->levels[level]);
     level_rows_free(reinit->kept);
@@ -64,12 +64,12 @@ static Status classify(const Reinit *reinit, Target *target, const char *name, i
 Status reinit_add(Reinit *reinit, const char *name, int primes, Diag *diag)
 {
     System *system = reinit->plan.layout->system;
-    Target target = {.node = -1, .rate = -1, .attitude = -1, .turning = -1, .stay = -1};
+    Target target = {.node = -1, .rate = -1, .attitude = -1, .turning = -1, .held_index = -1};
 
     TRY(system_variable(system, name, primes, &target.expr, diag));
     TRY(classify(reinit, &target, name, primes, diag));
     if (target.level == LEVEL_POSITION || (target.level == LEVEL_VELOCITY && primes == 1))
-        target.stand = system_stand(system, name);
+        target.referent = system_referent(system, name);
     if (target.level == LEVEL_POSITION)
         LIST_PUSH(reinit->named, name);
     LIST_PUSH(reinit->targets, target);
@@ -96,7 +96,7 @@ static Status compile_level(Reinit *reinit, StateLevel level, Diag *diag)
 
 Status reinit_compile(Reinit *reinit, Diag *diag)
 {
-    const Layout *l = reinit->plan.layout;
+    const VariableIndex *l = reinit->plan.layout;
     const int count = reinit->storage_count = system_storages(l->system, &reinit->storages);
     LIST(Expr) roots = {0};
     Status status = OK;
@@ -198,17 +198,17 @@ static bool solve_least_squares(Reinit *reinit, StateLevel level)
     return met;
 }
 
-static Skeleton *skeleton_of(Reinit *reinit)
+static KinematicTree *kinematic_tree_of(Reinit *reinit)
 {
-    if (reinit->skeleton == NULL)
-        reinit->skeleton = skeleton_new(reinit->plan.layout, reinit->plan.parameters);
-    return reinit->skeleton;
+    if (reinit->kinematic_tree == NULL)
+        reinit->kinematic_tree = kinematic_tree_new(reinit->plan.layout, reinit->plan.parameters);
+    return reinit->kinematic_tree;
 }
 
 /* angles are looked for in the turn that is asked for */
 static void begin_turns(const Reinit *reinit)
 {
-    double *near = reinit->y + layout_references(reinit->plan.layout);
+    double *near = reinit->y + variable_index_references(reinit->plan.layout);
 
     for (int k = 0; k < reinit->targets.count; k++)
         if (reinit->targets.at[k].multi_turn >= 0 && reinit_is_chosen(reinit, k, LEVEL_POSITION))
@@ -222,36 +222,36 @@ static bool place_along_joints(Reinit *reinit)
     NewPlaces places = {.layout = reinit->plan.layout,
                         .parameters = reinit->plan.parameters,
                         .equations = reinit->plan.equations,
-                        .skeleton = skeleton_of(reinit),
+                        .kinematic_tree = kinematic_tree_of(reinit),
                         .t = reinit->t};
-    Stand *stands;
+    VariableReferent *referents;
     double *values;
     Diag diag = {0};
     bool sound;
 
-    if (places.skeleton == NULL)
+    if (places.kinematic_tree == NULL)
         return false;
-    places.stands = stands = NEW_ARRAY(Stand, reinit->targets.count);
+    places.referents = referents = NEW_ARRAY(VariableReferent, reinit->targets.count);
     places.values = values = NEW_ARRAY(double, reinit->targets.count);
     for (int k = 0; k < reinit->targets.count; k++)
         if (reinit_is_chosen(reinit, k, LEVEL_POSITION)) {
-            stands[places.count] = reinit->targets.at[k].stand;
+            referents[places.count] = reinit->targets.at[k].referent;
             values[places.count++] = reinit->values[k];
         }
     sound = initial_place_again(&places, reinit->y, &diag) == OK;
-    MEM_FREE(stands, values);
+    MEM_FREE(referents, values);
     return sound;
 }
 
-static bool is_parameter(const Stand *stand)
+static bool is_parameter(const VariableReferent *referent)
 {
-    return stand->kind == STANDS_PARAMETER ||
-           (stand->kind == STANDS_COORDINATE &&
-            stand->instance->coord_kind[stand->which] == COORDINATE_PARAMETER);
+    return referent->kind == REFERENT_PARAMETER ||
+           (referent->kind == REFERENT_COORDINATE &&
+            referent->instance->coord_kind[referent->which] == COORDINATE_PARAMETER);
 }
 
 /* whether two are Euler parameters of one attitude, or rates of such */
-static bool is_one_attitude(const Stand *a, const Stand *b)
+static bool is_one_attitude(const VariableReferent *a, const VariableReferent *b)
 {
     return is_parameter(a) && is_parameter(b) && a->kind == b->kind && a->instance == b->instance &&
            a->node == b->node;
@@ -262,7 +262,7 @@ static bool is_same_attitude(const Reinit *reinit, int i, int k)
 {
     return reinit_is_chosen(reinit, i, LEVEL_POSITION) &&
            reinit_is_chosen(reinit, k, LEVEL_POSITION) &&
-           is_one_attitude(&reinit->targets.at[i].stand, &reinit->targets.at[k].stand);
+           is_one_attitude(&reinit->targets.at[i].referent, &reinit->targets.at[k].referent);
 }
 
 /* Either sign of Euler parameters is the same attitude: the new values get that of the present
@@ -274,7 +274,7 @@ static void align(const Reinit *reinit, double *values)
     for (int k = 0; k < reinit->targets.count; k++) {
         double along = 0;
 
-        for (int i = 0; i < reinit->targets.count && is_parameter(&reinit->targets.at[k].stand);
+        for (int i = 0; i < reinit->targets.count && is_parameter(&reinit->targets.at[k].referent);
              i++)
             along += is_same_attitude(reinit, i, k) ? present[i] * reinit->values[i] : 0;
         values[k] = along < 0 ? -reinit->values[k] : reinit->values[k];
@@ -289,7 +289,7 @@ static void normalise(const Reinit *reinit, const double *values, double *out)
         double square = 0;
         int count = 0;
 
-        for (int i = 0; i < reinit->targets.count && is_parameter(&reinit->targets.at[k].stand);
+        for (int i = 0; i < reinit->targets.count && is_parameter(&reinit->targets.at[k].referent);
              i++)
             if (is_same_attitude(reinit, i, k)) {
                 square += values[i] * values[i];
@@ -330,7 +330,7 @@ static bool go_by_stages(Reinit *reinit)
 static bool is_closed(Reinit *reinit, bool met, Reversal *reversal)
 {
     if (met)
-        *reversal = skeleton_reversal(skeleton_of(reinit), reinit->y);
+        *reversal = kinematic_tree_reversal(kinematic_tree_of(reinit), reinit->y);
     return met && reversal->link == NULL;
 }
 
@@ -353,7 +353,7 @@ static bool close_positions(Reinit *reinit, bool by_stages, Reversal *reversal)
 }
 
 /* What isn't given stays, as was decided; the rest follows. */
-static void hold_stays(const Reinit *reinit, const Decision *decision)
+static void fix_held_coordinates(const Reinit *reinit, const Decision *decision)
 {
     const double *present = targets_here(reinit);
 
@@ -367,15 +367,15 @@ static void hold_stays(const Reinit *reinit, const Decision *decision)
  */
 static bool solve_positions(Reinit *reinit, const Decision *decision, Text *why)
 {
-    const Layout *l = reinit->plan.layout;
-    const int length = layout_references(l) + l->multi_turns;
+    const VariableIndex *l = reinit->plan.layout;
+    const int length = variable_index_references(l) + l->multi_turns;
     const size_t bytes = (size_t)length * sizeof(double);
     double *begun = mem_array((size_t)length, sizeof(double));
     Reversal reversal = {.link = NULL};
     bool met;
 
     memcpy(begun, reinit->y, bytes);
-    hold_stays(reinit, decision);
+    fix_held_coordinates(reinit, decision);
     met = close_positions(reinit, true, &reversal);
     if (!met) {
         memcpy(reinit->y, begun, bytes);
@@ -388,7 +388,7 @@ static bool solve_positions(Reinit *reinit, const Decision *decision, Text *why)
     }
     if (!met && reversal.link != NULL) {
         text_addf(why, "%s would close with ", reversal.link->instance->name);
-        reversal_tell(reinit->skeleton, &reversal, why);
+        reversal_report(reinit->kinematic_tree, &reversal, why);
     }
     mem_free(begun);
     return met;
@@ -573,7 +573,7 @@ static void align_rates(const Reinit *reinit, double *values)
             continue;
         for (int i = 0; i < reinit->given; i++)
             if (reinit->targets.at[i].level == LEVEL_POSITION && !isnan(values[i]) &&
-                is_one_attitude(&reinit->targets.at[i].stand, &rate->stand))
+                is_one_attitude(&reinit->targets.at[i].referent, &rate->referent))
                 along += present[i] * values[i];
         if (along < 0)
             values[k] = -values[k];
@@ -626,7 +626,7 @@ Status reinit_apply(Reinit *reinit, double t, const double *values, const char *
                     Diag *diag)
 {
     const Equations *eq = reinit->plan.equations;
-    int references = layout_references(reinit->plan.layout);
+    int references = variable_index_references(reinit->plan.layout);
     int length = references + eq->multi_turn_count + 1;
     double *stored = NEW_ARRAY(double, reinit->storage_count);
     double *present = NEW_ARRAY(double, reinit->targets.count);

@@ -10,12 +10,12 @@
 #define COTREE_SIMULATE_ASSEMBLE_REINITIALISE_H
 
 #include "base/text.h"
-#include "simulate/equations/numbers.h"
+#include "simulate/equations/compiled_equations.h"
 
 typedef struct Reinit Reinit;
 
 typedef struct ReinitPlan {
-    const Layout *layout;
+    const VariableIndex *layout;
     Parameters *parameters;
     const Equations *equations;
     const int *rows; /* constraint rows in use; borrowed, as all here, while the Reinit lives */

@@ -4,24 +4,24 @@
 
 #include "base/memory.h"
 #include "formulate/kinematics/edges.h"
-#include "formulate/whole/stays.h"
+#include "formulate/system_build/held_coordinates.h"
+#include "simulate/assemble/kinematic_tree.h"
 #include "simulate/assemble/level_rows.h"
 #include "simulate/assemble/reinitialise.h"
-#include "simulate/assemble/skeleton.h"
 
 typedef struct Target {
     Expr expr;
     StateLevel level;
-    int place;      /* unknown that it is, alone; -1 */
-    int column;     /* unknown that is held with it; -1: it is an equation */
-    int multi_turn; /* angle of turns that it is; -1 */
-    int row;        /* among the expressions of its level */
-    Stand stand;    /* what it says of frames, or what its first integral does */
-    int node;       /* of a position: the frame whose it is; -1 */
-    int rate;       /* the target that is its rate; -1 */
-    int attitude;   /* of what is given: that it is an Euler parameter of; -1 */
-    int turning;    /* then a component of its angular velocity; -1 */
-    int stay;       /* of those that may stay, or their rates; -1 */
+    int place;                 /* unknown that it is, alone; -1 */
+    int column;                /* unknown that is held with it; -1: it is an equation */
+    int multi_turn;            /* angle of turns that it is; -1 */
+    int row;                   /* among the expressions of its level */
+    VariableReferent referent; /* what it says of frames, or what its first integral does */
+    int node;                  /* of a position: the frame whose it is; -1 */
+    int rate;                  /* the target that is its rate; -1 */
+    int attitude;              /* of what is given: that it is an Euler parameter of; -1 */
+    int turning;               /* then a component of its angular velocity; -1 */
+    int held_index;            /* of those that may stay, or their rates; -1 */
 } Target;
 
 /* what the event under way decides of positions (reinitialise_stay.c) */
@@ -39,12 +39,12 @@ struct Reinit {
     ReinitPlan plan;
     LIST(Target) targets;
     int given; /* of them, the first; the others stay, or are rates of what is given */
-    Stay *stays;
-    int stay_count;
+    HeldCoordinate *stays;
+    int held_count;
     LIST(const char *) named; /* positions that are given; borrowed until all is compiled */
     Storage *storages;        /* whose charge or flux stays */
     int storage_count;
-    Skeleton *skeleton; /* NULL: nothing is mechanical, or no positions were set yet */
+    KinematicTree *kinematic_tree; /* NULL: nothing is mechanical, or no positions were set yet */
     LevelRows *levels[LEVEL_COUNT];
     LevelRows *kept; /* charges and fluxes */
     Probe *probe;    /* these, kinetic and potential energy, targets */

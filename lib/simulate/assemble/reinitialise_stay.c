@@ -1,34 +1,34 @@
 /* reinitialise_stay.c: what an event that sets positions leaves as it is
  *
- * A rule that knows no trees (algebra/follow.h): of the motions that constraints allow at the
+ * A rule that knows no trees (algebra/row_closure.h): of the motions that constraints allow at the
  * event's instant, joints stay that what is given doesn't need; then, where chains float, the other
  * coordinates of frames that are named, then bodies. What is given, and what stays, keeps its rate.
  */
-#include "algebra/follow.h"
+#include "algebra/row_closure.h"
 #include "simulate/assemble/reinitialise_impl.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { OF_JOINTS = FOLLOW_FIRST, OF_NAMED, OF_BODIES };
+enum { OF_JOINTS = ROW_CLASS_FIRST, OF_NAMED, OF_BODIES };
 
 /* --- targets --- */
 
-static int add_hidden(Reinit *reinit, Expr expr, StateLevel level, int stay)
+static int add_hidden(Reinit *reinit, Expr expr, StateLevel level, int held_index)
 {
-    const Layout *l = reinit->plan.layout;
+    const VariableIndex *l = reinit->plan.layout;
     Target target = {.expr = expr,
                      .level = level,
                      .node = -1,
                      .rate = -1,
                      .attitude = -1,
                      .turning = -1,
-                     .stay = stay};
+                     .held_index = held_index};
 
-    if (stay >= 0 && level == LEVEL_POSITION && reinit->stays[stay].name != NULL)
-        target.stand = system_stand(l->system, reinit->stays[stay].name);
-    if (stay >= 0)
-        target.node = reinit->stays[stay].node;
+    if (held_index >= 0 && level == LEVEL_POSITION && reinit->stays[held_index].name != NULL)
+        target.referent = system_referent(l->system, reinit->stays[held_index].name);
+    if (held_index >= 0)
+        target.node = reinit->stays[held_index].node;
     reinit_locate(reinit, &target);
     LIST_PUSH(reinit->targets, target);
     return reinit->targets.count - 1;
@@ -54,9 +54,9 @@ void reinit_add_stays(Reinit *reinit)
         reinit->targets.at[k].rate = rate;
         reinit->targets.at[k].turning = turning;
     }
-    reinit->stay_count = system_stays(reinit->plan.layout->system, reinit->named.at,
-                                      reinit->named.count, &reinit->stays);
-    for (int i = 0; i < reinit->stay_count; i++) {
+    reinit->held_count = system_held_coordinates(reinit->plan.layout->system, reinit->named.at,
+                                                 reinit->named.count, &reinit->stays);
+    for (int i = 0; i < reinit->held_count; i++) {
         const int k = add_hidden(reinit, reinit->stays[i].value, LEVEL_POSITION, i);
         const int rate = add_hidden(reinit, reinit->stays[i].rate, LEVEL_VELOCITY, i);
 
@@ -66,14 +66,14 @@ void reinit_add_stays(Reinit *reinit)
 
 /* --- rows --- */
 
-typedef struct Gathered { /* rows of constraints and of some targets, by unknowns that are near */
+typedef struct TargetRows { /* rows of constraints and of some targets, by unknowns that are near */
     int unknowns, count;
     int *target; /* of a row; -1: a constraint */
     int *of, *fate, *place, *set;
     double *a; /* unknowns x count */
-} Gathered;
+} TargetRows;
 
-static void gathered_free(Gathered *g)
+static void gathered_free(TargetRows *g)
 {
     MEM_FREE(g->target, g->of, g->fate, g->place, g->set, g->a);
 }
@@ -108,13 +108,13 @@ static bool *find_near(const Rows *rows, const bool *given)
 
 /* Rows that move with what is near, as they are here; of_target: class of each. */
 static void gather(const Rows *rows, const double *v, const int *target, const int *of_target,
-                   const bool *near, Gathered *out)
+                   const bool *near, TargetRows *out)
 {
     const Pattern *p = rows->pattern;
     double *residual = NEW_ARRAY(double, rows->rows), *entries = NEW_ARRAY(double, p->count);
     int *number = NEW_ARRAY(int, rows->columns), *taken = NEW_ARRAY(int, rows->rows);
 
-    *out = (Gathered){.target = NEW_ARRAY(int, rows->rows), .of = NEW_ARRAY(int, rows->rows)};
+    *out = (TargetRows){.target = NEW_ARRAY(int, rows->rows), .of = NEW_ARRAY(int, rows->rows)};
     for (int i = 0; i < rows->columns; i++)
         number[i] = near[i] ? out->unknowns++ : -1;
     for (int r = 0; r < rows->rows; r++) {
@@ -122,10 +122,10 @@ static void gather(const Rows *rows, const double *v, const int *target, const i
 
         for (int k = p->start[r]; k < p->start[r + 1]; k++)
             is_near = is_near || near[p->row[k]];
-        if (!is_near || (target[r] >= 0 && of_target[target[r]] == FOLLOW_UNASKED))
+        if (!is_near || (target[r] >= 0 && of_target[target[r]] == ROW_CLASS_UNASKED))
             continue;
         out->target[out->count] = target[r];
-        out->of[out->count] = target[r] < 0 ? FOLLOW_CONSTRAINT : of_target[target[r]];
+        out->of[out->count] = target[r] < 0 ? ROW_CLASS_CONSTRAINT : of_target[target[r]];
         taken[out->count++] = r;
     }
     rows->evaluate(rows->context, v, residual, entries);
@@ -141,7 +141,7 @@ static void gather(const Rows *rows, const double *v, const int *target, const i
 }
 
 /* by how much unknowns move a row */
-static double size_of(const Gathered *g, int row)
+static double size_of(const TargetRows *g, int row)
 {
     double sum = 0;
 
@@ -177,36 +177,38 @@ static int *classes_of(const Reinit *reinit)
         const Target *target = &targets[k];
         bool is_named = false;
 
-        of[k] = k < reinit->given && reinit_is_chosen(reinit, k, LEVEL_POSITION) ? FOLLOW_GIVEN
-                                                                                 : FOLLOW_UNASKED;
-        if (target->level != LEVEL_POSITION || target->stay < 0)
+        of[k] = k < reinit->given && reinit_is_chosen(reinit, k, LEVEL_POSITION)
+                    ? ROW_CLASS_GIVEN
+                    : ROW_CLASS_UNASKED;
+        if (target->level != LEVEL_POSITION || target->held_index < 0)
             continue;
         for (int i = 0; i < reinit->given && target->node >= 0; i++)
             is_named = is_named || (reinit_is_chosen(reinit, i, LEVEL_POSITION) &&
                                     targets[i].node == target->node);
-        of[k] = target->node < 0                      ? OF_JOINTS
-                : is_named                            ? OF_NAMED
-                : reinit->stays[target->stay].is_body ? OF_BODIES
-                                                      : FOLLOW_UNASKED;
+        of[k] = target->node < 0                            ? OF_JOINTS
+                : is_named                                  ? OF_NAMED
+                : reinit->stays[target->held_index].is_body ? OF_BODIES
+                                                            : ROW_CLASS_UNASKED;
     }
     return of;
 }
 
 /* "h2 and h3" */
-static void tell_open(const Reinit *reinit, const Gathered *g, Decision *out)
+static void report_open(const Reinit *reinit, const TargetRows *g, Decision *out)
 {
     int left = 0;
 
     for (int r = 0; r < g->count; r++)
-        left += g->fate[r] == IS_OPEN;
+        left += g->fate[r] == ROW_IS_OPEN;
     for (int r = 0; r < g->count; r++)
-        if (g->fate[r] == IS_OPEN) {
-            const Stay *stay = &reinit->stays[reinit->targets.at[g->target[r]].stay];
+        if (g->fate[r] == ROW_IS_OPEN) {
+            const HeldCoordinate *held_index =
+                &reinit->stays[reinit->targets.at[g->target[r]].held_index];
 
-            text_addf(&out->names, "%s%s", stay->name != NULL ? "" : "the attitude of ",
-                      stay->name != NULL ? stay->name : stay->part);
+            text_addf(&out->names, "%s%s", held_index->name != NULL ? "" : "the attitude of ",
+                      held_index->name != NULL ? held_index->name : held_index->part);
             text_add(&out->names, --left > 1 ? ", " : left == 1 ? " and " : "");
-            out->example = out->example != NULL ? out->example : stay->name;
+            out->example = out->example != NULL ? out->example : held_index->name;
         }
 }
 
@@ -216,14 +218,15 @@ static void keep_attitudes(const Reinit *reinit, const int *of, bool *keeps)
     const Target *targets = reinit->targets.at;
 
     for (int k = reinit->given; k < reinit->targets.count; k++) {
-        const int stay = targets[k].level == LEVEL_POSITION ? targets[k].stay : -1;
+        const int held_index = targets[k].level == LEVEL_POSITION ? targets[k].held_index : -1;
         int others = 0;
 
-        if (stay < 0 || of[k] == FOLLOW_UNASKED || reinit->stays[stay].attitude < 0)
+        if (held_index < 0 || of[k] == ROW_CLASS_UNASKED || reinit->stays[held_index].attitude < 0)
             continue;
         for (int i = reinit->given; i < reinit->targets.count; i++)
-            others += i != k && keeps[i] && targets[i].stay >= 0 &&
-                      reinit->stays[targets[i].stay].attitude == reinit->stays[stay].attitude;
+            others +=
+                i != k && keeps[i] && targets[i].held_index >= 0 &&
+                reinit->stays[targets[i].held_index].attitude == reinit->stays[held_index].attitude;
         keeps[k] = keeps[k] || others >= 3;
     }
 }
@@ -234,17 +237,17 @@ void reinit_decide(Reinit *reinit, Decision *out)
     int *of = classes_of(reinit), *target;
     bool *given;
     double *own = reinit->values;
-    Gathered g;
+    TargetRows g;
     Rows rows;
 
     reinit->values = NEW_ARRAY(double, count);
     for (int k = 0; k < count; k++)
-        reinit->values[k] = of[k] == FOLLOW_UNASKED ? NAN : 0;
+        reinit->values[k] = of[k] == ROW_CLASS_UNASKED ? NAN : 0;
     rows = reinit_rows(reinit, LEVEL_POSITION, true);
     target = targets_of(reinit, LEVEL_POSITION, rows.rows);
     given = NEW_ARRAY(bool, rows.rows);
     for (int r = 0; r < rows.rows; r++)
-        given[r] = target[r] >= 0 && of[target[r]] == FOLLOW_GIVEN;
+        given[r] = target[r] >= 0 && of[target[r]] == ROW_CLASS_GIVEN;
     *out = (Decision){.is_near = find_near(&rows, given),
                       .keeps = NEW_ARRAY(bool, count),
                       .size = NEW_ARRAY(double, count)};
@@ -252,13 +255,14 @@ void reinit_decide(Reinit *reinit, Decision *out)
     for (int r = 0; r < g.count; r++)
         if (g.target[r] >= 0)
             out->size[g.target[r]] = size_of(&g, r);
-    out->open = follow_find(g.a, g.unknowns, g.count, g.of, FOLLOW_LEAST, g.fate, g.place, g.set);
-    out->rank = follow_rank(g.fate, g.count);
+    out->open =
+        row_closure_find(g.a, g.unknowns, g.count, g.of, FOLLOW_LEAST, g.fate, g.place, g.set);
+    out->rank = row_closure_rank(g.fate, g.count);
     for (int r = 0; r < g.count; r++)
         if (g.target[r] >= 0)
-            out->keeps[g.target[r]] = g.fate[r] == TELLS || g.fate[r] == STAYS;
+            out->keeps[g.target[r]] = g.fate[r] == ROW_DETERMINES || g.fate[r] == ROW_HOLDS;
     keep_attitudes(reinit, of, out->keeps);
-    tell_open(reinit, &g, out);
+    report_open(reinit, &g, out);
     gathered_free(&g);
     MEM_FREE(of, target, given, reinit->values);
     reinit->values = own;
@@ -275,9 +279,9 @@ void decision_free(Decision *decision)
 /* whether a target that may stay is of Euler parameters, or their rates */
 static bool is_attitude(const Reinit *reinit, int target)
 {
-    const int stay = reinit->targets.at[target].stay;
+    const int held_index = reinit->targets.at[target].held_index;
 
-    return stay >= 0 && reinit->stays[stay].attitude >= 0;
+    return held_index >= 0 && reinit->stays[held_index].attitude >= 0;
 }
 
 /* The target that is the rate which target k keeps: of an attitude that is given as a whole its
@@ -293,13 +297,13 @@ static int rate_of(const Reinit *reinit, int k, const double *values)
 }
 
 /* What hardly moves any more, against what it did, is at the end of its way. */
-static void forget_still(const Reinit *reinit, const Decision *decision, Gathered *g)
+static void forget_still(const Reinit *reinit, const Decision *decision, TargetRows *g)
 {
     for (int k = 0; k < reinit->targets.count; k++)
         for (int r = 0; r < g->count && decision->size[k] > 0; r++)
             if (g->target[r] >= 0 && g->target[r] == reinit->targets.at[k].rate &&
-                size_of(g, r) < FOLLOW_LEAST_SOLVED * decision->size[k])
-                g->of[r] = FOLLOW_UNASKED;
+                size_of(g, r) < ROW_CLOSURE_LEAST_SOLVED * decision->size[k])
+                g->of[r] = ROW_CLASS_UNASKED;
 }
 
 bool reinit_choose_rates(Reinit *reinit, const Decision *decision, const double *values,
@@ -308,14 +312,14 @@ bool reinit_choose_rates(Reinit *reinit, const Decision *decision, const double 
     const Equations *eq = reinit->plan.equations;
     const int count = reinit->targets.count;
     int *of = NEW_ARRAY(int, count), *target, rank;
-    Gathered g;
+    TargetRows g;
     Rows rows;
 
     for (int k = 0; k < count; k++) {
         const bool is_set =
             k < reinit->given && reinit->targets.at[k].level == LEVEL_VELOCITY && !isnan(values[k]);
 
-        of[k] = is_set ? FOLLOW_FIRST + 1 : FOLLOW_UNASKED;
+        of[k] = is_set ? ROW_CLASS_FIRST + 1 : ROW_CLASS_UNASKED;
         reinit->values[k] = is_set ? values[k] : NAN;
     }
     for (int k = 0; k < count; k++) {
@@ -324,7 +328,7 @@ bool reinit_choose_rates(Reinit *reinit, const Decision *decision, const double 
 
         if (rate < 0 || !(is_given || decision->keeps[k]))
             continue;
-        of[rate] = is_given ? FOLLOW_GIVEN : FOLLOW_FIRST;
+        of[rate] = is_given ? ROW_CLASS_GIVEN : ROW_CLASS_FIRST;
         reinit->values[rate] = before[rate];
     }
     eq->position(eq->context, reinit->t, reinit->y);
@@ -332,14 +336,15 @@ bool reinit_choose_rates(Reinit *reinit, const Decision *decision, const double 
     target = targets_of(reinit, LEVEL_VELOCITY, rows.rows);
     gather(&rows, reinit->y + eq->n, target, of, decision->is_near, &g);
     forget_still(reinit, decision, &g);
-    (void)follow_find(g.a, g.unknowns, g.count, g.of, FOLLOW_LEAST_SOLVED, g.fate, g.place, g.set);
-    rank = follow_rank(g.fate, g.count);
+    (void)row_closure_find(g.a, g.unknowns, g.count, g.of, ROW_CLOSURE_LEAST_SOLVED, g.fate,
+                           g.place, g.set);
+    rank = row_closure_rank(g.fate, g.count);
     for (int k = 0; k < count; k++)
         reinit->values[k] = k < reinit->given ? NAN : reinit->values[k];
     for (int r = 0; r < g.count; r++) {
         const int k = g.target[r];
 
-        if (k >= 0 && g.fate[r] != FOLLOWS)
+        if (k >= 0 && g.fate[r] != ROW_FOLLOWS)
             reinit->values[k] = k < reinit->given ? values[k] : before[k];
         else if (k >= 0 && !is_attitude(reinit, k))
             reinit->values[k] = NAN;

@@ -6,7 +6,7 @@
 /* Positions are corrected in speeds: by that of a coordinate which has one of its own. */
 static int column_of(const Reinit *reinit, const Target *target)
 {
-    const Layout *l = reinit->plan.layout;
+    const VariableIndex *l = reinit->plan.layout;
     Expr rate;
 
     if (target->place < 0 || target->level != LEVEL_POSITION || reinit->plan.equations->map == NULL)
@@ -20,7 +20,7 @@ static int column_of(const Reinit *reinit, const Target *target)
 
 void reinit_locate(const Reinit *reinit, Target *target)
 {
-    const Layout *l = reinit->plan.layout;
+    const VariableIndex *l = reinit->plan.layout;
 
     target->place = -1;
     for (int i = 0; i < level_count(l, target->level); i++)

@@ -23,14 +23,14 @@ typedef struct Both { /* motion, or load */
     double turn[3], shift[3];
 } Both;
 
-typedef struct Share { /* inertia of a speed's own */
-    int speed, number; /* of the needs */
-} Share;
+typedef struct ArticulatedShare { /* inertia of a speed's own */
+    int speed, number;            /* of the needs */
+} ArticulatedShare;
 
 struct Articulated {
     const CompositeMass *mass;
     LIST(Expr) needs;
-    LIST(Share) shares;
+    LIST(ArticulatedShare) shares;
     int first_body;
     const double *numbers;
     Beyond *blocks; /* a place each */
@@ -63,7 +63,7 @@ Articulated *articulated_new(const System *system)
     for (int i = 0; i < mass->bodies.count; i++)
         LIST_PUSH(ar->needs, mass->bodies.at[i]);
     for (int i = 0; (share = system_mass_share(system, i)) != NULL; i++) {
-        LIST_PUSH(ar->shares, (Share){share->row, ar->needs.count});
+        LIST_PUSH(ar->shares, (ArticulatedShare){share->row, ar->needs.count});
         LIST_PUSH(ar->needs, share->value);
     }
     ar->blocks = NEW_ARRAY(Beyond, mass->place_count);

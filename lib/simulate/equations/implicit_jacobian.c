@@ -10,18 +10,18 @@
 
 #include <string.h>
 
-typedef LIST(Expr) Roots;
+typedef LIST(Expr) ImplicitJacobianRoots;
 
 /* what is added at a place of the matrix: a product of two entries of the Jacobian, or of less */
-typedef struct Term {
+typedef struct ImplicitJacobianTerm {
     int entry, other;        /* of the Jacobian; -1: 1 */
     int row;                 /* constraint that has to be in use, or mustn't; -1: none */
     bool is_unused, by_rate; /* it mustn't; times c */
     double sign;
-} Term;
+} ImplicitJacobianTerm;
 
 struct ImplicitSlopes {
-    const Layout *l;
+    const VariableIndex *l;
     Parameters *parameters;
     Motion *motion;
     bool is_asked, is_made; /* made once, if it can be */
@@ -33,7 +33,7 @@ struct ImplicitSlopes {
     Jacobian *jacobian;
     double *values;
     int tail; /* of w: L */
-    LIST(Term) terms;
+    LIST(ImplicitJacobianTerm) terms;
     LIST(int) rows;
     LIST(int) columns;
     int *place;
@@ -47,7 +47,8 @@ struct ImplicitSlopes {
     double *entries, *moved;
 };
 
-ImplicitSlopes *implicit_jacobian_new(const Layout *l, Parameters *parameters, Motion *motion)
+ImplicitSlopes *implicit_jacobian_new(const VariableIndex *l, Parameters *parameters,
+                                      Motion *motion)
 {
     ImplicitSlopes *j = NEW(ImplicitSlopes);
 
@@ -86,10 +87,10 @@ void implicit_jacobian_free(ImplicitSlopes *j)
 
 /* --- the program --- */
 
-static Status push_rows(const ImplicitSlopes *j, Roots *roots)
+static Status push_rows(const ImplicitSlopes *j, ImplicitJacobianRoots *roots)
 {
-    const Layout *l = j->l;
-    const Reading *run = system_run(l->system);
+    const VariableIndex *l = j->l;
+    const EquationForm *run = system_run(l->system);
 
     for (int i = 0; i < j->network; i++)
         LIST_PUSH(*roots, row_network(l, i));
@@ -107,7 +108,7 @@ static Status push_rows(const ImplicitSlopes *j, Roots *roots)
 /* the inputs that are unknowns, a column each */
 static void push_moves(const ImplicitSlopes *j, ColumnMoves *moves)
 {
-    const Layout *l = j->l;
+    const VariableIndex *l = j->l;
     const int follow = j->network + j->by_rate;
 
     moves_push(moves, 0, l->rates, l->nx);
@@ -124,7 +125,7 @@ static void push_moves(const ImplicitSlopes *j, ColumnMoves *moves)
 /* the row of F that a row of the Jacobian stands in, with its sign there */
 static int row_of(const ImplicitSlopes *j, int row, double *sign)
 {
-    const Layout *l = j->l;
+    const VariableIndex *l = j->l;
 
     *sign = row >= j->kinematic && row < j->position ? -1 : 1;
     if (row < j->kinematic)
@@ -132,14 +133,14 @@ static int row_of(const ImplicitSlopes *j, int row, double *sign)
     if (row < j->references)
         return row - j->kinematic;
     if (row < j->position)
-        return layout_references(l) + row - j->references;
+        return variable_index_references(l) + row - j->references;
     return j->tail + row - j->position;
 }
 
 /* the entry of w that a column of the Jacobian moves, or whose rate it is */
 static int column_of(const ImplicitSlopes *j, int column)
 {
-    const Layout *l = j->l;
+    const VariableIndex *l = j->l;
     const int own = column - j->network;
 
     if (own >= j->by_rate)
@@ -162,7 +163,7 @@ static bool is_rate(const ImplicitSlopes *j, int column)
     return column < j->network + j->by_rate;
 }
 
-static void add_term(ImplicitSlopes *j, int row, int column, Term term)
+static void add_term(ImplicitSlopes *j, int row, int column, ImplicitJacobianTerm term)
 {
     LIST_PUSH(j->rows, row);
     LIST_PUSH(j->columns, column);
@@ -174,7 +175,7 @@ static void add_entries(ImplicitSlopes *j)
     const Pattern *p = jacobian_pattern(j->jacobian);
 
     for (int k = 0; k < p->count; k++) {
-        Term term = {.entry = k, .other = -1};
+        ImplicitJacobianTerm term = {.entry = k, .other = -1};
 
         if (p->row[k] < j->balance || p->column[k] < j->network)
             continue;
@@ -187,20 +188,21 @@ static void add_entries(ImplicitSlopes *j)
 /* what stands in F as a rate by itself: all of y but u; L and M where their rows aren't in use */
 static void add_rates(ImplicitSlopes *j)
 {
-    const Layout *l = j->l;
+    const VariableIndex *l = j->l;
 
     for (int i = 0; i < j->tail; i++)
         if (i < l->n || i >= l->n + l->nu)
-            add_term(j, i, i, (Term){-1, -1, -1, .by_rate = true, .sign = 1});
+            add_term(j, i, i, (ImplicitJacobianTerm){-1, -1, -1, .by_rate = true, .sign = 1});
     for (int i = 0; i < 2 * l->m; i++)
         add_term(j, j->tail + i, j->tail + i,
-                 (Term){-1, -1, i % l->m, .is_unused = true, .by_rate = true, .sign = 1});
+                 (ImplicitJacobianTerm){-1, -1, i % l->m, .is_unused = true, .by_rate = true,
+                                        .sign = 1});
 }
 
 /* N Phi_u^T mu of q': N is q' by u, Phi_u the velocity rows by u */
 static void add_stabilisation(ImplicitSlopes *j)
 {
-    const Layout *l = j->l;
+    const VariableIndex *l = j->l;
     const Pattern *p = jacobian_pattern(j->jacobian);
     const int first = j->network + j->by_rate + l->n;
 
@@ -210,7 +212,8 @@ static void add_stabilisation(ImplicitSlopes *j)
                 if (p->row[a] >= j->kinematic && p->row[a] < j->references &&
                     p->row[b] >= j->velocity)
                     add_term(j, p->row[a] - j->kinematic, j->tail + l->m + p->row[b] - j->velocity,
-                             (Term){a, b, p->row[b] - j->velocity, .by_rate = true, .sign = -1});
+                             (ImplicitJacobianTerm){a, b, p->row[b] - j->velocity, .by_rate = true,
+                                                    .sign = -1});
 }
 
 /* --- through a network --- */
@@ -292,7 +295,7 @@ static bool make(ImplicitSlopes *j)
 {
     const bool before = mem_scratch(true); /* numbers that each call finds anew */
     const int columns = j->network + j->by_rate + j->states;
-    Roots roots = {0};
+    ImplicitJacobianRoots roots = {0};
     ColumnMoves moves = {0};
     Arena *arena = system_arena(j->l->system);
     int used;
@@ -392,7 +395,7 @@ static void put_network(const ImplicitSlopes *j, double c, double *out)
 static void put_terms(const ImplicitSlopes *j, double c, double *out)
 {
     for (int k = 0; k < j->terms.count; k++) {
-        const Term *term = &j->terms.at[k];
+        const ImplicitJacobianTerm *term = &j->terms.at[k];
         double value = term->by_rate ? term->sign * c : term->sign;
 
         if (term->row >= 0 && j->in_use[term->row] == term->is_unused)
@@ -409,14 +412,14 @@ bool implicit_jacobian_at(void *context, double t, double c, const double *w, co
                           double *out)
 {
     ImplicitSlopes *j = context;
-    const Layout *l = j->l;
+    const VariableIndex *l = j->l;
     Solved solved;
     RowValues row;
 
     if (!motion_evaluate_driven(j->motion, t, w, w_rate + l->n, w_rate + j->tail, &solved))
         return false;
     row = row_of_solved(l, motion_clock(j->motion, t), w, &solved);
-    probe_put(j->probe, &row);
+    probe_set(j->probe, &row);
     jacobian_at(j->jacobian, probe_inputs(j->probe), NULL, j->values);
     if (!vector_is_finite(j->values, jacobian_pattern(j->jacobian)->count) ||
         (j->network > 0 && !solve_network(j)))

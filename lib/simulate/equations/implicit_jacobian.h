@@ -9,14 +9,15 @@
 #ifndef COTREE_SIMULATE_EQUATIONS_IMPLICIT_JACOBIAN_H
 #define COTREE_SIMULATE_EQUATIONS_IMPLICIT_JACOBIAN_H
 
-#include "simulate/equations/input_layout.h"
 #include "simulate/equations/motion.h"
 #include "simulate/equations/parameters.h"
+#include "simulate/equations/variable_index.h"
 
 typedef struct ImplicitSlopes ImplicitSlopes;
 
 /* New; free with implicit_jacobian_free(). Borrows all. */
-ImplicitSlopes *implicit_jacobian_new(const Layout *layout, Parameters *parameters, Motion *motion);
+ImplicitSlopes *implicit_jacobian_new(const VariableIndex *layout, Parameters *parameters,
+                                      Motion *motion);
 void implicit_jacobian_free(ImplicitSlopes *jacobian); /* NULL is fine */
 /* As of a motion's ImplicitJacobian. The pattern is -1, and there is no Jacobian, where surfaces
  * are slid along, where a network reads multipliers of redundant rows, and where the program would

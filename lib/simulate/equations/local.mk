@@ -1,12 +1,12 @@
 libcore_la_SOURCES += \
-  lib/simulate/equations/causes.c \
-  lib/simulate/equations/causes.h \
+  lib/simulate/equations/failure_diagnosis.c \
+  lib/simulate/equations/failure_diagnosis.h \
   lib/simulate/equations/partitioning.c \
   lib/simulate/equations/partitioning.h \
   lib/simulate/equations/factors.c \
   lib/simulate/equations/factors.h \
-  lib/simulate/equations/input_layout.c \
-  lib/simulate/equations/input_layout.h \
+  lib/simulate/equations/variable_index.c \
+  lib/simulate/equations/variable_index.h \
   lib/simulate/equations/articulated.c \
   lib/simulate/equations/articulated.h \
   lib/simulate/equations/implicit_jacobian.c \
@@ -29,9 +29,9 @@ libcore_la_SOURCES += \
   lib/simulate/equations/netdae.h \
   lib/simulate/equations/netsolve.c \
   lib/simulate/equations/netsolve.h \
-  lib/simulate/equations/numbers.c lib/simulate/equations/numbers_calls.c lib/simulate/equations/numbers_compile.c \
-  lib/simulate/equations/numbers_rates.c lib/simulate/equations/numbers_watch.c lib/simulate/equations/numbers_impl.h \
-  lib/simulate/equations/numbers.h \
+  lib/simulate/equations/compiled_equations.c lib/simulate/equations/compiled_calls.c lib/simulate/equations/compiled_compile.c \
+  lib/simulate/equations/compiled_rates.c lib/simulate/equations/compiled_guards.c lib/simulate/equations/compiled_equations_impl.h \
+  lib/simulate/equations/compiled_equations.h \
   lib/simulate/equations/parameters.c \
   lib/simulate/equations/parameters.h \
   lib/simulate/equations/probe.c \
@@ -46,10 +46,10 @@ libcore_la_SOURCES += \
   lib/simulate/equations/remark.h \
   lib/simulate/equations/rows.c \
   lib/simulate/equations/rows.h \
-  lib/simulate/equations/setting.h \
+  lib/simulate/equations/simulation_input.h \
   lib/simulate/equations/signs.c \
   lib/simulate/equations/signs.h \
-  lib/simulate/equations/steep.c \
-  lib/simulate/equations/steep.h \
-  lib/simulate/equations/steep_impl.h \
-  lib/simulate/equations/steep_ranges.c
+  lib/simulate/equations/stiff_elements.c \
+  lib/simulate/equations/stiff_elements.h \
+  lib/simulate/equations/stiff_elements_impl.h \
+  lib/simulate/equations/stiff_elements_ranges.c

@@ -9,14 +9,14 @@
 
 #include <string.h>
 
-typedef struct Share {
+typedef struct MassMatrixShare {
     int at;     /* in M */
     int number; /* which of the needs */
-} Share;
+} MassMatrixShare;
 
 struct MassMatrix {
     const CompositeMass *mass;
-    LIST(Share) shares;
+    LIST(MassMatrixShare) shares;
     LIST(Expr) needs;
     Pattern places;
     int *pair;  /* where the entries of pairs of speeds stand, as they are met, each and across */
@@ -71,8 +71,8 @@ MassMatrix *mass_matrix_new(const System *system)
     for (int i = 0; i < mass->needs.count; i++)
         LIST_PUSH(matrix->needs, mass->needs.at[i]);
     for (int i = 0; (share = system_mass_share(system, i)) != NULL; i++) {
-        LIST_PUSH(matrix->shares,
-                  (Share){share->row * mass->speed_count + share->column, matrix->needs.count});
+        LIST_PUSH(matrix->shares, (MassMatrixShare){share->row * mass->speed_count + share->column,
+                                                    matrix->needs.count});
         LIST_PUSH(matrix->needs, share->value);
     }
     find_pairs(matrix);
@@ -159,7 +159,7 @@ static void planar_column(MassMatrix *matrix, const double *numbers, int k)
     }
 }
 
-void mass_matrix_put(MassMatrix *matrix, const double *numbers)
+void mass_matrix_set(MassMatrix *matrix, const double *numbers)
 {
     /* pairs that no place passes on are and stay 0, but for shares */
     for (int i = 0; i < matrix->shares.count; i++)

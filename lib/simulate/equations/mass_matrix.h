@@ -14,7 +14,7 @@ void mass_matrix_free(MassMatrix *matrix); /* NULL is fine */
 /* the expressions that it is made from */
 const Expr *mass_matrix_needs(const MassMatrix *matrix, int *count);
 /* M for the numbers of these. O(speeds x places on their ways) */
-void mass_matrix_put(MassMatrix *matrix, const double *numbers);
+void mass_matrix_set(MassMatrix *matrix, const double *numbers);
 /* as it was put last, the entries that may not be 0, and where they stand; borrowed */
 const double *mass_matrix_at(const MassMatrix *matrix);
 const Pattern *mass_matrix_places(const MassMatrix *matrix);

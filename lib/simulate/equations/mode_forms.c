@@ -62,7 +62,7 @@ const HessenbergForm *mode_forms_find(const ModeForms *f, const bool *closed)
     return NULL;
 }
 
-const HessenbergForm *mode_forms_keep(ModeForms *f, const bool *closed, HessenbergForm *given)
+const HessenbergForm *mode_forms_store(ModeForms *f, const bool *closed, HessenbergForm *given)
 {
     double bytes = (double)hessenberg_form_bytes(given);
     Kept *kept;

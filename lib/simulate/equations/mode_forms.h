@@ -11,10 +11,10 @@ typedef struct ModeForms ModeForms;
 
 ModeForms *mode_forms_new(int switches); /* new; free with mode_forms_free() */
 void mode_forms_free(ModeForms *forms);  /* NULL is fine */
-/* The form with the switches on these sides; borrowed until the next mode_forms_keep(). NULL: none
+/* The form with the switches on these sides; borrowed until the next mode_forms_store(). NULL: none
  * is kept. */
 const HessenbergForm *mode_forms_find(const ModeForms *forms, const bool *closed);
 /* Keep `given` for these sides, of which none is kept. The result is borrowed likewise. */
-const HessenbergForm *mode_forms_keep(ModeForms *forms, const bool *closed, HessenbergForm *given);
+const HessenbergForm *mode_forms_store(ModeForms *forms, const bool *closed, HessenbergForm *given);
 
 #endif

@@ -15,12 +15,13 @@
 #define NEAR              0.1  /* independence of rows: a singular position isn't far; */
 #define FAR               0.2  /* and here it is, for all of a step */
 #define LEAST_SIZE        1e-6 /* of a row, as its entries go */
-#define SLACK             0.03 /* rad: what a step may leave between an angle and its reference */
+#define REFERENCE_ERROR_FLOOR                                                                      \
+    0.03 /* rad: what a step may leave between an angle and its reference */
 
 static bool rate(void *context, double t, const double *y, double *out);
 static bool project(void *context, double t, double *y);
 static void begin(void *context, double t, const double *y, double h);
-static double blur(void *context);
+static double rounding_error(void *context);
 
 static void open_projection(Motion *mo)
 {
@@ -47,16 +48,16 @@ static void describe_ode(Motion *mo)
                     .context = mo,
                     .rate = rate,
                     .begin = mo->used > 0 ? begin : NULL,
-                    .blur = mo->used > 0 ? blur : NULL,
-                    .cap = eq->cap,
+                    .rounding_error = mo->used > 0 ? rounding_error : NULL,
+                    .magnitude_bound = eq->magnitude_bound,
                     .unit = eq->unit};
     if (mo->used > 0 || eq->quaternion_count > 0 || eq->multi_turn_count > 0 || eq->slide_count > 0)
         mo->ode.project = project;
-    mo->slack = NEW_ARRAY(double, mo->ode.n);
+    mo->error_floor = NEW_ARRAY(double, mo->ode.n);
     for (int k = 0; k < eq->multi_turn_count; k++)
-        mo->slack[multi_turn_place(eq) + k] = SLACK;
+        mo->error_floor[multi_turn_place(eq) + k] = REFERENCE_ERROR_FLOOR;
     if (eq->multi_turn_count > 0)
-        mo->ode.slack = mo->slack;
+        mo->ode.error_floor = mo->error_floor;
     motion_open_implicit(mo);
 }
 
@@ -129,7 +130,7 @@ void motion_free(Motion *mo)
     anderson_free(mo->together);
     signs_free(mo->signs);
     MEM_FREE(mo->slip, mo->off, mo->way, mo->solved_before, mo->solved_size, mo->turn_size, mo->q,
-             mo->references, mo->slack, mo->top, mo->bottom, mo->du, mo->kept, mo->lambda,
+             mo->references, mo->error_floor, mo->top, mo->bottom, mo->du, mo->kept, mo->lambda,
              mo->nearest, mo->lambda_all, mo->row_size, mo->row_part, mo->dae_weight, mo->is_tested,
              mo->slopes, mo);
 }
@@ -241,7 +242,7 @@ static double follow_trend(Trend *trend, double t, double h, double now, double 
 
 /* Rows that are always independent need no look at how much so; how large they are is looked at
  * where they are brought back. */
-static void begin_told(Motion *mo, double t, double h)
+static void start_determined(Motion *mo, double t, double h)
 {
     mo->began = t;
     mo->ends = t + h;
@@ -259,14 +260,14 @@ static void begin(void *context, double t, const double *y, double h)
     Motion *mo = context;
     double by_groups, by_all = 0;
 
-    if (motion_rows_are_told(mo)) {
-        begin_told(mo, t, h);
+    if (motion_rows_are_fixed(mo)) {
+        start_determined(mo, t, h);
         return;
     }
     if (t != mo->began) {
         close_trend(&mo->by_groups);
         close_trend(&mo->by_all);
-        kkt_keep_sizes(mo->kkt);
+        kkt_store_sizes(mo->kkt);
     } else {
         kkt_return_sizes(mo->kkt);
     }
@@ -282,7 +283,7 @@ static void begin(void *context, double t, const double *y, double h)
                               by_groups / mo->by_groups.now);
     mo->is_projecting = fmax(by_groups, by_all) < NEAR;
     if (mo->is_projecting) /* as no factors may be asked for */
-        mo->blur = fmax(mo->blur, kkt_blur_at(mo->by_all.now));
+        mo->rounding_error = fmax(mo->rounding_error, kkt_rounding_error_at(mo->by_all.now));
     mo->is_far = fmax(by_groups, by_all) > FAR;
 }
 
@@ -303,7 +304,7 @@ static bool rate_outright(Motion *mo, double t, const double *y, double *out)
     const Equations *eq = mo->eq;
 
     if (eq->outright == NULL || mo->signs != NULL || mo->partitioning != NULL ||
-        (mo->used > 0 && !motion_rows_are_told(mo)))
+        (mo->used > 0 && !motion_rows_are_fixed(mo)))
         return false;
     mo->is_evaluated = mo->is_evaluated && eq->is_outright_apart;
     if (!eq->outright(eq->context, motion_clock(mo, t), y, out))
@@ -332,7 +333,7 @@ static bool solve_row(Motion *mo, double t, const double *y)
     bool sound;
 
     motion_at_position(mo, motion_clock(mo, t), y);
-    kept = motion_take_rows(mo);
+    kept = motion_set_rows(mo);
     sound = motion_evaluate_all(mo, t, y) && motion_solve_plain(mo);
     if (sound)
         motion_spread_multipliers(mo);
@@ -344,7 +345,7 @@ bool motion_solve(Motion *mo, double t, const double *y, Solved *out)
 {
     if (!solve_row(mo, t, y))
         return false;
-    return motion_tell(mo, out);
+    return motion_report(mo, out);
 }
 
 /* --- projection --- */
@@ -466,7 +467,7 @@ static bool project_position(Motion *mo, double t, double *y)
 
     equations_normalise(mo->eq, y);
     motion_at_position(mo, t, y);
-    if (!motion_is_in_step(mo) || motion_rows_are_told(mo))
+    if (!motion_is_in_step(mo) || motion_rows_are_fixed(mo))
         measure_rows(mo);
     left = distance(mo);
     if (left <= 1e-16 * size)
@@ -552,7 +553,7 @@ static bool project_both(Motion *mo, double t, double *y)
     if (!project_position(mo, t, y))
         return false;
     motion_at_position(mo, t, y);
-    kept = motion_take_rows(mo);
+    kept = motion_set_rows(mo);
     sound = (mo->used == eq->m || project_position(mo, t, y)) &&
             project_velocity(mo, t, y, y + eq->n, y + eq->n + eq->nu);
     motion_return_rows(mo, kept);
@@ -578,12 +579,12 @@ bool motion_project(Motion *mo, double t, double *y)
     return true;
 }
 
-static double blur(void *context)
+static double rounding_error(void *context)
 {
     Motion *mo = context;
-    const double largest = mo->blur;
+    const double largest = mo->rounding_error;
 
-    mo->blur = 0;
+    mo->rounding_error = 0;
     return largest;
 }
 

@@ -10,13 +10,13 @@
  * to its a, over any number of turns. They are integrated by the angles' rates, and a projection
  * puts them on the angles. The rest reads no more of them than the turn, and doesn't feel them
  * move. Positions that stay are evaluated once, and nothing is allocated after motion_new() but by
- * motion_hasten(). */
+ * motion_try_coordinate_partitioning(). */
 #ifndef COTREE_SIMULATE_EQUATIONS_MOTION_H
 #define COTREE_SIMULATE_EQUATIONS_MOTION_H
 
 #include "algebra/pattern.h"
+#include "base/call_monitor.h"
 #include "base/diag.h"
-#include "base/watch.h"
 #include "simulate/integrate/ode.h"
 
 #include <stddef.h>
@@ -109,16 +109,16 @@ typedef struct Equations {
     void (*bring_mass)(void *context);  /* M up to date; NULL: it is */
     const double *force;                /* nu; by equations_force() */
     void (*bring_force)(void *context); /* F up to date; NULL: it is */
-    const double *power;      /* 1: work done on the system per time, W; NULL: not known */
-    const double *cap, *unit; /* n+nu+nx+multi_turn_count, for Ode; may be NULL */
-    const int *quaternions;   /* first of each four Euler parameters */
+    const double *power; /* 1: work done on the system per time, W; NULL: not known */
+    const double *magnitude_bound, *unit; /* n+nu+nx+multi_turn_count, for Ode; may be NULL */
+    const int *quaternions;               /* first of each four Euler parameters */
     int quaternion_count;
     /* conditions whose change of sign may bend or break the equations; time_only ones first */
     int switch_count, time_only;
     int margin_count; /* the last of them: positive as long as ideal switches stay on their sides */
     /* Whether the k-th margin is the current through a small resistance: it tells its sign although
      * errors of states, were they any, would move it far. NULL: none is. */
-    bool (*margin_is_steep)(void *context, int k);
+    bool (*guard_is_of_stiff_element)(void *context, int k);
     bool switches_read_network; /* [x'; z] of the last network_solved() */
     bool switches_follow_time;  /* those that aren't of time alone hold t too */
     const Guard *guards;        /* switch_count; NULL: they bend at most */
@@ -157,8 +157,8 @@ void equations_turn(const Equations *equations, double t, const double *q, doubl
 void equations_normalise(const Equations *equations, double *q);
 
 typedef struct MotionOptions {
-    const Watch *watch; /* who may stop a factorisation, borrowed; NULL: nobody */
-    const int *rows;    /* constraint rows in use at first, independent ones */
+    const CallMonitor *watch; /* who may stop a factorisation, borrowed; NULL: nobody */
+    const int *rows;          /* constraint rows in use at first, independent ones */
     int row_count;
     bool embedded;
     const int *independent; /* speeds asked for as independent (embedded); may be NULL */
@@ -196,8 +196,8 @@ const int *motion_rows(const Motion *motion, int *count); /* in use; borrowed */
 void motion_rows_in_use(const Motion *motion, bool *out); /* the same: whether each is (m) */
 
 /* Slip where the signs are given (slide_count each). */
-bool motion_slip(Motion *motion, double t, const double *y, const double *signs, double *slip,
-                 double *off);
+bool motion_drift(Motion *motion, double t, const double *y, const double *signs, double *slip,
+                  double *off);
 
 /* Whether what is projected has drifted for many steps, as far as the error test lets it, rather
  * than for one. */
@@ -232,7 +232,7 @@ void motion_offer_implicit(Motion *motion, ImplicitJacobian jacobian);
 bool motion_evaluate_driven(Motion *motion, double t, const double *y, const double *acceleration,
                             const double *multipliers, Solved *out);
 /* Other implicit equations of the same unknowns, for the motion's Ode; borrowed. */
-void motion_offer(Motion *motion, const Dae *dae);
+void ode_set_jacobian(Motion *motion, const Dae *dae);
 
 /* atol of the run, once it is known: bounds what a projection may leave */
 void motion_tolerance(Motion *motion, double tolerance);
@@ -252,7 +252,7 @@ Renewed motion_renew(Motion *motion, double t, const double *y);
  * will need so many more in `steps_ahead` (0: not known). That is about what writing the
  * elimination out and compiling it costs, at any size. Fails as that does. */
 enum { MOTION_FACTORS_SEEN = 100, MOTION_FACTORS_PAID = 500 };
-MUST_USE Status motion_hasten(Motion *motion, double steps_ahead, Diag *diag);
+MUST_USE Status motion_try_coordinate_partitioning(Motion *motion, double steps_ahead, Diag *diag);
 
 typedef struct MotionCounts {
     int64_t factorisations;

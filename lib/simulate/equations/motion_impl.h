@@ -24,7 +24,7 @@ struct Motion {
     double row_ratio;      /* their pivots when they were chosen; 0: not known yet */
     bool is_repartitioned; /* since the last renewal */
     bool is_implicit;      /* multipliers of the rows in use are unknowns of a method */
-    double blur;           /* largest since it was asked for */
+    double rounding_error; /* largest since it was asked for */
     bool drifts;           /* over many steps, until a position is read and brought back */
     bool is_projecting;    /* a step's rates are those of the nearest state on the manifold */
     double began, ends;    /* where a step did last, and is to */
@@ -52,7 +52,7 @@ struct Motion {
     double *top, *bottom, *du, *kept, *lambda, *lambda_all;
     double *nearest; /* a y */
     ImplicitJacobian implicit;
-    double *dae_weight, *slack;
+    double *dae_weight, *error_floor;
     double *row_size, *row_part; /* of all rows: largest entry so far, and one over it */
     bool *is_tested;             /* of unknowns of implicit equations */
     double *slopes; /* of all rates by y, for implicit equations; NULL: not asked for yet */
@@ -87,13 +87,13 @@ bool motion_choose_independent(Motion *motion);
 /* Constraint rows that are independent where the equations stand are in use from now on, in place
  * of worn ones. An implicit method keeps to its own, which are handed back (NULL: they are in use
  * still) for motion_return_rows(). (motion_renew.c) */
-int *motion_take_rows(Motion *motion);
+int *motion_set_rows(Motion *motion);
 void motion_return_rows(Motion *motion, int *rows);
 /* Whether what the equations have eliminated themselves serves there: it is of the rows in use, and
  * as sound as factors that need no refinement. */
 bool motion_is_eliminated(Motion *motion);
 /* whether what has been eliminated is of the rows in use, and these are always independent */
-bool motion_rows_are_told(const Motion *motion);
+bool motion_rows_are_fixed(const Motion *motion);
 /* the network there; false: it can't be solved */
 bool motion_find_network(Motion *motion, double t, const double *y);
 /* Everything but the solution for u', with signs on surfaces as they are: false where the network
@@ -116,7 +116,7 @@ void motion_bring_power(Motion *motion, const double *acceleration);
 void motion_write_rates(const Motion *motion, double *out);
 void motion_spread_multipliers(Motion *motion);
 /* what has been solved for; false: not finite */
-bool motion_tell(const Motion *motion, Solved *out);
+bool motion_report(const Motion *motion, Solved *out);
 
 /* --- motion_implicit.c --- */
 

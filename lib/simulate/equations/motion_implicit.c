@@ -170,7 +170,7 @@ void motion_offer_implicit(Motion *mo, ImplicitJacobian offered)
     mo->implicit = offered;
 }
 
-void motion_offer(Motion *mo, const Dae *dae)
+void ode_set_jacobian(Motion *mo, const Dae *dae)
 {
     mo->ode.dae = *dae;
 }

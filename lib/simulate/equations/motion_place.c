@@ -70,7 +70,7 @@ bool motion_factor_with(Motion *mo, Kkt *kkt, const double *mass)
         if (isnan(mo->counts.singular_time))
             mo->counts.singular_time = mo->t;
     }
-    mo->blur = fmax(mo->blur, kkt_blur(kkt));
+    mo->rounding_error = fmax(mo->rounding_error, kkt_rounding_error(kkt));
     return true;
 }
 
@@ -97,7 +97,7 @@ static bool is_of_rows_in_use(const Motion *mo, const Eliminated *own)
            memcmp(own->rows, mo->rows, (size_t)mo->used * sizeof(int)) == 0;
 }
 
-bool motion_rows_are_told(const Motion *mo)
+bool motion_rows_are_fixed(const Motion *mo)
 {
     const Eliminated *own = mo->eq->eliminated;
 

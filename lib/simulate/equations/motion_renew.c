@@ -82,7 +82,7 @@ static bool choose_rows(Motion *mo)
     return changed;
 }
 
-int *motion_take_rows(Motion *mo)
+int *motion_set_rows(Motion *mo)
 {
     int *kept;
 
@@ -133,7 +133,7 @@ static bool elimination_pays(const Motion *mo, double steps_ahead)
            (mo->factored >= MOTION_FACTORS_SEEN && ahead >= MOTION_FACTORS_PAID);
 }
 
-Status motion_hasten(Motion *mo, double steps_ahead, Diag *diag)
+Status motion_try_coordinate_partitioning(Motion *mo, double steps_ahead, Diag *diag)
 {
     const Equations *eq = mo->eq;
 

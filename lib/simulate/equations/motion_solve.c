@@ -189,7 +189,7 @@ bool motion_solve_plain(Motion *mo)
     return mo->eq->network_reads != NULL ? solve_together(mo) : solve_augmented(mo);
 }
 
-bool motion_tell(const Motion *mo, Solved *out)
+bool motion_report(const Motion *mo, Solved *out)
 {
     const Equations *eq = mo->eq;
 
@@ -210,7 +210,7 @@ bool motion_solve_in_use(Motion *mo, double t, const double *y, Solved *out)
         !motion_solve_plain(mo) || (mo->is_factored && kkt_is_regularised(mo->kkt)))
         return false;
     place_multipliers(mo);
-    return motion_tell(mo, out);
+    return motion_report(mo, out);
 }
 
 bool motion_solve_rates(Motion *mo)

@@ -45,8 +45,8 @@ static bool try_signs(void *context, const double *signs, double *slip)
     return vector_is_finite(slip, mo->eq->slide_count);
 }
 
-bool motion_slip(Motion *mo, double t, const double *y, const double *signs, double *slip,
-                 double *off)
+bool motion_drift(Motion *mo, double t, const double *y, const double *signs, double *slip,
+                  double *off)
 {
     Where at = {mo, t, y};
 

@@ -9,7 +9,7 @@
 #include <string.h>
 
 struct NetDae {
-    const Layout *l;
+    const VariableIndex *l;
     Parameters *parameters;
     Motion *motion;
     Dae dae;
@@ -27,7 +27,7 @@ struct NetDae {
 typedef LIST(Expr) Values;
 
 /* of [x; z] in w: work stands between them */
-static int shifted(const Layout *l, int place)
+static int shifted(const VariableIndex *l, int place)
 {
     return place < l->nx ? place : place + 1;
 }
@@ -35,7 +35,7 @@ static int shifted(const Layout *l, int place)
 /* slopes by x' and by x share a place */
 static void find_pattern(NetDae *d)
 {
-    const Layout *l = d->l;
+    const VariableIndex *l = d->l;
     int count;
     const Slope *slopes = residual_slopes(probe_residual(d->probe), &count);
     int *row = NEW_ARRAY(int, count + 1), *column = NEW_ARRAY(int, count + 1);
@@ -57,9 +57,9 @@ static void find_pattern(NetDae *d)
 
 static bool compile(NetDae *d)
 {
-    const Layout *l = d->l;
+    const VariableIndex *l = d->l;
     Values roots = {0};
-    Expr *unknowns = layout_network(l);
+    Expr *unknowns = variable_index_network(l);
     ProbeOrder order = {
         .row_count = l->nx + l->nz, .unknowns = unknowns, .unknown_count = 2 * l->nx + l->nz};
 
@@ -89,7 +89,7 @@ static const double *values_at(NetDae *d, double t, const double *w, const doubl
 static bool residual(void *context, double t, const double *w, const double *w_rate, double *out)
 {
     NetDae *d = context;
-    const Layout *l = d->l;
+    const VariableIndex *l = d->l;
     const double *values = values_at(d, t, w, w_rate);
 
     memcpy(out, values, (size_t)l->nx * sizeof(double));
@@ -102,7 +102,7 @@ static bool jacobian(void *context, double t, double c, const double *w, const d
                      double *out)
 {
     NetDae *d = context;
-    const Layout *l = d->l;
+    const VariableIndex *l = d->l;
     int count;
     const Slope *slopes = residual_slopes(probe_residual(d->probe), &count);
     const double *values = values_at(d, t, w, w_rate) + l->nx + l->nz + 1;
@@ -120,7 +120,7 @@ static bool jacobian(void *context, double t, double c, const double *w, const d
 static bool start(void *context, double t, const double *y, double *w, double *w_rate)
 {
     NetDae *d = context;
-    const Layout *l = d->l;
+    const VariableIndex *l = d->l;
     Solved solved;
     size_t bytes = (size_t)l->nx * sizeof(double);
 
@@ -163,10 +163,10 @@ static const HessenbergForm *keep(void *context, HessenbergForm *given)
 
     if (d->forms == NULL)
         d->forms = mode_forms_new(d->l->switches);
-    return mode_forms_keep(d->forms, d->l->closed, given);
+    return mode_forms_store(d->forms, d->l->closed, given);
 }
 
-NetDae *netdae_new(const Layout *l, Parameters *parameters, Motion *motion)
+NetDae *netdae_new(const VariableIndex *l, Parameters *parameters, Motion *motion)
 {
     NetDae *d;
 

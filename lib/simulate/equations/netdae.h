@@ -6,12 +6,12 @@
 #ifndef COTREE_SIMULATE_EQUATIONS_NETDAE_H
 #define COTREE_SIMULATE_EQUATIONS_NETDAE_H
 
-#include "simulate/equations/numbers.h"
+#include "simulate/equations/compiled_equations.h"
 
 typedef struct NetDae NetDae;
 
 /* New; free with netdae_free(). Borrows all. NULL where there is mechanics, or no state. */
-NetDae *netdae_new(const Layout *layout, Parameters *parameters, Motion *motion);
+NetDae *netdae_new(const VariableIndex *layout, Parameters *parameters, Motion *motion);
 void netdae_free(NetDae *dae); /* NULL is fine */
 const Dae *netdae_equations(const NetDae *dae);
 

@@ -324,7 +324,7 @@ static bool has_endless_slope(const NetSolve *s)
 
 /* Unknowns in which a slope has no end move on a little, each by a share of its own so that
  * differences move, too: a law such as sign(v)*sqrt(abs(v)) is solved from beside its 0. */
-static void step_beside(NetSolve *s)
+static void step_perturbed(NetSolve *s)
 {
     const Equations *eq = s->eq;
 
@@ -351,7 +351,7 @@ static bool solve_newton(NetSolve *s, Way way)
         if (has_endless_slope(s)) {
             if (vector_largest(eq->network_residual, s->n) == 0)
                 return true; /* no slope is needed to tell */
-            step_beside(s);
+            step_perturbed(s);
             continue;
         }
         if (!sparse_factor(s->matrix, eq->network) || !correction(s, s->step))

@@ -3,7 +3,7 @@
 #define COTREE_SIMULATE_EQUATIONS_PARAMETERS_H
 
 #include "formulate/system/system.h"
-#include "simulate/equations/setting.h"
+#include "simulate/equations/simulation_input.h"
 
 /* Values of parameters, kept from the start of a run on. */
 typedef struct Parameters {

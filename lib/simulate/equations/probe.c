@@ -8,7 +8,7 @@
 
 static Expr put_on_surfaces(const void *layout, Expr e)
 {
-    return layout_on_surfaces(layout, e);
+    return variable_index_on_surfaces(layout, e);
 }
 
 /* values of parameters, once for all; sides are told by the layout */
@@ -19,23 +19,23 @@ static void put_parameters(Probe *probe, Parameters *parameters)
     double *inputs = probe->inputs + probe->layout->count;
 
     for (int i = 0; i < count; i++) {
-        const int side = layout_side_of(probe->layout, own[i]);
+        const int side = variable_index_side_of(probe->layout, own[i]);
 
         if (side >= 0)
             LIST_PUSH(probe->sides, (SideInput){probe->layout->count + i, side});
         else
             inputs[i] = parameters_value(parameters, own[i]);
     }
-    probe_take_sides(probe);
+    probe_set_sides(probe);
     if (probe->sides.count == 0)
         workspace_run(probe->workspace, STAGE_PARAMETER, STAGE_PARAMETER);
 }
 
-Status probe_make(const Layout *layout, Parameters *parameters, const ProbeOrder *order,
+Status probe_make(const VariableIndex *layout, Parameters *parameters, const ProbeOrder *order,
                   Probe **out, Diag *diag)
 {
     const int parts = order->is_apart ? threads_count(parameters->threads) : 1;
-    int *blocks = parts > 1 ? layout_blocks(layout) : NULL;
+    int *blocks = parts > 1 ? variable_index_blocks(layout) : NULL;
     const ResidualOrder rows = {.arena = system_arena(layout->system),
                                 .roots = order->roots,
                                 .root_count = order->root_count,
@@ -66,7 +66,7 @@ done:
     return status;
 }
 
-Status probe_new(const Layout *layout, Parameters *parameters, const Expr *roots, int count,
+Status probe_new(const VariableIndex *layout, Parameters *parameters, const Expr *roots, int count,
                  Probe **out, Diag *diag)
 {
     const ProbeOrder order = {.roots = roots, .root_count = count};
@@ -112,7 +112,7 @@ double *probe_input(Probe *probe, int place)
     return probe->inputs + place;
 }
 
-void probe_take_sides(Probe *probe)
+void probe_set_sides(Probe *probe)
 {
     probe->seen = probe->layout->sides;
     for (int i = 0; i < probe->sides.count; i++)
@@ -123,16 +123,16 @@ void probe_take_sides(Probe *probe)
 
 /* --- rows --- */
 
-RowValues row_of_state(const Layout *l, double t, const double *y)
+RowValues row_of_state(const VariableIndex *l, double t, const double *y)
 {
     return (RowValues){.t = t,
                        .q = y,
                        .u = y + l->n,
                        .x = y + l->n + l->nu,
-                       .references = y + layout_references(l)};
+                       .references = y + variable_index_references(l)};
 }
 
-RowValues row_of_solved(const Layout *l, double t, const double *y, const Solved *solved)
+RowValues row_of_solved(const VariableIndex *l, double t, const double *y, const Solved *solved)
 {
     RowValues row = row_of_state(l, t, y);
 
@@ -144,7 +144,7 @@ RowValues row_of_solved(const Layout *l, double t, const double *y, const Solved
     return row;
 }
 
-bool row_solve(const Layout *l, Motion *motion, double t, const double *y, RowValues *out)
+bool row_solve(const VariableIndex *l, Motion *motion, double t, const double *y, RowValues *out)
 {
     Solved solved;
     const bool sound = motion_solve(motion, t, y, &solved);
@@ -153,25 +153,25 @@ bool row_solve(const Layout *l, Motion *motion, double t, const double *y, RowVa
     return sound;
 }
 
-static void put_state(const Layout *l, const RowValues *row, double *inputs)
+static void put_state(const VariableIndex *l, const RowValues *row, double *inputs)
 {
     inputs[l->t] = row->t;
-    inputs_put(inputs, l->references, row->references, l->multi_turns);
-    inputs_put(inputs, l->q, row->q, l->n);
-    inputs_put(inputs, l->u, row->u, l->nu);
-    inputs_put(inputs, l->x, row->x, l->nx);
+    inputs_set(inputs, l->references, row->references, l->multi_turns);
+    inputs_set(inputs, l->q, row->q, l->n);
+    inputs_set(inputs, l->u, row->u, l->nu);
+    inputs_set(inputs, l->x, row->x, l->nx);
 }
 
-static void put_row(const Layout *l, const RowValues *row, double *inputs)
+static void put_row(const VariableIndex *l, const RowValues *row, double *inputs)
 {
     put_state(l, row, inputs);
-    inputs_put(inputs, l->signs, row->signs, l->slides);
-    inputs_put(inputs, l->rates, row->rates, l->nx);
-    inputs_put(inputs, l->z, row->z, l->nz);
-    inputs_put(inputs, l->acceleration, row->acceleration, l->nu);
-    inputs_put(inputs, l->multipliers, row->multipliers, l->m);
-    inputs_put(inputs, l->efforts, row->efforts, l->ne);
-    inputs_put(inputs, l->jerk, row->jerk, l->nu);
+    inputs_set(inputs, l->signs, row->signs, l->slides);
+    inputs_set(inputs, l->rates, row->rates, l->nx);
+    inputs_set(inputs, l->z, row->z, l->nz);
+    inputs_set(inputs, l->acceleration, row->acceleration, l->nu);
+    inputs_set(inputs, l->multipliers, row->multipliers, l->m);
+    inputs_set(inputs, l->efforts, row->efforts, l->ne);
+    inputs_set(inputs, l->jerk, row->jerk, l->nu);
 }
 
 const double *probe_values(Probe *probe, const RowValues *row)
@@ -187,7 +187,7 @@ const double *probe_values(Probe *probe, const RowValues *row)
 /* of all inputs, where the row is off by these; new */
 static double *input_errors(const Probe *probe, const RowValues *errors)
 {
-    const Layout *l = probe->layout;
+    const VariableIndex *l = probe->layout;
     const int count = program_input_count(residual_program(probe->residual));
     double *inputs = NEW_ARRAY(double, count);
 
@@ -205,7 +205,7 @@ void probe_errors(const Probe *probe, const RowValues *errors, double *out)
     mem_free(inputs);
 }
 
-void probe_put(Probe *probe, const RowValues *row)
+void probe_set(Probe *probe, const RowValues *row)
 {
     put_row(probe->layout, row, probe_inputs(probe));
 }
@@ -214,7 +214,7 @@ void probe_tangents(Probe *probe, const RowValues *row, const RowValues *errors,
 {
     double *off = errors != NULL ? input_errors(probe, errors) : NULL;
 
-    probe_put(probe, row);
+    probe_set(probe, row);
     tangents_at(tangents, probe->inputs, off);
     mem_free(off);
 }
@@ -224,7 +224,7 @@ void probe_tangents_beside(Probe *probe, const RowValues *row, uint64_t seed, Ta
     const int count = program_input_count(residual_program(probe->residual));
     double *inputs = NEW_ARRAY(double, count);
 
-    probe_put(probe, row);
+    probe_set(probe, row);
     for (int i = 0; i < count; i++)
         inputs[i] = probe->inputs[i] * (1 + 0x1p-50 * random_unit(&seed));
     tangents_at(tangents, inputs, NULL);
@@ -245,7 +245,7 @@ int probe_place(const Probe *probe, Expr symbol)
     return -1;
 }
 
-Status probe_at(const Layout *layout, Parameters *parameters, Expr e, const RowValues *row,
+Status probe_at(const VariableIndex *layout, Parameters *parameters, Expr e, const RowValues *row,
                 double *out, Diag *diag)
 {
     Probe *probe = NULL;

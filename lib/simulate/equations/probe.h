@@ -7,9 +7,9 @@
 #include "base/memory.h"
 #include "compile/residual.h"
 #include "compile/tangents.h"
-#include "simulate/equations/input_layout.h"
 #include "simulate/equations/motion.h"
 #include "simulate/equations/parameters.h"
+#include "simulate/equations/variable_index.h"
 
 #include <string.h>
 
@@ -21,12 +21,14 @@ typedef struct RowValues {
 } RowValues;
 
 /* t, and what y holds */
-RowValues row_of_state(const Layout *layout, double t, const double *y);
+RowValues row_of_state(const VariableIndex *layout, double t, const double *y);
 /* and what was solved for there */
-RowValues row_of_solved(const Layout *layout, double t, const double *y, const Solved *solved);
+RowValues row_of_solved(const VariableIndex *layout, double t, const double *y,
+                        const Solved *solved);
 /* the same, solved now, and borrowed until the next call on the motion; false: there is no
  * solution, and the row is without */
-bool row_solve(const Layout *layout, Motion *motion, double t, const double *y, RowValues *out);
+bool row_solve(const VariableIndex *layout, Motion *motion, double t, const double *y,
+               RowValues *out);
 
 /* an input that is a side of a switch */
 typedef struct SideInput {
@@ -35,7 +37,7 @@ typedef struct SideInput {
 
 /* Told here for the equations of a run, which are evaluated so often that calls count. */
 typedef struct Probe {
-    const Layout *layout;
+    const VariableIndex *layout;
     Residual *residual;
     Workspace *workspace;
     double *inputs; /* the workspace's */
@@ -49,22 +51,22 @@ typedef struct ProbeOrder {
     int root_count, row_count;
     const Expr *unknowns; /* by these symbols */
     int unknown_count;
-    bool is_apart;      /* blocks are computed at the same time, by the parameters' threads */
-    bool is_put;        /* the roots are on their surfaces already, or shall stay as they are */
-    const Watch *watch; /* may be NULL */
+    bool is_apart; /* blocks are computed at the same time, by the parameters' threads */
+    bool is_put;   /* the roots are on their surfaces already, or shall stay as they are */
+    const CallMonitor *watch; /* may be NULL */
 } ProbeOrder;
 
 /* Compile; the layout outlives the probe. Parameters have the values of `parameters`, and what
  * depends on them alone is computed. Fails as residual_new() does. */
-MUST_USE Status probe_make(const Layout *layout, Parameters *parameters, const ProbeOrder *order,
-                           Probe **out, Diag *diag);
+MUST_USE Status probe_make(const VariableIndex *layout, Parameters *parameters,
+                           const ProbeOrder *order, Probe **out, Diag *diag);
 /* the same of roots alone */
-MUST_USE Status probe_new(const Layout *layout, Parameters *parameters, const Expr *roots,
+MUST_USE Status probe_new(const VariableIndex *layout, Parameters *parameters, const Expr *roots,
                           int count, Probe **out, Diag *diag);
 void probe_free(Probe *probe); /* NULL is fine */
 /* one value, once */
-MUST_USE Status probe_at(const Layout *layout, Parameters *parameters, Expr e, const RowValues *row,
-                         double *out, Diag *diag);
+MUST_USE Status probe_at(const VariableIndex *layout, Parameters *parameters, Expr e,
+                         const RowValues *row, double *out, Diag *diag);
 const Residual *probe_residual(const Probe *probe);
 /* whether t, coordinates, speeds and states are all that its values need: nothing has to be solved
  */
@@ -88,7 +90,7 @@ void probe_values_of_states(Probe *probe, Evaluator evaluator, const double *tim
 void probe_errors(const Probe *probe, const RowValues *errors, double *out);
 
 /* Take these numbers as inputs, for who computes with the program by other means. */
-void probe_put(Probe *probe, const RowValues *row);
+void probe_set(Probe *probe, const RowValues *row);
 /* The same values, with their errors unless `errors` is NULL, in tangents of its program. */
 void probe_tangents(Probe *probe, const RowValues *row, const RowValues *errors,
                     Tangents *tangents);
@@ -102,16 +104,16 @@ int probe_place(const Probe *probe, Expr symbol);
 /* --- stage by stage, by workspace_run() --- */
 
 /* Take sides of switches as the layout has them now, with what follows from them. */
-void probe_take_sides(Probe *probe);
+void probe_set_sides(Probe *probe);
 /* Its inputs by the layout, write here; sides are as the layout has them. */
 static inline double *probe_inputs(Probe *probe)
 {
     if (probe->seen != probe->layout->sides)
-        probe_take_sides(probe);
+        probe_set_sides(probe);
     return probe->inputs;
 }
 /* NULL: 0 */
-static inline void inputs_put(double *inputs, int first, const double *values, int count)
+static inline void inputs_set(double *inputs, int first, const double *values, int count)
 {
     if (values != NULL)
         memcpy(inputs + first, values, (size_t)count * sizeof(double));

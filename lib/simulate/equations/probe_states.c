@@ -1,19 +1,19 @@
 /* probe_states.c: a probe at many states, several at once */
 #include "simulate/equations/probe.h"
 
-#include "compile/lanes.h"
+#include "compile/simd_batch.h"
 
 enum {
     LANES = 8,
     FEW = 2 * LANES /* states that are computed one by one: lanes have to be made */
 };
 
-typedef struct States {
+typedef struct ProbeStates {
     const double *times, *y;
     int length, count;
-} States;
+} ProbeStates;
 
-static void put_parameters(const Probe *probe, Lanes *lanes)
+static void put_parameters(const Probe *probe, SimdBatch *lanes)
 {
     const int all = program_input_count(residual_program(probe->residual));
     double values[LANES];
@@ -21,25 +21,25 @@ static void put_parameters(const Probe *probe, Lanes *lanes)
     for (int i = probe->layout->count; i < all; i++) {
         for (int k = 0; k < LANES; k++)
             values[k] = probe->inputs[i];
-        lanes_put(lanes, i, STAGE_PARAMETER, values);
+        simd_batch_set(lanes, i, STAGE_PARAMETER, values);
     }
 }
 
 /* Of these states, from one place on. */
 static void put_part(const double *const y[LANES], int place, int count, int input, Stage stage,
-                     Lanes *lanes)
+                     SimdBatch *lanes)
 {
     for (int i = place; i < place + count; i++) {
         double values[LANES];
 
         for (int k = 0; k < LANES; k++)
             values[k] = y[k][i];
-        lanes_put(lanes, input + i - place, stage, values);
+        simd_batch_set(lanes, input + i - place, stage, values);
     }
 }
 
 /* From one on; where the last ones have no next it stands in for them. */
-static void put_states(const Layout *l, const States *s, int first, Lanes *lanes)
+static void put_states(const VariableIndex *l, const ProbeStates *s, int first, SimdBatch *lanes)
 {
     const int last = s->count - 1;
     const double *y[LANES];
@@ -51,19 +51,20 @@ static void put_states(const Layout *l, const States *s, int first, Lanes *lanes
         times[k] = s->times[at];
         y[k] = s->y + (ptrdiff_t)at * s->length;
     }
-    lanes_put(lanes, l->t, STAGE_TIME, times);
-    put_part(y, layout_references(l), l->multi_turns, l->references, STAGE_POSITION, lanes);
+    simd_batch_set(lanes, l->t, STAGE_TIME, times);
+    put_part(y, variable_index_references(l), l->multi_turns, l->references, STAGE_POSITION, lanes);
     put_part(y, 0, l->n, l->q, STAGE_POSITION, lanes);
     put_part(y, l->n, l->nu, l->u, STAGE_VELOCITY, lanes);
     put_part(y, l->n + l->nu, l->nx, l->x, STAGE_VELOCITY, lanes);
 }
 
-static void by_lanes(Probe *probe, Evaluator evaluator, const States *s, int roots, double *out)
+static void by_lanes(Probe *probe, Evaluator evaluator, const ProbeStates *s, int roots,
+                     double *out)
 {
     const Program *program = residual_program(probe->residual);
     const int blocks = (s->count + LANES - 1) / LANES;
-    Native *native = lanes_native_if_it_pays(program, LANES, evaluator, blocks);
-    Lanes *lanes = lanes_new(program, native, LANES);
+    Native *native = simd_batch_native_if_it_pays(program, LANES, evaluator, blocks);
+    SimdBatch *lanes = simd_batch_new(program, native, LANES);
 
     (void)probe_inputs(probe); /* sides as they are now */
     put_parameters(probe, lanes);
@@ -71,16 +72,16 @@ static void by_lanes(Probe *probe, Evaluator evaluator, const States *s, int roo
         const int count = s->count - first < LANES ? s->count - first : LANES;
 
         put_states(probe->layout, s, first, lanes);
-        lanes_run(lanes);
+        simd_batch_run(lanes);
         for (int i = 0; i < roots; i++) {
             double values[LANES];
 
-            lanes_take(lanes, i, values);
+            simd_batch_get(lanes, i, values);
             for (int k = 0; k < count; k++)
                 out[(ptrdiff_t)(first + k) * roots + i] = values[k];
         }
     }
-    lanes_free(lanes);
+    simd_batch_free(lanes);
     native_free(native);
 }
 
@@ -88,7 +89,7 @@ void probe_values_of_states(Probe *probe, Evaluator evaluator, const double *tim
                             int length, int count, int roots, double *out)
 {
     if (count > FEW) {
-        by_lanes(probe, evaluator, &(States){times, y, length, count}, roots, out);
+        by_lanes(probe, evaluator, &(ProbeStates){times, y, length, count}, roots, out);
         return;
     }
     for (int i = 0; i < count; i++) {

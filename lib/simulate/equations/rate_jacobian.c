@@ -10,10 +10,10 @@
 
 #include <string.h>
 
-typedef LIST(Expr) Roots;
+typedef LIST(Expr) RateJacobianRoots;
 
 struct RateJacobian {
-    const Layout *l;
+    const VariableIndex *l;
     Parameters *parameters;
     Motion *motion;
     bool is_asked, is_made; /* made once, if it can be */
@@ -29,7 +29,7 @@ struct RateJacobian {
     bool *in_use;  /* constraint rows */
 };
 
-RateJacobian *rate_jacobian_new(const Layout *l, Parameters *parameters, Motion *motion)
+RateJacobian *rate_jacobian_new(const VariableIndex *l, Parameters *parameters, Motion *motion)
 {
     RateJacobian *j = NEW(RateJacobian);
 
@@ -54,9 +54,9 @@ void rate_jacobian_free(RateJacobian *j)
 
 /* --- making --- */
 
-static Status push_rows(const RateJacobian *j, Roots *roots)
+static Status push_rows(const RateJacobian *j, RateJacobianRoots *roots)
 {
-    const Layout *l = j->l;
+    const VariableIndex *l = j->l;
 
     LIST_ROOM(*roots, l->nu);
     TRY(rows_balance(l, roots->at, NULL));
@@ -75,7 +75,7 @@ static Status push_rows(const RateJacobian *j, Roots *roots)
 /* the inputs that e and w are, a column each */
 static void push_moves(const RateJacobian *j, ColumnMoves *moves)
 {
-    const Layout *l = j->l;
+    const VariableIndex *l = j->l;
 
     moves_push(moves, 0, l->acceleration, l->nu);
     moves_push(moves, l->nu, l->multipliers, l->m);
@@ -124,7 +124,7 @@ static void open_room(RateJacobian *j)
 static bool make(RateJacobian *j)
 {
     const bool before = mem_scratch(true); /* numbers that each call finds anew */
-    Roots roots = {0};
+    RateJacobianRoots roots = {0};
     ColumnMoves moves = {0};
     Arena *arena = system_arena(j->l->system);
     bool sound = push_rows(j, &roots) == OK && arena_status(arena) == OK &&
@@ -150,7 +150,7 @@ static bool make(RateJacobian *j)
 /* E_e; multipliers of rows that aren't in use are 0 instead */
 static bool factor(RateJacobian *j)
 {
-    const Layout *l = j->l;
+    const VariableIndex *l = j->l;
     const Pattern *p = jacobian_pattern(j->jacobian);
 
     motion_rows_in_use(j->motion, j->in_use);
@@ -170,7 +170,7 @@ static bool factor(RateJacobian *j)
 /* what follows from an entry of the state: E_e de = -E_w */
 static void find_follow(RateJacobian *j, int state)
 {
-    const Layout *l = j->l;
+    const VariableIndex *l = j->l;
     const Pattern *p = jacobian_pattern(j->jacobian);
     const int c = j->follow + state;
 
@@ -187,10 +187,10 @@ static void find_follow(RateJacobian *j, int state)
 /* The row of y' that a row behind E tells: those of q, of references, of work. */
 static int rate_row(const RateJacobian *j, int row)
 {
-    const Layout *l = j->l;
+    const VariableIndex *l = j->l;
     const int own = row - j->follow;
 
-    return own < l->n ? own : layout_references(l) + own - l->n;
+    return own < l->n ? own : variable_index_references(l) + own - l->n;
 }
 
 /* the entries of a column of the Jacobian behind E, so many times */
@@ -205,7 +205,7 @@ static void add_column(const RateJacobian *j, int c, double by, double *out, int
 /* the column of y', entries `stride` apart */
 static void write_column(RateJacobian *j, int state, double *out, int stride)
 {
-    const Layout *l = j->l;
+    const VariableIndex *l = j->l;
 
     find_follow(j, state);
     for (int i = 0; i < l->nu; i++)
@@ -221,8 +221,8 @@ static void write_column(RateJacobian *j, int state, double *out, int stride)
 bool rate_jacobian_at(void *context, double t, const double *y, double *out)
 {
     RateJacobian *j = context;
-    const Layout *l = j->l;
-    const int n = layout_references(l) + l->multi_turns;
+    const VariableIndex *l = j->l;
+    const int n = variable_index_references(l) + l->multi_turns;
     Solved solved;
     RowValues row;
 
@@ -236,7 +236,7 @@ bool rate_jacobian_at(void *context, double t, const double *y, double *out)
     if (!j->is_made)
         return false;
     row = row_of_solved(l, motion_clock(j->motion, t), y, &solved);
-    probe_put(j->probe, &row);
+    probe_set(j->probe, &row);
     jacobian_at(j->jacobian, probe_inputs(j->probe), NULL, j->values);
     if (!vector_is_finite(j->values, jacobian_pattern(j->jacobian)->count) || !factor(j))
         return false;

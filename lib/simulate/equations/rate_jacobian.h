@@ -7,14 +7,15 @@
 #ifndef COTREE_SIMULATE_EQUATIONS_RATE_JACOBIAN_H
 #define COTREE_SIMULATE_EQUATIONS_RATE_JACOBIAN_H
 
-#include "simulate/equations/input_layout.h"
 #include "simulate/equations/motion.h"
 #include "simulate/equations/parameters.h"
+#include "simulate/equations/variable_index.h"
 
 typedef struct RateJacobian RateJacobian;
 
 /* New; free with rate_jacobian_free(). Borrows all. */
-RateJacobian *rate_jacobian_new(const Layout *layout, Parameters *parameters, Motion *motion);
+RateJacobian *rate_jacobian_new(const VariableIndex *layout, Parameters *parameters,
+                                Motion *motion);
 void rate_jacobian_free(RateJacobian *jacobian); /* NULL is fine */
 /* As of an Ode: derivatives of all rates at (t, y), those of quadratures too. False where it can't
  * tell them: on a surface that is slid along, near a singular position, where a network reads

@@ -84,7 +84,7 @@ void redundant_remark(const System *system, const double *phi_u, const int *orde
 {
     const int m = system_m(system), nu = system_nu(system);
     double *shares = NEW_ARRAY(double, (m - rank) * rank);
-    bool *told = NEW_ARRAY(bool, m);
+    bool *is_merged = NEW_ARRAY(bool, m);
 
     if (rank > 0)
         find_shares(phi_u, m, nu, order, rank, shares);
@@ -92,14 +92,14 @@ void redundant_remark(const System *system, const double *phi_u, const int *orde
         const int joint = system_constraint(system, order[k])->instance;
         Text directions = {0}, repeated = {0};
 
-        if (told[k])
+        if (is_merged[k])
             continue;
         for (int same = k; same < m; same++) {
             const ConstraintRow *row = system_constraint(system, order[same]);
 
             if (row->instance != joint)
                 continue;
-            told[same] = true;
+            is_merged[same] = true;
             text_addf(&directions, same > k ? ", %s" : "%s", row->direction);
         }
         name_repeated(system, order, rank, shares, joint, &repeated);
@@ -111,5 +111,5 @@ void redundant_remark(const System *system, const double *phi_u, const int *orde
         text_free(&repeated);
     }
     remarks_add(out, (Remark){.kind = REMARK_UNDETERMINED, .count = nu - rank});
-    MEM_FREE(told, shares);
+    MEM_FREE(is_merged, shares);
 }

@@ -18,9 +18,9 @@ static Expr plus_product(Arena *arena, Expr sum, Expr a, Expr b)
     return expr_add(arena, sum, expr_mul(arena, a, b));
 }
 
-Expr row_balance(const Layout *l, int speed)
+Expr row_balance(const VariableIndex *l, int speed)
 {
-    const Reading *run = system_run(l->system);
+    const EquationForm *run = system_run(l->system);
     Arena *arena = system_arena(l->system);
     Expr sum = expr_neg(arena, run->force[speed]);
 
@@ -33,9 +33,9 @@ Expr row_balance(const Layout *l, int speed)
     return sum;
 }
 
-Status rows_balance(const Layout *l, Expr *out, Diag *diag)
+Status rows_balance(const VariableIndex *l, Expr *out, Diag *diag)
 {
-    const Reading *run = system_run(l->system);
+    const EquationForm *run = system_run(l->system);
     Arena *arena = system_arena(l->system);
 
     if (system_composite_mass(l->system) == NULL ||
@@ -52,7 +52,7 @@ Status rows_balance(const Layout *l, Expr *out, Diag *diag)
     return OK;
 }
 
-Status rows_kinematic(const Layout *l, Expr *out, Diag *diag)
+Status rows_kinematic(const VariableIndex *l, Expr *out, Diag *diag)
 {
     for (int i = 0; i < l->n; i++)
         out[i] = system_q_rate(l->system, i);
@@ -62,9 +62,9 @@ Status rows_kinematic(const Layout *l, Expr *out, Diag *diag)
 }
 
 /* Phi_u v - right */
-static Expr rate_row(const Layout *l, int constraint, int first, Expr right)
+static Expr rate_row(const VariableIndex *l, int constraint, int first, Expr right)
 {
-    const Reading *run = system_run(l->system);
+    const EquationForm *run = system_run(l->system);
     Arena *arena = system_arena(l->system);
     Expr sum = expr_neg(arena, right);
 
@@ -73,17 +73,17 @@ static Expr rate_row(const Layout *l, int constraint, int first, Expr right)
     return sum;
 }
 
-Expr row_acceleration(const Layout *l, int constraint)
+Expr row_acceleration(const VariableIndex *l, int constraint)
 {
     return rate_row(l, constraint, l->acceleration, system_run(l->system)->gamma[constraint]);
 }
 
-Expr row_velocity(const Layout *l, int constraint)
+Expr row_velocity(const VariableIndex *l, int constraint)
 {
     return rate_row(l, constraint, l->u, system_run(l->system)->nu[constraint]);
 }
 
-Expr row_network(const Layout *l, int equation)
+Expr row_network(const VariableIndex *l, int equation)
 {
     return system_run(l->system)->network_residual[equation];
 }

@@ -7,16 +7,16 @@
 #ifndef COTREE_SIMULATE_EQUATIONS_ROWS_H
 #define COTREE_SIMULATE_EQUATIONS_ROWS_H
 
-#include "simulate/equations/input_layout.h"
+#include "simulate/equations/variable_index.h"
 
-Expr row_balance(const Layout *layout, int speed);
+Expr row_balance(const VariableIndex *layout, int speed);
 /* All nu of these; without M where a run does without. Fails with E_MEMORY. */
-MUST_USE Status rows_balance(const Layout *layout, Expr *out, Diag *diag);
+MUST_USE Status rows_balance(const VariableIndex *layout, Expr *out, Diag *diag);
 /* q', then the rates of references (n, multi_turns). Fails with E_MEMORY. */
-MUST_USE Status rows_kinematic(const Layout *layout, Expr *out, Diag *diag);
-Expr row_acceleration(const Layout *layout, int constraint);
-Expr row_velocity(const Layout *layout, int constraint);
-Expr row_network(const Layout *layout, int equation);
+MUST_USE Status rows_kinematic(const VariableIndex *layout, Expr *out, Diag *diag);
+Expr row_acceleration(const VariableIndex *layout, int constraint);
+Expr row_velocity(const VariableIndex *layout, int constraint);
+Expr row_network(const VariableIndex *layout, int equation);
 
 /* the coordinate of which a speed is the rate; -1: a component of angular velocity */
 int speed_coordinate(const System *system, int speed);

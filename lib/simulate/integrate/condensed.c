@@ -8,10 +8,10 @@
 #include <string.h>
 
 struct Condensed {
-    int n, told, left; /* unknowns; in D; in R */
-    int *order;        /* those of D, then those of R */
-    double *jacobian;  /* in that order */
-    double *through;   /* J_RD J_DR (left x left) */
+    int n, determined, left; /* unknowns; in D; in R */
+    int *order;              /* those of D, then those of R */
+    double *jacobian;        /* in that order */
+    double *through;         /* J_RD J_DR (left x left) */
     double s, alpha, beta;
     Lu *real, *pair; /* left; 2 left: for so many unknowns, */
     int factored;    /* -1: none */
@@ -49,7 +49,7 @@ static bool is_apart(const Condensed *c, const double *jacobian, int i)
 {
     if (jacobian[i * c->n + i] != 0)
         return false;
-    for (int k = 0; k < c->told; k++) {
+    for (int k = 0; k < c->determined; k++) {
         const int j = c->order[k];
 
         if (jacobian[i * c->n + j] != 0 || jacobian[j * c->n + i] != 0)
@@ -61,15 +61,15 @@ static bool is_apart(const Condensed *c, const double *jacobian, int i)
 /* one after the other, as they come */
 static void choose(Condensed *c, const double *jacobian)
 {
-    c->told = c->left = 0;
+    c->determined = c->left = 0;
     for (int i = 0; i < c->n; i++)
         if (is_apart(c, jacobian, i))
-            c->order[c->told++] = i;
+            c->order[c->determined++] = i;
     for (int i = 0, k = 0; i < c->n; i++)
-        if (k < c->told && c->order[k] == i)
+        if (k < c->determined && c->order[k] == i)
             k++;
         else
-            c->order[c->told + c->left++] = i;
+            c->order[c->determined + c->left++] = i;
 }
 
 static const double *row_of(const Condensed *c, int i)
@@ -77,19 +77,19 @@ static const double *row_of(const Condensed *c, int i)
     return c->jacobian + (ptrdiff_t)i * c->n;
 }
 
-void condensed_take(Condensed *c, const double *jacobian)
+void condensed_set(Condensed *c, const double *jacobian)
 {
     choose(c, jacobian);
     for (int i = 0; i < c->n; i++)
         for (int j = 0; j < c->n; j++)
             c->jacobian[i * c->n + j] = jacobian[c->order[i] * c->n + c->order[j]];
     memset(c->through, 0, (size_t)c->left * (size_t)c->left * sizeof(double));
-    for (int d = 0; d < c->told; d++)
+    for (int d = 0; d < c->determined; d++)
         for (int j = 0; j < c->left; j++) {
-            const double by = row_of(c, d)[c->told + j];
+            const double by = row_of(c, d)[c->determined + j];
 
             for (int i = 0; i < c->left && by != 0; i++)
-                c->through[i * c->left + j] += row_of(c, c->told + i)[d] * by;
+                c->through[i * c->left + j] += row_of(c, c->determined + i)[d] * by;
         }
 }
 
@@ -119,8 +119,8 @@ bool condensed_factor_real(Condensed *c, double s)
     a = lu_matrix(c->real);
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
-            a[i * n + j] =
-                (i == j) * s - row_of(c, c->told + i)[c->told + j] - c->through[i * n + j] / s;
+            a[i * n + j] = (i == j) * s - row_of(c, c->determined + i)[c->determined + j] -
+                           c->through[i * n + j] / s;
     return lu_factor(c->real);
 }
 
@@ -136,7 +136,7 @@ static bool factor_pair(Condensed *c, double alpha, double beta)
     b = lu_matrix(c->pair);
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
-            const double entry = row_of(c, c->told + i)[c->told + j];
+            const double entry = row_of(c, c->determined + i)[c->determined + j];
             const double through = c->through[i * n + j];
             double *pair = b + (ptrdiff_t)i * 2 * n + j;
 
@@ -155,12 +155,12 @@ bool condensed_factor(Condensed *c, double s, double alpha, double beta)
 /* --- solutions --- */
 
 /* J_RD x_D, of an unknown of R */
-static double from_told(const Condensed *c, int i, const double *told)
+static double from_determined(const Condensed *c, int i, const double *determined)
 {
     double sum = 0;
 
-    for (int d = 0; d < c->told; d++)
-        sum += row_of(c, c->told + i)[d] * told[d];
+    for (int d = 0; d < c->determined; d++)
+        sum += row_of(c, c->determined + i)[d] * determined[d];
     return sum;
 }
 
@@ -170,50 +170,50 @@ static double from_left(const Condensed *c, int d, const double *x)
     double sum = 0;
 
     for (int j = 0; j < c->left; j++)
-        sum += row_of(c, d)[c->told + j] * x[j];
+        sum += row_of(c, d)[c->determined + j] * x[j];
     return sum;
 }
 
 void condensed_solve(Condensed *c, double *b)
 {
-    double *told = c->shared;
+    double *determined = c->shared;
 
-    for (int d = 0; d < c->told; d++)
-        told[d] = b[c->order[d]] / c->s;
+    for (int d = 0; d < c->determined; d++)
+        determined[d] = b[c->order[d]] / c->s;
     for (int i = 0; i < c->left; i++)
-        c->right[i] = b[c->order[c->told + i]] + from_told(c, i, told);
+        c->right[i] = b[c->order[c->determined + i]] + from_determined(c, i, determined);
     lu_solve(c->real, c->right);
     for (int i = 0; i < c->left; i++)
-        b[c->order[c->told + i]] = c->right[i];
-    for (int d = 0; d < c->told; d++)
-        b[c->order[d]] = told[d] + from_left(c, d, c->right) / c->s;
+        b[c->order[c->determined + i]] = c->right[i];
+    for (int d = 0; d < c->determined; d++)
+        b[c->order[d]] = determined[d] + from_left(c, d, c->right) / c->s;
 }
 
 void condensed_solve_pair(Condensed *c, double *b, double *other)
 {
     const double complex over = 1 / (c->alpha - I * c->beta);
-    double *told = c->shared, *turned = told + c->told;
+    double *determined = c->shared, *turned = determined + c->determined;
 
-    for (int d = 0; d < c->told; d++) {
+    for (int d = 0; d < c->determined; d++) {
         const double complex part = over * (b[c->order[d]] + I * other[c->order[d]]);
 
-        told[d] = creal(part);
+        determined[d] = creal(part);
         turned[d] = cimag(part);
     }
     for (int i = 0; i < c->left; i++) {
-        c->right[i] = b[c->order[c->told + i]] + from_told(c, i, told);
-        c->right[c->left + i] = other[c->order[c->told + i]] + from_told(c, i, turned);
+        c->right[i] = b[c->order[c->determined + i]] + from_determined(c, i, determined);
+        c->right[c->left + i] = other[c->order[c->determined + i]] + from_determined(c, i, turned);
     }
     lu_solve(c->pair, c->right);
     for (int i = 0; i < c->left; i++) {
-        b[c->order[c->told + i]] = c->right[i];
-        other[c->order[c->told + i]] = c->right[c->left + i];
+        b[c->order[c->determined + i]] = c->right[i];
+        other[c->order[c->determined + i]] = c->right[c->left + i];
     }
-    for (int d = 0; d < c->told; d++) {
+    for (int d = 0; d < c->determined; d++) {
         const double complex part =
             over * (from_left(c, d, c->right) + I * from_left(c, d, c->right + c->left));
 
-        b[c->order[d]] = told[d] + creal(part);
+        b[c->order[d]] = determined[d] + creal(part);
         other[c->order[d]] = turned[d] + cimag(part);
     }
 }

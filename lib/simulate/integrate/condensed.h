@@ -14,7 +14,7 @@ Condensed *condensed_new(int n);           /* new; free with condensed_free() */
 void condensed_free(Condensed *condensed); /* NULL is fine */
 /* Take J (n x n, row by row), copied. Factors of an earlier one are void. O(n^2 + entries of J_DR
  * times R). */
-void condensed_take(Condensed *condensed, const double *jacobian);
+void condensed_set(Condensed *condensed, const double *jacobian);
 /* Factor for a real s other than 0, and for alpha - i beta. False: singular. O(R^3) */
 bool condensed_factor(Condensed *condensed, double s, double alpha, double beta);
 bool condensed_factor_real(Condensed *condensed, double s); /* for the real one alone */

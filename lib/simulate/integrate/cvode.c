@@ -85,7 +85,7 @@ static int linear_system(realtype t, N_Vector y, N_Vector rate_there, SUNMatrix 
         c->jacobian_at = t;
         if (!by_problem(c, t, y) && by_differences(c, t, y, rate_there, point, column) != 0)
             return 1;
-        condensed_take(c->condensed, c->jacobian);
+        condensed_set(c->condensed, c->jacobian);
     }
     c->gamma = gamma;
     return 0;
@@ -232,7 +232,7 @@ static int find_weights(N_Vector y, N_Vector weights, void *data)
     const double part = stepper_part(&c->base);
 
     for (int i = 0; i < c->all; i++) {
-        const double value = NV_Ith_S(y, i), unit = ode_unit(c->base.ode, i);
+        const double value = NV_Ith_S(y, i), unit = ode_nominal(c->base.ode, i);
 
         NV_Ith_S(weights, i) =
             1 / (i < c->base.ode->n ? part * (control->rtol * fabs(value) + control->atol * unit)
@@ -243,7 +243,7 @@ static int find_weights(N_Vector y, N_Vector weights, void *data)
 
 static int first_start(Sundials *c, double t)
 {
-    int code = CVodeSetErrHandlerFn(c->memory, sundials_keep_reason, c);
+    int code = CVodeSetErrHandlerFn(c->memory, sundials_store_reason, c);
 
     if (code == 0)
         code = CVodeInit(c->memory, rate, t, c->w);

@@ -10,15 +10,15 @@
 #include <math.h>
 #include <string.h>
 
-#define FIRST_SEEN  5 /* stage with a weight in the result: those before, but 0, have none */
-#define SAFETY      0.9
-#define LUCK        60.0 /* times the root of the tolerance; estimates of order 3: 1 to 60 of it */
-#define STEEP_LUCK  2.0  /* the same where an element may cease to conduct within the step */
-#define SHRINK      (1 / 3.0)
-#define GROW        6.0
-#define PARTS_AGREE 30.0 /* errors that a step aims at, from its end to that of its parts */
-#define LEAP        1.2 /* times a step that failed near a singular position, to pass it, at most; */
-#define LEAP_PAST   0.93 /* and where in a step it is at the latest, between the last two stages */
+#define FIRST_SEEN         5 /* stage with a weight in the result: those before, but 0, have none */
+#define SAFETY             0.9
+#define LUCK               60.0 /* times the root of the tolerance; estimates of order 3: 1 to 60 of it */
+#define STIFF_ELEMENT_LUCK 2.0 /* the same where an element may cease to conduct in the step */
+#define SHRINK             (1 / 3.0)
+#define GROW               6.0
+#define PARTS_AGREE        30.0 /* errors that a step aims at, from its end to that of its parts */
+#define LEAP               1.2 /* times a step that failed near a singular position, to pass it, at most; */
+#define LEAP_PAST          0.93 /* and where in a step it is at the latest, between the last two stages */
 
 enum {
     LEAPS = 4,        /* on end, before steps become shorter */
@@ -76,18 +76,18 @@ static double step_error(Dop853 *d, double h)
     if (!(under > 0))
         return under;
     h = fabs(h);
-    third_order =
-        h * sqrt(sum3 / d->n * d->base.control.rtol) / (d->base.may_bend ? STEEP_LUCK : LUCK);
-    d->blur = fmax(1, d->rounded / d->base.control.rtol);
+    third_order = h * sqrt(sum3 / d->n * d->base.control.rtol) /
+                  (d->base.may_bend ? STIFF_ELEMENT_LUCK : LUCK);
+    d->rounding_error = fmax(1, d->rounded / d->base.control.rtol);
     d->rounded = 0;
-    return fmax(h * sum5 / sqrt(under * d->n) / d->blur, third_order * third_order);
+    return fmax(h * sum5 / sqrt(under * d->n) / d->rounding_error, third_order * third_order);
 }
 
 /* the new point of a step of h from d->old at base.before; `sums[1]` keeps what leads there */
 static bool try_step(Dop853 *d, double h)
 {
     stepper_begin(&d->base, d->base.before, d->old, h);
-    if (!dop853_take_stages(d, h))
+    if (!dop853_set_stages(d, h))
         return false;
     dop853_move(d->old, h, dop853_weigh(d, ROW_END, d->sums[1]), d->all, d->new);
     return true;
@@ -123,8 +123,8 @@ static Stepper *create(const Ode *ode, const Control *control)
         d->sums[i] = stepper_numbers(&d->base, d->room);
     for (int i = 0; i < COUNT(d->spare); i++)
         d->spare[i] = stepper_numbers(&d->base, d->room);
-    dop853_take_room(d, &d->dense[0]);
-    d->blur = 1;
+    dop853_reserve_room(d, &d->dense[0]);
+    d->rounding_error = 1;
     d->old = stepper_numbers(&d->base, d->room);
     d->new = stepper_numbers(&d->base, d->all);
     d->stage_point = stepper_numbers(&d->base, d->all);
@@ -174,7 +174,7 @@ static bool parts_agree(Dop853 *d)
     if (!d->base.is_read)
         return true;
     dop853_make_dense(d);
-    if (!(d->parted > PARTS_AGREE * d->blur))
+    if (!(d->parted > PARTS_AGREE * d->rounding_error))
         return true;
     d->stiff = stiff;
     d->calm = calm;
@@ -249,7 +249,7 @@ static bool take_step(Dop853 *d, double h, double t, bool is_choosy, double *err
     estimate = step_error(d, h);
     if (!isfinite(estimate))
         return false;
-    if (estimate <= 1 && is_choosy && d->blur > 1 && can_see_better(d, h)) {
+    if (estimate <= 1 && is_choosy && d->rounding_error > 1 && can_see_better(d, h)) {
         *error = estimate;
         return false;
     }

@@ -18,7 +18,7 @@
 #define DENSE_LOOK   0.71  /* where in a step that is */
 #define BLURRED      1e-10 /* by this and more: a stage next to a singular position */
 
-void dop853_take_room(Dop853 *d, DensePart *part)
+void dop853_reserve_room(Dop853 *d, DensePart *part)
 {
     if (part->old != NULL)
         return;
@@ -32,7 +32,7 @@ static void take_extra_stages(Dop853 *d, double h)
 {
     dop853_note_rounding(d);
     for (int stage = ROW_EXTRA; stage < STAGES; stage++)
-        (void)dop853_take_stage(d, stage, h, d->stage_point); /* NaN there shows in what is read */
+        (void)dop853_set_stage(d, stage, h, d->stage_point); /* NaN there shows in what is read */
 }
 
 /* The interpolant of a step of h from d->old, at base.before, to `new` (II.6.20 and the appendix),
@@ -60,7 +60,7 @@ static void fill_part(Dop853 *d, double h, const double *new, DensePart *out)
 /* the same with three more stages */
 static void make_part(Dop853 *d, double h, const double *new, DensePart *out)
 {
-    dop853_take_room(d, out);
+    dop853_reserve_room(d, out);
     take_extra_stages(d, h);
     fill_part(d, h, new, out);
 }
@@ -116,7 +116,7 @@ static double part_defect(Dop853 *d, const DensePart *part)
     interpolate(part, dop853_nodes[STAGES - 1], d->room, y);
     for (int i = 0; i < d->n; i++)
         off[i] = y[i] - d->stage_point[i];
-    if (dop853_norm(d, off) <= DENSE_NEAR * d->blur)
+    if (dop853_norm(d, off) <= DENSE_NEAR * d->rounding_error)
         return 0;
     return slope_defect(d, part, DENSE_LOOK);
 }
@@ -128,7 +128,7 @@ static double slope_by_stage(int stage, double s)
     const double *terms[DENSE_TERMS];
 
     for (int j = 0; j < DENSE_ROWS; j++) {
-        const Terms *row = &dop853_rows[ROW_DENSE + j];
+        const TableauTerms *row = &dop853_rows[ROW_DENSE + j];
 
         for (int k = 0; k < row->count; k++)
             if (row->at[k].stage == stage)
@@ -141,7 +141,7 @@ static double slope_by_stage(int stage, double s)
 
 /* Rates at the last `count` stages, such that the slope is y' at as many other places; false where
  * that has no value. */
-static bool tell_stages(Dop853 *d, DensePart *part, int count)
+static bool set_stages(Dop853 *d, DensePart *part, int count)
 {
     /* what is missed there is off by 0.15 h J times what was missed before, by 0.03 for one */
     static const double places[STAGES - ROW_EXTRA] = {0.96, 0.57, 0.39};
@@ -184,12 +184,13 @@ static double mend_stages(Dop853 *d, DensePart *part, double defect)
             stage = i;
     if (!(d->rounding[stage] > BLURRED))
         return defect;
-    while (now > DENSE_NEAR * d->blur && now < 0.5 * last && tell_stages(d, part, STAGES - stage)) {
+    while (now > DENSE_NEAR * d->rounding_error && now < 0.5 * last &&
+           set_stages(d, part, STAGES - stage)) {
         last = now;
         /* not next to that stage */
         now = slope_defect(d, part, stage < STAGES - 1 ? DENSE_LOOK : 1 - DENSE_LOOK);
     }
-    if (now <= DENSE_DEFECT * d->blur)
+    if (now <= DENSE_DEFECT * d->rounding_error)
         return now;
     make_part(d, part->length, d->base.y, part);
     return defect;
@@ -219,7 +220,7 @@ static double divide(Dop853 *d, int parts)
         double defect;
 
         d->base.before = before + p * d->step / parts;
-        if (!dop853_take_stages(d, h))
+        if (!dop853_set_stages(d, h))
             return NAN;
         if (is_last) {
             memcpy(new, d->base.y, (size_t)d->all * sizeof(double));
@@ -263,7 +264,7 @@ static void take_whole(Dop853 *d)
 {
     d->parts = 1;
     d->parted = 0;
-    (void)dop853_take_stages(d, d->step); /* as they were */
+    (void)dop853_set_stages(d, d->step); /* as they were */
     make_part(d, d->step, d->base.y, &d->dense[0]);
 }
 
@@ -277,10 +278,11 @@ void dop853_make_dense(Dop853 *d)
     d->parted = 0;
     make_part(d, d->step, d->base.y, &d->dense[0]);
     worst = part_defect(d, &d->dense[0]);
-    if (worst > DENSE_DEFECT * d->blur)
+    if (worst > DENSE_DEFECT * d->rounding_error)
         worst = mend_stages(d, &d->dense[0], worst);
     /* shorter parts are no better where rounding is what is seen */
-    while (worst > DENSE_DEFECT * d->blur && worst < 0.5 * last && d->parts < DENSE_PARTS) {
+    while (worst > DENSE_DEFECT * d->rounding_error && worst < 0.5 * last &&
+           d->parts < DENSE_PARTS) {
         last = worst;
         d->parts *= 2;
         worst = divide_step(d, d->parts);

@@ -49,7 +49,7 @@ typedef struct Dop853 {
     int parts;                    /* of the last step; 0: dense output isn't there yet */
     double parted;                /* errors that it aims at, from its end to that of its parts */
     double step;                  /* of the last step, s; */
-    double blur;                  /* and what rounding makes of its tolerance */
+    double rounding_error;        /* and what rounding makes of its tolerance */
     double rounding[STAGES];      /* of rates at each stage, not 0 near a singular position; */
     double rounded;               /* the largest since an error was measured by it */
     bool was_rejected;
@@ -62,14 +62,14 @@ typedef struct TableauEntry {
     double weight;
 } TableauEntry;
 
-typedef struct Terms {
+typedef struct TableauTerms {
     const TableauEntry *at;
     int count;
-} Terms;
+} TableauTerms;
 
 /* the tableau (dop853_table.c): where in a step its stages are, as parts of it; and its rows */
 extern const double dop853_nodes[STAGES];
-extern const Terms dop853_rows[ROWS];
+extern const TableauTerms dop853_rows[ROWS];
 
 /* The weighted sum of stages that a row of the tableau tells (room), in `sums`, which it returns;
  * in the order of the row's terms, whatever the processor. */
@@ -80,9 +80,9 @@ void dop853_move(const double *old, double h, const double *sum, int count, doub
 void dop853_note_rounding(Dop853 *d);
 /* k[stage] and its rounding from the stages before it, in a step of h from `old` at base.before;
  * `point` (all) is where. False: f is undefined there. */
-bool dop853_take_stage(Dop853 *d, int stage, double h, double *point);
+bool dop853_set_stage(Dop853 *d, int stage, double h, double *point);
 /* Stages 1 to 11 of such a step; `stage_point` keeps that of stage 11. False: as above. */
-bool dop853_take_stages(Dop853 *d, double h);
+bool dop853_set_stages(Dop853 *d, double h);
 
 /* `scale`: an error that a step may make in each entry (n), with y at its ends a and b */
 void dop853_choose_scale(Dop853 *d, const double *a, const double *b);
@@ -96,7 +96,7 @@ double dop853_product(const Dop853 *d, const double *v, const double *w);
 void dop853_watch_stiffness(Dop853 *d, double h);
 
 /* room for a part of the dense output, unless it is there */
-void dop853_take_room(Dop853 *d, DensePart *part);
+void dop853_reserve_room(Dop853 *d, DensePart *part);
 /* The dense output of the last step, from its stages: three evaluations, some hundreds where it is
  * made of parts. Sets `parts` and `parted`. */
 void dop853_make_dense(Dop853 *d);

@@ -28,13 +28,13 @@ double dop853_product(const Dop853 *d, const double *v, const double *w)
 AS_WIDE_AS_CAN_BE static int choose_many_scales(Dop853 *d, const double *a, const double *b)
 {
     const FourTruths size = {INT64_MAX, INT64_MAX, INT64_MAX, INT64_MAX}; /* all but the sign */
-    const double *cap = d->base.ode->cap;
+    const double *magnitude_bound = d->base.ode->magnitude_bound;
     int i = 0;
 
     for (; i + 4 <= d->n; i += 4) {
         const FourTruths one = (FourTruths)(*(const Four *)(a + i)) & size;
         const FourTruths other = (FourTruths)(*(const Four *)(b + i)) & size;
-        const Four most = *(const Four *)(cap + i);
+        const Four most = *(const Four *)(magnitude_bound + i);
         const FourTruths second = (Four)other > (Four)one;
         const Four larger = (Four)((other & second) | (one & ~second));
         const FourTruths within = larger < most;
@@ -49,12 +49,12 @@ AS_WIDE_AS_CAN_BE static int choose_many_scales(Dop853 *d, const double *a, cons
 void dop853_choose_scale(Dop853 *d, const double *a, const double *b)
 {
     const Ode *ode = d->base.ode;
-    const double *slack = ode->slack;
-    const bool is_plain = slack == NULL && ode->unit == NULL && ode->cap != NULL;
+    const double *error_floor = ode->error_floor;
+    const bool is_plain = error_floor == NULL && ode->unit == NULL && ode->magnitude_bound != NULL;
 
     for (int i = is_plain ? choose_many_scales(d, a, b) : 0; i < d->n; i++) {
         d->scale[i] = DOP853_AIM * stepper_tolerance(&d->base, i, fmax(fabs(a[i]), fabs(b[i])));
-        if (slack != NULL)
-            d->scale[i] = fmax(d->scale[i], slack[i]);
+        if (error_floor != NULL)
+            d->scale[i] = fmax(d->scale[i], error_floor[i]);
     }
 }

@@ -12,8 +12,8 @@ enum { MOST_FOURS = 8 }; /* that are summed together, where there are so many en
 
 /* Of `fours` Fours from `first` on: the weighted sums of stages, in the order of their terms
  * whatever stands beside. What a term takes beside its products, all of them share. */
-static inline __attribute__((always_inline)) void weigh_fours(const Dop853 *d, const Terms *terms,
-                                                              int first, int fours, double *sums)
+static inline __attribute__((always_inline)) void
+weigh_fours(const Dop853 *d, const TableauTerms *terms, int first, int fours, double *sums)
 {
     Four sum[MOST_FOURS] = {{0}};
 
@@ -32,7 +32,7 @@ static inline __attribute__((always_inline)) void weigh_fours(const Dop853 *d, c
 
 AS_WIDE_AS_CAN_BE const double *dop853_weigh(const Dop853 *d, int row, double *sums)
 {
-    const Terms *terms = &dop853_rows[row];
+    const TableauTerms *terms = &dop853_rows[row];
     int first = 0;
 
     for (; first + 4 * MOST_FOURS <= d->room; first += 4 * MOST_FOURS)
@@ -58,7 +58,7 @@ void dop853_note_rounding(Dop853 *d)
     d->rounded = fmax(d->rounded, stepper_rounding(&d->base));
 }
 
-bool dop853_take_stage(Dop853 *d, int stage, double h, double *point)
+bool dop853_set_stage(Dop853 *d, int stage, double h, double *point)
 {
     bool is_defined;
 
@@ -70,12 +70,12 @@ bool dop853_take_stage(Dop853 *d, int stage, double h, double *point)
     return is_defined;
 }
 
-bool dop853_take_stages(Dop853 *d, double h)
+bool dop853_set_stages(Dop853 *d, double h)
 {
     dop853_note_rounding(d);
     memset(d->rounding, 0, sizeof d->rounding);
     for (int stage = 1; stage < ROW_END; stage++)
-        if (!dop853_take_stage(d, stage, h, d->stage_point))
+        if (!dop853_set_stage(d, stage, h, d->stage_point))
             return false;
     return true;
 }

@@ -34,7 +34,7 @@ static bool apply_jacobian(Dop853 *d, const double *w, double *out)
  * J^k w for k = 0, 1 by least squares, w what is left of a difference after two products with J.
  * The roots of x^2 = a x + b are its eigenvalues; swinging ones are further from the real axis than
  * from the imaginary one. */
-static bool swings(Dop853 *d)
+static bool is_oscillatory(Dop853 *d)
 {
     /* free until asked for */
     double **terms = d->dense[0].terms, *w[] = {terms[0], terms[1], terms[2], terms[3]};
@@ -81,7 +81,7 @@ void dop853_watch_stiffness(Dop853 *d, double h)
         d->calm = 0;
         if (++d->stiff >= STIFF_COUNT) {
             d->base.is_stiff = true;
-            d->base.swings = swings(d);
+            d->base.is_oscillatory = is_oscillatory(d);
             d->stiff = 0;
         }
     } else if (++d->calm >= CALM_COUNT) {

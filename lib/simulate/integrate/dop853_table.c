@@ -234,7 +234,7 @@ static const TableauEntry dense6[] = {
     {15, -0.14972683625798562581422125276e3},
 };
 
-const Terms dop853_rows[ROWS] = {
+const TableauTerms dop853_rows[ROWS] = {
 #define TERMS(name) {name, COUNT(name)}
     {NULL, 0},
     TERMS(stage1), TERMS(stage2), TERMS(stage3), TERMS(stage4), TERMS(stage5),

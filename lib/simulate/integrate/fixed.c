@@ -31,7 +31,7 @@ static void estimate(FixedStepper *f, double h)
         double size = fmax(fabs(f->base.y[i]), fabs(f->old[i]));
         double error = f->error(f, h, i);
 
-        if (ode->slack != NULL && error <= ode->slack[i])
+        if (ode->error_floor != NULL && error <= ode->error_floor[i])
             continue;
         error /= stepper_tolerance(&f->base, i, size);
         if (error > f->base.missed) {

@@ -267,7 +267,7 @@ static int set_newton(Ida *d)
 static int first_start(Ida *d, double t)
 {
     const Control *control = &d->s.base.control;
-    int code = IDASetErrHandlerFn(d->s.memory, sundials_keep_reason, d);
+    int code = IDASetErrHandlerFn(d->s.memory, sundials_store_reason, d);
 
     if (code == 0)
         code = IDAInit(d->s.memory, residual, t, d->s.w, d->s.rate);

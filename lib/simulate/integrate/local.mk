@@ -12,8 +12,8 @@ libcore_la_SOURCES += \
   lib/simulate/integrate/fixed.c \
   lib/simulate/integrate/fixed.h \
   lib/simulate/integrate/gauss.c \
-  lib/simulate/integrate/headway.c \
-  lib/simulate/integrate/headway.h \
+  lib/simulate/integrate/stagnation.c \
+  lib/simulate/integrate/stagnation.h \
   lib/simulate/integrate/ida.c \
   lib/simulate/integrate/method.c \
   lib/simulate/integrate/methods.def \

@@ -71,16 +71,16 @@ typedef struct Ode {
     bool (*project)(void *context, double t, double *y);
     /* n: |y_i| counts up to here in a relative tolerance (an angle of many turns isn't known less
      * well than one of a few); NULL: all of it */
-    const double *cap;
+    const double *magnitude_bound;
     /* n: how much of y_i counts as 1 in the absolute tolerance (a shape is as far off as what it
      * moves); NULL: 1 */
     const double *unit;
     /* n: errors of y_i up to here don't count, projected as it is after each step; NULL: all do.
      * Methods that don't project leave it aside. */
-    const double *slack;
+    const double *error_floor;
     /* Largest relative error that rounding may have left of rates since the last call; NULL: as
      * anywhere. No step is shortened for the sake of less. */
-    double (*blur)(void *context);
+    double (*rounding_error)(void *context);
     OdeJacobian jacobian;
     Dae dae;         /* entries 0..n+quadratures-1 of w are y; n 0: not offered */
     bool is_network; /* nothing moves in it: messages speak of a network */
@@ -92,7 +92,7 @@ static inline const char *ode_rates(const Ode *ode)
     return ode->is_network ? "the network's rates" : "the accelerations";
 }
 
-static inline double ode_unit(const Ode *ode, int i)
+static inline double ode_nominal(const Ode *ode, int i)
 {
     return ode->unit != NULL && i < ode->n ? ode->unit[i] : 1;
 }
@@ -165,11 +165,11 @@ typedef struct Method {
 } Method;
 
 /* how steps since the last start become shorter */
-typedef struct Waning {
+typedef struct StepShrinkage {
     int64_t steps; /* and t: when it was looked at last */
     double t, way; /* s; way: what the steps before that had got over together */
     int times;     /* on end that it has become less */
-} Waning;
+} StepShrinkage;
 
 struct Stepper {
     const Method *method;
@@ -180,19 +180,19 @@ struct Stepper {
     double t;            /* its end */
     double *y;           /* y at t, projected where the method projects */
     LIST(double *) room; /* where it and its method keep numbers */
-    double next;   /* step it would take next, s; 0: to be chosen, as after a start, when its driver
-                    * may say it */
-    int stuck;     /* steps on end that end where they began: numbers hold no shorter ones */
-    Waning waning; /* headway.h */
-    double bound;  /* by whoever drives it: no longer step now, s; 0: free */
-    bool may_bend; /* likewise: something steep acts that may end within the step */
-    bool is_read;  /* likewise: between its ends each step is read for conditions of the state */
+    double next; /* step it would take next, s; 0: to be chosen, as after a start, when its driver
+                  * may say it */
+    int stuck;   /* steps on end that end where they began: numbers hold no shorter ones */
+    StepShrinkage step_shrinkage; /* stagnation.h */
+    double bound;                 /* by whoever drives it: no longer step now, s; 0: free */
+    bool may_bend;                /* likewise: something steep acts that may end within the step */
+    bool is_read;     /* likewise: between its ends each step is read for conditions of the state */
     bool has_pulses;  /* likewise: it takes many short steps, for what acts for a short time or
                        * behind jumps */
     double missed;    /* fixed steps: largest estimated error of one, in tolerances, */
     double missed_at; /* and when that was, s */
     bool is_stiff;    /* explicit methods: steps are cut by stability, not by accuracy */
-    bool swings;      /* ... and what cuts them swings rather than decays */
+    bool is_oscillatory; /* ... and what cuts them swings rather than decays */
 };
 
 static inline int stepper_length(const Stepper *stepper) /* of y */
@@ -210,10 +210,11 @@ static inline bool stepper_rate(Stepper *stepper, double t, const double *y, dou
 /* the error of y_i that counts as one, of an entry of that size */
 static inline double stepper_tolerance(const Stepper *stepper, int i, double size)
 {
-    const double *cap = stepper->ode->cap;
+    const double *magnitude_bound = stepper->ode->magnitude_bound;
 
-    return stepper->control.atol * ode_unit(stepper->ode, i) +
-           stepper->control.rtol * (cap != NULL ? fmin(size, cap[i]) : size);
+    return stepper->control.atol * ode_nominal(stepper->ode, i) +
+           stepper->control.rtol *
+               (magnitude_bound != NULL ? fmin(size, magnitude_bound[i]) : size);
 }
 
 /* h, or what is allowed of it */
@@ -261,12 +262,12 @@ static inline void stepper_begin(const Stepper *s, double t, const double *y, do
 /* Largest relative error that rounding may have left of rates since it was last asked for. */
 static inline double stepper_rounding(const Stepper *s)
 {
-    return s->ode->blur != NULL ? s->ode->blur(s->ode->context) : 0;
+    return s->ode->rounding_error != NULL ? s->ode->rounding_error(s->ode->context) : 0;
 }
 
 /* How many times the tolerance an error may be, since rounding leaves no less. Asked once a step.
  */
-static inline double stepper_blur(const Stepper *s)
+static inline double stepper_rounding_error(const Stepper *s)
 {
     return fmax(1, stepper_rounding(s) / s->control.rtol);
 }
@@ -309,7 +310,7 @@ MUST_USE Status stepper_arrive(Stepper *stepper, double reached, double h, doubl
 
 /* What methods with a history do where their last step has to end at t, inside it: y there,
  * projected. `last` is y at the end of the step, to which it comes back where that fails. */
-MUST_USE Status stepper_take_back(Stepper *stepper, double t, const double *last, Diag *diag);
+MUST_USE Status stepper_reject(Stepper *stepper, double t, const double *last, Diag *diag);
 
 #define MAX_REJECTIONS 10   /* in a row, by NaN or a projection that fails, end a run, */
 #define RETREAT        0.25 /* each so much shorter: the last, by a million */

@@ -137,12 +137,12 @@ static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
 
 static void choose_scale(Radau *r)
 {
-    const double *slack = r->base.ode->slack;
+    const double *error_floor = r->base.ode->error_floor;
 
     for (int i = 0; i < r->n; i++) {
         r->scale[i] = stepper_tolerance(&r->base, i, fabs(r->old[i]));
-        if (slack != NULL)
-            r->scale[i] = fmax(r->scale[i], slack[i]);
+        if (error_floor != NULL)
+            r->scale[i] = fmax(r->scale[i], error_floor[i]);
     }
 }
 
@@ -419,7 +419,7 @@ static double step_error(Radau *r, double h)
         if (!stepper_rate(&r->base, r->base.before, r->point, r->column))
             break;
     }
-    return fmax(size / stepper_blur(&r->base), 1e-10);
+    return fmax(size / stepper_rounding_error(&r->base), 1e-10);
 }
 
 /* The same by J_3: where stiff forces turn, J at the start filters out what isn't stiff at the end.
@@ -440,7 +440,7 @@ static double error_at_end(Radau *r, double h)
         return HUGE_VAL;
     compare_embedded(r, r->old_rate, h);
     lu_solve(r->end, r->error);
-    return scaled_norm(r, r->error, 1) / stepper_blur(&r->base);
+    return scaled_norm(r, r->error, 1) / stepper_rounding_error(&r->base);
 }
 
 /* Error of the cubic that is read within the step, in units of the tolerance. The embedded formula
@@ -456,7 +456,7 @@ static double reading_error(Radau *r, double h)
     compare_embedded(r, r->slope, h);
     for (int i = 0; i < r->n; i++)
         r->error[i] = r->error[i] * BETWEEN * h * h * h * h / meet;
-    return scaled_norm(r, r->error, 1) / stepper_blur(&r->base);
+    return scaled_norm(r, r->error, 1) / stepper_rounding_error(&r->base);
 }
 
 /* the slope of the cubic at the step's end */

@@ -222,7 +222,7 @@ bool shifted_differentiate(Shifted *s, double t, const double *y, const double *
         return false;
     if (s->dense == NULL)
         s->dense = condensed_new(s->n);
-    condensed_take(s->dense, s->jacobian);
+    condensed_set(s->dense, s->jacobian);
     return true;
 }
 

@@ -35,7 +35,7 @@ void stepper_place(Stepper *s, double t, const double *y)
     s->t = s->before = t;
     s->next = 0;
     s->stuck = 0;
-    s->waning = (Waning){.steps = s->counts.steps, .t = t};
+    s->step_shrinkage = (StepShrinkage){.steps = s->counts.steps, .t = t};
 }
 
 Status stepper_start(Stepper *s, double t, const double *y, double *rate, Diag *diag)
@@ -62,7 +62,7 @@ Status stepper_arrive(Stepper *s, double reached, double h, double next, Diag *d
     return OK;
 }
 
-Status stepper_take_back(Stepper *s, double t, const double *last, Diag *diag)
+Status stepper_reject(Stepper *s, double t, const double *last, Diag *diag)
 {
     const Ode *ode = s->ode;
 

@@ -38,8 +38,8 @@ void sundials_init(Sundials *s, const SundialsCalls *calls, const Method *method
     s->out = MEM_GIVEN(N_VNew_Serial(n, s->context));
 }
 
-void sundials_keep_reason(int code, const char *module, const char *function, char *message,
-                          void *stepper)
+void sundials_store_reason(int code, const char *module, const char *function, char *message,
+                           void *stepper)
 {
     Sundials *s = stepper;
 
@@ -179,7 +179,7 @@ Status sundials_shorten(Stepper *stepper, double t, Diag *diag)
 {
     const Sundials *s = (const Sundials *)stepper;
 
-    return stepper_take_back(stepper, t, N_VGetArrayPointer(s->w), diag);
+    return stepper_reject(stepper, t, N_VGetArrayPointer(s->w), diag);
 }
 
 /* once there is a history */

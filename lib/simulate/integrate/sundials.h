@@ -63,8 +63,8 @@ typedef struct Sundials {
 void sundials_init(Sundials *s, const SundialsCalls *calls, const Method *method, const Ode *ode,
                    const Control *control, int n);
 /* its own words belong into our message, not on the terminal */
-void sundials_keep_reason(int code, const char *module, const char *function, char *message,
-                          void *stepper);
+void sundials_store_reason(int code, const char *module, const char *function, char *message,
+                           void *stepper);
 /* y becomes that of a restart, w too; counts begin from those before. */
 void sundials_place(Sundials *s, double t, const double *y);
 /* What a step may be off in a quadrature that is `value` and changes by `rate` now, in its unit.

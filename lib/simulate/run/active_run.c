@@ -19,7 +19,7 @@
 
 /* --- made and freed --- */
 
-ActiveRun *active_run_new(RunKind kind, System *system, const Setting *setting)
+ActiveRun *active_run_new(RunKind kind, System *system, const SimulationInput *setting)
 {
     ActiveRun *r = NEW(ActiveRun);
 
@@ -28,8 +28,8 @@ ActiveRun *active_run_new(RunKind kind, System *system, const Setting *setting)
     r->result = NEW(Result);
     r->result->kind = kind;
     r->result->system = system;
-    r->result->report.global_error = NAN;
-    r->result->report.singular_time = NAN;
+    r->result->monitor_report.global_error = NAN;
+    r->result->monitor_report.singular_time = NAN;
     r->phases = NEW(Phases);
     r->phases->system = system;
     r->phases->parameters = (Parameters){.value = setting->parameter,
@@ -60,7 +60,7 @@ void active_run_free(ActiveRun *r)
 
 /* --- at the end --- */
 
-static Manner manner_of(const ActiveRun *r, const Setting *setting)
+static Manner manner_of(const ActiveRun *r, const SimulationInput *setting)
 {
     return (Manner){.embedded = setting->form == FORM_EMBEDDED && r->kind == RUN_SIMULATE,
                     .independent = setting->independent,
@@ -77,7 +77,7 @@ static const char *keep_text(Result *result, const char *text)
 }
 
 /* the manner, whose names are the setting's, with names of its own */
-static void keep_manner(const ActiveRun *r, const Setting *setting)
+static void keep_manner(const ActiveRun *r, const SimulationInput *setting)
 {
     Result *result = r->result;
     const size_t size = (size_t)setting->independent_count * sizeof(char *);
@@ -129,7 +129,8 @@ static void keep_events(const ActiveRun *r)
     }
 }
 
-void active_run_finish(ActiveRun *r, const Setting *setting, Result **out, ResultReader **reader)
+void active_run_finish(ActiveRun *r, const SimulationInput *setting, Result **out,
+                       ResultReader **reader)
 {
     Result *result = r->result;
 
@@ -152,7 +153,7 @@ void active_run_finish(ActiveRun *r, const Setting *setting, Result **out, Resul
 
 /* --- on its way --- */
 
-Status active_run_open_phase(ActiveRun *r, Phase *phase, const Setting *setting, Diag *diag)
+Status active_run_open_phase(ActiveRun *r, Phase *phase, const SimulationInput *setting, Diag *diag)
 {
     const Manner manner = manner_of(r, setting);
 
@@ -160,12 +161,13 @@ Status active_run_open_phase(ActiveRun *r, Phase *phase, const Setting *setting,
 }
 
 Status active_run_events(ActiveRun *r, const Phase *phase, const EventRecord *earlier,
-                         int earlier_count, const Setting *setting, Events **out, Diag *diag)
+                         int earlier_count, const SimulationInput *setting, Events **out,
+                         Diag *diag)
 {
     mem_keep(r);
     const EventsPlan plan = {.layout = phase->layout,
                              .parameters = &r->phases->parameters,
-                             .equations = numbers_equations(phase->numbers),
+                             .equations = compiled_equations(phase->numbers),
                              .motion = phase->motion,
                              .rows = r->result->start.rows,
                              .row_count = r->result->start.row_count,
@@ -232,15 +234,16 @@ static int compare(const void *a, const void *b)
 static void add_beside(const ActiveRun *r, int i, uint64_t *random, Grid *out)
 {
     const Grid *grid = &r->result->grid;
-    const RunReport *report = &r->result->report;
+    const RunReport *monitor_report = &r->result->monitor_report;
     const Phase *phase = r->phases->at[grid->phase[i]];
-    const double *cap = numbers_equations(phase->numbers)->cap;
+    const double *magnitude_bound = compiled_equations(phase->numbers)->magnitude_bound;
     double *y = NEW_ARRAY(double, phase->length);
 
     for (int turn = 0; turn <= BESIDE; turn++) {
         memcpy(y, grid_row(grid, i), (size_t)phase->length * sizeof(double));
-        for (int k = 0; turn > 0 && k < layout_references(phase->layout); k++)
-            y[k] += copysign(report->atol + report->rtol * fmin(fabs(y[k]), cap[k]),
+        for (int k = 0; turn > 0 && k < variable_index_references(phase->layout); k++)
+            y[k] += copysign(monitor_report->atol +
+                                 monitor_report->rtol * fmin(fabs(y[k]), magnitude_bound[k]),
                              random_unit(random));
         grid_add(out, grid->times[i], grid->phase[i], y, phase->length);
     }
@@ -248,9 +251,9 @@ static void add_beside(const ActiveRun *r, int i, uint64_t *random, Grid *out)
 }
 
 /* what states that are off by a tolerance bring or take: */
-typedef struct Slack {
+typedef struct EnergyErrorFloor {
     double energy, power; /* J, W */
-} Slack;
+} EnergyErrorFloor;
 
 /* W, of what does work; NAN where the equations have no solution */
 static double power_at(const ActiveRun *r, const Grid *grid, int i)
@@ -275,7 +278,7 @@ static double upper_quartile(double *values, int count)
 
 /* At some of the rows, and of these the upper quartile, since one in a hard wall tells of that
  * alone. */
-static Status slack_of_tolerance(ActiveRun *r, Slack *out, Diag *diag)
+static Status find_energy_error_floor(ActiveRun *r, EnergyErrorFloor *out, Diag *diag)
 {
     const int rows = r->result->grid.count, count = rows < PLACES ? rows : PLACES;
     const Driven none = {0};
@@ -297,34 +300,34 @@ static Status slack_of_tolerance(ActiveRun *r, Slack *out, Diag *diag)
             power[i] = fmax(power[i], fabs(power_at(r, &beside, row + turn) - there));
         }
     }
-    *out = (Slack){upper_quartile(energy, count), upper_quartile(power, count)};
+    *out = (EnergyErrorFloor){upper_quartile(energy, count), upper_quartile(power, count)};
 done:
     grid_free(&beside);
     return status;
 }
 
 /* over the rows of a run: largest sizes */
-typedef struct Balance {
+typedef struct EnergyBalance {
     double drift;        /* |E - E0 - work| */
     double stored, work; /* the larger of kinetic and potential energy; |work| */
     double time;         /* s, from the first row to the last */
-} Balance;
+} EnergyBalance;
 
 /* Stored energy that no work accounts for can't be right, unless it is the work that isn't: of
  * large powers that cancel, as where a light part is pushed through oil, a tolerance leaves more
  * than is ever stored, and no state comes of it. What rounding leaves of powers that no state tells
  * is below the absolute tolerance, in J. */
-static Status judge_balance(ActiveRun *r, Balance balance, Diag *diag)
+static Status judge_balance(ActiveRun *r, EnergyBalance balance, Diag *diag)
 {
-    const RunReport *report = &r->result->report;
+    const RunReport *monitor_report = &r->result->monitor_report;
     const bool is_rounding =
-        balance.drift <= report->atol && balance.work > ROUNDED * balance.drift;
-    Slack slack;
+        balance.drift <= monitor_report->atol && balance.work > ROUNDED * balance.drift;
+    EnergyErrorFloor error_floor;
 
-    if (!(balance.drift > OPEN * balance.stored) || is_rounding || !(report->rtol > 0))
+    if (!(balance.drift > OPEN * balance.stored) || is_rounding || !(monitor_report->rtol > 0))
         return OK;
-    TRY(slack_of_tolerance(r, &slack, diag));
-    if (balance.drift > MANY * slack.energy + WORK * slack.power * balance.time)
+    TRY(find_energy_error_floor(r, &error_floor, diag));
+    if (balance.drift > MANY * error_floor.energy + WORK * error_floor.power * balance.time)
         remarks_add(
             &r->result->remarks,
             (Remark){.kind = REMARK_ENERGY_OPEN, .size = balance.drift, .to = balance.stored});
@@ -355,10 +358,10 @@ Status active_run_balance(ActiveRun *r, Diag *diag)
         is_known = is_known && isfinite(balance);
         largest = fmax(largest, value[0]);
     }
-    r->result->report.energy_drift = is_known ? drift : (double)NAN;
-    r->result->report.energy_scale = largest;
+    r->result->monitor_report.energy_drift = is_known ? drift : (double)NAN;
+    r->result->monitor_report.energy_scale = largest;
     if (is_known)
-        CHECK(judge_balance(r, (Balance){drift, stored, most, time}, diag));
+        CHECK(judge_balance(r, (EnergyBalance){drift, stored, most, time}, diag));
 done:
     mem_free(energies);
     return status;

@@ -23,19 +23,20 @@ typedef struct ActiveRun {
 } ActiveRun;
 
 /* New: a result of nothing, no phases yet. */
-ActiveRun *active_run_new(RunKind kind, System *system, const Setting *setting);
+ActiveRun *active_run_new(RunKind kind, System *system, const SimulationInput *setting);
 void active_run_free(ActiveRun *run); /* NULL is fine */
 /* The result, finished, and a reader with the phases (NULL: nobody reads); frees the rest. */
-void active_run_finish(ActiveRun *run, const Setting *setting, Result **out, ResultReader **reader);
+void active_run_finish(ActiveRun *run, const SimulationInput *setting, Result **out,
+                       ResultReader **reader);
 
 /* What solves the equations of a phase, as the start and the setting ask for; fails as
  * phases_open() does. */
-MUST_USE Status active_run_open_phase(ActiveRun *run, Phase *phase, const Setting *setting,
+MUST_USE Status active_run_open_phase(ActiveRun *run, Phase *phase, const SimulationInput *setting,
                                       Diag *diag);
 /* New, or NULL where there are none: the setting's events in the equations of a phase, going on
  * with what is recorded of earlier ones. */
 MUST_USE Status active_run_events(ActiveRun *run, const Phase *phase, const EventRecord *earlier,
-                                  int earlier_count, const Setting *setting, Events **out,
+                                  int earlier_count, const SimulationInput *setting, Events **out,
                                   Diag *diag);
 /* a row of the phase that it starts in */
 void active_run_add_row(ActiveRun *run, double t, const double *y);

@@ -2,7 +2,7 @@
 #include "simulate/run/begin.h"
 
 #include "base/memory.h"
-#include "simulate/equations/causes.h"
+#include "simulate/equations/failure_diagnosis.h"
 #include "simulate/run/mode_phases.h"
 #include "simulate/run/mode_start.h"
 #include "simulate/run/result_reader_impl.h"
@@ -14,7 +14,7 @@
 
 /* What supplies a driver's motion is found in the equations of the whole, as long as no ideal
  * switch is in them. */
-static bool goes_through_modes(const Layout *whole)
+static bool goes_through_modes(const VariableIndex *whole)
 {
     bool any_ideal = false;
 
@@ -23,7 +23,7 @@ static bool goes_through_modes(const Layout *whole)
     return system_has_modes(whole->system) && (any_ideal || whole->ne == 0);
 }
 
-static Status prepare(RunKind kind, System *system, const Setting *setting, ActiveRun **out,
+static Status prepare(RunKind kind, System *system, const SimulationInput *setting, ActiveRun **out,
                       Diag *diag)
 {
     ActiveRun *r = active_run_new(kind, system, setting);
@@ -32,7 +32,7 @@ static Status prepare(RunKind kind, System *system, const Setting *setting, Acti
     Status status = OK;
 
     r->phases->tolerance = START_TOLERANCE;
-    report(setting->watch, "compiling", -1);
+    monitor_report(setting->watch, "compiling", -1);
     CHECK(phase_new(system, &r->phases->parameters, NULL, 0, &whole, diag));
     phases_add(r->phases, whole);
     if (goes_through_modes(whole->layout)) {
@@ -56,7 +56,7 @@ static Status check_start(ActiveRun *r, Diag *diag)
 
     if (motion_solve(r->phase->motion, 0, r->begin, &solved))
         return OK;
-    if (cause_tell(r->phase->layout, &r->phases->parameters, 0, r->begin, what, diag))
+    if (failure_diagnose(r->phase->layout, &r->phases->parameters, 0, r->begin, what, diag))
         return E_SINGULAR;
     (void)diag_set(diag, E_SINGULAR, "%s", what);
     diag_hint(diag, is_network ? "a circuit needs every current and voltage determined"
@@ -65,7 +65,7 @@ static Status check_start(ActiveRun *r, Diag *diag)
     return E_SINGULAR;
 }
 
-Status run_begin(ActiveRun *r, const Setting *setting, Diag *diag)
+Status run_begin(ActiveRun *r, const SimulationInput *setting, Diag *diag)
 {
     mem_keep(r);
     Phase *whole = phases_whole(r->phases);
@@ -82,7 +82,8 @@ Status run_begin(ActiveRun *r, const Setting *setting, Diag *diag)
     return OK;
 }
 
-Status run_open(RunKind kind, System *system, const Setting *setting, ActiveRun **out, Diag *diag)
+Status run_open(RunKind kind, System *system, const SimulationInput *setting, ActiveRun **out,
+                Diag *diag)
 {
     const Phase *whole;
     ActiveRun *r = NULL;
@@ -105,7 +106,8 @@ done:
 }
 
 /* the phases of an earlier result, in the same order */
-static Status copy_phases(ActiveRun *r, const Result *old, const Setting *setting, Diag *diag)
+static Status copy_phases(ActiveRun *r, const Result *old, const SimulationInput *setting,
+                          Diag *diag)
 {
     Phase *phase;
 
@@ -133,11 +135,11 @@ static void keep_whole_turns(ActiveRun *r, const Result *old)
         if (!parameters_kept(&old->parameters, whole, &value))
             continue;
         parameters_set(&r->phases->parameters, whole, value);
-        numbers_set(phases_whole(r->phases)->numbers, whole, value);
+        compiled_set(phases_whole(r->phases)->numbers, whole, value);
     }
 }
 
-Status run_reopen(const Result *old, const Setting *setting, ActiveRun **out, Diag *diag)
+Status run_reopen(const Result *old, const SimulationInput *setting, ActiveRun **out, Diag *diag)
 {
     int last = old->grid.count - 1;
     ActiveRun *r = NULL;

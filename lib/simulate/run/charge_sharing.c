@@ -38,7 +38,7 @@ void shares_free(Shares *shares)
 
 /* --- kinds of states --- */
 
-static const char *kind_of(const Layout *whole, int state)
+static const char *kind_of(const VariableIndex *whole, int state)
 {
     const char *name = system_x(whole->system, state)->name;
     const char *kind = strrchr(name, '.');
@@ -83,7 +83,7 @@ static bool are_energies_known(System *system)
 
 static bool open_shares(ActiveRun *r)
 {
-    const Layout *l = phases_whole(r->phases)->layout;
+    const VariableIndex *l = phases_whole(r->phases)->layout;
     Expr energy =
         expr_add(system_arena(l->system), system_kinetic(l->system), system_potential(l->system));
 
@@ -98,9 +98,12 @@ static bool open_shares(ActiveRun *r)
 static double energy_at(const ActiveRun *r, const Phase *phase, double t, const double *y,
                         const double *x)
 {
-    const Layout *l = phases_whole(r->phases)->layout;
-    const RowValues row = {
-        .t = t, .references = y + layout_references(phase->layout), .q = y, .u = y + l->n, .x = x};
+    const VariableIndex *l = phases_whole(r->phases)->layout;
+    const RowValues row = {.t = t,
+                           .references = y + variable_index_references(phase->layout),
+                           .q = y,
+                           .u = y + l->n,
+                           .x = x};
 
     return probe_values(r->shares->energy, &row)[0];
 }
@@ -110,7 +113,7 @@ static double energy_at(const ActiveRun *r, const Phase *phase, double t, const 
 /* for each state, the largest of its kind */
 static void find_sizes(const ActiveRun *r, const double *x, double *sizes)
 {
-    const Layout *whole = phases_whole(r->phases)->layout;
+    const VariableIndex *whole = phases_whole(r->phases)->layout;
 
     for (int i = 0; i < whole->nx; i++) {
         sizes[i] = ERRORS * r->phases->tolerance;
@@ -188,7 +191,7 @@ static bool are_shared(const ActiveRun *r, const double *x, const double *now, c
 static bool put_states(Phase *phase, double t, const double *landed, const double *sizes, int nx,
                        double *y, double *now)
 {
-    const Layout *l = phase->layout;
+    const VariableIndex *l = phase->layout;
     RowValues row;
     bool met;
 
@@ -203,9 +206,9 @@ static bool put_states(Phase *phase, double t, const double *landed, const doubl
 /* --- what is said --- */
 
 /* "C1 and C2 share their charge" */
-static void tell_sharers(const ActiveRun *r, const double *x, const double *now, Text *out)
+static void report_sharers(const ActiveRun *r, const double *x, const double *now, Text *out)
 {
-    const Layout *whole = phases_whole(r->phases)->layout;
+    const VariableIndex *whole = phases_whole(r->phases)->layout;
     bool charge = false, flux = false;
     int count = 0, said = 0;
 
@@ -240,14 +243,14 @@ static void tell(ActiveRun *r, const char *sides, double t, double lost, const d
     r->shares->lost += lost;
     if (r->shares->times++ >= TOLD)
         return;
-    tell_sharers(r, x, now, &sharers);
+    report_sharers(r, x, now, &sharers);
     remarks_add(
         &r->result->remarks,
         (Remark){.kind = REMARK_SHARED, .what = sides, .t = t, .others = sharers.at, .size = lost});
     text_free(&sharers);
 }
 
-void share_tell(ActiveRun *r)
+void charge_sharing_report(ActiveRun *r)
 {
     mem_keep(r);
     const Shares *shares = r->shares;

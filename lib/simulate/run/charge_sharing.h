@@ -18,7 +18,7 @@ bool share_is_jump(const ActiveRun *run, int state, double from, double to);
 bool share_stored(ActiveRun *run, Phase *phase, double t, const bool *before, const char *sides,
                   double *y, double *x);
 /* what is said of all that were shared, after a run */
-void share_tell(ActiveRun *run);
+void charge_sharing_report(ActiveRun *run);
 void shares_free(Shares *shares); /* NULL is fine */
 
 #endif

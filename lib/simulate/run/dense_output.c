@@ -107,7 +107,7 @@ static bool find_ends(const ResultReader *reader, double t, StepEnd ends[2])
 
 static bool find_rate(StepEnd *end)
 {
-    const Layout *l = end->phase->layout;
+    const VariableIndex *l = end->phase->layout;
     const Ode *ode = motion_ode(end->phase->motion);
 
     phase_enter(end->phase);
@@ -122,13 +122,13 @@ static bool find_rate(StepEnd *end)
 
 static void interpolate(const StepEnd *a, const StepEnd *b, double t, double *y)
 {
-    const Layout *l = a->phase->layout;
+    const VariableIndex *l = a->phase->layout;
     double h = b->t - a->t;
     double s = (t - a->t) / h;
 
     for (int i = 0; i < a->phase->length; i++)
         y[i] = cubic(a->y[i], a->rate[i], b->y[i], b->rate[i], h, s);
-    if (numbers_equations(a->phase->numbers)->map != NULL)
+    if (compiled_equations(a->phase->numbers)->map != NULL)
         return;
     for (int i = 0; i < l->n; i++) { /* q'' is u' */
         const double at_ends[2][3] = {{a->y[i], a->y[l->n + i], a->rate[l->n + i]},
@@ -143,9 +143,9 @@ static void interpolate(const StepEnd *a, const StepEnd *b, double t, double *y)
 static void follow_turns(const StepEnd *a, const StepEnd *b, double t, double *y)
 {
     enum { MOST_PARTS = 1000000 };
-    const Layout *l = a->phase->layout;
+    const VariableIndex *l = a->phase->layout;
     double *there = NEW_ARRAY(double, a->phase->length);
-    int first = layout_references(l), parts;
+    int first = variable_index_references(l), parts;
     const double *kept = a->y + first;
     double fastest = 0;
 
@@ -157,7 +157,7 @@ static void follow_turns(const StepEnd *a, const StepEnd *b, double t, double *y
 
         interpolate(a, b, at, there);
         memcpy(there + first, kept, (size_t)l->multi_turns * sizeof(double));
-        equations_turn(numbers_equations(a->phase->numbers), at, there, there + first);
+        equations_turn(compiled_equations(a->phase->numbers), at, there, there + first);
         memcpy(y + first, there + first, (size_t)l->multi_turns * sizeof(double));
         kept = y + first;
     }
@@ -193,25 +193,25 @@ static bool find_between(StepEnd ends[2], double t, double *y)
 
 static bool is_integrated(const Result *r)
 {
-    return r->kind != RUN_START && r->report.method != NULL &&
-           method_find(r->report.method) != NULL;
+    return r->kind != RUN_START && r->monitor_report.method != NULL &&
+           method_find(r->monitor_report.method) != NULL;
 }
 
 /* from one end to the other by the run's method, in steps as it would have taken them */
 static Status go_again(ResultReader *reader, const StepEnd ends[2], const double *times, int count,
-                       const Watch *watch, Diag *diag)
+                       const CallMonitor *watch, Diag *diag)
 {
     const Result *r = reader->result;
     const Grid *grid = &r->grid;
     IntegrationPlan plan = {.segment = phases_segment(ends[0].phase, NULL),
-                            .method = method_find(r->report.method),
-                            .control = {.rtol = r->report.rtol,
-                                        .atol = r->report.atol,
-                                        .step = r->report.step,
-                                        .most = r->report.most},
+                            .method = method_find(r->monitor_report.method),
+                            .control = {.rtol = r->monitor_report.rtol,
+                                        .atol = r->monitor_report.atol,
+                                        .step = r->monitor_report.step,
+                                        .most = r->monitor_report.most},
                             .from = ends[0].t,
                             .to = ends[1].t,
-                            .every = r->report.every,
+                            .every = r->monitor_report.every,
                             .times = times,
                             .time_count = count,
                             .jumps = &r->jumps,
@@ -219,17 +219,17 @@ static Status go_again(ResultReader *reader, const StepEnd ends[2], const double
                             .skip_first = true,
                             .is_sampled = ends[0].is_sampled,
                             .watch = watch};
-    IntegrationReport report;
-    const Status status = integrate(&plan, ends[0].y, &reader->asked, &report, diag);
+    IntegrationReport monitor_report;
+    const Status status = integrate(&plan, ends[0].y, &reader->asked, &monitor_report, diag);
 
-    remarks_free(&report.remarks);
-    LIST_FREE(report.jumps);
+    remarks_free(&monitor_report.remarks);
+    LIST_FREE(monitor_report.jumps);
     return status;
 }
 
 /* Rows at times between two ends. */
 static Status fill_between(ResultReader *reader, StepEnd ends[2], const double *times, int count,
-                           const Watch *watch, Diag *diag)
+                           const CallMonitor *watch, Diag *diag)
 {
     double *y;
     Status status = OK;
@@ -261,7 +261,7 @@ static int count_until(const double *times, int count, double end)
     return i;
 }
 
-static Status fill(ResultReader *reader, const double *times, int count, const Watch *watch,
+static Status fill(ResultReader *reader, const double *times, int count, const CallMonitor *watch,
                    Diag *diag)
 {
     const double end = count > 0 ? times[count - 1] : 0;
@@ -273,8 +273,8 @@ static Status fill(ResultReader *reader, const double *times, int count, const W
         StepEnd ends[2];
 
         group = 1;
-        TRY(poll(watch));
-        report(watch, "between rows", end > 0 ? times[i] / end : 0);
+        TRY(monitor_poll(watch));
+        monitor_report(watch, "between rows", end > 0 ? times[i] / end : 0);
         if (!(times[i] > last) || !find_ends(reader, times[i], ends) || ends[0].y == ends[1].y)
             continue;
         group = count_until(times + i, count - i, ends[1].t);
@@ -287,7 +287,7 @@ static Status fill(ResultReader *reader, const double *times, int count, const W
 }
 
 Status result_reader_prepare(ResultReader *reader, const double *times, int count,
-                             const Watch *watch, Diag *diag)
+                             const CallMonitor *watch, Diag *diag)
 {
     mem_keep(reader);
     Diag ignored = {0};
@@ -301,8 +301,9 @@ static int asked_row(const ResultReader *reader, double t)
 {
     const int row = last_row(&reader->asked, t);
 
-    return row >= 0 && t - reader->asked.times[row] <= SAME * reader->result->report.every ? row
-                                                                                           : -1;
+    return row >= 0 && t - reader->asked.times[row] <= SAME * reader->result->monitor_report.every
+               ? row
+               : -1;
 }
 
 Status result_reader_at(ResultReader *reader, double t, Phase **phase, const double **y,

@@ -139,8 +139,8 @@ static Status read_values(Events *events, EventItem *item, const Event *event, D
 
 static Status read_event(Events *events, const Event *event, Diag *diag)
 {
-    EventItem item = {.name = events_keep(events, event->name),
-                      .condition = events_keep(events, event->condition),
+    EventItem item = {.name = events_store(events, event->name),
+                      .condition = events_store(events, event->condition),
                       .action = event->action,
                       .is_bound = event->is_bound,
                       .is_live = true,
@@ -151,7 +151,7 @@ static Status read_event(Events *events, const Event *event, Diag *diag)
     if (status == OK)
         status = read_values(events, &item, event, &why);
     if (status == E_VALUE && events->plan.whole != NULL) { /* said where it comes to that */
-        item.refused = events_keep(events, why.message);
+        item.refused = events_store(events, why.message);
         status = OK;
     }
     LIST_PUSH(events->items, item);
@@ -196,8 +196,9 @@ static Status compile_all(Events *events, Diag *diag)
     for (int i = 0; i < events->items.count; i++)
         LIST_PUSH(roots, events->items.at[i].when);
     events->follows_time =
-        roots.at != NULL && layout_follows_time(events->plan.layout, roots.at + events->time_only,
-                                                events->conditions.count - events->time_only);
+        roots.at != NULL &&
+        variable_index_follows_time(events->plan.layout, roots.at + events->time_only,
+                                    events->conditions.count - events->time_only);
     CHECK(compile(events, roots.at, events->time_only, &events->time, diag));
     CHECK(compile(events, roots.at, events->conditions.count, &events->state, diag));
     CHECK(compile(events, roots.at + events->conditions.count, events->items.count,
@@ -281,7 +282,7 @@ bool events_follow_time(const Events *events)
 /* the roots of a probe at (t, y); NULL where the equations have no solution */
 static const double *roots_at(const Events *events, Probe *probe, double t, const double *y)
 {
-    const Layout *l = events->plan.layout;
+    const VariableIndex *l = events->plan.layout;
     RowValues row = row_of_state(l, t, y);
 
     if (events->solved && !row_solve(l, events->plan.motion, t, y, &row))
@@ -638,7 +639,7 @@ bool events_are_due(Events *events, double t, const double *y)
     return false;
 }
 
-Status events_take(Events *events, double t, double span, const double *y, bool *happened,
+Status events_read(Events *events, double t, double span, const double *y, bool *happened,
                    bool *stop, Diag *diag)
 {
     const double *holding = roots_at(events, events->holding, t, y);

@@ -6,7 +6,7 @@
 #ifndef COTREE_SIMULATE_RUN_EVENTS_H
 #define COTREE_SIMULATE_RUN_EVENTS_H
 
-#include "simulate/equations/numbers.h"
+#include "simulate/equations/compiled_equations.h"
 #include "simulate/run/result.h"
 
 typedef struct Events Events;
@@ -15,7 +15,7 @@ typedef struct Events Events;
  * the events. `rows` are the constraint rows in use. Fails with E_MODEL where such a run can't have
  * an event, E_VALUE for a variable that can't be set, the errors of system_resolve(). */
 typedef struct EventsPlan {
-    const Layout *layout;
+    const VariableIndex *layout;
     Parameters *parameters;
     const Equations *equations;
     Motion *motion;
@@ -85,7 +85,7 @@ MUST_USE Status events_are_stuck(const Events *events, int condition, double t, 
 /* In driven runs, where y is known at any t: whether a condition that did not hold does at (t, y);
  * and the same with its consequences. */
 bool events_are_due(Events *events, double t, const double *y);
-MUST_USE Status events_take(Events *events, double t, double span, const double *y, bool *happened,
+MUST_USE Status events_read(Events *events, double t, double span, const double *y, bool *happened,
                             bool *stop, Diag *diag);
 
 #endif

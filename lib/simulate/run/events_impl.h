@@ -58,6 +58,6 @@ struct Events {
     double *here[3];
 };
 
-const char *events_keep(Events *events, const char *text); /* a copy in the pool */
+const char *events_store(Events *events, const char *text); /* a copy in the pool */
 
 #endif

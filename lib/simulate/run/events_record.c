@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-const char *events_keep(Events *events, const char *text)
+const char *events_store(Events *events, const char *text)
 {
     return pool_text(events->pool, text, strlen(text));
 }
@@ -40,8 +40,8 @@ static void take_over(Events *events, const EventRecord *old)
     if (item == NULL && old->count == 0)
         return;
     if (item == NULL) {
-        LIST_PUSH(events->items, (EventItem){.name = events_keep(events, old->name),
-                                             .condition = events_keep(events, old->condition),
+        LIST_PUSH(events->items, (EventItem){.name = events_store(events, old->name),
+                                             .condition = events_store(events, old->condition),
                                              .action = old->action,
                                              .is_bound = old->is_bound});
         item = &events->items.at[events->items.count - 1];
@@ -68,8 +68,8 @@ void events_hand_over(Events *events, Events *from)
         Course kept;
 
         if (i == events->items.count) /* of an earlier run */
-            LIST_PUSH(events->items, (EventItem){.name = events_keep(events, old->name),
-                                                 .condition = events_keep(events, old->condition),
+            LIST_PUSH(events->items, (EventItem){.name = events_store(events, old->name),
+                                                 .condition = events_store(events, old->condition),
                                                  .action = old->action,
                                                  .is_bound = old->is_bound});
         kept = events->items.at[i].course;

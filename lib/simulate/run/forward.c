@@ -2,14 +2,14 @@
 #include "simulate/run/forward.h"
 
 #include "base/memory.h"
-#include "simulate/run/ends.h"
 #include "simulate/run/mode_switch.h"
 #include "simulate/run/sliding.h"
+#include "simulate/run/termination.h"
 
 #include <math.h>
 
-IntegrationPlan forward_plan(const ActiveRun *r, const Setting *setting, const RunOptions *options,
-                             const Method *method, Events *events)
+IntegrationPlan forward_plan(const ActiveRun *r, const SimulationInput *setting,
+                             const RunOptions *options, const Method *method, Events *events)
 {
     return (IntegrationPlan){.segment = phases_segment(r->phase, events),
                              .method = method,
@@ -55,7 +55,7 @@ static Status choose_method(void *context, const Segment *segment, double t, con
     return phase_choose_method(s->run->phases->at[segment->phase], t, y, &s->control, method, diag);
 }
 
-Status forward_integrate(ActiveRun *r, const Setting *setting, const IntegrationPlan *plan,
+Status forward_integrate(ActiveRun *r, const SimulationInput *setting, const IntegrationPlan *plan,
                          Grid *grid, Grid *corners, IntegrationReport *out, Diag *diag)
 {
     ModeSwitching switching = {
@@ -66,13 +66,13 @@ Status forward_integrate(ActiveRun *r, const Setting *setting, const Integration
     switching.control.span = plan->to - plan->from;
     through.first = choose_method;
     through.choose = slide_choose;
-    through.tell = slide_tell;
-    through.explain = ends_explain;
+    through.tell = sliding_report;
+    through.explain = termination_diagnose;
     through.context = &switching;
     through.corners = corners;
     if (r->mode_search != NULL) {
         through.mode_switch = mode_switch;
-        through.in_time = numbers_equations(phases_whole(r->phases)->numbers);
+        through.in_time = compiled_equations(phases_whole(r->phases)->numbers);
     }
     status = integrate(&through, r->begin, grid, out, diag);
     mode_switching_free(&switching);

@@ -8,11 +8,11 @@
 
 /* From where the run begins, by a method (NULL: one that suits the equations); the caller sets from
  * when to when, in s. All is borrowed. */
-IntegrationPlan forward_plan(const ActiveRun *run, const Setting *setting,
+IntegrationPlan forward_plan(const ActiveRun *run, const SimulationInput *setting,
                              const RunOptions *options, const Method *method, Events *events);
 /* From `begin` to the end of the plan; fails as integrate() does, and fills the same. Where ideal
  * switches change the equations, `corners` gets rows between them (NULL: nobody asks). */
-MUST_USE Status forward_integrate(ActiveRun *run, const Setting *setting,
+MUST_USE Status forward_integrate(ActiveRun *run, const SimulationInput *setting,
                                   const IntegrationPlan *plan, Grid *grid, Grid *corners,
                                   IntegrationReport *out, Diag *diag);
 /* Make what a host is told at the rows of a phase, once. */

@@ -18,7 +18,7 @@
 
 /* --- events --- */
 
-static Status copy_events(ActiveRun *r, const Setting *setting, Events **out, Diag *diag)
+static Status copy_events(ActiveRun *r, const SimulationInput *setting, Events **out, Diag *diag)
 {
     LIST(EventRecord) records = {0};
     Status status;
@@ -30,7 +30,8 @@ static Status copy_events(ActiveRun *r, const Setting *setting, Events **out, Di
     return status;
 }
 
-Status global_error_events(ActiveRun *r, const Setting *setting, ErrorEvents *out, Diag *diag)
+Status global_error_events(ActiveRun *r, const SimulationInput *setting, ErrorEvents *out,
+                           Diag *diag)
 {
     Status status = OK;
 
@@ -56,7 +57,7 @@ static double largest_difference(const ActiveRun *r, const Grid *a, int first, c
     for (int i = first, j = 0; i < a->count && j < b->count;) {
         double behind = a->times[i] - b->times[j];
         int length = behind == 0 && a->phase[i] == b->phase[j]
-                         ? layout_references(r->phases->at[a->phase[i]]->layout)
+                         ? variable_index_references(r->phases->at[a->phase[i]]->layout)
                          : 0;
 
         for (int k = 0; k < length; k++)
@@ -97,20 +98,20 @@ static bool finer_options(const RunOptions *options, int64_t steps, int which, R
 }
 
 /* `events` are as they were at its start; the caller frees the grid, also when it fails */
-static Status run_finer(ActiveRun *r, const Setting *setting, const RunOptions *options,
+static Status run_finer(ActiveRun *r, const SimulationInput *setting, const RunOptions *options,
                         const Method *method, Events *events, double from, FinerRun *out,
                         Diag *diag)
 {
     IntegrationPlan plan = forward_plan(r, setting, options, method, events);
-    IntegrationReport told = {.method = method_for((MethodNeed){0})};
+    IntegrationReport integration_report = {.method = method_for((MethodNeed){0})};
     Status status;
 
     plan.from = from;
     plan.to = from + options->duration;
-    status = forward_integrate(r, setting, &plan, &out->grid, NULL, &told, diag);
-    out->method = told.method;
-    remarks_free(&told.remarks);
-    LIST_FREE(told.jumps);
+    status = forward_integrate(r, setting, &plan, &out->grid, NULL, &integration_report, diag);
+    out->method = integration_report.method;
+    remarks_free(&integration_report.remarks);
+    LIST_FREE(integration_report.jumps);
     return status;
 }
 
@@ -120,7 +121,7 @@ static double largest_number(const ActiveRun *r, const Grid *grid)
     double largest = 0;
 
     for (int i = 0; i < grid->count; i++)
-        for (int k = 0; k < layout_references(r->phases->at[grid->phase[i]]->layout); k++)
+        for (int k = 0; k < variable_index_references(r->phases->at[grid->phase[i]]->layout); k++)
             largest = fmax(largest, fabs(grid_row(grid, i)[k]));
     return largest;
 }
@@ -132,31 +133,33 @@ static bool may_be_nearer(const ActiveRun *r, double off, const RunOptions *fine
 }
 
 /* `by` is the finer run, `why` what one failed by (NULL: none did) */
-static void tell(ActiveRun *r, double off, bool is_told, bool is_fixed, const FinerRun *by,
+static void tell(ActiveRun *r, double off, bool is_bounded, bool is_fixed, const FinerRun *by,
                  const char *why)
 {
-    r->result->report.is_unresolved = !is_told;
-    if (is_told)
-        r->result->report.global_error = off * (by->method->has_history ? MULTISTEP : ONE_STEP);
+    r->result->monitor_report.is_unresolved = !is_bounded;
+    if (is_bounded)
+        r->result->monitor_report.global_error =
+            off * (by->method->has_history ? MULTISTEP : ONE_STEP);
     if (!(off <= FAR))
         remarks_add(&r->result->remarks,
-                    (Remark){.kind = is_told ? REMARK_FAR_OFF : REMARK_UNRESOLVED,
+                    (Remark){.kind = is_bounded ? REMARK_FAR_OFF : REMARK_UNRESOLVED,
                              .what = is_fixed ? "step" : "rtol",
                              .more = why,
                              .size = off});
 }
 
-Status global_error_estimate(ActiveRun *r, const Setting *setting, const RunOptions *options,
-                             const Method *method, ErrorEvents *events, int first, Diag *diag)
+Status global_error_estimate(ActiveRun *r, const SimulationInput *setting,
+                             const RunOptions *options, const Method *method, ErrorEvents *events,
+                             int first, Diag *diag)
 {
     const Grid *rows = &r->result->grid;
     const bool is_fixed = method != NULL && method->has_fixed_step;
     const Method *finer_method = answers_to_tolerance(method) ? method : NULL;
-    const int64_t steps = finer_method == method ? r->result->report.steps : 0;
+    const int64_t steps = finer_method == method ? r->result->monitor_report.steps : 0;
     RunOptions coarse = *options, finer;
     FinerRun runs[COUNT(events->at)] = {0};
     double off = INFINITY;
-    bool is_told = false, is_doubtful = true;
+    bool is_bounded = false, is_doubtful = true;
     Diag why = {0};
     Status status = OK;
 
@@ -173,13 +176,13 @@ Status global_error_estimate(ActiveRun *r, const Setting *setting, const RunOpti
         if (status != OK)
             break;
         off = largest_difference(r, rows, first, &runs[i].grid);
-        is_told =
+        is_bounded =
             off <= FAR ||
             (i > 0 && SURE * largest_difference(r, &runs[i - 1].grid, 0, &runs[i].grid) <= off);
-        is_doubtful = !is_told || may_be_nearer(r, off, &finer, &runs[i].grid);
+        is_doubtful = !is_bounded || may_be_nearer(r, off, &finer, &runs[i].grid);
     }
     if (status == OK || status == E_SOLVER)
-        tell(r, off, is_told, is_fixed, &runs[0], status == OK ? NULL : why.message);
+        tell(r, off, is_bounded, is_fixed, &runs[0], status == OK ? NULL : why.message);
     else if (diag != NULL)
         *diag = why;
     for (int i = 0; i < COUNT(runs); i++)

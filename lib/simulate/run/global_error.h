@@ -16,15 +16,15 @@ typedef struct ErrorEvents {
     Events *at[3];
 } ErrorEvents;
 
-MUST_USE Status global_error_events(ActiveRun *run, const Setting *setting, ErrorEvents *out,
-                                    Diag *diag);
+MUST_USE Status global_error_events(ActiveRun *run, const SimulationInput *setting,
+                                    ErrorEvents *out, Diag *diag);
 void global_error_events_free(ErrorEvents *events);
 
 /* Put into the report of a run, which has come to its end, how far off its rows from `first` on are
  * (largest over coordinates, speeds and states, in m, rad, A ... alike), or that it isn't resolved.
  * method: the one that was asked for, NULL: none. Fails where it is stopped. Up to three runs'
  * time. */
-MUST_USE Status global_error_estimate(ActiveRun *run, const Setting *setting,
+MUST_USE Status global_error_estimate(ActiveRun *run, const SimulationInput *setting,
                                       const RunOptions *options, const Method *method,
                                       ErrorEvents *events, int first, Diag *diag);
 

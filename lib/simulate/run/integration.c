@@ -4,9 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-#define MANY    100 /* tolerances that an estimated error has to miss to be told */
-#define AGAINS  10  /* times that a step is looked over anew for what is met first in it */
-#define CAREFUL 0.5 /* of what would have been allowed behind the last switch: to begin with */
+#define MANY         100 /* tolerances that an estimated error has to miss to be told */
+#define MOST_RESCANS 10  /* times that a step is looked over anew for what is met first in it */
+#define CAREFUL      0.5 /* of what would have been allowed behind the last switch: to begin with */
 
 /* From here on another method: the one in use has found that stability limits its steps, or
  * rounding does, or it gets no further. */
@@ -16,7 +16,7 @@ static Status hand_over(Integration *m, const Method *method, RemarkKind why, Di
 
     memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
     remarks_add(&m->out->remarks, (Remark){.kind = why, .t = t, .what = method->name});
-    integration_give_up_stepper(m);
+    integration_discard_stepper(m);
     m->stepper = integration_new_stepper(m, method);
     m->out->method = method;
     TRY(method->start(m->stepper, t, m->y, diag));
@@ -40,7 +40,7 @@ static Status renew(Integration *m, Diag *diag)
 
     if (renewed.independent)
         remarks_add(&m->out->remarks, (Remark){.kind = REMARK_INDEPENDENT_ANEW, .t = s->t});
-    TRY(motion_hasten(m->segment.motion, steps_ahead(m), diag));
+    TRY(motion_try_coordinate_partitioning(m->segment.motion, steps_ahead(m), diag));
     if (!renewed.rows || !s->method->solves_dae)
         return OK;
     memcpy(m->y, s->y, (size_t)m->length * sizeof(double));
@@ -78,8 +78,8 @@ static Status seeing_step(Integration *m, double end, Diag *diag)
     Diag ignored = {0};
     Status status = OK;
 
-    if (m->is_taken_back) { /* once rows and conditions have been read from its history */
-        m->is_taken_back = false;
+    if (m->needs_restart) { /* once rows and conditions have been read from its history */
+        m->needs_restart = false;
         memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
         CHECK(m->stepper->method->start(m->stepper, last, m->y, diag));
     }
@@ -91,7 +91,7 @@ static Status seeing_step(Integration *m, double end, Diag *diag)
     /* where it can't be taken back it stays: what it passed over it has seen the end of */
     if (m->stepper->method->shorten(m->stepper, when, &ignored) != OK)
         return OK;
-    m->is_taken_back = m->stepper->method->has_history;
+    m->needs_restart = m->stepper->method->has_history;
 done:
     return status;
 }
@@ -100,16 +100,16 @@ done:
  * behind one could have been tells how to begin behind another. */
 static void learn_beginning(Integration *m)
 {
-    if (m->begins && m->plan->mode_switch != NULL)
-        m->begin_by = CAREFUL * m->stepper->next;
-    m->begins = false;
+    if (m->after_event && m->plan->mode_switch != NULL)
+        m->initial_step = CAREFUL * m->stepper->next;
+    m->after_event = false;
 }
 
-static Status make_headway(Integration *m, Diag *diag)
+static Status check_stagnation(Integration *m, Diag *diag)
 {
     const int64_t steps = m->earlier.steps + m->stepper->counts.steps;
     bool is_rounding;
-    Status status = headway_check(&m->headway, m->stepper, steps, &is_rounding, diag);
+    Status status = stagnation_check(&m->stagnation, m->stepper, steps, &is_rounding, diag);
 
     return status == E_SOLVER ? end_or_hand_over(m, is_rounding, diag) : status;
 }
@@ -117,7 +117,7 @@ static Status make_headway(Integration *m, Diag *diag)
 static Status one_step(Integration *m, double end, Diag *diag)
 {
     double when = 0;
-    int agains = 0;
+    int rescan_count = 0;
 
     TRY(seeing_step(m, end, diag));
     learn_beginning(m);
@@ -132,7 +132,7 @@ static Status one_step(Integration *m, double end, Diag *diag)
             m->band[i] = m->noise[i];
             continue;
         }
-        bool again = agains++ < AGAINS;
+        bool again = rescan_count++ < MOST_RESCANS;
 
         TRY(integration_is_of_event(m, i) ? integration_meet_event(m, i, when, &again, diag)
                                           : integration_meet_switch(m, i, when, &again, diag));
@@ -140,10 +140,10 @@ static Status one_step(Integration *m, double end, Diag *diag)
             return OK;
     }
     TRY(integration_add_rows(m, diag));
-    TRY(make_headway(m, diag));
+    TRY(check_stagnation(m, diag));
     TRY(renew(m, diag));
     if (m->plan->method == NULL && m->stepper->is_stiff &&
-        (m->segment.stiff->is_a_stable || !m->stepper->swings))
+        (m->segment.stiff->is_a_stable || !m->stepper->is_oscillatory))
         TRY(hand_over(m, m->segment.stiff, REMARK_STIFF, diag));
     return OK;
 }
@@ -160,10 +160,12 @@ static Status integrate_interval(Integration *m, double end, Diag *diag)
     transaction_stop_asking(); /* there are rows to be kept */
     integration_begin_modes(m);
     while (end - m->stepper->t > least && !m->is_over) {
-        report(plan->watch, "simulate", (m->stepper->t - plan->from) / (plan->to - plan->from));
-        status = poll(plan->watch) == OK && !m->is_stopped ? one_step(m, end, diag) : E_STOPPED;
+        monitor_report(plan->watch, "simulate",
+                       (m->stepper->t - plan->from) / (plan->to - plan->from));
+        status =
+            monitor_poll(plan->watch) == OK && !m->is_stopped ? one_step(m, end, diag) : E_STOPPED;
         /* a step that is stopped within fails in its own words */
-        if (status != OK && (poll(plan->watch) != OK || m->is_stopped))
+        if (status != OK && (monitor_poll(plan->watch) != OK || m->is_stopped))
             return diag_set(diag, E_STOPPED, "stopped at t = %.6g s",
                             m->is_stopped ? m->out->reached : m->stepper->t);
         CHECK(status);
@@ -184,7 +186,7 @@ static Status take_samples(Integration *m, double t, Diag *diag)
 
     m->stepper->t = fmax(m->stepper->t, t);
     TRY(integration_add_rows_before(m, diag));
-    return samples_take(m->segment.samples, t, m->stepper->y, &due, diag);
+    return samples_read(m->segment.samples, t, m->stepper->y, &due, diag);
 }
 
 static Status all_intervals(Integration *m, Diag *diag)
@@ -219,7 +221,7 @@ static Status run(Integration *m, const double *start, Diag *diag)
 
     memcpy(m->y, start, (size_t)m->length * sizeof(double));
     if (!plan->is_sampled)
-        TRY(samples_take(m->segment.samples, plan->from, m->y, &due, diag));
+        TRY(samples_read(m->segment.samples, plan->from, m->y, &due, diag));
     motion_partition(m->segment.motion, plan->from, m->y);
     memcpy(m->stepper->y, m->y, (size_t)m->length * sizeof(double));
     m->stepper->t = plan->from;
@@ -261,7 +263,7 @@ Status integrate(const IntegrationPlan *plan, const double *start, Grid *grid,
                      .grid = grid,
                      .out = out,
                      .control = plan->control,
-                     .headway = {.t = plan->from},
+                     .stagnation = {.t = plan->from},
                      .low = -INFINITY,
                      .high = INFINITY,
                      .next_row = 1,

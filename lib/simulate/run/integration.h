@@ -13,7 +13,7 @@
 #ifndef COTREE_SIMULATE_RUN_INTEGRATION_H
 #define COTREE_SIMULATE_RUN_INTEGRATION_H
 
-#include "base/watch.h"
+#include "base/call_monitor.h"
 #include "simulate/equations/remark.h"
 #include "simulate/run/events.h"
 #include "simulate/run/grid.h"
@@ -101,7 +101,7 @@ typedef struct IntegrationPlan {
     bool is_sampled;    /* what is due at `from` has been sampled */
     Grid *corners; /* rows where one segment ends and the next begins, two each; NULL: not kept */
     Pace *pace;    /* of the clock, which it keeps up with; NULL: it goes as fast as it can */
-    const Watch *watch;
+    const CallMonitor *watch;
 } IntegrationPlan;
 
 typedef struct IntegrationReport {

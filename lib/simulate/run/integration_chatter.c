@@ -30,7 +30,7 @@ void integration_note_chatter(Integration *m, int i, double t)
     chatter->settles = chatter->count > MANY && chatter->recent <= FADED * chatter->first;
 }
 
-void integration_tell_settling(Integration *m, int i)
+void integration_report_settling(Integration *m, int i)
 {
     const Guard guard = equations_guard(m->eq, i);
     Text what = {0};

@@ -3,7 +3,7 @@
 #define COTREE_SIMULATE_RUN_INTEGRATION_IMPL_H
 
 #include "base/memory.h"
-#include "simulate/integrate/headway.h"
+#include "simulate/integrate/stagnation.h"
 #include "simulate/run/integration.h"
 
 /* what is known of surfaces where a run goes on */
@@ -30,7 +30,7 @@ typedef struct Integration {
     Stepper *stepper;
     Control control; /* as asked for */
     Counts earlier;  /* of steppers given up */
-    Headway headway;
+    StagnationMonitor stagnation;
     Jumps jumps;
     double low, high;             /* the time that rates see stays between */
     double *y, *slope;            /* one y, one y'; room for those of plan->in_time */
@@ -55,9 +55,9 @@ typedef struct Integration {
     double missed_at;      /* s */
     bool is_stopped;       /* by who sees the rows */
     bool is_over;          /* an event has ended the run */
-    bool is_taken_back;    /* the last step, and its method has to start anew */
-    bool begins;           /* no step has been taken since a switch, */
-    double begin_by;       /* which one of this length may follow, s; 0: not known */
+    bool needs_restart;    /* the last step, and its method has to start anew */
+    bool after_event;      /* no step has been taken since a switch, */
+    double initial_step;   /* which one of this length may follow, s; 0: not known */
 } Integration;
 
 /* --- rows (integration_rows.c) --- */
@@ -75,7 +75,7 @@ MUST_USE Status integration_cut(Integration *m, double t, Diag *diag);
 /* --- segments (integration_segment.c) --- */
 
 Stepper *integration_new_stepper(Integration *m, const Method *method);
-void integration_give_up_stepper(Integration *m); /* its counts are kept */
+void integration_discard_stepper(Integration *m); /* its counts are kept */
 void integration_open_segment(Integration *m,
                               const Segment *segment); /* what goes with its equations */
 void integration_close_segment(Integration *m);
@@ -100,7 +100,7 @@ void integration_reach(Integration *m);
 /* Condition i is met at t, and the surface that it tells of: whether that settles it is noted. */
 void integration_note_chatter(Integration *m, int i, double t);
 /* what is said where it does: call where the motion is still as it was */
-void integration_tell_settling(Integration *m, int i);
+void integration_report_settling(Integration *m, int i);
 
 /* --- conditions of t alone (integration_jumps.c) --- */
 

@@ -61,7 +61,7 @@ static int compare_jumps(const void *left, const void *right)
 
 static Status look_who_waits(const Integration *m, int k, Diag *diag)
 {
-    if (k % WATCHED == 0 && poll(m->plan->watch) != OK)
+    if (k % WATCHED == 0 && monitor_poll(m->plan->watch) != OK)
         return diag_set(diag, E_STOPPED, "stopped at t = %.6g s", m->plan->from);
     return OK;
 }

@@ -129,7 +129,7 @@ static bool cross(Integration *m, int i, double value, double slope)
     return false;
 }
 
-static void tell_condition(const Integration *m, int i, Text *out)
+static void report_condition(const Integration *m, int i, Text *out)
 {
     if (m->plan->tell != NULL)
         m->plan->tell(m->plan->context, &m->segment, i, out);
@@ -141,7 +141,7 @@ static Status switches_endlessly(const Integration *m, int i, Diag *diag)
 {
     Text what = {0};
 
-    tell_condition(m, i, &what);
+    report_condition(m, i, &what);
     (void)diag_set(diag, E_SOLVER, "at t = %.9g s: %s switches to and fro without end",
                    m->stepper->t, what.at);
     if (integration_is_margin(m, i))
@@ -171,7 +171,7 @@ static Status check_side(const Integration *m, int i, Diag *diag)
     if (!guard.solved || guard.side == 0 ||
         guard.side * m->conditions[i] >= -CONTRADICTS * m->largest[i])
         return OK;
-    tell_condition(m, i, &what);
+    report_condition(m, i, &what);
     (void)diag_set(diag, E_SOLVER,
                    "at t = %.9g s: %s contradicts the side that the equations are solved on: "
                    "they have no solution that leads on near there",
@@ -242,7 +242,7 @@ Status integration_meet_switch(Integration *m, int i, double when, bool *again, 
         /* the interpolant erred: it is told again where steps from here go, if they do */
         if (is_told && value > integration_rounding(m) && m->stepper->t > m->stepper->before &&
             (slope >= 0 || !is_short(m, -value / slope))) {
-            m->is_taken_back = m->stepper->method->has_history;
+            m->needs_restart = m->stepper->method->has_history;
             m->stepper->next = fmin(m->stepper->next, WIDER * (m->stepper->t - m->stepper->before));
             return OK;
         }
@@ -255,7 +255,7 @@ Status integration_meet_switch(Integration *m, int i, double when, bool *again, 
     m->mode[i] = is_told ? 1 : -m->mode[i];
     TRY(check_pace(m, i, diag));
     integration_note_chatter(m, i, m->stepper->t);
-    integration_tell_settling(m, i);
+    integration_report_settling(m, i);
     m->root = on_surface || (guard.surface >= 0 && is_led_back(m, i, crossed)) ? i : ROOT_NONE;
     m->ahead = is_told && slope < 0 ? (fabs(value) + m->noise[i]) / -slope : 0;
     TRY(integration_go_on(m, m->stepper->t, m->stepper->y, &entered, diag));

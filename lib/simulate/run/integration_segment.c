@@ -12,7 +12,7 @@
 
 /* --- steps --- */
 
-void integration_give_up_stepper(Integration *m)
+void integration_discard_stepper(Integration *m)
 {
     if (m->stepper == NULL)
         return;
@@ -91,7 +91,7 @@ void integration_open_segment(Integration *m, const Segment *segment)
 
 void integration_close_segment(Integration *m)
 {
-    integration_give_up_stepper(m);
+    integration_discard_stepper(m);
     onset_watch(m->segment.onset, NULL, NULL);
     motion_window(m->segment.motion, -INFINITY, INFINITY);
     MEM_FREE(m->y, m->slope, m->conditions, m->largest, m->band, m->noise, m->band_ends, m->depth,
@@ -261,10 +261,10 @@ Status integration_go_on(Integration *m, double t, const double *y, bool *entere
     m->stepper->has_pulses = m->stepper->has_pulses || m->has_restarted;
     m->has_restarted = true;
     CHECK(m->stepper->method->start(m->stepper, t, m->y, diag));
-    m->begins = *entered && !m->stepper->method->has_history;
-    if (m->begins)
-        m->stepper->next = m->begin_by;
-    m->is_taken_back = false;
+    m->after_event = *entered && !m->stepper->method->has_history;
+    if (m->after_event)
+        m->stepper->next = m->initial_step;
+    m->needs_restart = false;
     onset_forget(m->segment.onset);
     if (*entered)
         integration_begin_modes(m);

@@ -110,11 +110,12 @@ static double conditions_ahead(Integration *m)
     return h;
 }
 
-static bool is_steep(const Integration *m, int i)
+static bool is_stiff(const Integration *m, int i)
 {
     int k = i - (m->eq->switch_count - m->eq->margin_count);
 
-    return m->eq->margin_is_steep != NULL && m->eq->margin_is_steep(m->eq->context, k);
+    return m->eq->guard_is_of_stiff_element != NULL &&
+           m->eq->guard_is_of_stiff_element(m->eq->context, k);
 }
 
 double integration_largest_margin(const Integration *m)
@@ -149,7 +150,7 @@ static void widen_bands(Integration *m)
         }
         motion_switches(m->segment.motion, m->stepper->t, m->y, m->conditions);
         for (int i = 0; i < m->eq->switch_count; i++)
-            if (integration_is_margin(m, i) && !is_steep(m, i))
+            if (integration_is_margin(m, i) && !is_stiff(m, i))
                 m->band[i] = fmax(m->band[i], fabs(m->conditions[i] - here[i]));
     }
     memcpy(m->conditions, here, (size_t)m->eq->switch_count * sizeof(double));
@@ -433,7 +434,7 @@ static bool retake(Integration *m, int found, double t)
     const Method *method = m->stepper->method;
     Diag ignored = {0};
 
-    return integration_is_margin(m, found) && is_steep(m, found) && !method->has_history &&
+    return integration_is_margin(m, found) && is_stiff(m, found) && !method->has_history &&
            t < m->stepper->t && method->shorten(m->stepper, t, &ignored) == OK;
 }
 

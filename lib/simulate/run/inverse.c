@@ -24,30 +24,30 @@
 typedef LIST(int) Unknowns;
 
 /* rows, and what they are solved for */
-typedef struct Problem {
+typedef struct InverseProblem {
     Probe *probe;
     const Unknowns *unknowns;
     InverseSteps *steps;
-} Problem;
+} InverseProblem;
 
-typedef struct Inverse {
+typedef struct InverseRun {
     Phases *phases;
     Phase *phase; /* the only one */
     const Assembled *start;
-    const Layout *l;
+    const VariableIndex *l;
     Unknowns forces;  /* unknowns of R: multipliers first, then w */
     int multipliers;  /* how many of them */
     Unknowns sources; /* unknowns of the network's equations */
     Unknowns jerks;   /* u'' */
     Unknowns none;
     bool by_source;
-    Problem balance; /* R, by `forces` */
-    Problem jerk;    /* (Phi_u u' - gamma)', by `jerks` */
-    Problem moving;  /* R' at constant `forces` */
-    Problem network; /* its rows, by `sources` */
-    double *values;  /* a row, laid out */
-    bool *in_use;    /* m: constraints whose multipliers are solved for at this row */
-} Inverse;
+    InverseProblem balance; /* R, by `forces` */
+    InverseProblem jerk;    /* (Phi_u u' - gamma)', by `jerks` */
+    InverseProblem moving;  /* R' at constant `forces` */
+    InverseProblem network; /* its rows, by `sources` */
+    double *values;         /* a row, laid out */
+    bool *in_use;           /* m: constraints whose multipliers are solved for at this row */
+} InverseRun;
 
 static bool is_symbol(Expr e, SymbolKind kind)
 {
@@ -75,9 +75,9 @@ static bool is_supplied_elsewhere(const System *system, int constraint)
     return false;
 }
 
-static bool is_in_forces(const Layout *l, Expr symbol)
+static bool is_in_forces(const VariableIndex *l, Expr symbol)
 {
-    const Reading *run = system_run(l->system);
+    const EquationForm *run = system_run(l->system);
 
     for (int j = 0; j < l->nu; j++)
         if (expr_depends(run->force[j], symbol))
@@ -85,9 +85,9 @@ static bool is_in_forces(const Layout *l, Expr symbol)
     return false;
 }
 
-static Status sort_unknowns(Inverse *in, Diag *diag)
+static Status sort_unknowns(InverseRun *in, Diag *diag)
 {
-    const Layout *l = in->l;
+    const VariableIndex *l = in->l;
 
     for (int k = 0; k < l->m; k++)
         if (!is_supplied_elsewhere(in->phases->system, k))
@@ -129,14 +129,14 @@ static Status sort_unknowns(Inverse *in, Diag *diag)
 
 /* --- programs --- */
 
-typedef LIST(Expr) Roots;
+typedef LIST(Expr) InverseRoots;
 
 /* d/dt along the motion */
-static Expr along(const Inverse *in, Expr e)
+static Expr along(const InverseRun *in, Expr e)
 {
-    const Layout *l = in->l;
+    const VariableIndex *l = in->l;
     Arena *arena = system_arena(l->system);
-    const Reading *run = system_run(l->system);
+    const EquationForm *run = system_run(l->system);
     int count = 1 + l->n + 2 * l->nu;
     Expr *symbols = NEW_ARRAY(Expr, count);
     Expr *rates = NEW_ARRAY(Expr, count);
@@ -163,8 +163,8 @@ static Expr along(const Inverse *in, Expr e)
 }
 
 /* of rows by unknowns; the list of rows goes */
-static Status open_problem(Inverse *in, Roots *rows, const Unknowns *unknowns, Problem *out,
-                           Diag *diag)
+static Status open_problem(InverseRun *in, InverseRoots *rows, const Unknowns *unknowns,
+                           InverseProblem *out, Diag *diag)
 {
     Expr *symbols = NEW_ARRAY(Expr, unknowns->count);
     const ProbeOrder order = {.roots = rows->at,
@@ -185,10 +185,10 @@ static Status open_problem(Inverse *in, Roots *rows, const Unknowns *unknowns, P
     return status;
 }
 
-static Status compile(Inverse *in, Diag *diag)
+static Status compile(InverseRun *in, Diag *diag)
 {
-    const Layout *l = in->l;
-    Roots rows = {0};
+    const VariableIndex *l = in->l;
+    InverseRoots rows = {0};
 
     TRY(system_form_mass(l->system, diag));
     for (int j = 0; j < l->nu; j++)
@@ -210,9 +210,9 @@ static Status compile(Inverse *in, Diag *diag)
 
 /* --- numbers --- */
 
-static const double *values_of(const Inverse *in, const Problem *problem)
+static const double *values_of(const InverseRun *in, const InverseProblem *problem)
 {
-    const Layout *l = in->l;
+    const VariableIndex *l = in->l;
     const double *v = in->values;
     RowValues row = {.t = v[l->t],
                      .references = v + l->references,
@@ -231,9 +231,9 @@ static const double *values_of(const Inverse *in, const Problem *problem)
 
 /* Of redundant constraints those are in use that are the least dependent where the row stands; the
  * multipliers of others are 0. */
-static void choose_rows(Inverse *in)
+static void choose_rows(InverseRun *in)
 {
-    const Equations *eq = numbers_equations(in->phase->numbers);
+    const Equations *eq = compiled_equations(in->phase->numbers);
     const int count = in->start->row_count;
     int *rows = NEW_ARRAY(int, count);
     double *phi_u = NULL;
@@ -251,7 +251,7 @@ static void choose_rows(Inverse *in)
     mem_free(rows);
 }
 
-static bool is_solved_for(const Inverse *in, int place)
+static bool is_solved_for(const InverseRun *in, int place)
 {
     const int row = place - in->l->multipliers;
 
@@ -260,7 +260,7 @@ static bool is_solved_for(const Inverse *in, int place)
 
 /* The move of the unknowns that are solved for, 0 of the others, by which the rows, whose
  * values these are, come nearest to `right`. False: they are dependent. */
-static bool solve_in_use(const Inverse *in, const Problem *problem, const double *values,
+static bool solve_in_use(const InverseRun *in, const InverseProblem *problem, const double *values,
                          const double *right, double *out)
 {
     const Unknowns *unknowns = problem->unknowns;
@@ -275,9 +275,9 @@ static bool solve_in_use(const Inverse *in, const Problem *problem, const double
 
 /* The least multipliers that give the same forces, as runs tell them; those that are supplied
  * elsewhere have none. */
-static void spread_multipliers(Inverse *in)
+static void spread_multipliers(InverseRun *in)
 {
-    const Equations *eq = numbers_equations(in->phase->numbers);
+    const Equations *eq = compiled_equations(in->phase->numbers);
     double *phi_u, *lambda;
     int count = 0;
 
@@ -297,7 +297,7 @@ static void spread_multipliers(Inverse *in)
     MEM_FREE(phi_u, lambda);
 }
 
-static Status cant_produce(const Inverse *in, const Unknowns *unknowns, Diag *diag)
+static Status cant_produce(const InverseRun *in, const Unknowns *unknowns, Diag *diag)
 {
     Text names = {0};
 
@@ -313,7 +313,7 @@ static Status cant_produce(const Inverse *in, const Unknowns *unknowns, Diag *di
 }
 
 /* Newton's method: linear rows end after one step and a look. */
-static Status solve_rows(Inverse *in, const Problem *problem, Diag *diag)
+static Status solve_rows(InverseRun *in, const InverseProblem *problem, Diag *diag)
 {
     const Unknowns *unknowns = problem->unknowns;
     const int rows = residual_row_count(probe_residual(problem->probe));
@@ -345,9 +345,9 @@ done:
 }
 
 /* rates of the unknowns of R, for those that are network states */
-static Status find_rates(Inverse *in, Diag *diag)
+static Status find_rates(InverseRun *in, Diag *diag)
 {
-    const Layout *l = in->l;
+    const VariableIndex *l = in->l;
     double *rates = NEW_ARRAY(double, in->forces.count);
     double *jerk = in->values + l->jerk; /* 0 still */
     const double *values = values_of(in, &in->jerk);
@@ -372,9 +372,9 @@ done:
 }
 
 /* a row at (t, y), of which the states are found; its block into `out` */
-static Status solve_row(Inverse *in, double t, double *y, double *out, Diag *diag)
+static Status solve_row(InverseRun *in, double t, double *y, double *out, Diag *diag)
 {
-    const Layout *l = in->l;
+    const VariableIndex *l = in->l;
     Solved solved;
 
     if (!motion_solve(in->phase->motion, t, y, &solved))
@@ -383,7 +383,7 @@ static Status solve_row(Inverse *in, double t, double *y, double *out, Diag *dia
     memset(in->values, 0, (size_t)l->count * sizeof(double));
     in->values[l->t] = t;
     for (int k = 0; k < l->multi_turns; k++)
-        in->values[l->references + k] = y[layout_references(l) + k];
+        in->values[l->references + k] = y[variable_index_references(l) + k];
     memcpy(in->values + l->q, y, (size_t)(l->n + l->nu + l->nx) * sizeof(double));
     memcpy(in->values + l->rates, solved.rates, (size_t)(l->nx + l->nz) * sizeof(double));
     memcpy(in->values + l->acceleration, solved.acceleration, (size_t)l->nu * sizeof(double));
@@ -399,22 +399,22 @@ static Status solve_row(Inverse *in, double t, double *y, double *out, Diag *dia
     return OK;
 }
 
-static void close_problem(Problem *problem)
+static void close_problem(InverseProblem *problem)
 {
     inverse_steps_free(problem->steps);
     probe_free(problem->probe);
 }
 
-Status inverse_solve(Phases *phases, const Assembled *start, Grid *rows, const Watch *watch,
+Status inverse_solve(Phases *phases, const Assembled *start, Grid *rows, const CallMonitor *watch,
                      Driven *out, Diag *diag)
 {
     mem_keep(phases);
     Phase *phase = phases_whole(phases);
-    Inverse in = {.phases = phases,
-                  .phase = phase,
-                  .start = start,
-                  .l = phase->layout,
-                  .by_source = inverse_finds_states(phases->system)};
+    InverseRun in = {.phases = phases,
+                     .phase = phase,
+                     .start = start,
+                     .l = phase->layout,
+                     .by_source = inverse_finds_states(phases->system)};
     Status status = OK;
 
     if (in.l->ne == 0)
@@ -427,8 +427,8 @@ Status inverse_solve(Phases *phases, const Assembled *start, Grid *rows, const W
     mem_free(out->values);
     out->values = NEW_ARRAY(double, rows->count * out->length);
     for (int row = 0; row < rows->count; row++) {
-        report(watch, "inverse", (double)row / rows->count);
-        if (poll(watch) != OK) {
+        monitor_report(watch, "inverse", (double)row / rows->count);
+        if (monitor_poll(watch) != OK) {
             rows->count = row;
             CHECK(diag_set(diag, E_STOPPED, "stopped at t = %.6g s", rows->times[row]));
         }

@@ -8,7 +8,7 @@
 #ifndef COTREE_SIMULATE_RUN_INVERSE_H
 #define COTREE_SIMULATE_RUN_INVERSE_H
 
-#include "base/watch.h"
+#include "base/call_monitor.h"
 #include "simulate/assemble/initial.h"
 #include "simulate/run/phases.h"
 
@@ -18,6 +18,6 @@ bool inverse_finds_states(const System *system);
  * where no effort produces the motion, E_MODEL where it isn't told by the motion alone; where it is
  * stopped the rows done are all that are left. */
 MUST_USE Status inverse_solve(Phases *phases, const Assembled *start, Grid *rows,
-                              const Watch *watch, Driven *out, Diag *diag);
+                              const CallMonitor *watch, Driven *out, Diag *diag);
 
 #endif

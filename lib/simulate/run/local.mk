@@ -12,8 +12,8 @@ libcore_la_SOURCES += \
   lib/simulate/run/mode_start.h \
   lib/simulate/run/mode_switch.c \
   lib/simulate/run/mode_switch.h \
-  lib/simulate/run/ends.c \
-  lib/simulate/run/ends.h \
+  lib/simulate/run/termination.c \
+  lib/simulate/run/termination.h \
   lib/simulate/run/events.c \
   lib/simulate/run/events.h \
   lib/simulate/run/events_impl.h \

@@ -14,12 +14,12 @@
 void mode_entry(const Phase *phase, const double *y, const double *x, const double *near,
                 double work, double *out)
 {
-    const Layout *l = phase->layout;
+    const VariableIndex *l = phase->layout;
 
     memcpy(out, y, (size_t)(l->n + l->nu) * sizeof(double));
     for (int i = 0; i < l->nx; i++)
         out[l->n + l->nu + i] = x[phase->among_whole[i]];
-    memcpy(out + layout_references(l), near, (size_t)l->multi_turns * sizeof(double));
+    memcpy(out + variable_index_references(l), near, (size_t)l->multi_turns * sizeof(double));
     out[phase->length - 1] = work;
 }
 
@@ -55,7 +55,7 @@ static Status refuse_jump(const ActiveRun *r, const char *sides, double t, doubl
 Status mode_entry_check(ActiveRun *r, Phase *phase, Entering *entry, double *y, double *x,
                         Diag *diag)
 {
-    const Layout *whole = phases_whole(r->phases)->layout;
+    const VariableIndex *whole = phases_whole(r->phases)->layout;
     double largest = vector_largest(x, whole->nx);
     const double *now;
     Text sides = {0};

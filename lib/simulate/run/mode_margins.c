@@ -43,7 +43,7 @@ static double time_to_rise(const double *here, const double *ahead, int count, d
 double mode_margins_off(Phase *phase, double t, double behind, double step, const double *y,
                         const Control *control)
 {
-    const Equations *eq = numbers_equations(phase->numbers);
+    const Equations *eq = compiled_equations(phase->numbers);
     const Ode *ode = motion_ode(phase->motion);
     const int count = eq->margin_count, first = eq->switch_count - count;
     const double way = SHORT * step;

@@ -10,7 +10,7 @@
 /* which states of the whole the phase's own are, by name */
 static Status find_states(const ActiveRun *r, Phase *phase, Diag *diag)
 {
-    const Layout *l = phase->layout, *whole = phases_whole(r->phases)->layout;
+    const VariableIndex *l = phase->layout, *whole = phases_whole(r->phases)->layout;
 
     phase->among_whole = NEW_ARRAY(int, l->nx);
     /* both are in the order of the parts: where one is, the next is not far */
@@ -32,7 +32,7 @@ static Status find_states(const ActiveRun *r, Phase *phase, Diag *diag)
 
 static Status compile_states(ActiveRun *r, Phase *phase, Diag *diag)
 {
-    const Layout *whole = phases_whole(r->phases)->layout;
+    const VariableIndex *whole = phases_whole(r->phases)->layout;
     LIST(Expr) roots = {0};
     Status status = OK;
 
@@ -53,7 +53,8 @@ done:
 
 /* Takes a new phase, opened and with its states found among those of the whole; freed where that
  * fails. */
-static Status add_phase(ActiveRun *r, const Setting *setting, Phase *phase, Phase **out, Diag *diag)
+static Status add_phase(ActiveRun *r, const SimulationInput *setting, Phase *phase, Phase **out,
+                        Diag *diag)
 {
     Status status = OK;
 
@@ -70,8 +71,8 @@ done:
     return status;
 }
 
-Status mode_phases_get(ActiveRun *r, const Setting *setting, const bool *closed, Phase **out,
-                       Diag *diag)
+Status mode_phases_get(ActiveRun *r, const SimulationInput *setting, const bool *closed,
+                       Phase **out, Diag *diag)
 {
     mem_keep(r);
     int count = system_ideal_count(r->system);
@@ -124,8 +125,9 @@ static Phase *find_on(const ActiveRun *r, const System *system, const bool *clos
     return NULL;
 }
 
-Status mode_phases_get_on(ActiveRun *r, const Setting *setting, System *system, const bool *closed,
-                          const OnSurface *on, int count, Phase **out, Diag *diag)
+Status mode_phases_get_on(ActiveRun *r, const SimulationInput *setting, System *system,
+                          const bool *closed, const OnSurface *on, int count, Phase **out,
+                          Diag *diag)
 {
     mem_keep(r);
     int ideals = system_ideal_count(r->system);
@@ -143,8 +145,8 @@ Status mode_phases_get_on(ActiveRun *r, const Setting *setting, System *system, 
     return add_phase(r, setting, phase, out, diag);
 }
 
-Status mode_phases_events(ActiveRun *r, const Phase *now, const Phase *next, const Setting *setting,
-                          Events **events, Diag *diag)
+Status mode_phases_events(ActiveRun *r, const Phase *now, const Phase *next,
+                          const SimulationInput *setting, Events **events, Diag *diag)
 {
     mem_keep(r);
     Events **theirs = &next->like->events;

@@ -18,7 +18,7 @@
 #define START_STEP 1e-9 /* s: for the sides at a start, where no run says what is short */
 
 /* whether an initial value was given for a state of the whole, or for what follows from it */
-static bool is_given(const ActiveRun *r, const Setting *setting, int state)
+static bool is_given(const ActiveRun *r, const SimulationInput *setting, int state)
 {
     System *system = phases_whole(r->phases)->system;
     const Expr symbol = system_x(system, state)->symbol;
@@ -38,7 +38,7 @@ static bool is_given(const ActiveRun *r, const Setting *setting, int state)
 /* How a phase's own states move those of the whole: nx x own, by a difference of this size. */
 static bool find_moves(Phase *phase, double t, double *y, double size, int count, double *out)
 {
-    const Layout *l = phase->layout;
+    const VariableIndex *l = phase->layout;
     double *moved = NEW_ARRAY(double, count);
     double *base = NEW_ARRAY(double, count);
     RowValues row;
@@ -117,7 +117,7 @@ static bool fit_states(ActiveRun *r, Phase *phase, const bool *given, double *y,
 static Status refuse_given(const ActiveRun *r, const bool *closed, const double *given_x,
                            const bool *given, const double *x, Diag *diag)
 {
-    const Layout *whole = phases_whole(r->phases)->layout;
+    const VariableIndex *whole = phases_whole(r->phases)->layout;
     Text what = {0}, values = {0};
 
     for (int k = 0; k < system_ideal_count(r->system); k++) {
@@ -143,10 +143,10 @@ static Status refuse_given(const ActiveRun *r, const bool *closed, const double 
 
 /* Switches that are closed from the start are wires: initial values that weren't given follow from
  * those that were, as they do where parts are joined for good. Diodes are none. */
-static Status follow_wires(ActiveRun *r, const Setting *setting, const bool *closed, double *x,
-                           Diag *diag)
+static Status follow_wires(ActiveRun *r, const SimulationInput *setting, const bool *closed,
+                           double *x, Diag *diag)
 {
-    const Layout *whole = phases_whole(r->phases)->layout;
+    const VariableIndex *whole = phases_whole(r->phases)->layout;
     const int count = system_ideal_count(r->system);
     bool *wires = NEW_ARRAY(bool, count), *given = NEW_ARRAY(bool, whole->nx);
     double *was = NEW_ARRAY(double, whole->nx), *y = NULL;
@@ -164,7 +164,8 @@ static Status follow_wires(ActiveRun *r, const Setting *setting, const bool *clo
     if (!any || mode_phases_get(r, setting, wires, &phase, NULL) != OK)
         goto done; /* the sides as they are have messages of their own */
     y = NEW_ARRAY(double, phase->length);
-    mode_entry(phase, r->result->start.y, x, r->result->start.y + layout_references(whole), 0, y);
+    mode_entry(phase, r->result->start.y, x, r->result->start.y + variable_index_references(whole),
+               0, y);
     memcpy(was, x, (size_t)whole->nx * sizeof(double));
     for (int i = 0; i < whole->nx; i++)
         given[i] = is_given(r, setting, i);
@@ -180,7 +181,7 @@ done:
     return status;
 }
 
-static Status begin_phase(ActiveRun *r, const Setting *setting, const ModeSearchAt *at,
+static Status begin_phase(ActiveRun *r, const SimulationInput *setting, const ModeSearchAt *at,
                           bool *closed, Diag *diag)
 {
     Phase *phase;
@@ -194,16 +195,16 @@ static Status begin_phase(ActiveRun *r, const Setting *setting, const ModeSearch
     return OK;
 }
 
-Status mode_start(ActiveRun *r, const Setting *setting, Diag *diag)
+Status mode_start(ActiveRun *r, const SimulationInput *setting, Diag *diag)
 {
     mem_keep(r);
-    const Layout *whole = phases_whole(r->phases)->layout;
+    const VariableIndex *whole = phases_whole(r->phases)->layout;
     double *x = r->result->start.y + whole->n + whole->nu;
     ModeSearchAt at = {.t = 0,
                        .step = START_STEP,
                        .q = r->result->start.y,
                        .u = r->result->start.y + whole->n,
-                       .references = r->result->start.y + layout_references(whole),
+                       .references = r->result->start.y + variable_index_references(whole),
                        .x = x,
                        .x_behind = x};
     bool *closed = NEW_ARRAY(bool, system_ideal_count(r->system));

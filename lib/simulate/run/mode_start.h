@@ -7,6 +7,6 @@
 /* The phase that a run starts in, and `begin`, from the start of its result, which is of the whole.
  * Fails where the ideal switches have no mode at the start, and where the network has no solution.
  */
-MUST_USE Status mode_start(ActiveRun *run, const Setting *setting, Diag *diag);
+MUST_USE Status mode_start(ActiveRun *run, const SimulationInput *setting, Diag *diag);
 
 #endif

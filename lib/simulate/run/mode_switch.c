@@ -99,7 +99,7 @@ typedef struct Looking {
 static Looking looking_new(const ModeSwitching *c, Phase *now, double t, double behind,
                            const double *y)
 {
-    const Layout *whole = phases_whole(c->run->phases)->layout;
+    const VariableIndex *whole = phases_whole(c->run->phases)->layout;
     Looking look = {.now = now,
                     .t = t,
                     .y = y,
@@ -111,7 +111,7 @@ static Looking looking_new(const ModeSwitching *c, Phase *now, double t, double 
     look.at = (ModeSearchAt){.t = behind,
                              .q = look.ahead,
                              .u = look.ahead + whole->n,
-                             .references = look.ahead + layout_references(now->layout),
+                             .references = look.ahead + variable_index_references(now->layout),
                              .x = look.x,
                              .x_behind = look.x_behind};
     return look;
@@ -155,7 +155,7 @@ static bool holds_at_once(const ModeSwitching *c, const Looking *look, bool chan
     if (changed && mode_phases_get(r, c->setting, look->closed, &next, NULL) != OK)
         return true;
     entered = NEW_ARRAY(double, next->length);
-    mode_entry(next, look->y, look->x, look->y + layout_references(look->now->layout),
+    mode_entry(next, look->y, look->x, look->y + variable_index_references(look->now->layout),
                look->y[look->now->length - 1], entered);
     holds = mode_margins_off(next, look->t, look->at.t, look->at.step, entered, &c->control) <= 1 &&
             !mode_entry_jumps(r, next, look->t, entered, look->x);
@@ -202,8 +202,8 @@ static Status go_over(ModeSwitching *c, double t, Looking *look, const Phase *fr
 
         TRY(next_phase(c, t, look->closed, out, diag));
         entered = NEW_ARRAY(double, (*out)->length);
-        mode_entry(*out, y, look->x, y + layout_references(from->layout), y[from->length - 1],
-                   entered);
+        mode_entry(*out, y, look->x, y + variable_index_references(from->layout),
+                   y[from->length - 1], entered);
         mode_switching_free(c);
         c->y = entered;
         TRY(mode_entry_check(r, *out, &entry, c->y, look->x, diag));

@@ -6,7 +6,7 @@
 
 typedef struct ModeSwitching {
     ActiveRun *run;
-    const Setting *setting;
+    const SimulationInput *setting;
     Control control; /* of the run, with its span */
     double stuck;    /* where it was looked at last; NAN */
     bool changed;    /* whether something changed there, */

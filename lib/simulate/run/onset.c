@@ -6,19 +6,19 @@
 #include <math.h>
 #include <string.h>
 
-Onset *onset_new(Steep *steep, const Ode *ode)
+Onset *onset_new(StiffElements *stiff_elements, const Ode *ode)
 {
     Onset *o;
     int k, j;
 
-    if (steep == NULL)
+    if (stiff_elements == NULL)
         return NULL;
     o = NEW(Onset);
-    o->steep = steep;
-    o->visits = steep_visits(steep);
+    o->stiff_elements = stiff_elements;
+    o->visits = stiff_elements_visits(stiff_elements);
     o->ode = ode;
-    o->elements = k = steep_elements(steep);
-    o->sources = j = steep_sources(steep);
+    o->elements = k = stiff_elements_elements(stiff_elements);
+    o->sources = j = stiff_elements_sources(stiff_elements);
     o->length = ode->n + ode->quadratures;
     o->has_pulses = k > 0;
     o->at = (Affine){NEW_ARRAY(double, k), NEW_ARRAY(double, k), NEW_ARRAY(double, k),
@@ -86,15 +86,15 @@ static void choose_scale(Onset *o, const Stepper *stepper)
     for (int i = 0; i < o->length; i++) {
         double size = fabs(stepper->y[i]);
 
-        if (o->ode->cap != NULL && i < o->ode->n)
-            size = fmin(size, o->ode->cap[i]);
-        o->scale[i] = part * (control->atol * ode_unit(o->ode, i) + control->rtol * size);
+        if (o->ode->magnitude_bound != NULL && i < o->ode->n)
+            size = fmin(size, o->ode->magnitude_bound[i]);
+        o->scale[i] = part * (control->atol * ode_nominal(o->ode, i) + control->rtol * size);
     }
 }
 
 static void count_visits(Onset *o, Stepper *stepper)
 {
-    const int64_t visits = steep_visits(o->steep);
+    const int64_t visits = stiff_elements_visits(o->stiff_elements);
 
     stepper->counts.visits += visits - o->visits;
     o->visits = visits;
@@ -113,7 +113,7 @@ double onset_before_step(Onset *o, Stepper *stepper, double end)
                                                    : control_asked(&stepper->control));
     choose_scale(o, stepper);
     if (o->is_first && o->sources > 0)
-        steep_span(o->steep, o->t, end);
+        stiff_elements_span(o->stiff_elements, o->t, end);
     if (o->elements > 0) {
         onset_take_sources(o, o->t);
         if (stepper->method->sees_little)

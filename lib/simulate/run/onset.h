@@ -11,14 +11,14 @@
 #ifndef COTREE_SIMULATE_RUN_ONSET_H
 #define COTREE_SIMULATE_RUN_ONSET_H
 
-#include "simulate/equations/steep.h"
+#include "simulate/equations/stiff_elements.h"
 #include "simulate/integrate/ode.h"
 
 typedef struct Onset Onset;
 
 /* New; onset_free(). Borrows; `steep` NULL: nothing can act for a short time, and NULL comes out.
  */
-Onset *onset_new(Steep *steep, const Ode *ode);
+Onset *onset_new(StiffElements *stiff_elements, const Ode *ode);
 void onset_free(Onset *onset); /* NULL is fine, here and below */
 /* Whether a condition of the equations has another sign at (t, y) than where the run stands: a
  * source that makes it so acts, whatever it does to rates. `turns` NULL: nobody knows. */

@@ -54,15 +54,18 @@ static double conduction(OnsetSearch *s, Range over, const Range *sources)
 
     for (int k = 0; k < o->elements; k++)
         if (!o->conducts[k])
-            most = fmax(most, steep_size(o->steep, k, argument_over(o, k, over, sources)).high -
-                                  o->threshold[k]);
+            most = fmax(
+                most,
+                stiff_elements_size(o->stiff_elements, k, argument_over(o, k, over, sources)).high -
+                    o->threshold[k]);
     return most;
 }
 
 /* one element's size beyond the level */
 static double size_beyond(OnsetSearch *s, Range over, const Range *sources)
 {
-    Range u = steep_size(s->o->steep, s->which, argument_over(s->o, s->which, over, sources));
+    Range u = stiff_elements_size(s->o->stiff_elements, s->which,
+                                  argument_over(s->o, s->which, over, sources));
 
     return s->sign > 0 ? u.high - s->level : s->level - u.low;
 }
@@ -74,19 +77,21 @@ static double threshold_of(double h, double effect)
 
 static double size_at(const Onset *o, int k)
 {
-    return steep_size(o->steep, k, (Range){o->at.a[k], o->at.a[k]}).high;
+    return stiff_elements_size(o->stiff_elements, k, (Range){o->at.a[k], o->at.a[k]}).high;
 }
 
 static bool linearise(Onset *o, const Stepper *stepper)
 {
     const double *y = stepper->y;
 
-    if (steep_linearise(o->steep, stepper->t, y, o->slope, o->h, o->leaks, &o->at))
+    if (stiff_elements_linearise(o->stiff_elements, stepper->t, y, o->slope, o->h, o->leaks,
+                                 &o->at))
         return true;
     /* what is open all around determines nothing: with the slopes there are, then */
     for (int k = 0; k < o->elements; k++)
         o->leaks[k] = NAN;
-    return steep_linearise(o->steep, stepper->t, y, o->slope, o->h, o->leaks, &o->at);
+    return stiff_elements_linearise(o->stiff_elements, stepper->t, y, o->slope, o->h, o->leaks,
+                                    &o->at);
 }
 
 static bool find_effects(Onset *o, const Stepper *stepper)
@@ -95,7 +100,7 @@ static bool find_effects(Onset *o, const Stepper *stepper)
         if (!linearise(o, stepper))
             return false;
         for (int k = 0; k < o->elements; k++)
-            o->effect[k] = steep_effect_of_element(o->steep, k, o->scale);
+            o->effect[k] = stiff_elements_effect_of_element(o->stiff_elements, k, o->scale);
     }
     for (int k = 0; k < o->elements; k++)
         o->threshold[k] = threshold_of(o->h, o->effect[k]);
@@ -166,7 +171,8 @@ double onset_next_conduction(Onset *o, Stepper *stepper, double end, double *bou
     OnsetSearch search = {o, conduction, REACHED, 0, 0, 1, ONSET_INTERVALS, false};
 
     if (!stepper_slope(stepper, o->slope) ||
-        !steep_arguments(o->steep, o->t, stepper->y, o->at.a) || !find_effects(o, stepper))
+        !stiff_elements_arguments(o->stiff_elements, o->t, stepper->y, o->at.a) ||
+        !find_effects(o, stepper))
         return end;
     for (int k = 0; k < o->elements; k++) {
         o->conducts[k] = conducts(o, k);
@@ -191,8 +197,9 @@ bool onset_has_conducted(Onset *o, const Stepper *stepper, double *when)
     double *a = NEW_ARRAY(double, o->elements);
     bool is_open = true, passed = false;
 
-    if (steep_arguments(o->steep, stepper->t, stepper->y, a)) {
-        const Range *sources = steep_sources_over(o->steep, (Range){stepper->t, stepper->t});
+    if (stiff_elements_arguments(o->stiff_elements, stepper->t, stepper->y, a)) {
+        const Range *sources =
+            stiff_elements_sources_over(o->stiff_elements, (Range){stepper->t, stepper->t});
 
         for (int k = 0; k < o->elements; k++) {
             double way = a[k] - o->at.a[k];
@@ -201,9 +208,10 @@ bool onset_has_conducted(Onset *o, const Stepper *stepper, double *when)
                 way -= o->at.by_source[k * o->sources + j] *
                        ((sources[j].low + sources[j].high) / 2 - o->source_at[j]);
             o->at.rate[k] = way / h - o->at.bend[k] * h;
-            is_open = is_open &&
-                      (o->conducts[k] ||
-                       steep_size(o->steep, k, (Range){a[k], a[k]}).high < o->threshold[k] - OPEN);
+            is_open =
+                is_open && (o->conducts[k] ||
+                            stiff_elements_size(o->stiff_elements, k, (Range){a[k], a[k]}).high <
+                                o->threshold[k] - OPEN);
         }
         x = onset_first_place(&search, o->t, stepper->t);
         passed = x > o->t && (x < o->t + LATE * h || (is_open && x < stepper->t));

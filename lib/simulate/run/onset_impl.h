@@ -21,7 +21,7 @@ typedef struct Pulse {
 } Pulse;
 
 struct Onset {
-    Steep *steep;
+    StiffElements *stiff_elements;
     const Ode *ode;
     int elements, sources, length;
     /* about the start of a step */
@@ -58,8 +58,8 @@ typedef struct OnsetSearch {
     /* above 0: it may have passed somewhere in the interval `over`; `sources` are all, or that one
      * which is searched for */
     double (*excess)(struct OnsetSearch *search, Range over, const Range *sources);
-    double slack; /* this much below 0 is passed, at a point */
-    int which;    /* element or source */
+    double error_floor; /* this much below 0 is passed, at a point */
+    int which;          /* element or source */
     double level, sign;
     int left;          /* intervals to go */
     bool is_of_source; /* `which` is one: nothing else is looked at */

@@ -11,23 +11,23 @@
 /* by one source, or by all */
 static double excess_over(OnsetSearch *s, Range over)
 {
-    Steep *steep = s->o->steep;
+    StiffElements *stiff_elements = s->o->stiff_elements;
     Range source;
 
     if (!s->is_of_source)
-        return s->excess(s, over, steep_sources_over(steep, over));
-    source = steep_source_over(steep, s->which, over);
+        return s->excess(s, over, stiff_elements_sources_over(stiff_elements, over));
+    source = stiff_elements_source_over(stiff_elements, s->which, over);
     return s->excess(s, over, &source);
 }
 
 static double excess_close(OnsetSearch *s, Range over)
 {
-    Steep *steep = s->o->steep;
+    StiffElements *stiff_elements = s->o->stiff_elements;
     Range source;
 
     if (!s->is_of_source)
-        return s->excess(s, over, steep_sources_close(steep, over));
-    source = steep_source_close(steep, s->which, over);
+        return s->excess(s, over, stiff_elements_sources_close(stiff_elements, over));
+    source = stiff_elements_source_close(stiff_elements, s->which, over);
     return s->excess(s, over, &source);
 }
 
@@ -61,7 +61,7 @@ double onset_first_place(OnsetSearch *s, double from, double to)
         } else {
             high = middle;
         }
-        if (low != looked && excess_over(s, (Range){low, low}) > -s->slack)
+        if (low != looked && excess_over(s, (Range){low, low}) > -s->error_floor)
             return low;
         looked = low;
         if (--s->left <= 0)

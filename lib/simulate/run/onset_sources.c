@@ -23,7 +23,7 @@
 
 void onset_take_sources(Onset *o, double t)
 {
-    const Range *at = steep_sources_over(o->steep, (Range){t, t});
+    const Range *at = stiff_elements_sources_over(o->stiff_elements, (Range){t, t});
 
     for (int j = 0; j < o->sources; j++)
         o->source_at[j] = (at[j].low + at[j].high) / 2;
@@ -61,14 +61,14 @@ double onset_bend_bound(Onset *o, double end)
     double far = fmin(GROWTH * o->h, end - o->t), h = far;
 
     for (int turn = 0; turn < 60; turn++, h *= 0.7) {
-        const Range *bends = steep_bends_over(o->steep, (Range){o->t, o->t + h});
+        const Range *bends = stiff_elements_bends_over(o->stiff_elements, (Range){o->t, o->t + h});
         bool is_short = true;
 
         for (int j = 0; j < o->sources && is_short; j++) {
             double bend = bend_over(bends[j], h);
 
-            is_short = !(isfinite(bend) && steep_source_size(o->steep, j) > 0 &&
-                         bend > BEND * steep_source_size(o->steep, j));
+            is_short = !(isfinite(bend) && stiff_elements_source_size(o->stiff_elements, j) > 0 &&
+                         bend > BEND * stiff_elements_source_size(o->stiff_elements, j));
         }
         if (is_short)
             break;
@@ -78,7 +78,7 @@ double onset_bend_bound(Onset *o, double end)
 
 static void look_at(Onset *o, double t, const double *from)
 {
-    const Range *at = steep_sources_over(o->steep, (Range){t, t});
+    const Range *at = stiff_elements_sources_over(o->stiff_elements, (Range){t, t});
 
     for (int j = 0; j < o->sources; j++) {
         const double way = fabs((at[j].low + at[j].high) / 2 - from[j]);
@@ -120,10 +120,10 @@ static bool is_clear(Onset *o, double h, double end)
     if (o->t + h <= o->clear && h <= o->clear_step)
         return true;
     h *= LONGER;
-    over = steep_sources_over(o->steep, ahead);
+    over = stiff_elements_sources_over(o->stiff_elements, ahead);
     for (int j = 0; j < o->sources; j++)
         o->seen[j] = over[j].high - over[j].low;
-    over = steep_bends_over(o->steep, ahead);
+    over = stiff_elements_bends_over(o->stiff_elements, ahead);
     for (int j = 0; j < o->sources; j++)
         if (!(bend_over(over[j], h) <= STRAIGHT * o->seen[j]))
             return false;
@@ -136,15 +136,16 @@ static bool is_clear(Onset *o, double h, double end)
  * promise more than there is, and at a point rounding alone would keep that promise. */
 static double delta_of(Onset *o, int j, const Stepper *stepper, double to)
 {
-    double effect = steep_effect_of_source(o->steep, j, o->t, stepper->y, o->scale);
+    double effect =
+        stiff_elements_effect_of_source(o->stiff_elements, j, o->t, stepper->y, o->scale);
     double delta = effect > 0 ? ONSET_AIM / ((to - o->t) * effect) : INFINITY;
 
-    return fmax(delta, NOISE * steep_source_size(o->steep, j));
+    return fmax(delta, NOISE * stiff_elements_source_size(o->stiff_elements, j));
 }
 
 static double way_at(Onset *o, int j, double t)
 {
-    const Range at = steep_source_over(o->steep, j, (Range){t, t});
+    const Range at = stiff_elements_source_over(o->stiff_elements, j, (Range){t, t});
 
     return fabs((at.low + at.high) / 2 - o->source_at[j]);
 }
@@ -181,7 +182,8 @@ static double change_of_rates(Onset *o, Stepper *stepper, double at, double h)
  * `way` at most, the equations themselves are asked. */
 static double acting_at_large(Onset *o, int j, Stepper *stepper, double to, double way)
 {
-    const double least = fmax(o->seen[j] / SEEN, NOISE * steep_source_size(o->steep, j));
+    const double least =
+        fmax(o->seen[j] / SEEN, NOISE * stiff_elements_source_size(o->stiff_elements, j));
     double at = INFINITY, reached, change;
 
     for (double level = 0.9 * way; !(at <= to) && level > fmax(least, FAINT * way); level /= 2)
@@ -227,11 +229,11 @@ static double unseen(Onset *o, int j, Stepper *stepper, double to, double way)
 /* whether source j may leave a straight line in the step by a good part of its range in the run */
 static bool bends_far(Onset *o, int j, double to)
 {
-    const Range bend = steep_bends_over(o->steep, (Range){o->t, to})[j];
+    const Range bend = stiff_elements_bends_over(o->stiff_elements, (Range){o->t, to})[j];
     const double most = fmax(fabs(bend.low), fabs(bend.high)), h = to - o->t;
 
-    return isfinite(most) && steep_source_size(o->steep, j) > 0 &&
-           most * h * h / 8 > STRAIGHT * steep_source_size(o->steep, j);
+    return isfinite(most) && stiff_elements_source_size(o->stiff_elements, j) > 0 &&
+           most * h * h / 8 > STRAIGHT * stiff_elements_source_size(o->stiff_elements, j);
 }
 
 double onset_next_unseen(Onset *o, Stepper *stepper, double end)
@@ -248,7 +250,7 @@ double onset_next_unseen(Onset *o, Stepper *stepper, double end)
         return end;
     onset_take_sources(o, o->t);
     way = NEW_ARRAY(double, o->sources);
-    over = steep_sources_over(o->steep, (Range){o->t, to});
+    over = stiff_elements_sources_over(o->stiff_elements, (Range){o->t, to});
     for (int j = 0; j < o->sources; j++)
         way[j] = fmax(over[j].high - o->source_at[j], o->source_at[j] - over[j].low);
     look_around(o, method, to - o->t, way);
@@ -283,10 +285,11 @@ bool onset_is_calm(Onset *o, double from, double to)
 
     if (o == NULL || o->sources == 0)
         return true;
-    over = steep_sources_over(o->steep, (Range){from, to});
+    over = stiff_elements_sources_over(o->stiff_elements, (Range){from, to});
     for (int j = 0; j < o->sources; j++)
-        if (steep_source_size(o->steep, j) > 0 &&
-            !(over[j].high - over[j].low <= CALM * steep_source_size(o->steep, j)))
+        if (stiff_elements_source_size(o->stiff_elements, j) > 0 &&
+            !(over[j].high - over[j].low <=
+              CALM * stiff_elements_source_size(o->stiff_elements, j)))
             return false;
     return true;
 }
@@ -298,9 +301,9 @@ int onset_pieces(Onset *o, double from, double to, int most)
 
     if (o == NULL || o->sources == 0)
         return 1;
-    bends = steep_bends_over(o->steep, (Range){from, to});
+    bends = stiff_elements_bends_over(o->stiff_elements, (Range){from, to});
     for (int j = 0; j < o->sources; j++) {
-        double size = steep_source_size(o->steep, j);
+        double size = stiff_elements_source_size(o->stiff_elements, j);
         double bend = bend_over(bends[j], to - from);
 
         if (size > 0)

@@ -24,7 +24,7 @@ Pace pace_begin(double step, double from)
     return (Pace){.step = step, .began = now, .from = from, .last = now, .before = from};
 }
 
-void pace_wait(Pace *pace, double t, const Watch *watch)
+void pace_wait(Pace *pace, double t, const CallMonitor *watch)
 {
     const double due = pace->began + (t - pace->from);
     const double now = clock_now(), took = now - pace->last, length = t - pace->before;
@@ -38,7 +38,7 @@ void pace_wait(Pace *pace, double t, const Watch *watch)
     }
     pace->late += took > length;
     pace->behind = fmax(pace->behind, now - due);
-    while ((left = due - clock_now()) > 0 && poll(watch) == OK)
+    while ((left = due - clock_now()) > 0 && monitor_poll(watch) == OK)
         sleep_for(fmin(left, LOOK));
     pace->last = clock_now();
     pace->before = t;

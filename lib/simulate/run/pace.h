@@ -6,7 +6,7 @@
 #ifndef COTREE_SIMULATE_RUN_PACE_H
 #define COTREE_SIMULATE_RUN_PACE_H
 
-#include "base/watch.h"
+#include "base/call_monitor.h"
 
 #include <stdint.h>
 
@@ -23,6 +23,6 @@ typedef struct Pace {
 /* The run begins now, at `from`. */
 Pace pace_begin(double step, double from);
 /* A step ended at t: wait for the clock. Returns early when `watch` asks to stop. */
-void pace_wait(Pace *pace, double t, const Watch *watch);
+void pace_wait(Pace *pace, double t, const CallMonitor *watch);
 
 #endif

@@ -39,7 +39,7 @@ Status phase_new_on(System *system, Parameters *parameters, const bool *closed, 
     Status status = OK;
 
     phase->system = system;
-    phase->layout = layout_new_on(system, on, on_count);
+    phase->layout = variable_index_new_on(system, on, on_count);
     phase->like = phase;
     if (closed != NULL)
         phase->closed = copy_sides(closed, count);
@@ -48,7 +48,7 @@ Status phase_new_on(System *system, Parameters *parameters, const bool *closed, 
         phase->on[i] = on[i];
     phase->on_count = on_count;
     phase_enter(phase);
-    CHECK(numbers_new(phase->layout, parameters, &phase->numbers, diag));
+    CHECK(compiled_new(phase->layout, parameters, &phase->numbers, diag));
     *out = phase;
     phase = NULL;
 done:
@@ -69,7 +69,7 @@ Phase *phase_new_like(Phase *other, const bool *closed, int count)
 void phase_enter(const Phase *phase)
 {
     if (phase->closed != NULL)
-        layout_take_sides(phase->layout, phase->closed);
+        variable_index_set_sides(phase->layout, phase->closed);
 }
 
 /* exact derivatives of the rates and of the implicit equations, for implicit methods */
@@ -89,18 +89,18 @@ Status phase_open(Phase *phase, Parameters *parameters, const MotionOptions *opt
     const bool before = mem_scratch(true);
     Status status = OK;
 
-    phase->motion = motion_new(numbers_equations(phase->numbers), options);
+    phase->motion = motion_new(compiled_equations(phase->numbers), options);
     phase->length = motion_length(phase->motion);
     if (phase->on_count == 0)
         phase->network = netdae_new(phase->layout, parameters, phase->motion);
     if (phase->network != NULL)
-        motion_offer(phase->motion, netdae_equations(phase->network));
+        ode_set_jacobian(phase->motion, netdae_equations(phase->network));
     else
         offer_jacobians(phase, parameters);
     CHECK(samples_new(phase->layout, parameters, phase->motion, host, &phase->samples, diag));
-    CHECK(steep_new(phase->layout, parameters, phase->motion, numbers_equations(phase->numbers),
-                    &phase->steep, diag));
-    phase->onset = onset_new(phase->steep, motion_ode(phase->motion));
+    CHECK(stiff_elements_new(phase->layout, parameters, phase->motion,
+                             compiled_equations(phase->numbers), &phase->stiff_elements, diag));
+    phase->onset = onset_new(phase->stiff_elements, motion_ode(phase->motion));
 done:
     (void)mem_scratch(before);
     return status;
@@ -118,7 +118,7 @@ void phase_free(Phase *phase)
     events_free(phase->events);
     samples_free(phase->samples);
     onset_free(phase->onset);
-    steep_free(phase->steep);
+    stiff_elements_free(phase->stiff_elements);
     probe_free(phase->seen);
     probe_free(phase->states);
     mem_free(phase->among_whole);
@@ -126,8 +126,8 @@ void phase_free(Phase *phase)
     rate_jacobian_free(phase->jacobian);
     implicit_jacobian_free(phase->implicit);
     motion_free(phase->motion);
-    numbers_free(phase->numbers);
-    layout_free(phase->layout);
+    compiled_free(phase->numbers);
+    variable_index_free(phase->layout);
     MEM_FREE(phase->on, phase);
 }
 
@@ -157,7 +157,8 @@ typedef struct Openness {
 } Openness;
 
 /* Parts of the tolerances don't cancel: each counts more than the one before. */
-static void take_tolerances(const Layout *l, const double *y, const Control *control, double *off)
+static void take_tolerances(const VariableIndex *l, const double *y, const Control *control,
+                            double *off)
 {
     for (int i = 0; i < l->nx; i++)
         off[l->n + l->nu + i] =
@@ -176,8 +177,8 @@ static int largest_at(const double *v, int count)
 
 static Openness find_openness(const Phase *phase, double t, const double *y, const Control *control)
 {
-    const Layout *l = phase->layout;
-    const int elements = steep_elements(phase->steep);
+    const VariableIndex *l = phase->layout;
+    const int elements = stiff_elements_elements(phase->stiff_elements);
     double *off = NEW_ARRAY(double, phase->length), *own = off + l->n + l->nu;
     double *moved = NEW_ARRAY(double, elements), *there = NEW_ARRAY(double, elements);
     double *blocked = NEW_ARRAY(double, l->nx), *conducting = NEW_ARRAY(double, l->nx);
@@ -185,10 +186,10 @@ static Openness find_openness(const Phase *phase, double t, const double *y, con
     Openness out = {.most = INFINITY, .state = -1};
 
     take_tolerances(l, y, control, off);
-    if (steep_answers(phase->steep, t, y, off, BLOCKED, moved, blocked)) {
+    if (stiff_elements_answers(phase->stiff_elements, t, y, off, BLOCKED, moved, blocked)) {
         out.element = largest_at(moved, elements);
         out.most = fabs(moved[out.element]);
-        if (!steep_answers(phase->steep, t, y, off, CONDUCTS, there, conducting))
+        if (!stiff_elements_answers(phase->stiff_elements, t, y, off, CONDUCTS, there, conducting))
             most = INFINITY;
         for (int i = 0; i < l->nx; i++) {
             const double slow = fabs(conducting[i]) + own[i] / control->span;
@@ -207,7 +208,7 @@ static Status refuse_untold(const Phase *phase, double t, const Openness *open,
                             const Method *method, Diag *diag)
 {
     const Method *joint = phase_joint_method(phase);
-    const char *variable = steep_variable(phase->steep, open->element);
+    const char *variable = stiff_elements_variable(phase->stiff_elements, open->element);
     const int part = (int)strcspn(variable, ".");
 
     (void)diag_set(diag, E_SOLVER,
@@ -229,7 +230,8 @@ Status phase_choose_method(const Phase *phase, double t, const double *y, const 
     const Method *joint = phase_joint_method(phase);
     Openness open;
 
-    if (phase->steep == NULL || steep_elements(phase->steep) == 0 || phase->layout->nx == 0)
+    if (phase->stiff_elements == NULL || stiff_elements_elements(phase->stiff_elements) == 0 ||
+        phase->layout->nx == 0)
         return OK;
     open = find_openness(phase, t, y, control);
     onset_leave_open(phase->onset, joint != NULL && open.most > OPEN);
@@ -261,7 +263,7 @@ bool phase_states(Phase *phase, double t, const double *y, int count, RowValues 
 static bool driven_row(Phase *phase, double t, const double *y, const double *driven,
                        RowValues *out)
 {
-    const Layout *l = phase->layout;
+    const VariableIndex *l = phase->layout;
 
     if (driven == NULL)
         return phase_row(phase, t, y, out);
@@ -280,7 +282,7 @@ static bool driven_row(Phase *phase, double t, const double *y, const double *dr
 static void probe_unsolved(const Phase *phase, Probe *probe, double t, const double *y, int count,
                            double *out)
 {
-    const Layout *l = phase->layout;
+    const VariableIndex *l = phase->layout;
     double *any = NEW_ARRAY(double, l->count);
     RowValues row = row_of_state(l, t, y);
     uint64_t seed = 1;
@@ -329,7 +331,7 @@ Status phase_refuse_open(const Phase *phase, Diag *diag)
 
 Status phase_refuse_by(const Phase *phase, Diag *diag)
 {
-    const Layout *l = phase->layout;
+    const VariableIndex *l = phase->layout;
 
     if (l->ne == 0)
         return OK;

@@ -8,9 +8,9 @@
 #define COTREE_SIMULATE_RUN_PHASE_H
 
 #include "simulate/assemble/initial.h"
+#include "simulate/equations/compiled_equations.h"
 #include "simulate/equations/implicit_jacobian.h"
 #include "simulate/equations/netdae.h"
-#include "simulate/equations/numbers.h"
 #include "simulate/equations/rate_jacobian.h"
 #include "simulate/run/events.h"
 #include "simulate/run/onset.h"
@@ -24,8 +24,8 @@ struct Phase {
     Phase *like;    /* that it shares all below with, and which owns it; itself */
     OnSurface *on;  /* surfaces whose sides it stays on, or along which it slides */
     int on_count;
-    Layout *layout;
-    Numbers *numbers;
+    VariableIndex *layout;
+    CompiledEquations *numbers;
     Motion *motion;         /* NULL, with all that follows, until phase_open() */
     int length;             /* of y */
     NetDae *network;        /* NULL where there is mechanics */
@@ -33,7 +33,8 @@ struct Phase {
     ImplicitSlopes *implicit;
     Events *events; /* of `like`; NULL: none, or not made yet */
     Samples *samples;
-    Steep *steep; /* what can act for a short time, and the search for it; NULL: nothing */
+    StiffElements
+        *stiff_elements; /* what can act for a short time, and the search for it; NULL: nothing */
     Onset *onset;
     Probe *seen;      /* what a host is told at rows; NULL: nothing, or not yet */
     Probe *states;    /* the network states of the whole, where it is a mode, */
@@ -65,7 +66,7 @@ const Method *phase_joint_method(const Phase *phase);
 /* What it begins with at (t, y) where *method was asked for (NULL: none was): then the joint one
  * where tolerances of the states leave open whether a steep element conducts. Tells the onset.
  * E_SOLVER where they leave so much open that the method would go wrong. The span of the run is
- * that of `control`. O(steep_answers()). */
+ * that of `control`. O(stiff_elements_answers()). */
 MUST_USE Status phase_choose_method(const Phase *phase, double t, const double *y,
                                     const Control *control, const Method **method, Diag *diag);
 /* Everything at (t, y). False: no solution. */

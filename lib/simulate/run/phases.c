@@ -60,7 +60,7 @@ Phase *phases_whole(const Phases *p)
 }
 
 /* speeds asked for as independent, by the names of their coordinates */
-static Status find_independent(const Layout *l, const Manner *manner, int *out, Diag *diag)
+static Status find_independent(const VariableIndex *l, const Manner *manner, int *out, Diag *diag)
 {
     for (int i = 0; i < manner->independent_count; i++) {
         out[i] = -1;
@@ -117,7 +117,7 @@ Segment phases_segment(const Phase *phase, Events *events)
 {
     phase_enter(phase);
     return (Segment){.phase = phase->number,
-                     .equations = numbers_equations(phase->numbers),
+                     .equations = compiled_equations(phase->numbers),
                      .motion = phase->motion,
                      .events = events,
                      .samples = phase->samples,

@@ -34,7 +34,7 @@ typedef struct Manner {
     int independent_count;
     const int *rows; /* constraints in use */
     int row_count;
-    const Watch *watch;
+    const CallMonitor *watch;
     Host *host; /* NULL: nobody */
 } Manner;
 

@@ -40,7 +40,7 @@ System *result_system(const Result *r)
 
 const RunReport *result_report(const Result *r)
 {
-    return &r->report;
+    return &r->monitor_report;
 }
 
 int result_freedoms(const Result *r)

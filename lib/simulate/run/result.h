@@ -8,7 +8,7 @@
 #define COTREE_SIMULATE_RUN_RESULT_H
 
 #include "simulate/equations/remark.h"
-#include "simulate/equations/setting.h"
+#include "simulate/equations/simulation_input.h"
 #include "simulate/run/pace.h"
 
 typedef enum RunKind { RUN_START, RUN_SIMULATE, RUN_KINEMATICS, RUN_INVERSE } RunKind;

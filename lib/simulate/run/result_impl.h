@@ -33,7 +33,7 @@ struct Result {
     Driven driven;
     LIST(EventRecord) events;
     Pool *pool; /* of names and times in these; NULL: there are none */
-    RunReport report;
+    RunReport monitor_report;
     Remarks remarks;
 };
 

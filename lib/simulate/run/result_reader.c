@@ -141,7 +141,7 @@ done:
 }
 
 Status result_reader_values_along(ResultReader *reader, Expr item, const double *times, int count,
-                                  const Watch *watch, double *values, Diag *diag)
+                                  const CallMonitor *watch, double *values, Diag *diag)
 {
     const Phase *of = NULL; /* that the probe is of */
     Probe *probe = NULL;
@@ -151,7 +151,7 @@ Status result_reader_values_along(ResultReader *reader, Expr item, const double 
         Phase *phase = NULL;
         const double *y = NULL, *driven = NULL;
 
-        CHECK(poll(watch));
+        CHECK(monitor_poll(watch));
         CHECK(result_reader_at(reader, times[i], &phase, &y, &driven, diag));
         if (phase != of) {
             probe_free(probe);

@@ -22,7 +22,7 @@ MUST_USE Status result_reader_values(ResultReader *reader, const Expr *items, in
 /* What is asked for next are these instants, rising: found in one go. Where that fails, or there is
  * no such instant, asking for it tells. Fails with E_STOPPED. */
 MUST_USE Status result_reader_prepare(ResultReader *reader, const double *times, int count,
-                                      const Watch *watch, Diag *diag);
+                                      const CallMonitor *watch, Diag *diag);
 /* The same as result_reader_values() at one instant of the run. Between rows that part of the run
  * is taken again, with its own steps and tolerance. E_VALUE outside the run. */
 MUST_USE Status result_reader_values_at(ResultReader *reader, const Expr *items, int count,
@@ -30,7 +30,7 @@ MUST_USE Status result_reader_values_at(ResultReader *reader, const Expr *items,
 
 /* The same at several instants, rising: values[i] of one expression. */
 MUST_USE Status result_reader_values_along(ResultReader *reader, Expr item, const double *times,
-                                           int count, const Watch *watch, double *values,
+                                           int count, const CallMonitor *watch, double *values,
                                            Diag *diag);
 
 /* How far an item moves at several instants where states and time are off by a rounding, that of

@@ -26,31 +26,35 @@ typedef struct RunOptions {
  * about what was solved for, redundant constraints by joint, singular starts: result_remarks().
  * Fails with E_ASSEMBLE: the residual of each equation that can't be met, by joint and given value.
  */
-MUST_USE Status run_assemble(System *system, const Setting *setting, Result **out,
+MUST_USE Status run_assemble(System *system, const SimulationInput *setting, Result **out,
                              ResultReader **reader, Diag *diag);
 
 /* Where everything rests, with sources and drivers as at t = 0, or, as the setting has it, at
  * another instant, or against what is driven, which moves: a result of one row like that of
  * run_assemble(), from whose start the search goes out. Fails with E_SOLVER, telling what stays out
  * of balance by part, and as run_assemble() does. */
-MUST_USE Status run_equilibrium(System *system, const Setting *setting, Result **out,
+MUST_USE Status run_equilibrium(System *system, const SimulationInput *setting, Result **out,
                                 ResultReader **reader, Diag *diag);
 
 /* Forward dynamics from the assembled start. E_STOPPED and E_SOLVER still hand out what was
  * computed (*out is NULL only when nothing was). */
-MUST_USE Status run_simulate(System *system, const Setting *setting, const RunOptions *options,
-                             Result **out, ResultReader **reader, Diag *diag);
+MUST_USE Status run_simulate(System *system, const SimulationInput *setting,
+                             const RunOptions *options, Result **out, ResultReader **reader,
+                             Diag *diag);
 /* Driven motion: positions, speeds, accelerations. E_MODEL when drivers leave freedoms (said how
  * many). */
-MUST_USE Status run_kinematics(System *system, const Setting *setting, const RunOptions *options,
-                               Result **out, ResultReader **reader, Diag *diag);
+MUST_USE Status run_kinematics(System *system, const SimulationInput *setting,
+                               const RunOptions *options, Result **out, ResultReader **reader,
+                               Diag *diag);
 /* Kinematics, and the efforts (or sources) that the drivers need. */
-MUST_USE Status run_inverse(System *system, const Setting *setting, const RunOptions *options,
-                            Result **out, ResultReader **reader, Diag *diag);
+MUST_USE Status run_inverse(System *system, const SimulationInput *setting,
+                            const RunOptions *options, Result **out, ResultReader **reader,
+                            Diag *diag);
 /* Go on from the end of a run, whose result stays as it is: its rows are the first of the new one.
  */
-MUST_USE Status run_resume(const Result *old, const Setting *setting, const RunOptions *options,
-                           Result **out, ResultReader **reader, Diag *diag);
+MUST_USE Status run_resume(const Result *old, const SimulationInput *setting,
+                           const RunOptions *options, Result **out, ResultReader **reader,
+                           Diag *diag);
 
 /* the rows of methods.def, for help and completion: name and one line; NULL at the end */
 const char *run_method(int i, const char **brief);

@@ -15,7 +15,7 @@ typedef struct SampledState {
 } SampledState;
 
 struct Samples {
-    const Layout *layout;
+    const VariableIndex *layout;
     Motion *motion;
     Probe *next;
     SampledState *at;
@@ -40,7 +40,7 @@ static Status add_sample(Samples *s, const OwnSample *own, Parameters *parameter
     return OK;
 }
 
-Status samples_new(const Layout *layout, Parameters *parameters, Motion *motion, Host *host,
+Status samples_new(const VariableIndex *layout, Parameters *parameters, Motion *motion, Host *host,
                    Samples **out, Diag *diag)
 {
     const int items = host != NULL ? host->item_count : 0;
@@ -152,9 +152,9 @@ static Status set_input(Host *host, const SampledState *sample, const char *name
     return OK;
 }
 
-Status samples_take(Samples *s, double t, double *y, bool *due, Diag *diag)
+Status samples_read(Samples *s, double t, double *y, bool *due, Diag *diag)
 {
-    const Layout *l;
+    const VariableIndex *l;
     RowValues row;
     const double *values;
 

@@ -3,7 +3,7 @@
 
 #include "base/clock.h"
 #include "base/memory.h"
-#include "simulate/equations/causes.h"
+#include "simulate/equations/failure_diagnosis.h"
 #include "simulate/run/begin.h"
 #include "simulate/run/charge_sharing.h"
 #include "simulate/run/forward.h"
@@ -90,7 +90,7 @@ static Status check_rtol(double rtol, Diag *diag)
 static Status complete_options(const ActiveRun *r, const RunOptions *given, RunOptions *out,
                                Diag *diag)
 {
-    const Layout *layout = r->phase->layout;
+    const VariableIndex *layout = r->phase->layout;
     const int width = 2 + layout->n + layout->nu + layout->nx;
 
     *out = *given;
@@ -162,25 +162,25 @@ static void fill_report(ActiveRun *r, const IntegrationReport *integration,
 {
     MotionCounts counts = counts_of(r);
 
-    r->result->report.method = integration->method->name;
-    r->result->report.rtol = options->rtol;
-    r->result->report.atol = options->atol;
-    r->result->report.steps = integration->counts.steps;
-    r->result->report.rejected = integration->counts.rejected;
-    r->result->report.evaluations = integration->counts.evaluations;
-    r->result->report.jacobians = integration->counts.jacobians;
-    r->result->report.visits = integration->counts.visits;
-    r->result->report.factorisations = counts.factorisations;
-    r->result->report.regularised = counts.regularised;
-    r->result->report.singular_time = counts.singular_time;
-    r->result->report.position_residual = integration->position_residual;
-    r->result->report.velocity_residual = integration->velocity_residual;
-    r->result->report.reached = integration->reached;
-    r->result->report.every = options->every;
-    r->result->report.step = options->step;
-    r->result->report.most = options->most;
-    r->result->report.stopped = stopped;
-    r->result->report.wall = clock_now() - began;
+    r->result->monitor_report.method = integration->method->name;
+    r->result->monitor_report.rtol = options->rtol;
+    r->result->monitor_report.atol = options->atol;
+    r->result->monitor_report.steps = integration->counts.steps;
+    r->result->monitor_report.rejected = integration->counts.rejected;
+    r->result->monitor_report.evaluations = integration->counts.evaluations;
+    r->result->monitor_report.jacobians = integration->counts.jacobians;
+    r->result->monitor_report.visits = integration->counts.visits;
+    r->result->monitor_report.factorisations = counts.factorisations;
+    r->result->monitor_report.regularised = counts.regularised;
+    r->result->monitor_report.singular_time = counts.singular_time;
+    r->result->monitor_report.position_residual = integration->position_residual;
+    r->result->monitor_report.velocity_residual = integration->velocity_residual;
+    r->result->monitor_report.reached = integration->reached;
+    r->result->monitor_report.every = options->every;
+    r->result->monitor_report.step = options->step;
+    r->result->monitor_report.most = options->most;
+    r->result->monitor_report.stopped = stopped;
+    r->result->monitor_report.wall = clock_now() - began;
 }
 
 /* how much accuracy is lost there is not known: a run of check=on measures it */
@@ -196,13 +196,13 @@ static void remark_singular(ActiveRun *r)
 static void remark_integration(ActiveRun *r, const IntegrationReport *integration)
 {
     remarks_append(&r->result->remarks, &integration->remarks);
-    share_tell(r);
+    charge_sharing_report(r);
     events_remark(r->events, &r->result->remarks);
     remark_singular(r);
 }
 
 /* Integrate a run whose start is set; what it found is kept also when that ends early. */
-static Status go(ActiveRun *r, const Setting *setting, const RunOptions *given, double from,
+static Status go(ActiveRun *r, const SimulationInput *setting, const RunOptions *given, double from,
                  bool skip_first, Diag *diag)
 {
     const Method *method;
@@ -218,7 +218,7 @@ static Status go(ActiveRun *r, const Setting *setting, const RunOptions *given, 
     CHECK(complete_options(r, given, &options, diag));
     CHECK(find_method(options.method, &method, diag));
     CHECK(method_in_time(&options, &method, diag));
-    report(setting->watch, "compiling", -1);
+    monitor_report(setting->watch, "compiling", -1);
     CHECK(active_run_prepare(r, diag));
     CHECK(samples_check(r->phase->samples, options.duration, diag));
     phases_tolerance(r->phases, options.atol);
@@ -249,30 +249,30 @@ static Status go(ActiveRun *r, const Setting *setting, const RunOptions *given, 
         LIST_PUSH(r->result->jumps, report_of.jumps.at[i]);
     LIST_FREE(report_of.jumps);
     fill_report(r, &report_of, &options, status == E_STOPPED, began);
-    r->result->report.pace = pace;
+    r->result->monitor_report.pace = pace;
     if (status == OK && options.check)
         status = global_error_estimate(r, setting, &options, method, &again, first, diag);
     if (active_run_balance(r, NULL) != OK)
-        r->result->report.energy_drift = NAN;
-    r->result->report.wall = clock_now() - began;
+        r->result->monitor_report.energy_drift = NAN;
+    r->result->monitor_report.wall = clock_now() - began;
 done:
     global_error_events_free(&again);
     return status;
 }
 
-Status run_assemble(System *system, const Setting *setting, Result **out, ResultReader **reader,
-                    Diag *diag)
+Status run_assemble(System *system, const SimulationInput *setting, Result **out,
+                    ResultReader **reader, Diag *diag)
 {
     ActiveRun *r = NULL;
-    RunReport *report;
+    RunReport *monitor_report;
     Status status = OK;
 
     CHECK(run_open(RUN_START, system, setting, &r, diag));
-    report = &r->result->report;
+    monitor_report = &r->result->monitor_report;
     active_run_add_row(r, 0, r->begin);
-    motion_residuals(r->phase->motion, 0, r->begin, &report->position_residual,
-                     &report->velocity_residual);
-    if (poll(setting->watch) != OK)
+    motion_residuals(r->phase->motion, 0, r->begin, &monitor_report->position_residual,
+                     &monitor_report->velocity_residual);
+    if (monitor_poll(setting->watch) != OK)
         CHECK(diag_set(diag, E_STOPPED, "stopped at the start"));
     active_run_finish(r, setting, out, reader);
     r = NULL;
@@ -282,7 +282,7 @@ done:
 }
 
 /* hand out what there is, unless there is nothing */
-static void give(ActiveRun *r, const Setting *setting, Status status, Result **out,
+static void give(ActiveRun *r, const SimulationInput *setting, Status status, Result **out,
                  ResultReader **reader)
 {
     const bool kept = r != NULL && r->result->grid.count > 0 &&
@@ -292,15 +292,15 @@ static void give(ActiveRun *r, const Setting *setting, Status status, Result **o
     if (reader != NULL)
         *reader = NULL;
     if (kept)
-        r->result->report.stopped = status == E_STOPPED;
+        r->result->monitor_report.stopped = status == E_STOPPED;
     if (kept)
         active_run_finish(r, setting, out, reader);
     else
         active_run_free(r);
 }
 
-Status run_simulate(System *system, const Setting *setting, const RunOptions *options, Result **out,
-                    ResultReader **reader, Diag *diag)
+Status run_simulate(System *system, const SimulationInput *setting, const RunOptions *options,
+                    Result **out, ResultReader **reader, Diag *diag)
 {
     ActiveRun *r = NULL;
     Status status = OK;
@@ -313,7 +313,7 @@ done:
     return status;
 }
 
-Status run_resume(const Result *old, const Setting *setting, const RunOptions *options,
+Status run_resume(const Result *old, const SimulationInput *setting, const RunOptions *options,
                   Result **out, ResultReader **reader, Diag *diag)
 {
     ActiveRun *r = NULL;
@@ -347,7 +347,7 @@ static Status check_driven(const ActiveRun *r, Diag *diag)
 /* The next row from the last one: predicted, then projected; in halves where that fails. */
 static bool reach(ActiveRun *r, double from, double to, double *y, int depth)
 {
-    const Layout *l = r->phase->layout;
+    const VariableIndex *l = r->phase->layout;
     const Ode *ode = motion_ode(r->phase->motion);
     double h = to - from;
     double *trial = NEW_ARRAY(double, r->phase->length);
@@ -355,17 +355,18 @@ static bool reach(ActiveRun *r, double from, double to, double *y, int depth)
     double moved = 0, turned = 0;
     /* where all is prescribed there is but one branch, wherever the search for it begins */
     const bool has_branches =
-        numbers_equations(r->phase->numbers)->prescribed == NULL || l->multi_turns > 0;
+        compiled_equations(r->phase->numbers)->prescribed == NULL || l->multi_turns > 0;
     bool sound = !has_branches || ode->rate(ode->context, from, y, rate);
 
     for (int i = 0; i < l->n; i++) {
-        double bend = numbers_equations(r->phase->numbers)->map == NULL ? rate[l->n + i] : 0;
+        double bend = compiled_equations(r->phase->numbers)->map == NULL ? rate[l->n + i] : 0;
 
         trial[i] = y[i] + h * rate[i] + h * h / 2 * bend;
     }
     for (int i = l->n; i < r->phase->length; i++)
         trial[i] = y[i];
-    for (int i = layout_references(l); i < layout_references(l) + l->multi_turns; i++) {
+    for (int i = variable_index_references(l); i < variable_index_references(l) + l->multi_turns;
+         i++) {
         trial[i] = y[i] + h * rate[i];
         turned = fmax(turned, fabs(h * rate[i]));
     }
@@ -373,7 +374,8 @@ static bool reach(ActiveRun *r, double from, double to, double *y, int depth)
     sound = sound && motion_project(r->phase->motion, to, trial);
     for (int i = 0; i < l->n && has_branches; i++)
         moved = fmax(moved, fabs(trial[i] - rate[i]));
-    for (int i = layout_references(l); i < layout_references(l) + l->multi_turns; i++)
+    for (int i = variable_index_references(l); i < variable_index_references(l) + l->multi_turns;
+         i++)
         turned = fmax(turned, TURNED / MISSED * fabs(trial[i] - rate[i]));
     /* far from the prediction is perhaps another branch */
     sound = sound && moved < 0.1 && turned < TURNED;
@@ -388,7 +390,7 @@ static bool reach(ActiveRun *r, double from, double to, double *y, int depth)
 }
 
 /* What can't be told where the motion begins has a cause, which is named. */
-static bool is_told_at_start(ActiveRun *r, const double *y)
+static bool is_determined_at_start(ActiveRun *r, const double *y)
 {
     Solved solved;
 
@@ -400,16 +402,18 @@ static void add_position(ActiveRun *r, double t, const double *y)
     double position = 0, velocity = 0;
 
     motion_residuals(r->phase->motion, t, y, &position, &velocity);
-    r->result->report.position_residual = fmax(r->result->report.position_residual, position);
-    r->result->report.velocity_residual = fmax(r->result->report.velocity_residual, velocity);
+    r->result->monitor_report.position_residual =
+        fmax(r->result->monitor_report.position_residual, position);
+    r->result->monitor_report.velocity_residual =
+        fmax(r->result->monitor_report.velocity_residual, velocity);
     active_run_add_row(r, t, y);
-    r->result->report.reached = t;
+    r->result->monitor_report.reached = t;
 }
 
 static Status lost(ActiveRun *r, double last, double t, const double *y, Diag *diag)
 {
-    if (cause_meeting(r->phase->layout, &r->phases->parameters, last, y,
-                      "nothing tells how it moves on", diag))
+    if (failure_meeting(r->phase->layout, &r->phases->parameters, last, y,
+                        "nothing tells how it moves on", diag))
         return E_SINGULAR;
     return solver_failure(diag, t, "the drivers lead where the parts can't follow");
 }
@@ -467,7 +471,7 @@ static Status follow_events(ActiveRun *r, double from, double to, double span, d
             memcpy(y, trial, bytes);
             k++;
         }
-        CHECK(events_take(r->events, t, span, y, &happened, stop, diag));
+        CHECK(events_read(r->events, t, span, y, &happened, stop, diag));
         if (happened)
             add_position(r, t, y);
         last = t;
@@ -477,7 +481,8 @@ done:
     return status;
 }
 
-static Status positions(ActiveRun *r, const Setting *setting, const RunOptions *options, Diag *diag)
+static Status positions(ActiveRun *r, const SimulationInput *setting, const RunOptions *options,
+                        Diag *diag)
 {
     int rows = grid_rows(0, options->duration, options->every);
     double *y = NEW_ARRAY(double, r->phase->length);
@@ -488,20 +493,21 @@ static Status positions(ActiveRun *r, const Setting *setting, const RunOptions *
     memcpy(y, r->begin, (size_t)r->phase->length * sizeof(double));
     if (!motion_project(r->phase->motion, 0, y))
         CHECK(solver_failure(diag, 0, "the start does not meet the constraints"));
-    if (!is_told_at_start(r, y))
+    if (!is_determined_at_start(r, y))
         CHECK(lost(r, 0, 0, y, diag));
     transaction_stop_asking(); /* there will be rows to be kept */
     for (int k = 0; k <= rows && !stop; k++) {
         double t = k > 0 ? grid_time(0, options->duration, options->every, rows, k) : 0;
 
-        if (poll(setting->watch) != OK)
+        if (monitor_poll(setting->watch) != OK)
             CHECK(diag_set(diag, E_STOPPED, "stopped at t = %.6g s", last));
-        report(setting->watch, "kinematics", t / options->duration);
+        monitor_report(setting->watch, "kinematics", t / options->duration);
         if (k > 0 && events_count(r->events) > 0)
             CHECK(follow_events(r, last, t, options->duration, y, &stop, diag));
         else if (k > 0 && !reach(r, last, t, y, 12))
             CHECK(lost(r, last, t, y, diag));
-        if (!stop && (k == 0 || r->result->report.reached < t)) /* else an event's instant */
+        if (!stop &&
+            (k == 0 || r->result->monitor_report.reached < t)) /* else an event's instant */
             add_position(r, t, y);
         if (k == 0 && events_count(r->events) > 0)
             stop = events_begin(r->events, 0, y);
@@ -511,11 +517,11 @@ done:
     mem_free(y);
     events_remark(r->events, &r->result->remarks);
     remark_singular(r);
-    r->result->report.regularised = counts_of(r).regularised;
-    r->result->report.singular_time = counts_of(r).singular_time;
-    r->result->report.every = options->every;
-    r->result->report.method = "newton";
-    r->result->report.steps = r->result->grid.count;
+    r->result->monitor_report.regularised = counts_of(r).regularised;
+    r->result->monitor_report.singular_time = counts_of(r).singular_time;
+    r->result->monitor_report.every = options->every;
+    r->result->monitor_report.method = "newton";
+    r->result->monitor_report.steps = r->result->grid.count;
     return status;
 }
 
@@ -543,7 +549,8 @@ static Status refuse_idle(const RunOptions *given, Diag *diag)
 
 /* Positions follow from the drivers; states of a network that nobody asks back from are
  * integrated along. */
-static Status drive(ActiveRun *r, const Setting *setting, const RunOptions *given, Diag *diag)
+static Status drive(ActiveRun *r, const SimulationInput *setting, const RunOptions *given,
+                    Diag *diag)
 {
     RunOptions options;
     double began = clock_now();
@@ -568,11 +575,11 @@ static Status drive(ActiveRun *r, const Setting *setting, const RunOptions *give
         CHECK(positions(r, setting, &options, diag));
     }
 done:
-    r->result->report.wall = clock_now() - began;
+    r->result->monitor_report.wall = clock_now() - began;
     return status;
 }
 
-Status run_kinematics(System *system, const Setting *setting, const RunOptions *options,
+Status run_kinematics(System *system, const SimulationInput *setting, const RunOptions *options,
                       Result **out, ResultReader **reader, Diag *diag)
 {
     ActiveRun *r = NULL;
@@ -586,8 +593,8 @@ done:
     return status;
 }
 
-Status run_inverse(System *system, const Setting *setting, const RunOptions *options, Result **out,
-                   ResultReader **reader, Diag *diag)
+Status run_inverse(System *system, const SimulationInput *setting, const RunOptions *options,
+                   Result **out, ResultReader **reader, Diag *diag)
 {
     ActiveRun *r = NULL;
     Status status = OK;
@@ -604,7 +611,7 @@ Status run_inverse(System *system, const Setting *setting, const RunOptions *opt
     status = inverse_solve(r->phases, &r->result->start, rows, driven == OK ? setting->watch : NULL,
                            &r->result->driven, diag);
     if (status == E_STOPPED && rows->count > 0)
-        r->result->report.reached = rows->times[rows->count - 1];
+        r->result->monitor_report.reached = rows->times[rows->count - 1];
     CHECK(status);
     status = driven;
 done:

@@ -51,7 +51,7 @@ static void slides_free(Slides *s)
 
 static bool slip_at(Slides *s, double *out)
 {
-    return motion_slip(s->phase->motion, s->t, s->y, s->signs, out, s->off);
+    return motion_drift(s->phase->motion, s->t, s->y, s->signs, out, s->off);
 }
 
 /* a and B around the signs as they are; over the whole interval where there is but one sign */
@@ -350,19 +350,19 @@ done:
     return status;
 }
 
-void slide_tell(void *context, const Segment *segment, int condition, Text *out)
+void sliding_report(void *context, const Segment *segment, int condition, Text *out)
 {
     const ModeSwitching *c = context;
     System *system = c->run->phases->at[segment->phase]->system;
-    const Numbers *numbers = c->run->phases->at[segment->phase]->numbers;
-    Expr h = numbers_condition(numbers, condition);
+    const CompiledEquations *numbers = c->run->phases->at[segment->phase]->numbers;
+    Expr h = compiled_condition(numbers, condition);
     const char *part = h != NULL ? system_jumping_part(system, h) : NULL;
     char *text = h != NULL ? expr_text(system_plain(system, h)) : NULL;
     IdealSwitch diode;
 
     if (text != NULL)
         text_addf(out, "the sign of %s", text);
-    else if (system_ideal(system, numbers_margin(numbers, condition), &diode, NULL) == OK)
+    else if (system_ideal(system, compiled_margin(numbers, condition), &diode, NULL) == OK)
         text_add(out, diode.name);
     if (part != NULL)
         text_addf(out, " (%s)", part);

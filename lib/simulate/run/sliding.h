@@ -13,6 +13,6 @@ MUST_USE Status slide_choose(void *context, double t, double low, double high, c
                              const Meeting *at, int count, Segment *segment, bool *entered,
                              Diag *diag);
 /* what a condition of a segment is about: "s' (actuator f)"; `context` is a ModeSwitching */
-void slide_tell(void *context, const Segment *segment, int condition, Text *out);
+void sliding_report(void *context, const Segment *segment, int condition, Text *out);
 
 #endif

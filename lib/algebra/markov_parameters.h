@@ -1,0 +1,20 @@
+/* markov_parameters.h: c b, c A b, c A^2 b ... of doubles, to the last digit
+ *
+ * Doubles are whole numbers times a power of 2. Remainders modulo so many primes that their product
+ * exceeds all that the sums can be tell the sums, whatever cancels in them (Knuth, The Art of
+ * Computer Programming 2, 4.3.2). */
+#ifndef COTREE_ALGEBRA_MARKOV_PARAMETERS_H
+#define COTREE_ALGEBRA_MARKOV_PARAMETERS_H
+
+typedef struct MarkovParameters MarkovParameters;
+
+/* New; borrows a (n x n, row by row), b and c, all finite; up to c A^(count - 1) b. NULL where
+ * there are too many digits. Free with markov_parameters_free(). */
+MarkovParameters *markov_parameters_new(const double *a, const double *b, const double *c, int n,
+                                        int count);
+void markov_parameters_free(MarkovParameters *remainders); /* NULL is fine */
+/* c A^k b is about what this returns, to the rounding of a double, times 2^exponent; 0 where it is
+ * 0. k isn't less than it was before. O(n^2) a prime and step. */
+double markov_parameters_value(MarkovParameters *remainders, int k, int *exponent);
+
+#endif

@@ -1,0 +1,90 @@
+/* derivation.h: how an equation came about: what its entries are sums of, and the circuits and
+ * cutsets that they were projected from
+ *
+ * A view tells them of the definitions that the equations themselves were formed from. Lists are
+ * new, and freed with LIST_FREE() by whoever asked; what they point to is the view's. theory 3-4,
+ * 8. */
+#ifndef COTREE_FORMULATE_EXPANDED_DERIVATION_H
+#define COTREE_FORMULATE_EXPANDED_DERIVATION_H
+
+#include "formulate/system/system.h"
+
+typedef enum TermKind {
+    TERM_SHIFT,   /* of a constraint: a branch on the way round, along the row's direction */
+    TERM_TURN,    /* of a constraint: a turn on the way round */
+    TERM_WHOLE,   /* of a constraint that is no sum over branches */
+    TERM_ASKED,   /* less what a driver asks for */
+    TERM_MASS,    /* m v_j.v_k; of F: -m v_j.a at u' = 0 */
+    TERM_INERTIA, /* w_j.I.w_k; of F: the same of what spins */
+    TERM_WEIGHT,  /* m g.v_j */
+    TERM_FORCE,   /* F.v_j */
+    TERM_TORQUE,  /* T.w_j */
+    TERM_EFFORT,  /* on a coordinate or a line: effort times how much speed j moves it */
+    TERM_ROTOR,   /* inertia on a coordinate */
+    TERM_SHAPES,  /* of what deforms: its local block on the root and the shapes */
+    TERM_DRIVE    /* what an inverse run finds */
+} TermKind;
+
+typedef struct Term {
+    TermKind kind;
+    int edge; /* of SHIFT and TURN, with its sign on the way from tail to head; else -1 */
+    int sign;
+    int instance; /* of the others */
+    Expr value;
+} Term;
+typedef LIST(Term) Terms;
+
+/* What the entry is the sum of. None where it stands over definitions because it would be too long,
+ * or where the block's entries are no such sums. Fails as system_show() does. */
+MUST_USE Status system_terms(System *view, Block block, int row, int column, Terms *out,
+                             Diag *diag);
+
+/* components of a vector in the axes of a node's frame */
+typedef struct NarrativeVector {
+    int node;
+    Expr at[3];
+} NarrativeVector;
+
+/* a branch on the way round a circuit of the translation tree */
+typedef struct WayStep {
+    int edge;
+    int sign;              /* +1 where the way from the chord's tail to its head runs with it */
+    NarrativeVector shift; /* from the edge's tail to its head, in the axes of its tail */
+} WayStep;
+typedef LIST(WayStep) Way;
+void system_way(const System *view, int chord, Way *out);
+
+/* The turns from the datum to a node, neighbours about one axis merged: angles; NULL for a free
+ * rotation by Euler parameters. */
+typedef LIST(Expr) Angles;
+void system_angles(const System *view, int node, Angles *out);
+
+/* along what a constraint row projects its circuit */
+typedef enum ConstraintDirection {
+    ALONG_AXIS,   /* `a`, fixed in its node */
+    ALONG_SQUARE, /* none: `a` and `b`, each fixed in its node, stay square */
+    ALONG_TURN,   /* `a` is what the turns are about */
+    ALONG_TIE,    /* `a`, the shift less what the turn makes it */
+    ALONG_DRIVEN, /* none: a coordinate that is asked for */
+    ALONG_COUPLED /* none: one that follows others */
+} ConstraintDirection;
+typedef struct Projection {
+    ConstraintDirection along;
+    NarrativeVector a, b;
+} Projection;
+Projection system_projection(const System *view, int row);
+
+/* What a part with mass does per unit of a speed: v of its mass centre, a sum over frames, and w,
+ * all zero where it isn't turned. */
+typedef struct UnitMotion {
+    int instance;
+    LIST(NarrativeVector) v;
+    NarrativeVector w;
+} UnitMotion;
+typedef LIST(UnitMotion) UnitMotions;
+void system_unit_motions(const System *view, int speed, UnitMotions *out);
+void unit_motions_free(UnitMotions *motions);
+/* the branches that a speed belongs to in the translation and the rotation tree; -1 */
+void system_speed_edges(const System *view, int speed, int edges[2]);
+
+#endif

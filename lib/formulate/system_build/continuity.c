@@ -1,0 +1,185 @@
+/* continuity.c: where a function jumps and what holds it doesn't
+ *
+ * Found in numbers: at points where the condition is 0, other symbols at values of no meaning.
+ * Variables are of either sign there, as what meets at y may not at -y. Parameters are above 0, as
+ * limits and sizes are, and so is t. */
+#include "formulate/system_build/continuity.h"
+
+#include "base/memory.h"
+#include "formulate/system/surfaces.h"
+
+#include <math.h>
+
+#define AWAY   1.0 /* of the point: how large what is 0 there is elsewhere */
+#define CLOSED 1e-9
+#define NEXT   1e-14 /* of the point: a neighbour, */
+#define BESIDE 1e-6  /* whose difference is less than this part of that away from there */
+
+enum { SPOTS = 6 };
+
+typedef struct ContinuitySpot { /* a point at which symbols have values, one of them chosen */
+    int which;                  /* of SPOTS: at the first all are above 0, at the second below */
+    Expr moved;
+    double at;
+} ContinuitySpot;
+
+typedef enum { HOLDS, FAILS, NO_VALUE } Finding; /* at a point where the condition is 0 */
+typedef Finding (*Look)(Arena *arena, Expr e, int k, ContinuitySpot *spot);
+
+static double sign_on(const ContinuitySpot *spot, Expr symbol)
+{
+    const uint32_t mixed = (uint32_t)expr_symbol_number(symbol) * 2654435761U;
+
+    if (expr_symbol_kind(symbol) == SYMBOL_PARAMETER || expr_symbol_kind(symbol) == SYMBOL_TIME)
+        return 1;
+    if (spot->which < 2)
+        return spot->which == 0 ? 1 : -1;
+    return (mixed >> (15 + spot->which) & 1) != 0 ? 1 : -1;
+}
+
+/* no two symbols have the same size */
+static double value_on(void *context, Expr symbol)
+{
+    const ContinuitySpot *spot = context;
+    const double size = 0.7 + fmod(0.618033988749895 * expr_symbol_number(symbol), 1);
+
+    return symbol == spot->moved ? spot->at : sign_on(spot, symbol) * size;
+}
+
+/* Newton's method along a symbol of the condition; false: no zero was found */
+static bool find_spot(Arena *arena, Expr condition, ContinuitySpot *spot)
+{
+    Expr *symbols;
+    int count = expr_symbols(&condition, 1, &symbols);
+    double move = INFINITY;
+    Expr slope;
+
+    spot->moved = NULL;
+    for (int i = 0; i < count; i++)
+        if (expr_symbol_kind(symbols[i]) != SYMBOL_PARAMETER)
+            spot->moved = symbols[i];
+    mem_free(symbols);
+    if (spot->moved == NULL)
+        return false;
+    slope = expr_diff(arena, condition, spot->moved);
+    spot->at = sign_on(spot, spot->moved);
+    for (int i = 0; i < 50 && fabs(move) > 1e-14; i++) {
+        move = expr_evaluate(condition, value_on, spot) / expr_evaluate(slope, value_on, spot);
+        if (!isfinite(move))
+            return false;
+        spot->at -= move;
+    }
+    return fabs(move) <= 1e-12;
+}
+
+/* at all points that have values, and at one at least */
+static bool holds_at_spots(Arena *arena, Expr condition, Look look, Expr e, int k)
+{
+    bool found = false;
+
+    for (int i = 0; i < SPOTS; i++) {
+        ContinuitySpot spot = {.which = i};
+        const Finding here =
+            find_spot(arena, condition, &spot) ? look(arena, e, k, &spot) : NO_VALUE;
+
+        if (here == FAILS)
+            return false;
+        found = found || here == HOLDS;
+    }
+    return found;
+}
+
+/* |yes - no| with the chosen symbol at `at` */
+static double gap_at(Expr choice, ContinuitySpot spot, double at)
+{
+    spot.at = at;
+    return fabs(expr_evaluate(expr_arg(choice, 1), value_on, &spot) -
+                expr_evaluate(expr_arg(choice, 2), value_on, &spot));
+}
+
+/* Whether what an if chooses from is the same there. Beside the end of a domain, as that of
+ * (h - 2)^1.5, the condition's zero in numbers may have no value; then a neighbour has, and the
+ * difference is small beside that further inside: the root of 1e-14 is 1e-7. */
+static Finding choice_meets(Arena *arena, Expr choice, int k, ContinuitySpot *spot)
+{
+    const double yes = expr_evaluate(expr_arg(choice, 1), value_on, spot);
+    const double no = expr_evaluate(expr_arg(choice, 2), value_on, spot);
+    const double size = fmax(1, fabs(spot->at));
+    bool found = false;
+
+    (void)arena;
+    (void)k;
+    if (isfinite(yes) && isfinite(no) && fabs(yes - no) <= CLOSED * (fabs(yes) + fabs(no)))
+        return HOLDS;
+    for (int way = -1; way <= 1; way += 2) {
+        const double beside = gap_at(choice, *spot, spot->at + way * NEXT * size);
+        const double away = gap_at(choice, *spot, spot->at + way * AWAY * size);
+
+        if (!isfinite(beside) || !isfinite(away))
+            continue;
+        if (!(beside <= BESIDE * away))
+            return FAILS;
+        found = true;
+    }
+    if (!found && isfinite(yes) && isfinite(no))
+        return FAILS;
+    return found ? HOLDS : NO_VALUE;
+}
+
+/* What kinks on a surface, as it is there. Rounding leaves a condition beside 0, which roots make
+ * large. */
+static Expr write_nonsmooth_point(Arena *arena, Expr e, void *context)
+{
+    Expr condition = switch_condition(arena, e);
+    int way;
+
+    if (condition == NULL || switch_jumps(e) || expr_is_number(condition) ||
+        surface_of(arena, condition, &way) != context)
+        return e;
+    return expr_op(e) == OP_MIN || expr_op(e) == OP_MAX ? expr_arg(e, 0) : expr_int(arena, 0);
+}
+
+/* Whether the network is solved for what a condition asks of. A surface in the state alone is
+ * followed as one even where nothing jumps there, as a tank is found empty in finite time. */
+static bool is_solved_for(Expr condition)
+{
+    return (expr_kinds(condition) & (1U << SYMBOL_ALGEBRAIC | 1U << SYMBOL_STATE_RATE)) != 0;
+}
+
+/* the other factors of a product are 0 where the k-th jumps */
+static Finding factors_vanish(Arena *arena, Expr product, int k, ContinuitySpot *spot)
+{
+    const int count = expr_arg_count(product);
+    Expr condition = switch_condition(arena, expr_arg(product, k));
+    Expr *others = NEW_ARRAY(Expr, count);
+    double size, away;
+    Expr rest, there;
+    int way;
+
+    for (int i = 0, n = 0; i < count; i++)
+        if (i != k)
+            others[n++] = expr_arg(product, i);
+    rest = expr_product(arena, others, count - 1);
+    mem_free(others);
+    there =
+        expr_change(arena, rest, write_nonsmooth_point, (void *)surface_of(arena, condition, &way));
+    size = fabs(expr_evaluate(there, value_on, spot));
+    spot->at += AWAY;
+    away = fabs(expr_evaluate(rest, value_on, spot));
+    if (!isfinite(size) || !isfinite(away))
+        return NO_VALUE;
+    return size <= CLOSED * away ? HOLDS : FAILS;
+}
+
+bool jump_only_bends(Arena *arena, Expr e, int k)
+{
+    const bool is_product = expr_kind(e) == EXPR_PRODUCT;
+    Expr condition;
+
+    if (!is_product && !(expr_kind(e) == EXPR_CALL && expr_op(e) == OP_IF && k == 0))
+        return false;
+    condition = switch_condition(arena, expr_arg(e, k));
+    if (condition == NULL || (is_product && !is_solved_for(condition)))
+        return false;
+    return holds_at_spots(arena, condition, is_product ? factors_vanish : choice_meets, e, k);
+}

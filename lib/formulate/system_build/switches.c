@@ -1,0 +1,380 @@
+/* switches.c: where the equations may jump or bend: what their comparisons and kinks compare
+ *
+ * Where they jump is a surface: the zeros of a condition, whatever its scale and sign. On either
+ * side of one the functions that jump there are constants; on it they take any value between. */
+#include "formulate/system/constraints.h"
+#include "formulate/system/kinematics.h"
+#include "formulate/system/network.h"
+#include "formulate/system/origin.h"
+#include "formulate/system/shown.h"
+#include "formulate/system/surfaces.h"
+#include "formulate/system/system_impl.h"
+#include "formulate/system_build/continuity.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef LIST(Expr) SwitchesExprs;
+
+/* --- surfaces --- */
+
+#define SAME 1e-14 /* of a constant: what rounding makes of it */
+
+typedef struct Putting {
+    const Surface *surfaces;
+    int count;
+} Putting;
+
+static bool holds_side(const Putting *put, Expr e)
+{
+    for (int i = 0; i < put->count; i++)
+        if (put->surfaces[i].side == 0 && expr_depends(e, put->surfaces[i].sign))
+            return true;
+    return false;
+}
+
+/* what stands for the sign of a condition; NULL: it is left as it is */
+static Expr sign_on(Arena *arena, const Putting *put, Expr condition)
+{
+    int way;
+    Expr surface;
+
+    if (expr_is_number(condition))
+        return NULL;
+    surface = surface_of(arena, condition, &way);
+    for (int i = 0; i < put->count; i++)
+        if (put->surfaces[i].condition == surface || put->surfaces[i].measure == surface)
+            return way > 0 ? put->surfaces[i].sign : expr_neg(arena, put->surfaces[i].sign);
+    return NULL;
+}
+
+/* (1 + way sign)/2 */
+static Expr share(Arena *arena, Expr sign, int way)
+{
+    Expr half = expr_rational(arena, 1, 2);
+
+    return expr_add(arena, half, expr_mul(arena, expr_rational(arena, way, 2), sign));
+}
+
+/* floor(x) next to the whole number n = floor(x + 1/2): n - 1/2 and half the sign of x - n, which
+ * is that of sin(pi x) where n is even */
+static Expr put_floor(Arena *arena, Expr x, Expr sign)
+{
+    Expr half = expr_rational(arena, 1, 2);
+    Expr n = expr_call1(arena, OP_FLOOR, expr_add(arena, x, half));
+    Expr even = expr_cos(arena, expr_mul(arena, expr_pi(arena, 1), n));
+
+    return expr_add(arena, expr_sub(arena, n, half),
+                    expr_product(arena, (Expr[]){half, even, sign}, 3));
+}
+
+static Expr put_jump(Arena *arena, const Putting *put, Expr e)
+{
+    Expr sign = sign_on(arena, put, switch_condition(arena, e));
+
+    if (sign == NULL)
+        return e;
+    if (expr_op(e) == OP_SIGN)
+        return sign;
+    if (expr_op(e) == OP_FLOOR)
+        return put_floor(arena, expr_arg(e, 0), sign);
+    return share(arena, sign, expr_op(e) == OP_STEP ? 1 : -1);
+}
+
+/* what a choice becomes where its condition is no longer 0 or 1 */
+static Expr put_choice(Arena *arena, const Putting *put, Expr e)
+{
+    Expr a = expr_arg(e, 0), one = expr_int(arena, 1);
+
+    switch (expr_op(e)) {
+    case OP_IF:
+        if (!holds_side(put, a))
+            return e;
+        return expr_add(arena, expr_arg(e, 2),
+                        expr_mul(arena, a, expr_sub(arena, expr_arg(e, 1), expr_arg(e, 2))));
+    case OP_AND:
+        return holds_side(put, e) ? expr_mul(arena, a, expr_arg(e, 1)) : e;
+    case OP_OR: /* 1 - (1 - a)(1 - b) */
+        if (!holds_side(put, e))
+            return e;
+        return expr_sub(
+            arena, one,
+            expr_mul(arena, expr_sub(arena, one, a), expr_sub(arena, one, expr_arg(e, 1))));
+    case OP_NOT:
+        return holds_side(put, a) ? expr_sub(arena, one, a) : e;
+    default:
+        return e;
+    }
+}
+
+/* Whether e is 0 on one of the surfaces, but for the rounding of its constants. */
+static bool vanishes_on(Arena *arena, const Putting *put, Expr e)
+{
+    int way;
+    Expr surface;
+
+    if (expr_is_number(e))
+        return false;
+    surface = surface_of(arena, e, &way);
+    for (int i = 0; i < put->count; i++) {
+        const Expr condition = put->surfaces[i].condition;
+        const Expr off = expr_sub(arena, surface, condition);
+        const Expr constant =
+            expr_kind(condition) == EXPR_SUM ? expr_arg(condition, 0) : expr_int(arena, 0);
+
+        if (expr_is_zero(off) || (expr_is_number(off) && expr_is_number(constant) &&
+                                  fabs(expr_value(off)) <= SAME * fabs(expr_value(constant))))
+            return true;
+    }
+    return false;
+}
+
+/* A root of what is 0 on a surface, as (h - 2)^1.5 at h = 2, has no value where errors lead past
+ * it: x^a there is max(x, 0)^a. */
+static Expr put_root(Arena *arena, const Putting *put, Expr e)
+{
+    const bool is_root = expr_kind(e) == EXPR_CALL && expr_op(e) == OP_SQRT;
+    Expr base, inside;
+
+    if (!is_root && (expr_kind(e) != EXPR_POWER || !expr_is_number(expr_arg(e, 1)) ||
+                     expr_value(expr_arg(e, 1)) == floor(expr_value(expr_arg(e, 1)))))
+        return e;
+    base = expr_arg(e, 0);
+    if (!vanishes_on(arena, put, base))
+        return e;
+    inside = expr_call2(arena, OP_MAX, base, expr_int(arena, 0));
+    return is_root ? expr_sqrt(arena, inside) : expr_pow(arena, inside, expr_arg(e, 1));
+}
+
+static Expr put_node(Arena *arena, Expr e, void *context)
+{
+    const Putting *put = context;
+
+    if (expr_kind(e) == EXPR_POWER || (expr_kind(e) == EXPR_CALL && expr_op(e) == OP_SQRT))
+        return put_root(arena, put, e);
+    if (expr_kind(e) != EXPR_CALL)
+        return e;
+    return switch_jumps(e) ? put_jump(arena, put, e) : put_choice(arena, put, e);
+}
+
+Expr surfaces_substitute(Arena *arena, Expr e, const Surface *surfaces, int count)
+{
+    Putting put = {surfaces, count};
+
+    return count > 0 ? expr_change(arena, e, put_node, &put) : e;
+}
+
+/* --- all of a system --- */
+
+typedef struct Gathering {
+    System *system;
+    SwitchesExprs stack;
+    char *seen; /* by number: 1 seen, 2 what it compares is jumped at */
+    uint32_t room;
+} Gathering;
+
+static void make_room(Gathering *g, uint32_t number)
+{
+    uint32_t more = number + number / 2 + 64;
+
+    g->seen = mem_grow(g->seen, more, 1);
+    memset(g->seen + g->room, 0, more - g->room);
+    g->room = more;
+}
+
+static inline char *mark_of(Gathering *g, Expr e)
+{
+    const uint32_t number = expr_number(e);
+
+    if (number >= g->room)
+        make_room(g, number);
+    return &g->seen[number];
+}
+
+/* a call, whose value may be chosen or jump */
+static void visit_call(Gathering *g, Expr e)
+{
+    Expr condition = switch_condition(g->system->arena, e);
+
+    if (condition != NULL && !expr_is_number(condition))
+        LIST_PUSH(g->system->shown->switches, ((Switch){condition, .call = e, .surface = -1}));
+    for (int i = 0; i < expr_arg_count(e); i++) {
+        LIST_PUSH(g->stack, expr_arg(e, i));
+        if (switch_jumps(expr_arg(e, i)) && !jump_only_bends(g->system->arena, e, i))
+            *mark_of(g, expr_arg(e, i)) |= 2;
+    }
+}
+
+/* what is below that hasn't been visited; most of it is no call */
+static void visit(Gathering *g, Expr e)
+{
+    const int count = expr_arg_count(e);
+
+    if (expr_kind(e) == EXPR_CALL) {
+        visit_call(g, e);
+        return;
+    }
+    for (int i = 0; i < count; i++) {
+        const Expr arg = expr_arg(e, i);
+        const ExprKind kind = expr_kind(arg);
+        char *mark;
+
+        if (kind <= EXPR_SYMBOL)
+            continue;
+        mark = mark_of(g, arg);
+        if (kind == EXPR_CALL && switch_jumps(arg) && !jump_only_bends(g->system->arena, e, i))
+            *mark |= 2;
+        if ((*mark & 1) == 0)
+            LIST_PUSH(g->stack, arg);
+    }
+}
+
+static void gather(Gathering *g, const Expr *roots, int count)
+{
+    for (int i = 0; i < count; i++) {
+        LIST_PUSH(g->stack, roots[i]);
+        if (switch_jumps(roots[i]))
+            *mark_of(g, roots[i]) |= 2;
+    }
+    while (g->stack.count > 0) {
+        Expr e = g->stack.at[--g->stack.count];
+        char *mark = mark_of(g, e);
+
+        if ((*mark & 1) == 0) {
+            *mark |= 1;
+            visit(g, e);
+        }
+    }
+}
+
+/* Those of t alone are looked for before a run, in the whole: what a mode makes one of them, as the
+ * voltage of a resistor that a switch lays on a source, is followed like the others. */
+static bool is_of_time(System *system, Expr condition)
+{
+    const Switch *known;
+    int count = 0;
+
+    if ((expr_kinds(condition) & ~(1U << SYMBOL_TIME | 1U << SYMBOL_PARAMETER)) != 0)
+        return false;
+    if (system->whole == NULL)
+        return true;
+    (void)system_switches(system->whole, &known, &count);
+    for (int i = 0; i < count; i++)
+        if (known[i].condition == condition)
+            return true;
+    return false;
+}
+
+/* which surface the equations jump on: of those in the state, each once */
+static void find_surface(System *system, Switch *entry)
+{
+    int way;
+    Expr surface;
+
+    if (is_of_time(system, entry->condition))
+        return;
+    surface = surface_of(system->arena, entry->condition, &way);
+    for (int i = 0; i < system->shown->surfaces.count && entry->surface < 0; i++)
+        if (system->shown->surfaces.at[i] == surface)
+            entry->surface = i;
+    if (entry->surface < 0) {
+        entry->surface = system->shown->surfaces.count;
+        LIST_PUSH(system->shown->surfaces, surface);
+    }
+}
+
+static void gather_all(System *system)
+{
+    Gathering g = {.system = system};
+
+    gather(&g, system->run.force, system->kinematics->u.count);
+    gather(&g, system->run.phi, system->constraints->rows.count);
+    gather(&g, system->run.gamma, system->constraints->rows.count);
+    gather(&g, system->run.network_residual, system->network->x.count + system->network->z.count);
+    for (int i = 0; i < system->shown->switches.count; i++)
+        if ((*mark_of(&g, system->shown->switches.at[i].call) & 2) != 0)
+            find_surface(system, &system->shown->switches.at[i]);
+    for (int i = 0; i < system->network->ideals.count; i++) {
+        IdealSwitch ideal;
+
+        if (system_ideal(system, i, &ideal, NULL) == OK && ideal.when != NULL)
+            gather(&g, &ideal.when, 1);
+    }
+    mem_free(g.seen);
+    LIST_FREE(g.stack);
+}
+
+int system_switches(System *system, const Switch **switches, int *time_only)
+{
+    system_touch(system);
+    if (!system->shown->switches_known) {
+        gather_all(system);
+        /* those of time alone first, each once */
+        for (int i = 0; i < system->shown->switches.count; i++)
+            if (is_of_time(system, system->shown->switches.at[i].condition)) {
+                Switch entry = system->shown->switches.at[i];
+
+                system->shown->switches.at[i] =
+                    system->shown->switches.at[system->shown->switches_of_time];
+                system->shown->switches.at[system->shown->switches_of_time++] = entry;
+            }
+        system->shown->switches_known = true;
+    }
+    *switches = system->shown->switches.at;
+    *time_only = system->shown->switches_of_time;
+    return system->shown->switches.count;
+}
+
+Expr system_surface(System *system, int i)
+{
+    system_touch(system);
+    return i < system->shown->surfaces.count ? system->shown->surfaces.at[i] : NULL;
+}
+
+/* --- for messages --- */
+
+/* push a part's values, over the system's variables */
+static void push_values(System *system, const Instance *instance, SwitchesExprs *stack)
+{
+    for (int k = 0; k < instance->row->param_count; k++)
+        for (int i = 0; i < instance->values[k].count; i++) {
+            Expr value;
+
+            if (instance->values[k].at[i] != NULL &&
+                system_resolve(system, instance->values[k].at[i], &value, NULL) == OK)
+                LIST_PUSH(*stack, value);
+        }
+}
+
+/* whether a part's values hold a condition of that surface */
+static bool part_switches_on(System *system, const Instance *instance, Expr surface)
+{
+    SwitchesExprs stack = {0};
+    bool found = false;
+
+    push_values(system, instance, &stack);
+    while (stack.count > 0 && !found) {
+        Expr e = stack.at[--stack.count];
+        Expr condition = switch_condition(system->arena, e);
+        int way;
+
+        found = condition != NULL && !expr_is_number(condition) &&
+                surface_of(system->arena, condition, &way) == surface;
+        for (int i = 0; i < expr_arg_count(e); i++)
+            LIST_PUSH(stack, expr_arg(e, i));
+    }
+    LIST_FREE(stack);
+    return found;
+}
+
+const char *system_jumping_part(System *system, Expr condition)
+{
+    system_touch(system);
+    int way;
+    Expr surface = surface_of(system->arena, condition, &way);
+
+    for (int i = 0; i < system->origin->instance_count; i++)
+        if (part_switches_on(system, &system->origin->instances[i], surface))
+            return system->origin->instances[i].name;
+    return NULL;
+}

@@ -1,0 +1,66 @@
+/* simulation_input.h: what a run takes from the session: values of parameters, initial values,
+ * events
+ *
+ * Everything is borrowed during the call, but for what a result asks again. */
+#ifndef COTREE_SIMULATE_EQUATIONS_SIMULATION_INPUT_H
+#define COTREE_SIMULATE_EQUATIONS_SIMULATION_INPUT_H
+
+#include "base/memory.h"
+#include "compile/program.h"
+#include "formulate/system/system.h"
+#include "model/event.h"
+
+/* Initial values in force: lists of the model, as numbers. */
+typedef struct StartValue {
+    const char *name; /* variable */
+    int primes;
+    double value;
+    bool is_guess;
+} StartValue;
+typedef struct StartValues {
+    int count;
+    StartValue *at;
+} StartValues;
+
+typedef struct Result Result;             /* simulate/run/result.h */
+typedef struct ResultReader ResultReader; /* simulate/run/result_reader.h */
+
+/* Numbers of a parameter, asked once a run. Results keep the answers; they ask again for parameters
+ * that only a later question about them brings in, so `context` outlives them. */
+typedef double (*ParameterValue)(void *context, Expr symbol);
+/* The program that runs a model: it sees its rows, and sets its inputs. What it set is kept, for
+ * whoever goes over a part of the run again. */
+typedef struct HostValue {
+    double t;
+    int instance; /* of the input */
+    double value;
+} HostValue;
+typedef struct Host {
+    const Expr *items; /* that it is told: over the user's variables */
+    int item_count;
+    /* both tell whether to stop; NULL: it doesn't ask to be called, or the run is over */
+    bool (*row)(void *context, double t, const double *values);
+    bool (*input)(void *context, const char *name, double t, const double *values, double *value);
+    void *context;
+    LIST(HostValue) values; /* rising in t */
+} Host;
+
+typedef struct SimulationInput {
+    ParameterValue parameter;
+    void *context;
+    SceneSource scene; /* of the system: its ideal switches make others from it */
+    Form form;
+    Evaluator evaluator;
+    Threads *threads; /* borrowed as long as what is made with it; NULL: the caller's */
+    const char *const *independent; /* names; borrowed during the call */
+    int independent_count;
+    const Event *const *events; /* borrowed during the call; what a result needs it copies */
+    int event_count;
+    const StartValues *start;
+    Host *host;               /* NULL: nobody. It outlives results, as `context` does */
+    bool keeps_rates;         /* of an equilibrium: what is driven moves as at `at` */
+    double at;                /* s: sources and drivers of an equilibrium are as then */
+    const CallMonitor *watch; /* borrowed as long as what is made with it */
+} SimulationInput;
+
+#endif

@@ -1,0 +1,214 @@
+/* variable_index.c: the order of inputs of all programs over one system */
+#include "simulate/equations/variable_index.h"
+
+#include "base/memory.h"
+#include "base/names.h"
+
+#include <string.h>
+
+static int append(VariableIndex *layout, int *room, Expr symbol)
+{
+    if (layout->count == *room) {
+        *room = *room < 32 ? 64 : 2 * *room;
+        layout->symbols = mem_grow(layout->symbols, (size_t)*room, sizeof(Expr));
+    }
+    layout->symbols[layout->count] = symbol;
+    return layout->count++;
+}
+
+static Expr jerk_symbol(System *system, int i)
+{
+    Text name = {0};
+    Expr symbol;
+
+    text_addf(&name, "%s'", expr_name(system_acceleration(system, i)));
+    symbol = expr_symbol(system_arena(system), name.at, SYMBOL_JERK);
+    text_free(&name);
+    return symbol;
+}
+
+/* Surfaces in the order of their numbers, those that are slid along first; the signs of inner ones
+ * stand in the measures of those around them. */
+static void place_surfaces(VariableIndex *l, const OnSurface *on, int count)
+{
+    Arena *arena = system_arena(l->system);
+
+    l->surfaces = NEW_ARRAY(Surface, count);
+    for (int pass = 0; pass < 2; pass++)
+        for (int i = 0; i < count; i++) {
+            Surface *surface = &l->surfaces[l->surface_count];
+            Text name = {0};
+
+            if ((on[i].side == 0) != (pass == 0))
+                continue;
+            text_addf(&name, "#sign %d", on[i].surface + 1);
+            surface->condition = surface->measure = system_surface(l->system, on[i].surface);
+            surface->side = on[i].side;
+            surface->sign = on[i].side != 0 ? expr_int(arena, on[i].side)
+                                            : expr_symbol(arena, name.at, SYMBOL_STATE);
+            l->surface_count++;
+            l->slides += on[i].side == 0;
+            text_free(&name);
+        }
+    for (int turn = 0; turn < l->surface_count; turn++) /* as deep as they stand in one another */
+        for (int i = 0; i < l->surface_count; i++) {
+            int way;
+
+            l->surfaces[i].measure = surface_of(
+                arena, surfaces_substitute(arena, l->surfaces[i].condition, l->surfaces, i), &way);
+        }
+}
+
+static void find_sides(VariableIndex *l)
+{
+    int count = system_ideal_count(l->system);
+    bool any = false;
+
+    l->side = NEW_ARRAY(Expr, count);
+    for (int i = 0; i < count; i++) {
+        l->side[i] = system_side(l->system, i);
+        any = any || l->side[i] != NULL;
+    }
+    l->closed = NEW_ARRAY(bool, count);
+    l->switches = any ? count : 0;
+}
+
+void variable_index_set_sides(VariableIndex *l, const bool *closed)
+{
+    bool changed = false;
+
+    for (int i = 0; i < l->switches; i++) {
+        changed = changed || (l->side[i] != NULL && l->closed[i] != closed[i]);
+        l->closed[i] = closed[i];
+    }
+    l->sides += changed;
+}
+
+VariableIndex *variable_index_new(System *system)
+{
+    return variable_index_new_on(system, NULL, 0);
+}
+
+VariableIndex *variable_index_new_on(System *system, const OnSurface *on, int count)
+{
+    VariableIndex *l = NEW(VariableIndex);
+    int room = 0;
+
+    l->system = system;
+    place_surfaces(l, on, count);
+    l->n = system_n(system);
+    l->nu = system_nu(system);
+    l->m = system_m(system);
+    l->nx = system_nx(system);
+    l->nz = system_nz(system);
+    l->t = append(l, &room, expr_symbol(system_arena(system), "t", SYMBOL_TIME));
+    l->multi_turns = system_multi_turn_count(system);
+    l->references = l->count;
+    for (int i = 0; i < l->multi_turns; i++)
+        (void)append(l, &room, system_multi_turn(system, i)->reference);
+    l->q = l->count;
+    for (int i = 0; i < l->n; i++)
+        (void)append(l, &room, system_q(system, i)->symbol);
+    l->u = l->count;
+    for (int i = 0; i < l->nu; i++)
+        (void)append(l, &room, system_u(system, i)->symbol);
+    l->x = l->count;
+    for (int i = 0; i < l->nx; i++)
+        (void)append(l, &room, system_x(system, i)->symbol);
+    l->signs = l->count;
+    for (int i = 0; i < l->slides; i++)
+        (void)append(l, &room, l->surfaces[i].sign);
+    l->rates = l->count;
+    for (int i = 0; i < l->nx; i++)
+        (void)append(l, &room, system_state_rate(system, i));
+    l->z = l->count;
+    for (int i = 0; i < l->nz; i++)
+        (void)append(l, &room, system_z(system, i)->symbol);
+    l->acceleration = l->count;
+    for (int i = 0; i < l->nu; i++)
+        (void)append(l, &room, system_acceleration(system, i));
+    l->multipliers = l->count;
+    for (int k = 0; k < l->m; k++)
+        (void)append(l, &room, system_multiplier(system, k));
+    l->efforts = l->count;
+    for (int k = 0; k < system_drive_count(system); k++) {
+        Expr effort = system_drive(system, k)->effort;
+
+        /* a driver's own effort is minus its multiplier, and no unknown of its own */
+        if (expr_kind(effort) == EXPR_SYMBOL && expr_symbol_kind(effort) == SYMBOL_EFFORT)
+            (void)append(l, &room, effort);
+    }
+    for (int k = 0; system_open_potential(system, k) != NULL; k++)
+        (void)append(l, &room, system_open_potential(system, k));
+    l->ne = l->count - l->efforts;
+    find_sides(l);
+    l->jerk = l->count;
+    for (int i = 0; i < l->nu; i++)
+        (void)append(l, &room, jerk_symbol(system, i));
+    return l;
+}
+
+Expr *variable_index_network(const VariableIndex *l)
+{
+    Expr *out = NEW_ARRAY(Expr, 2 * l->nx + l->nz);
+
+    memcpy(out, l->symbols + l->x, (size_t)l->nx * sizeof(Expr));
+    memcpy(out + l->nx, l->symbols + l->rates, (size_t)(l->nx + l->nz) * sizeof(Expr));
+    return out;
+}
+
+int *variable_index_blocks(const VariableIndex *l)
+{
+    Names *names = names_borrowing();
+    int *blocks = NEW_ARRAY(int, l->count);
+    const Instanced *one;
+
+    for (int i = 0; (one = system_instanced(l->system, i)) != NULL; i++)
+        if (one->outer < 0)
+            (void)names_add(names, one->name);
+    for (int i = 0; i < l->count; i++) {
+        const char *name = expr_name(l->symbols[i]), *dot = strchr(name, '.');
+
+        blocks[i] = dot != NULL ? names_find_part(names, name, (size_t)(dot - name)) + 1 : 0;
+    }
+    names_free(names);
+    return blocks;
+}
+
+int variable_index_side_of(const VariableIndex *layout, Expr symbol)
+{
+    for (int i = 0; i < layout->switches; i++)
+        if (layout->side[i] == symbol)
+            return i;
+    return -1;
+}
+
+void variable_index_free(VariableIndex *layout)
+{
+    if (layout == NULL)
+        return;
+    MEM_FREE(layout->symbols, layout->side, layout->closed, layout->surfaces, layout);
+}
+
+bool variable_index_follows_time(const VariableIndex *l, const Expr *roots, int count)
+{
+    const EquationForm *run = system_run(l->system);
+    const unsigned solved = 1U << SYMBOL_ALGEBRAIC | 1U << SYMBOL_STATE_RATE;
+    unsigned kinds = 0;
+
+    for (int i = 0; i < count; i++)
+        kinds |= expr_kinds(roots[i]);
+    if ((kinds & solved) != 0)
+        for (int i = 0; i < l->nx + l->nz; i++)
+            kinds |= expr_kinds(run->network_residual[i]);
+    for (int i = 0; i < l->nu && l->slides > 0; i++) /* signs follow from forces */
+        kinds |= expr_kinds(run->force[i]);
+    for (int i = 0; i < l->nx + l->nz && l->slides > 0; i++)
+        kinds |= expr_kinds(run->network_residual[i]);
+    return (kinds & 1U << SYMBOL_TIME) != 0;
+}
+
+Expr variable_index_on_surfaces(const VariableIndex *l, Expr e)
+{
+    return surfaces_substitute(system_arena(l->system), e, l->surfaces, l->surface_count);
+}

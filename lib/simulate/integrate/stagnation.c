@@ -1,0 +1,150 @@
+/* stagnation.c: whether steps get anywhere, or are as short as rounding makes them */
+#include "simulate/integrate/stagnation.h"
+
+#include "base/memory.h"
+
+#include <math.h>
+
+#define STEPS        5000  /* so many ought to go */
+#define PART         5e-3  /* this part of the run; else it would take a million and more */
+#define NOTICED      0.01  /* of the tolerance */
+#define HOPELESS     1e-9  /* less of the run: time itself has hardly more digits */
+#define POINTS       64    /* on the way ahead, over this */
+#define AHEAD        0.06  /* of a step: the motion itself hardly bends */
+#define ORDER        4     /* of differences, */
+#define GROWN        8     /* by which noise grows so much (root of 70) */
+#define ENOUGH_STEPS 1e4   /* of a run whose tolerance is attainable */
+#define FINE         1e-10 /* one that rounding allows nearly everywhere */
+#define COARSEST     1e-7  /* a tolerance that is worth trying */
+
+/* steps: what they get over together is compared with that of those before */
+#define DWINDLING 200
+#define WANING    3 /* times on end that it has become less, */
+#define LESS      0.5 /* this part of it: a transient's steps grow, those that stability bounds sway */
+#define SHORT     1e-6 /* of the run, each time */
+
+/* Whether the method takes its steps by rates as a function of y alone. One that solves for a
+ * network's unknowns together with its states doesn't read what rounding of a coil's current leaves
+ * of a diode's voltage. */
+static bool goes_by_rates(const Stepper *s)
+{
+    return !s->method->solves_dae || s->ode->dae.has_rate == NULL;
+}
+
+/* Largest part of its tolerance that rounding leaves of an entry's rate, times h: what is rough of
+ * rates on the way ahead, by their fourth differences. (Last bits of y may leave them as they are
+ * where a sum that loses most of its terms, as of masses decades apart, goes in steps.) */
+static double rounding(Stepper *s, double h)
+{
+    const int all = stepper_length(s), length = POINTS * all;
+    double *rates = NEW_ARRAY(double, length), *ahead = NEW_ARRAY(double, all), largest = 0;
+    bool sound = goes_by_rates(s);
+
+    for (int k = 0; sound && k < POINTS; k++) {
+        const double part = h * AHEAD * k / POINTS;
+
+        for (int i = 0; i < all; i++)
+            ahead[i] = s->y[i] + part * rates[i];
+        sound = stepper_rate(s, s->t + part, ahead, rates + (ptrdiff_t)k * all);
+    }
+    for (int end = length - all; sound && end >= length - ORDER * all; end -= all)
+        for (int e = 0; e < end; e++)
+            rates[e] -= rates[e + all];
+    for (int e = 0; sound && e < length - ORDER * all; e++)
+        if (e % all < s->ode->n) {
+            const double rough = h * fabs(rates[e]) / GROWN;
+
+            largest = fmax(largest, rough / stepper_tolerance(s, e % all, fabs(s->y[e % all])));
+        }
+    MEM_FREE(rates, ahead);
+    return largest;
+}
+
+/* one whose steps rounding may limit less: one for stiff equations damps what it leaves of rates */
+static const Method *other_method(const Stepper *s)
+{
+    const bool stiff = s->method->is_stiff;
+
+    return method_for((MethodNeed){.stiff = true, .history = stiff && !s->method->has_history});
+}
+
+static Status give_up(const Stepper *s, double h, Diag *diag)
+{
+    const double rtol = s->control.rtol;
+    const double coarser = pow(10, ceil(log10(rtol * s->control.span / (h * ENOUGH_STEPS))));
+    const char *other = other_method(s)->name;
+    const char *less = s->ode->is_network ? "a resistor across a steep part" : "another tree";
+
+    (void)diag_set(diag, E_SOLVER,
+                   "at t = %.9g s: the tolerance is below what rounding leaves of %s: steps have "
+                   "become too short to get anywhere",
+                   s->t, ode_rates(s->ode));
+    if (coarser <= COARSEST)
+        diag_hint(diag, "%s may leave less rounding; or try rtol=%.0e, or method=%s", less, coarser,
+                  other);
+    else
+        diag_hint(diag,
+                  "%s may leave less rounding, and method=%s may need less; %s many decades apart "
+                  "leave much",
+                  less, other,
+                  s->ode->is_network ? "resistances, capacitances or inductances"
+                                     : "lengths, masses or stiffnesses");
+    return E_SOLVER;
+}
+
+static Status report_too_small(const Stepper *s, Diag *diag)
+{
+    (void)solver_failure(diag, s->t, "the step became too small");
+    if (s->control.rtol < FINE)
+        diag_hint(diag, "method=%s may get further; so may a coarser rtol=", other_method(s)->name);
+    return E_SOLVER;
+}
+
+/* Towards a place where the solution ends steps become ever shorter, by as much as rounding leaves
+ * of the rates there: thousands of them. A tolerance below that is another matter. */
+static bool wanes(Stepper *s)
+{
+    StepShrinkage *w = &s->step_shrinkage;
+    const double way = s->t - w->t;
+
+    if (s->counts.steps - w->steps < DWINDLING)
+        return false;
+    w->times = way < LESS * w->way && way < SHORT * s->control.span ? w->times + 1 : 0;
+    w->way = way;
+    w->steps = s->counts.steps;
+    w->t = s->t;
+    return w->times >= WANING && 2 * way / DWINDLING < control_asked(&s->control) &&
+           !(rounding(s, way / DWINDLING) > NOTICED);
+}
+
+Status stagnation_check(StagnationMonitor *stagnation, Stepper *s, int64_t steps, bool *is_rounding,
+                        Diag *diag)
+{
+    const int64_t count = steps - stagnation->steps;
+    const double way = s->t - stagnation->t;
+    double h;
+
+    *is_rounding = false;
+    if (wanes(s))
+        return report_too_small(s, diag);
+    if (count < STEPS)
+        return OK;
+    h = way / (double)count;
+    stagnation->steps = steps;
+    stagnation->t = s->t;
+    /* short steps that were asked for are as they should be */
+    if (!(way < PART * s->control.span) || 2 * h > control_asked(&s->control))
+        return OK;
+    if (way < HOPELESS * s->control.span)
+        return report_too_small(s, diag);
+    *is_rounding = rounding(s, h) > NOTICED;
+    return *is_rounding ? give_up(s, h, diag) : OK;
+}
+
+bool stagnation_is_rounding(Stepper *s, double h, Diag *diag)
+{
+    if (!(h < HOPELESS * s->control.span) || !(rounding(s, h) > NOTICED))
+        return false;
+    (void)give_up(s, h, diag);
+    return true;
+}
