@@ -87,7 +87,7 @@ int drawing_dash(int i)
 
 /* Between double quotes a backslash begins an escape, a backquote a command of a system's shell and
  * an @ the name of a macro, before anything else is looked at: what isn't harmless everywhere goes
- * by its number. In single quotes two primes in a row can't be told from one. */
+ * by its number. In single quotes two primes in a row can't be determined from one. */
 void write_quoted(FILE *out, const char *text)
 {
     fputc('"', out);

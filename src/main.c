@@ -109,7 +109,7 @@ static int write_usage(const char *format, const char *what)
 {
     fputs("cotree: ", stderr);
     fprintf(stderr, format, what);
-    fputs("\ncotree --help tells the usage\n", stderr);
+    fputs("\ncotree --help shows the usage\n", stderr);
     return WRONG_USAGE;
 }
 
@@ -218,7 +218,7 @@ static void report_leftovers(void)
         remark("left unsaved on %s: a model of %d statement%s; recover brings it back",
                leftovers[0].when, statements, statements == 1 ? "" : "s");
     if (count > 1)
-        remark("recover list tells the %d that there are", count);
+        remark("recover list shows all %d", count);
     autosave_drop_all(leftovers, count, false);
 }
 

@@ -1,4 +1,4 @@
-/* roots.c: what is known of an eigenvalue, and groups of those that can't be told apart */
+/* roots.c: what is known of an eigenvalue, and groups of those that can't be distinguished */
 #include "algebra/roots.h"
 
 #include "base/memory.h"

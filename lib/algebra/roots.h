@@ -15,16 +15,18 @@ typedef struct Root {
     bool is_on_axis; /* the real part is 0 whatever the errors: nothing damps */
 } Root;
 
-/* the sign of the real part can't be told, which is 0 then; so is a root that may be 0 altogether
+/* the sign of the real part can't be determined, which is 0 then; so is a root that may be 0
+ * altogether
  */
 bool root_is_doubtful(const Root *root);
 
-/* `value` within `error` as a root, what can't be told from 0 being 0, which is as much farther off
+/* `value` within `error` as a root, what can't be distinguished from 0 being 0, which is as much
+ * farther off
  */
 Root root_make(double complex value, double error);
 
-/* Mean of those that can't be told apart: count roots with their errors, of which `value` holds all
- * conjugate ones. `error_of` tells the error of some of them together. */
+/* Mean of those that can't be distinguished: count roots with their errors, of which `value` holds
+ * all conjugate ones. `error_of` tells the error of some of them together. */
 typedef double GroupError(void *context, const int *members, int count, double complex mean);
 void roots_join(const double complex *value, const double *error, int count, GroupError *error_of,
                 void *context, Root *out);

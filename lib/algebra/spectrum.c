@@ -8,7 +8,7 @@
  * eigenvalues at the end.
  *
  * With A = sum lambda_k x_k y_k^T an eigenvalue is off by |y|^T |dA| |x| (Stewart and Sun 1990).
- * Of a group c about mu, which can't be told apart, none is farther from mu than r where the sum
+ * Of a group c about mu, which can't be distinguished, none is farther from mu than r where the sum
  * over j of theta_j/r^(j+1) is 1, theta_j being the spectral radius of |N_j| |dA|, N_j the sum over
  * c of (lambda_k - mu)^j x_k y_k^T: the resolvent's principal part (Kato 1995, I.5). */
 #include "algebra/spectrum.h"

@@ -12,7 +12,7 @@ typedef struct Spectrum Spectrum;
 
 /* New; free with spectrum_free(). NULL where the eigenvalues can't be found. An entry that is 0 and
  * has the error 0 isn't there: of what doesn't act back, eigenvalues are those of the parts.
- * Eigenvalues that can't be told apart are one, several times: their mean, which is known far
+ * Eigenvalues that can't be distinguished are one, several times: their mean, which is known far
  * better. O(n^3). */
 Spectrum *spectrum_new(const double *a, const double *error, int n);
 void spectrum_free(Spectrum *spectrum); /* NULL is fine */

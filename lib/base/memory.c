@@ -24,7 +24,7 @@ enum { FIRST_ROOM = 8, FIRST_CHUNK = 65536 };
 
 /* --- pieces --- */
 
-/* what so many of that size take; SIZE_MAX, which nobody has, where that can't be told */
+/* what so many of that size take; SIZE_MAX, which nobody has, where that can't be determined */
 static size_t product(size_t count, size_t size)
 {
     size_t out;

@@ -185,7 +185,7 @@ static Status coupling_check(const Instance *instance, Arena *arena, bool planar
     if (has_k == instance_value(instance, "M")->given) {
         (void)diag_set(diag, E_VALUE,
                        has_k ? "%s has k= and M=" : "%s needs k= or M=", instance->name);
-        diag_hint(diag, "k is M/sqrt(L1*L2): either one tells the other");
+        diag_hint(diag, "k is M/sqrt(L1*L2): either one determines the other");
         return E_VALUE;
     }
     if (!has_k || !expr_is_number(k) || (expr_value(k) > -1.0 && expr_value(k) < 1.0))

@@ -53,8 +53,8 @@ Status inverse_new(const View *view, Inverse **out, Diag *diag)
     inverse->arena = arena;
     inverse->now = expr_symbol(arena, "driver.now", SYMBOL_PARAMETER);
     if (system_drive_count(system) == 0) {
-        status = diag_set(diag, E_MODEL, "there is no driver whose effort could be told");
-        diag_hint(diag, "'driver D h1 = 0' tells that the motion of h1 is given");
+        status = diag_set(diag, E_MODEL, "there is no driver whose effort could be determined");
+        diag_hint(diag, "'driver D h1 = 0' prescribes the motion of h1");
         goto done;
     }
     CHECK(model_scene(view->model, &scene, diag));

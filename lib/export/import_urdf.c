@@ -487,7 +487,7 @@ static void write_others(Urdf *u)
             "it is no part of the motion");
     if (u->limits > 0)
         import_remark(u->import, 0, "nothing holds to limits of joints, which stand in comments");
-    import_remark(u->import, 0, "URDF tells no gravity: gravity [0, 0, -9.81] adds it");
+    import_remark(u->import, 0, "URDF has no gravity: gravity [0, 0, -9.81] adds it");
 }
 
 static bool is_one_of(const char *name, const char *const *words)

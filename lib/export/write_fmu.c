@@ -159,7 +159,7 @@ static void write_header(const Code *code, const Exported *what, const char *tok
         quaternions++;
     text_addf(
         out,
-        "/* model_fmu.h: what the instance (fmu.c) is told of the model (model.c) */\n"
+        "/* model_fmu.h: what the instance (fmu.c) knows of the model (model.c) */\n"
         "#ifndef MODEL_FMU_H\n#define MODEL_FMU_H\n\n#define MODEL_DECLARED\n"
         "#include \"model.c\"\n\n#define FMU_TOKEN \"%s\"\n"
         "#define FMU_TOLERANCE %s\n\n"

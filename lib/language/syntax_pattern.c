@@ -557,7 +557,7 @@ static Status check_end(const Parser *parser, const Statement *statement)
         strchr(statement->row.pattern, '>') == NULL) {
         (void)diag_at(parser->diag, E_SYNTAX, parser_token(parser)->place,
                       "'%s' prints nothing that could go to a file", statement->verb);
-        diag_hint(parser->diag, "'help %s' tells what it does", statement->verb);
+        diag_hint(parser->diag, "'help %s' explains it", statement->verb);
         return E_SYNTAX;
     }
     return parser_unexpected(parser);

@@ -17,7 +17,7 @@
 #include <stdbool.h>
 
 typedef enum MeasureKind {
-    MEASURE_ANY,    /* can't be told */
+    MEASURE_ANY,    /* can't be determined */
     MEASURE_NUMBER, /* a plain number: 9.81 may be an acceleration */
     MEASURE_RATIO,  /* a number by its nature: sin(x), pi. Times a voltage it is a voltage */
     MEASURE_KNOWN   /* `dimension` */

@@ -267,8 +267,8 @@ static Status check_ports(const Ending *ending)
         /* a frame at rest feels no effort */
         if (is_listed(equations, p, -1) || (port->is_frame && equations->moving_count > 0))
             continue;
-        (void)diag_at(ending->diag, E_MODEL, equations->last->place, "nothing tells what %s gives",
-                      port->name);
+        (void)diag_at(ending->diag, E_MODEL, equations->last->place,
+                      "nothing determines what %s gives", port->name);
         diag_hint(ending->diag,
                   port->is_frame
                       ? "give %s.x = .., %s.y = .., %s.theta = .. its motion, or %s.fx = .., its "

@@ -101,7 +101,7 @@ Status name_unknown(const State *state, const char *what, const char *name, Plac
     if (thing != NULL) {
         name_describe(state, thing, &kind);
         (void)diag_at(diag, E_NAME, place, "%s is %s, not a %s", name, kind.at, what);
-        diag_hint(diag, "'info %s' tells what there is of it", name);
+        diag_hint(diag, "'info %s' shows what it has", name);
         text_free(&kind);
         return E_NAME;
     }
@@ -234,7 +234,7 @@ static void hint_member(const State *state, const Instance *part, const char *me
         diag_hint(diag, "it is asked for at a place along the beam: %s(x)", path.at);
     else if (component_param(part->row, member) >= 0)
         diag_hint(diag,
-                  "%s= is one of its keys: 'info %s' tells its value, set %s = ... changes it",
+                  "%s= is one of its keys: 'info %s' shows its value, set %s = ... changes it",
                   member, part->name, path.at);
     else if (suggest->best != NULL)
         diag_hint(diag, "did you mean '%s.%s'?", part->name, suggest->best);

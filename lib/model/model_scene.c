@@ -141,7 +141,7 @@ static Status key_of_use(const State *state, const Use *use, const char *key, co
                   pair->name);
     } else {
         (void)diag_at(diag, E_NAME, pair->name_place, "%s has no parameter '%s'", use->name, key);
-        diag_hint(diag, "'info %s' tells what there is of it", use->name);
+        diag_hint(diag, "'info %s' shows what it has", use->name);
     }
     return E_NAME;
 }

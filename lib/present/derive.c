@@ -258,7 +258,7 @@ static Status write_entry(Narrative *story, Block block, const char *letter, int
     narrative_add(story->out, view, "terms",
                   story->equations.count > 0 ? ""
                   : terms.count > 0          ? "none is left"
-                                             : "too long to be told one by one");
+                                             : "too long to be listed one by one");
     view_value(&story->equations,
                view_entry_name(view, block_name(block), letter, row, vector ? -1 : column), e);
     view_open(story->out, view);

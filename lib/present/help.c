@@ -241,7 +241,7 @@ static bool add_key(Text *out, const char *word)
     }
     if (verbs.length == 0)
         return false;
-    text_addf(out, "%s - a word of these; 'help' of one tells what it means there\n\n", word);
+    text_addf(out, "%s - a word of these; 'help' of one explains what it means there\n\n", word);
     layout_words(out, HELP_WIDTH, "  ", verbs.at);
     text_free(&verbs);
     return true;
@@ -268,7 +268,7 @@ static void add_overview(Text *out)
     VerbGroup group = GROUP_SCENE;
     char lead[64];
 
-    text_add(out, "'help WORD' tells about a verb, a component or a topic, 'apropos WORD' finds "
+    text_add(out, "'help WORD' explains a verb, a component or a topic, 'apropos WORD' finds "
                   "words.\nThe Tab key completes what is half typed.\n\n");
     for (int i = 0; verb_at(i, &verb) || names.length > 0; i++) {
         const bool more = verb_at(i, &verb);

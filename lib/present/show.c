@@ -328,7 +328,7 @@ static Status show_topic(const View *view, const Topic *topic, const Statement *
             selection.item = &entry;
         } else if (topic->behind == BEHIND_ENTRY) {
             status = diag_at(diag, E_SYNTAX, operand->place,
-                             "'show %s' tells of one name, row or entry at a time", topic->name);
+                             "'show %s' shows one name, row or entry at a time", topic->name);
             goto done;
         } else if (topic->behind == BEHIND_ITEMS) {
             CHECK(take_item(topic, statement, i, &selection, diag));

@@ -365,7 +365,7 @@ static Status no_equivalent(const TestPort *port, Status status, Diag *diag)
                          "equivalent",
                    port->is_norton ? domain_across(port->domain) : domain_through(port->domain),
                    port->plus, port->minus);
-    diag_hint(diag, "'show %s %s %s' tells the other one", port->is_norton ? "thevenin" : "norton",
+    diag_hint(diag, "'show %s %s %s' shows the other one", port->is_norton ? "thevenin" : "norton",
               port->plus, port->minus);
     return E_MODEL;
 }

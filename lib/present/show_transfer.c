@@ -81,7 +81,7 @@ static bool wants_mark(const Transfer *t, const Root *root)
     return root_is_doubtful(root) && !(is_zero && root->error <= SLIGHT * scale_of_zero(t, root));
 }
 
-/* "-2 +- 3i", "+-3i"; "0?" where the side of 0 can't be told */
+/* "-2 +- 3i", "+-3i"; "0?" where the side of 0 can't be determined */
 static void add_root(Text *out, const Transfer *t, const Root *root)
 {
     const bool is_doubtful = wants_mark(t, root);
@@ -280,7 +280,7 @@ static Status print_one(const View *view, int output, int input, Text *out, Diag
     if (!has_coefficients(t) && (kind == NOTATION_TYPESET || kind == NOTATION_SOURCE)) {
         (void)diag_set(diag, E_VALUE, "the coefficients of %s are beyond what numbers hold",
                        name.at);
-        diag_hint(diag, "'show transfer' tells its gain, zeros and poles");
+        diag_hint(diag, "'show transfer' shows its gain, zeros and poles");
         CHECK(E_VALUE);
     }
     if (kind == NOTATION_TYPESET) {

@@ -530,7 +530,7 @@ static Status figure_first(const FigureCourse *course, double band, double *out,
     if (k == course->values.count) {
         (void)diag_at(diag, E_VALUE, course->call->args[0]->place,
                       "this holds at no instant of the run");
-        diag_hint(diag, "'max' and 'min' tell how far it came");
+        diag_hint(diag, "'max' and 'min' show how far it came");
         return E_VALUE;
     }
     *out = course->times.at[k];

@@ -325,7 +325,7 @@ static Status mode_entry(const ct_session *session, int entry, const int *index,
     }
     if (session->modes->count == 0) {
         (void)diag_set(diag, E_VALUE, "there are no modes");
-        diag_hint(diag, "'modes' tells why");
+        diag_hint(diag, "'modes' shows why");
         return E_VALUE;
     }
     if (count != 1 || index[0] < 1 || index[0] > session->modes->count)

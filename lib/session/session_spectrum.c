@@ -157,10 +157,11 @@ Status spectrum_rows(ct_session *session, const Formula *formulas, int columns, 
         fine = NULL;
     }
     if (apart > agree) {
-        text_addf(&line,
-                  "%d samples tell the spectrum to %.2g of its largest amplitude only: there are "
-                  "tones, or jumps, that more would resolve",
-                  counts[i], apart);
+        text_addf(
+            &line,
+            "%d samples determine the spectrum to %.2g of its largest amplitude only: there are "
+            "tones, or jumps, that more would resolve",
+            counts[i], apart);
         session_remark(session, line.at);
         text_free(&line);
     }

@@ -5,16 +5,18 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { ROUNDS = 100 };  /* in which one event may set off others */
-#define INSTANT   1e-12 /* of time, in units of 1 + |t|: instants that can't be told apart */
-#define LATE      10.0  /* times what an importer found an event late: so much can't be told, too */
+enum { ROUNDS = 100 }; /* in which one event may set off others */
+#define INSTANT 1e-12  /* of time, in units of 1 + |t|: instants that can't be distinguished */
+#define LATE    10.0 /* times what an importer found an event late: so much can't be determined, too \
+                      */
 #define LATEST    1e-3  /* s: later than that nothing was found there */
-#define SAME      1e-9  /* of a period: sampling instants that can't be told apart */
+#define SAME      1e-9  /* of a period: sampling instants that can't be distinguished */
 #define DRIFT     10.0  /* of the tolerance: how far a state may leave the constraints */
 #define PROJECTED 1e-12 /* how near it is put */
 #define NEAR      1e-9  /* of 1 + |t|: how far ahead sides of ideal switches are looked for, */
 #define FURTHEST  1e-5  /* and where they don't change, though a margin has ended */
-#define ROUNDING  1e-11 /* of the largest current or voltage: margins that can't be told from 0 */
+#define ROUNDING                                                                                   \
+    1e-11 /* of the largest current or voltage: margins that can't be distinguished from 0 */
 
 FmuStatus fmu_fail(Fmu *fmu, FmuStatus status, const char *text, double value)
 {

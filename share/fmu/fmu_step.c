@@ -16,7 +16,7 @@ enum { STAGES = 6, TRIES = 40, MOST_STEPS = 2000000 };
 #define SHRINK 0.2
 #define GROW   5.0
 #define LEAST  1e-13 /* of 1 + |t|: the shortest step */
-#define SAME   1e-9  /* of 1 + |t|: times of an importer that can't be told apart */
+#define SAME   1e-9  /* of 1 + |t|: times of an importer that can't be distinguished */
 #define PLACES 4     /* in a step that are looked at for what changes its sign */
 
 /* clang-format off */

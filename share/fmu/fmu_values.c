@@ -1,7 +1,7 @@
 /* fmu_values.c: new values of events, then the constraints again, as in a run
  *
- * Joints stay that what is given doesn't need (row_closure.h), and rates of what stays and was given,
- * the same in any coordinates; speeds change as by a blow along those that are given. */
+ * Joints stay that what is given doesn't need (row_closure.h), and rates of what stays and was
+ * given, the same in any coordinates; speeds change as by a blow along those that are given. */
 #define FMU_TABLES
 #include "fmu.h"
 #include "row_closure.h"
@@ -420,10 +420,12 @@ static int keep_rates(Fmu *fmu, const Decision *decision, const int *chosen, con
             if (g.target[r] == fmu_rate[k] &&
                 size_of(&g, a, r) < ROW_CLOSURE_LEAST_SOLVED * decision->size[k])
                 g.of[r] = ROW_CLASS_UNASKED;
-    (void)row_closure_find(a, MODEL_U, g.count, g.of, ROW_CLOSURE_LEAST_SOLVED, g.fate, g.place, g.set);
+    (void)row_closure_find(a, MODEL_U, g.count, g.of, ROW_CLOSURE_LEAST_SOLVED, g.fate, g.place,
+                           g.set);
     for (r = MODEL_M; r < g.count; r++)
         take[g.target[r]] = g.fate[r] != ROW_FOLLOWS;
-    return row_closure_rank(g.fate, g.count) >= decision->rank && put_level(fmu, FMU_SPEED, 0, take, to);
+    return row_closure_rank(g.fate, g.count) >= decision->rank &&
+           put_level(fmu, FMU_SPEED, 0, take, to);
 }
 
 /* --- new values --- */
@@ -501,7 +503,7 @@ static FmuStatus put_positions(Fmu *fmu, const int *chosen, const double *values
     model_targets(now->p, now->t, now->y, now->s, from);
     decide(fmu, chosen, &decision);
     if (decision.open > 0)
-        return refuse(fmu, "an event doesn't tell where to go: ", decision.names,
+        return refuse(fmu, "an event doesn't determine where to go: ", decision.names,
                       "; what it sets moves more than follows from it");
     memcpy(to, from, FMU_TARGETS * sizeof(double));
     align(chosen, from, values, to);
@@ -515,7 +517,7 @@ static FmuStatus put_positions(Fmu *fmu, const int *chosen, const double *values
     }
     if (!keep_rates(fmu, &decision, chosen, values, from))
         return refuse(fmu,
-                      "an event sets a singular position, where the rates of before don't tell all "
+                      "an event sets a singular position, where the rates of before don't set all "
                       "rates",
                       "", "");
     return FMU_OK;

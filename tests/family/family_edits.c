@@ -449,7 +449,7 @@ static Verdict shared_names_change_nothing(Member *member)
 
         /* sums take their terms in an order of names */
         if (isnan(a) != isnan(b) || fabs(a - b) > 1e-9 * (1 + fabs(a)) ||
-            memcmp(&values[READ_BACK][i], &b, sizeof b) != 0) {
+            !(values[READ_BACK][i] == b || (isnan(values[READ_BACK][i]) && isnan(b)))) {
             tell(member, "value %d: %a with names of their own, %a shared, %a read back\n", i, a, b,
                  values[READ_BACK][i]);
             verdict = DISAGREES;

@@ -733,8 +733,8 @@ static Verdict pairs_of_whole_numbers(Member *member)
 /* --- long chains that are known badly --- */
 
 /* Equal parts in a row, each entry off by as much as its error says at most: one matrix within the
- * errors of what is given has eigenvalues a + 2 b cos(k pi/(n + 1)), most of which can't be told
- * apart. */
+ * errors of what is given has eigenvalues a + 2 b cos(k pi/(n + 1)), most of which can't be
+ * determined apart. */
 static Verdict long_chains_known_badly(Member *member)
 {
     enum { MOST_PARTS = 60 };

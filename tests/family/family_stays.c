@@ -74,7 +74,7 @@ static void open_loops(const Scene *s, const Rate *rate, double moment, double *
     }
 }
 
-/* Rank by Gaussian elimination with full pivoting of rows of size 1; -1: it can't be told. */
+/* Rank by Gaussian elimination with full pivoting of rows of size 1; -1: it can't be determined. */
 static int rank_of(const double (*rows)[RATES], int count, int columns)
 {
     static double a[ROWS][RATES];
@@ -236,7 +236,7 @@ static bool run(Member *m, const Scene *s, int choice, const Speeds *speeds, con
     out->sound = kit_do(&kit, text.text) == CT_OK;
     if (!out->sound) {
         tell(m, "%s\n", kit.error.message);
-        out->is_open = strstr(kit.error.message, "doesn't tell where") != NULL;
+        out->is_open = strstr(kit.error.message, "doesn't determine where") != NULL;
     }
     for (int i = 0; i < s->bodies && out->sound; i++) {
         out->bodies[i] = read_body(&kit, s, i);
@@ -498,7 +498,7 @@ static Verdict floating_member(Member *m)
     sound = kit_do(&kit, out.text) == CT_OK;
     tell(m, "%s\n", sound ? "" : kit.error.message);
     if (!sound)
-        decides = decides || strstr(kit.error.message, "doesn't tell where") == NULL;
+        decides = decides || strstr(kit.error.message, "doesn't determine where") == NULL;
     for (int i = 0; i < f.bodies && sound; i++)
         for (int k = 0; k < 3; k++) {
             char name[40];

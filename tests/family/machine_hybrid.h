@@ -377,7 +377,7 @@ static inline double enclose(Hybrid *h, const Extrapolation *by, const Real *bef
 }
 
 /* Which condition changes first within a step, *soonest after its start; -1: none does; unsure
- * where that can't be told. An event's that ceases to hold only makes it ready again. */
+ * where that can't be determined. An event's that ceases to hold only makes it ready again. */
 static inline int first_change(Hybrid *h, const Extrapolation *by, const Real *before, double gone,
                                const Past *past, double *soonest)
 {
@@ -404,7 +404,7 @@ static inline int first_change(Hybrid *h, const Extrapolation *by, const Real *b
     return first;
 }
 
-/* from *at to `to`, where nothing but what is watched jumps; false: it can't be told */
+/* from *at to `to`, where nothing but what is watched jumps; false: it can't be determined */
 static inline bool smooth_part(Hybrid *h, double *at, double to, Real *y)
 {
     const Extrapolation by = {machine_rates, &h->d.m, machine_size(&h->d.m), 1e-11L};

@@ -44,7 +44,7 @@ static inline double worst(double a, double b)
 }
 
 /* How far the coordinates that are reported are from those that follow from where the bodies
- * stand; three angles of a chord can't be told. */
+ * stand; three angles of a chord can't be determined. */
 static inline double off_consistent(Member *m, Kit *kit, const Scene *s, const Pose *bodies)
 {
     static const double nothing[MOST_COORDINATES];

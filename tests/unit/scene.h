@@ -73,7 +73,7 @@ __attribute__((unused)) static Expr scene_read(const Model *model, const char *t
     return e;
 }
 
-/* the same over the system's variables; 0 where it can't be told */
+/* the same over the system's variables; 0 where it can't be determined */
 __attribute__((unused)) static Expr scene_expression(const Model *model, System *system,
                                                      const char *text)
 {

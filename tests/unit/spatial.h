@@ -148,8 +148,8 @@ static Result *assembled(Model *model, System *system, Diag *diag)
     return result;
 }
 
-/* values of names, each of them a variable, all at once; where some can't be told each for itself,
- * and those are NAN */
+/* values of names, each of them a variable, all at once; where some can't be determined each for
+ * itself, and those are NAN */
 static double *values_of(const Model *model, Result *result, const char *const *names, int count)
 {
     double *values = NEW_ARRAY(double, count);

@@ -378,7 +378,7 @@ static void an_event_that_leaves_joints_open_is_refused(void)
         EXPECT_DONE(&kit, trees[i]);
         EXPECT_DONE(&kit, "event e when=t > 0.1 b.y=0.5");
         EXPECT(kit_do(&kit, "simulate 0.2") == CT_FAILED);
-        EXPECT_HOLDS(kit.error.message, "at t = 0.1 s: event e doesn't tell where h1 goes");
+        EXPECT_HOLDS(kit.error.message, "at t = 0.1 s: event e doesn't determine where h1 goes");
         EXPECT_HOLDS(kit.error.hint, "h1=h1 stays");
         EXPECT_DONE(&kit, "event e when=t > 0.1 b.y=0.5 h2=h2\nsimulate 0.1001");
         EXPECT_NEAR(kit_value(&kit, "b.y"), 0.5, 1e-3);

@@ -590,7 +590,7 @@ static void a_chain_grows_as_it_should(void)
     EXPECT(mass[1] < 4 * mass[0]);
 }
 
-/* two slides side by side: what each carries can't be told */
+/* two slides side by side: what each carries can't be determined */
 static void reactions_beside_a_vanished_row_are_refused(void)
 {
     Model *model = scene_new("scene planar\nbody m1 mass=1 inertia=1\n"

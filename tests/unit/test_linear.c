@@ -223,7 +223,7 @@ static void what_cannot_move_has_no_modes_and_says_why(void)
         (void)snprintf(line, sizeof line, "states  none: %s", cases[i].why);
         EXPECT_HOLDS(kit.text, line);
         EXPECT_FAILS(&kit, "print modes.omega(1)", "there are no modes");
-        EXPECT_HOLDS(kit.error.hint, "'modes' tells why");
+        EXPECT_HOLDS(kit.error.hint, "'modes' shows why");
         kit_free(&kit);
     }
 #undef FIXED

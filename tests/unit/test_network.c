@@ -63,7 +63,7 @@ static void rates_of_stored_variables_follow_from_their_relations(void)
     kit_free(&kit);
 }
 
-/* two capacitors side by side, both chords: their currents' rates can't be told apart, and their
+/* two capacitors side by side, both chords: their currents' rates can't be distinguished, and their
  * voltages are one state */
 static void rows_without_highest_rates_lower_the_order(void)
 {

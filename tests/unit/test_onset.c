@@ -372,7 +372,7 @@ static void an_ideal_diode_conducts_in_each_dip(void)
     }
 }
 
-/* A coil's current alone tells the voltage of a diode, through 1e12 ohm while that blocks. */
+/* A coil's current alone determines the voltage of a diode, through 1e12 ohm while that blocks. */
 static void a_diode_in_series_with_a_coil_runs(void)
 {
 #define MAINS "vsource V a 0 10*sin(2*pi*49.97465*t)\n"

@@ -142,7 +142,7 @@ static void remarks_tell_of_which_part_and_when(void)
     EXPECT_TEXT(script_remarks(&script),
                 "redundant: k (x, y) repeats h\n"
                 "1 degree of freedom without what is redundant; reactions there are not "
-                "determined: those told are the least (minimum norm) of the joints outside the "
+                "determined: those reported are the least (minimum norm) of the joints outside the "
                 "tree, and depend on it\n");
     script_close(&script);
 }

@@ -505,7 +505,7 @@ static void wrong_options_are_refused(void)
          "1e-12 is about the finest that makes sense"},
         {{.duration = 1, .rtol = 1},
          E_VALUE,
-         "rtol=1 lets a step be as wrong as what it tells is large",
+         "rtol=1 permits an error as large as the value itself",
          "1e-3 is about the coarsest that makes sense"},
         {{.duration = 1, .every = 1e-9},
          E_VALUE,

@@ -95,7 +95,7 @@ static void form_all(System *view, Exprs *out)
         Expr value = NULL;
         Diag diag = {0};
 
-        /* one that can't be told can't in either */
+        /* one that can't be determined can't in either */
         if (system_variable(view, names[i], 0, &value, &diag) != OK)
             value = NULL;
         LIST_PUSH(*out, value);

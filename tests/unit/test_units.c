@@ -1,5 +1,5 @@
 /* test_units.c: a unit of the wrong dimension is refused wherever it stands, and what is right or
- * can't be told passes */
+ * can't be determined passes */
 #include "session_kit.h"
 
 #include <string.h>

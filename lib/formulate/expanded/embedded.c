@@ -157,7 +157,7 @@ static Status choose(System *system, Partition *part, Diag *diag)
     } while (status == OK && expr_is_zero(part->determinant) && next_choice(place, part->m));
     if (status == OK && expr_is_zero(part->determinant)) {
         status = diag_set(diag, E_SINGULAR, "no coordinates follow from the others here");
-        diag_hint(diag, "form embedded independent=[...] names others, `check` tells more");
+        diag_hint(diag, "form embedded independent=[...] names others, `check` shows more");
     }
 done:
     LIST_FREE(free);

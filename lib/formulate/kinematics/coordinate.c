@@ -252,7 +252,8 @@ static Status chord_value(System *system, const Instance *owner, int coordinate,
         *out = p[coordinate - steps.first_parameter];
         return OK;
     }
-    (void)diag_set(diag, E_MISSING, "%s: can't be told while %s is a chord of the rotation tree",
+    (void)diag_set(diag, E_MISSING,
+                   "%s: can't be determined while %s is a chord of the rotation tree",
                    owner->coord[coordinate], owner->name);
     diag_hint(diag, "tree rotation + %s - EDGE makes it a branch", owner->name);
     return E_MISSING;

@@ -83,7 +83,7 @@ void multi_turn_build(System *system)
         if (joint->row->steps == NULL || joint->edge < 0 || joint->coord_count == 0)
             continue;
         instance_steps(system, joint, &steps);
-        /* three turns in a chord have no angles that could be told */
+        /* three turns in a chord have no angles that could be determined */
         for (int k = 0; k < steps.turn_count && steps.turn_count < 3; k++)
             if (system->kinematics->coordinate[i][steps.turn[k].coordinate] < 0)
                 add_multi_turn(system, joint, &steps, k);

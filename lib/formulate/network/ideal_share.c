@@ -1,8 +1,8 @@
 /* ideal_share.c: ideal switches as the network tells them, and what closed or open ones alone share
  *
- * Where closed ones alone make a circuit nothing tells what each of them carries, and where open
- * ones alone part the network, nothing what is across each: they share alike, as equal resistances
- * would, however small or large. theory 8. */
+ * Where closed ones alone make a circuit nothing determines what each of them carries, and where
+ * open ones alone part the network, nothing what is across each: they share alike, as equal
+ * resistances would, however small or large. theory 8. */
 #include "formulate/network/ideal_sides.h"
 #include "formulate/network/scalar_edges.h"
 #include "formulate/system/network.h"

@@ -74,7 +74,7 @@ static int derivations(const System *system, int unknown)
     return count;
 }
 
-/* the next rate of a network symbol; E_MISSING where it can't be told */
+/* the next rate of a network symbol; E_MISSING where it can't be determined */
 static Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag)
 {
     int number = expr_symbol_number(symbol);

@@ -4,7 +4,7 @@
 
 #include "formulate/system/system.h"
 
-/* E_MISSING while reactions, multipliers and entries of M can't be told yet */
+/* E_MISSING while reactions, multipliers and entries of M can't be determined yet */
 MUST_USE Status system_wait_for_motion(System *system, Diag *diag);
 /* e over user's variables to e over the system's */
 MUST_USE Status variables_resolve(System *system, Expr user, Expr *out, Diag *diag);

@@ -169,7 +169,7 @@ typedef struct Pusher {
     Expr value[6];
 } Pusher;
 
-/* Likewise; parts whose law can't be told are passed over. */
+/* Likewise; parts whose law can't be determined are passed over. */
 bool system_pusher(System *system, int *next, Pusher *out);
 
 /* --- constraints --- */
@@ -332,7 +332,7 @@ Expr system_surface(System *system, int i);
 /* The part whose values jump or bend where that is 0, for messages; NULL: not known. */
 const char *system_jumping_part(System *system, Expr condition);
 /* the derivative of e along the motion, in u', x' and what else they solve for; E_MISSING where it
- * can't be told */
+ * can't be determined */
 MUST_USE Status system_rate(System *system, Expr e, Expr *out, Diag *diag);
 
 /* --- switches: diodes and switches, ideal or between two resistances ---

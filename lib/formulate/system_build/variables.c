@@ -138,7 +138,7 @@ static Status frame_variable(System *system, int node, const char *member, Expr 
             *out = vector.at[row->axis];
         return status;
     }
-    return diag_set(diag, E_MISSING, "%s.%s can't be told",
+    return diag_set(diag, E_MISSING, "%s.%s can't be determined",
                     graph_node(system->origin->graph, node)->name, member);
 }
 
@@ -183,7 +183,7 @@ static Status tied_shift(System *system, const Instance *joint, Expr *out, Diag 
 
     instance_steps(system, joint, &steps);
     if (!steps_are_tied(&steps))
-        return diag_set(diag, E_MISSING, "%s.s can't be told", joint->name);
+        return diag_set(diag, E_MISSING, "%s.s can't be determined", joint->name);
     TRY(coordinate_value(system, joint, steps.turn[0].coordinate, 0, &turn, diag));
     *out = expr_mul(system->arena, steps.shift[0].scale, turn);
     return OK;
@@ -230,7 +230,7 @@ static Status joint_variable(System *system, const Instance *joint, const char *
     if (strcmp(member, "s") == 0)
         return tied_shift(system, joint, out, diag);
     if (axis == NULL)
-        return diag_set(diag, E_MISSING, "%s.%s can't be told", joint->name, member);
+        return diag_set(diag, E_MISSING, "%s.%s can't be determined", joint->name, member);
     if (member[0] == 'W') {
         *out = relative_rate(system, joint, (int)(axis - letters));
         return OK;
@@ -261,7 +261,7 @@ static Status driver_variable(System *system, const Instance *driver, const char
         if (system->constraints->drives.at[i].instance == driver->number)
             drive = &system->constraints->drives.at[i];
     if (drive == NULL || strcmp(member, "effort") != 0)
-        return diag_set(diag, E_MISSING, "%s.%s can't be told", driver->name, member);
+        return diag_set(diag, E_MISSING, "%s.%s can't be determined", driver->name, member);
     if (system_wait_for_motion(system, diag) != OK)
         return E_MISSING;
     /* in the embedded form one driver of one freedom has an explicit effort, where it can be
@@ -284,7 +284,7 @@ static Status coupler_variable(const System *system, const Instance *coupler, co
             *out = expr_neg(system->arena, system->constraints->multipliers[k]);
             return OK;
         }
-    return diag_set(diag, E_MISSING, "%s.%s can't be told", coupler->name, member);
+    return diag_set(diag, E_MISSING, "%s.%s can't be determined", coupler->name, member);
 }
 
 /* a state of the part's own, and its rate */
@@ -336,7 +336,7 @@ static Status scalar_variable(System *system, const Instance *instance, const ch
         }
     }
     if (count == 0)
-        return diag_set(diag, E_MISSING, "%s.%s can't be told", instance->name, member);
+        return diag_set(diag, E_MISSING, "%s.%s can't be determined", instance->name, member);
     branch = scalar_branch(system, instance, which);
     if (name[0] == '\0' || strcmp(name, domain_across(domain)) == 0)
         return network_across(system, branch, out, diag);
@@ -349,7 +349,7 @@ static Status scalar_variable(System *system, const Instance *instance, const ch
     } else if (branch->relation.content != NULL) {
         return variables_resolve(system, branch->relation.content, out, diag);
     } else {
-        return diag_set(diag, E_MISSING, "%s.%s can't be told", instance->name, member);
+        return diag_set(diag, E_MISSING, "%s.%s can't be determined", instance->name, member);
     }
     return OK;
 }
@@ -514,7 +514,7 @@ static Status free_speeds(const System *system, Expr *out, Diag *diag)
         (void)diag_set(diag, E_MISSING,
                        "model.dof counts what the constraints leave free at the start, and is no "
                        "formula");
-        diag_hint(diag, "'print model.dof' and 'check' tell it");
+        diag_hint(diag, "'print model.dof' and 'check' show it");
         return E_MISSING;
     }
     *out = expr_int(system->arena, system->kinematics->u.count);
@@ -638,7 +638,7 @@ static Status member_variable(System *system, const char *path, Expr *out, Diag 
     case FAMILY_TRANSDUCER:
         return scalar_variable(system, instance, member, out, diag);
     }
-    return diag_set(diag, E_MISSING, "%s can't be told", path);
+    return diag_set(diag, E_MISSING, "%s can't be determined", path);
 }
 
 static bool find_coordinate(const System *system, const char *path, const Instance **owner,

@@ -14,7 +14,7 @@ typedef struct Linear {
     double at;
     int freedoms;                       /* the first of the states; as many speeds follow */
     int states, inputs, outputs, parts; /* parts: all coordinates, then network states */
-    double *a, *b, *c, *d;              /* row by row; what can't be told from 0 is 0 */
+    double *a, *b, *c, *d;              /* row by row; what can't be distinguished from 0 is 0 */
     double *a_error, *b_error, *c_error, *d_error; /* how far each entry may be off */
     double *motion;                                /* parts x states: how each moves with y */
     /* the rows of speeds unsolved, M s'' = -[K C ..] y: freedoms square, freedoms x states. NULL

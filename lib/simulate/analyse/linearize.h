@@ -40,7 +40,7 @@ typedef struct Mode {
     double omega;           /* its absolute value, rad/s */
     double damping;         /* -real / omega; 0 where omega is */
     double error;           /* the eigenvalue is known to, 1/s */
-    bool is_doubtful;       /* whether it grows or fades can't be told: real is 0 */
+    bool is_doubtful;       /* whether it grows or fades can't be determined: real is 0 */
     double *amplitude;      /* parts: the largest is 1 */
     double *phase;          /* rad, in (-pi, pi], of the largest 0 */
 } Mode;

@@ -191,7 +191,7 @@ static void put(const LinearColumn *column, int row, LinearNumber number)
     column->error[(ptrdiff_t)row * column->stride] = number.error;
 }
 
-/* what can't be told from 0 is 0 */
+/* what can't be distinguished from 0 is 0 */
 static void drop(const LinearColumn *column, int count)
 {
     for (int i = 0; i < count; i++)

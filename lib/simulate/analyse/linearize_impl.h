@@ -127,8 +127,8 @@ MUST_USE Status linear_columns(const Work *w, Linear *out, Diag *diag);
 
 /* --- linearize_settle.c --- */
 
-/* New: the equations at the point, what can't be told from 0 there as 0; linear_free(). E_SINGULAR
- * where they have no derivatives. */
+/* New: the equations at the point, what can't be distinguished from 0 there as 0; linear_free().
+ * E_SINGULAR where they have no derivatives. */
 MUST_USE Status linear_settled(Work *w, Linear **out, Diag *diag);
 
 #endif

@@ -384,10 +384,10 @@ static void begin_at_network(Work *w)
 static Status refuse_dependent(Work *w, Diag *diag)
 {
     if (failure_diagnose(w->l, &w->parameters, w->order->at, w->y,
-                         "nothing linear tells how it moves", diag))
+                         "nothing linear determines how it moves", diag))
         return E_SINGULAR;
     (void)diag_set(diag, E_SINGULAR,
-                   "the equations are dependent there: nothing linear tells how "
+                   "the equations are dependent there: nothing linear determines how "
                    "it moves");
     diag_hint(diag, "take another instant, or another start");
     return E_SINGULAR;

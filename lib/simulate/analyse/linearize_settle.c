@@ -79,7 +79,7 @@ static void settle(Linear *linear, Linear *const *samples, int count)
         }
 }
 
-/* the same once more, beside the point: *out is new, NULL where it can't be told there */
+/* the same once more, beside the point: *out is new, NULL where it can't be determined there */
 static Status sample(Work *w, uint64_t seed, Linear **out, Diag *diag)
 {
     Linear *linear;

@@ -149,7 +149,8 @@ static bool is_conservative(const Linear *linear, BoundedMatrix stiffness)
     return true;
 }
 
-/* a root of s^2 = -square, where that is known to `error` and `count` others can't be told from it
+/* a root of s^2 = -square, where that is known to `error` and `count` others can't be determined
+ * from it
  */
 static Root root_of_square(double square, double error, int count)
 {

@@ -101,7 +101,7 @@ static void drop_pair(Root *roots, int *count, int which)
         }
 }
 
-/* Leave out poles and zeros that can't be told apart. */
+/* Leave out poles and zeros that can't be distinguished. */
 static void cancel(Transfer *t)
 {
     const int before = t->poles;

@@ -537,7 +537,7 @@ static Status refuse_open(const Reinit *reinit, const char *events, const Decisi
 {
     (void)diag_set(
         diag, E_SOLVER,
-        "at t = %.9g s: event %s doesn't tell where %s go%s: what it sets moves more than "
+        "at t = %.9g s: event %s doesn't determine where %s go%s: what it sets moves more than "
         "follows from it",
         reinit->t, events, decision->names.at, decision->open == 1 ? "es" : "");
     if (decision->example != NULL)
@@ -553,7 +553,7 @@ static Status refuse_rates(const Reinit *reinit, const char *events, Diag *diag)
     (void)diag_set(
         diag, E_SOLVER,
         "at t = %.9g s: event %s sets a singular position, where the rates of before don't "
-        "tell all rates",
+        "set all rates",
         reinit->t, events);
     diag_hint(diag, "a position beside it will do, or rates that the event gives, too: h1'=0");
     return E_SOLVER;

@@ -91,11 +91,12 @@ static void write_start(const Remark *r, Text *out)
                   r->others != NULL ? r->others : "");
         break;
     case REMARK_UNDETERMINED:
-        text_addf(out,
-                  "%d degree%s of freedom without what is redundant; reactions there are not "
-                  "determined: those told are the least (minimum norm) of the joints outside the "
-                  "tree, and depend on it",
-                  r->count, r->count == 1 ? "" : "s");
+        text_addf(
+            out,
+            "%d degree%s of freedom without what is redundant; reactions there are not "
+            "determined: those reported are the least (minimum norm) of the joints outside the "
+            "tree, and depend on it",
+            r->count, r->count == 1 ? "" : "s");
         break;
     case REMARK_REST_OPEN:
         text_addf(out, "at rest nothing determines %s: it stays as near to its start as may be",
@@ -123,10 +124,11 @@ static void write_steps(const Remark *r, Text *out)
         text_addf(out, "stiff from t = %.6g s: went on with %s", r->t, r->what);
         break;
     case REMARK_JOINT:
-        text_addf(out,
-                  "states hardly tell the network's other unknowns at t = %.6g s: went on with %s, "
-                  "which solves both together",
-                  r->t, r->what);
+        text_addf(
+            out,
+            "states hardly determine the network's other unknowns at t = %.6g s: went on with %s, "
+            "which solves both together",
+            r->t, r->what);
         break;
     case REMARK_ROUNDING:
         text_addf(out, "steps limited by rounding at t = %.6g s: went on with %s", r->t, r->what);

@@ -338,7 +338,7 @@ const Method method_gauss = {
     .name = "symplectic",
     .brief = "Gauss collocation of order 6, fixed steps (step=, else one a row) that read the same "
              "backwards: the energy of long conservative runs doesn't creep away; controls no "
-             "error, and tells of it",
+             "error, and reports that",
     .create = create,
     .destroy = stepper_free,
     .start = start,

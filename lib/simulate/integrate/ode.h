@@ -36,8 +36,8 @@ typedef struct Dae {
     int (*pattern)(void *context, const int **row, const int **column);
     bool (*jacobian)(void *context, double t, double c, const double *w, const double *rate,
                      double *values);
-    /* The same, where any place may not be 0, column by column; false: it can't be told there but
-     * by differences. NULL: not offered. */
+    /* The same, where any place may not be 0, column by column; false: it can't be determined there
+     * but by differences. NULL: not offered. */
     bool (*full)(void *context, double t, double c, const double *w, const double *rate,
                  double *values);
     /* Whether dF/dy' and dF by the rest of w have an inverse: index 1, without multipliers. */
@@ -53,8 +53,8 @@ typedef struct Dae {
 /* Derivatives of y' in closed form. */
 typedef struct OdeJacobian {
     void *context;
-    /* Of all entries of y' by the n that count, row by row, at (t, y). False: they can't be told
-     * there but by differences. NULL: nowhere. */
+    /* Of all entries of y' by the n that count, row by row, at (t, y). False: they can't be
+     * determined there but by differences. NULL: nowhere. */
     bool (*at)(void *context, double t, const double *y, double *out);
 } OdeJacobian;
 

@@ -102,7 +102,7 @@ const Method method_rk4 = {
     .name = "rk4",
     .brief =
         "classical Runge-Kutta, fixed steps (step=, else one a row), shorter where something steep "
-        "begins to act; controls no error, and tells of it; projects after each step",
+        "begins to act; controls no error, and reports that; projects after each step",
     .create = create,
     .destroy = stepper_free,
     .start = fixed_start,

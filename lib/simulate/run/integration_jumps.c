@@ -92,7 +92,7 @@ static Status find_samples(Integration *m, int i, int *out, Diag *diag)
     for (samples = fmin(samples, MOST); before != changes;) {
         if (samples > MOST) {
             (void)diag_set(diag, E_SOLVER,
-                           "what switches by time does so more often than this run can tell");
+                           "what switches by time does so more often than this run can resolve");
             diag_hint(diag, "a shorter run");
             return E_SOLVER;
         }

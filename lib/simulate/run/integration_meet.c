@@ -232,7 +232,7 @@ Status integration_meet_switch(Integration *m, int i, double when, bool *again, 
     double value = 0, slope = 0;
     bool is_told = integration_is_margin(m, i), entered;
 
-    /* a switch on the very start of the step can't be told from the one just met */
+    /* a switch on the very start of the step can't be determined from the one just met */
     if (when > m->stepper->before) {
         TRY(approach(m, i, when, &value, &slope, diag));
         *again = *again && !is_told && passes_others(m, i, when);

@@ -217,10 +217,10 @@ static Status refuse_untold(const Phase *phase, double t, const Openness *open,
     if (joint != NULL)
         diag_hint(diag,
                   "method=%s solves for both together; or a resistor across %.*s, or a finer "
-                  "atol=, tells it",
+                  "atol=, determines it",
                   joint->name, part, variable);
     else
-        diag_hint(diag, "a resistor across %.*s, or a finer atol=, tells it", part, variable);
+        diag_hint(diag, "a resistor across %.*s, or a finer atol=, determines it", part, variable);
     return E_SOLVER;
 }
 

@@ -29,7 +29,7 @@ const char *run_method(int i, const char **brief)
     if (i == 0) {
         *brief =
             "dop853, and once the equations turn out to be stiff radau, or ida on large networks "
-            "and where a coil's current alone tells the voltage of a diode";
+            "and where a coil's current alone determines the voltage of a diode";
         return AUTO;
     }
     if (method == NULL)
@@ -78,7 +78,7 @@ static Status check_rtol(double rtol, Diag *diag)
     if (rtol < RUN_LEAST_RTOL)
         (void)diag_set(diag, E_VALUE, "rtol=%g is finer than numbers are", rtol);
     else
-        (void)diag_set(diag, E_VALUE, "rtol=%g lets a step be as wrong as what it tells is large",
+        (void)diag_set(diag, E_VALUE, "rtol=%g permits an error as large as the value itself",
                        rtol);
     diag_hint(diag, rtol < RUN_LEAST_RTOL ? "1e-12 is about the finest that makes sense"
                                           : "1e-3 is about the coarsest that makes sense");
@@ -389,7 +389,7 @@ static bool reach(ActiveRun *r, double from, double to, double *y, int depth)
     return reach(r, from, from + h / 2, y, depth - 1) && reach(r, from + h / 2, to, y, depth - 1);
 }
 
-/* What can't be told where the motion begins has a cause, which is named. */
+/* What can't be determined where the motion begins has a cause, which is named. */
 static bool is_determined_at_start(ActiveRun *r, const double *y)
 {
     Solved solved;
@@ -413,7 +413,7 @@ static void add_position(ActiveRun *r, double t, const double *y)
 static Status lost(ActiveRun *r, double last, double t, const double *y, Diag *diag)
 {
     if (failure_meeting(r->phase->layout, &r->phases->parameters, last, y,
-                        "nothing tells how it moves on", diag))
+                        "nothing determines how it moves on", diag))
         return E_SINGULAR;
     return solver_failure(diag, t, "the drivers lead where the parts can't follow");
 }

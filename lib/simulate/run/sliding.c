@@ -285,7 +285,7 @@ static Status slide_all(const ModeSwitching *c, const Phase *now, const Meeting 
     Diag why = {0};
     Status status = phase_on(c, now, all, count, NULL, NULL, out, &why);
 
-    if (status == E_MISSING) { /* how it is left can't be told */
+    if (status == E_MISSING) { /* how it is left can't be determined */
         *out = NULL;
         return OK;
     }
