@@ -242,7 +242,7 @@ typedef struct ct_figures {
     double position_residual; /* largest of the constraints' equations, in SI */
     double velocity_residual; /* largest of their rates */
     double energy_drift;      /* J: largest, of energy less work */
-    double energy_scale;      /* J: largest kinetic energy, to compare */
+    double energy_scale;      /* J: largest kinetic or |potential| energy, to compare */
     double global_error;      /* of check=on, in SI */
     double wall;              /* s: that it took */
     bool stopped;             /* by the stop hook */

@@ -10,7 +10,7 @@
 #undef I
 #define IMAGINARY _Complex_I
 
-/* what all parts give and take adds up, in joules beside the largest kinetic energy */
+/* what all parts give and take adds up, in joules beside the largest stored energy */
 static bool energy_balances(Member *member, const Kit *kit)
 {
     ct_figures f;

@@ -452,6 +452,22 @@ static void the_report_balances_energy(void)
     script_close(&script);
 }
 
+/* 50 J in a spring that oil slows down, 0.5 J in a capacitor: hardly anything moves, or nothing */
+static void drift_is_compared_with_the_largest_stored_energy(void)
+{
+    Script script = run("scene planar\nbody m mass=1 inertia=1\nprismatic s ground m axis=[1, 0]\n"
+                        "spring k1 s k=100 rest=0\ndamper d1 s d=1000\ninit s = 1\nsimulate 1",
+                        (Changes){0});
+
+    EXPECT(script.status == OK && result_report(script.result)->energy_drift < 1e-6);
+    EXPECT_NEAR(result_report(script.result)->energy_scale, 50, 1e-6);
+    script_close(&script);
+    script = run("capacitor C a 0 1\nresistor R a 0 1\ninit C.v = 1\nsimulate 1", (Changes){0});
+    EXPECT(script.status == OK && result_report(script.result)->energy_drift < 1e-6);
+    EXPECT_NEAR(result_report(script.result)->energy_scale, 0.5, 1e-9);
+    script_close(&script);
+}
+
 /* a driver in a forward run works: its power is in the balance */
 static void drivers_work(void)
 {
@@ -737,6 +753,7 @@ int main(void)
     RUN(a_second_run_estimates_the_error);
     RUN(an_unresolved_run_is_told);
     RUN(the_report_balances_energy);
+    RUN(drift_is_compared_with_the_largest_stored_energy);
     RUN(drivers_work);
     RUN(wrong_options_are_refused);
     RUN(an_undefined_force_ends_the_run_and_keeps_it);

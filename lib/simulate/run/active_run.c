@@ -338,7 +338,7 @@ Status active_run_balance(ActiveRun *r, Diag *diag)
 {
     const Grid *grid = &r->result->grid;
     double *energies = NEW_ARRAY(double, 2 * grid->count);
-    double first = 0, drift = 0, stored = 0, most = 0, largest = 0, time = 0;
+    double first = 0, drift = 0, stored = 0, most = 0, time = 0;
     bool is_known = true;
     Status status = OK;
 
@@ -356,10 +356,9 @@ Status active_run_balance(ActiveRun *r, Diag *diag)
         most = fmax(most, fabs(work));
         time = grid->times[i] - grid->times[0];
         is_known = is_known && isfinite(balance);
-        largest = fmax(largest, value[0]);
     }
     r->result->monitor_report.energy_drift = is_known ? drift : (double)NAN;
-    r->result->monitor_report.energy_scale = largest;
+    r->result->monitor_report.energy_scale = stored;
     if (is_known)
         CHECK(judge_balance(r, (EnergyBalance){drift, stored, most, time}, diag));
 done:

@@ -26,7 +26,7 @@ typedef struct RunReport {
     double position_residual; /* largest |Phi| on the output grid */
     double velocity_residual; /* largest |Phi_u u - nu| */
     double energy_drift;      /* largest |E - E0 - work|; NAN: no number holds it */
-    double energy_scale;      /* largest kinetic energy, beside which it counts */
+    double energy_scale;      /* largest kinetic or |potential| energy, to compare */
     double global_error;      /* of check=on, estimated, largest over grid and coordinates; NAN: not
                                  asked, or not known */
     bool is_unresolved;       /* check=on found another motion */
