@@ -30,7 +30,7 @@ libcore_la_SOURCES += \
 	lib/formulate/network/network_order.c lib/formulate/network/network_rows.c \
 	lib/formulate/network/network_steps.c lib/formulate/network/network_steps.h \
 	lib/formulate/network/network_tree.c lib/formulate/network/scalar_edges.c \
-	lib/formulate/network/scalar_edges.h \
+	lib/formulate/network/scalar_edges.h lib/formulate/network/uncharged_nodes.c \
 	lib/formulate/dynamics/composite.c lib/formulate/dynamics/composite.h \
 	lib/formulate/dynamics/composite_entries.c \
 	lib/formulate/dynamics/composite_mass.c lib/formulate/dynamics/composite_mass.h \

@@ -419,6 +419,13 @@ typedef struct Storage {
 /* Those of states: a new array, mem_free(). O(parts). */
 int system_storages(System *system, Storage **out);
 
+/* --- nodes without charge --- */
+
+/* Where x[state] is the current of a coil: the node at which it meets only coils, sources of
+ * current and nonlinear laws, as diodes and transistors, so that no charge bounds the rate of its
+ * voltage; NULL: there is none, or x[state] is no such current. O(parts^2). */
+const Node *system_uncharged_node(const System *system, int state);
+
 /* --- inverse runs: drivers, and what supplies their motion --- */
 
 typedef struct Drive {

@@ -320,6 +320,23 @@ static int find_limiting(RunEnd *e, Stepper *stepper, double h)
     return found;
 }
 
+/* The current of a coil limits the step, and at one of its ends only nonlinear laws take it. */
+static bool report_uncharged(RunEnd *e, int which, Diag *diag)
+{
+    const VariableIndex *l = e->phase->layout;
+    const int state = which - l->n - l->nu;
+    const Node *node = state >= 0 ? system_uncharged_node(l->system, state) : NULL;
+
+    if (node == NULL || node->domain != DOMAIN_ELECTRICAL)
+        return false;
+    add_cause(diag, "; node ", node->name, "has no charge, so that its voltage may jump");
+    diag_hint(diag,
+              "only nonlinear parts take %s there: a capacitor from %s to 0 (a few pF) lets the "
+              "voltage change in finite time",
+              name_of(e, which), node->name);
+    return true;
+}
+
 /* No cause is known: the equation whose error limits the step, the part that acts most, and what
  * may help. */
 static void add_limiting(RunEnd *e, Stepper *stepper, const char *hardest, Diag *diag)
@@ -334,6 +351,8 @@ static void add_limiting(RunEnd *e, Stepper *stepper, const char *hardest, Diag 
         add_cause(diag, "; ", "the equations", "have no value from there on");
     else
         add_cause(diag, "; the error of ", name_of(e, which), "limits it");
+    if (which >= 0 && report_uncharged(e, which, diag))
+        return;
     if (hardest != NULL)
         add_cause(diag, ", ", hardest, "pushes hardest");
     if (diag->hint[0] != '\0')
