@@ -517,10 +517,11 @@ static char *free_name(const View *view, int number)
     return text_done(&text);
 }
 
-/* the left side of what is shown: as the user wrote it, or as the notation can have it */
-static char *left_side(const View *view, const Syntax *syntax, Expr user, int number)
+/* The left side of what is shown, e: as the user wrote it, or as the notation can have it. */
+static char *left_side(const View *view, const Syntax *syntax, Expr user, Expr e, int number)
 {
     char *written, *name;
+    bool is_itself; /* nothing is computed: x = x is no statement */
 
     if (view_kind(view) == NOTATION_TYPESET)
         return view_expression(view, user);
@@ -529,7 +530,8 @@ static char *left_side(const View *view, const Syntax *syntax, Expr user, int nu
     while (syntax->kind == SYNTAX_GROUP && syntax->primes == 0)
         syntax = syntax->args[0];
     written = view_name(syntax);
-    name = syntax->kind != SYNTAX_VARIABLE
+    is_itself = expr_kind(e) == EXPR_SYMBOL && strcmp(expr_name(e), written) == 0;
+    name = syntax->kind != SYNTAX_VARIABLE || is_itself
                ? free_name(view, number)
                : view_expression(view,
                                  expr_symbol(model_arena(view->model), written, SYMBOL_VARIABLE));
@@ -544,7 +546,7 @@ Status show_expression(const View *view, const Syntax *syntax, int number, Text 
 
     TRY(model_expression(view->model, syntax, &user, diag));
     TRY(system_resolve(view->system, user, &e, diag));
-    view_value(&equations, left_side(view, syntax, user, number),
+    view_value(&equations, left_side(view, syntax, user, e, number),
                expr_fold(model_arena(view->model), system_plain(view->system, e)));
     write_equations(out, view, &equations);
     return OK;

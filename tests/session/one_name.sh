@@ -49,6 +49,15 @@ delete k6
 print k6
 END
 
+echo "--- in programs, a name that stands for itself has another on its left"
+cotree -q one_name.ct - << 'END' 2>&1
+show k6 as c
+show k6.effort as fortran
+show k6 m1.x s as python
+value = 3
+show k6 as matlab
+END
+
 echo "--- inside, names are its own, then the model's"
 cotree -q - << 'END' 2>&1
 C1 = 1 uF

@@ -149,11 +149,11 @@ static void programs_assign_to_names(void)
     static const struct {
         const char *line, *text;
     } shown[] = {{"show (2*s) as c", "value = 2.0*s;\n"},
-                 {"show ((s)) as c", "s = s;\n"},
+                 {"show ((s)) as c", "value = s;\n"},
                  {"show sin(s) (s - 1) as matlab", "value1 = sin(s);\nvalue2 = s - 1;\n"},
                  {"show F.effort as c", "F_effort = 6.0*s;\n"},
                  {"show F.effort as matlab", "F_effort = 6*s;\n"},
-                 {"show s'' as matlab", "s_dd = s_dd;\n"},
+                 {"show s'' as matlab", "value = s_dd;\n"},
                  {"show (2*s) as text", "(2*s) = 2*s\n"},
                  {"value = 3; show (2*s) as c", "value_ = 2.0*s;\n"}};
     Kit kit = kit_new();
