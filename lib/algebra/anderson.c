@@ -6,12 +6,12 @@
 #include <math.h>
 #include <string.h>
 
-#define DEPENDENT 1e-10 /* of a difference: what is left of it beside the others is rounding */
+#define DEPENDENT 1e-10 /* of a difference: a smaller remainder is rounding */
 
 enum { MOST_STEPS = 24 };
 
 struct Anderson {
-    int n, steps, count;               /* steps since the restart; differences that stand */
+    int n, steps, count;               /* steps since the restart; differences stored */
     double *image, *residual, *scaled; /* F, g of the last step; g in sizes */
     double *images, *residuals;        /* differences of these, MOST_STEPS x n */
     double *basis, *triangle, *fitted; /* Q, R of the residuals' differences; R c = Q^T g */

@@ -40,7 +40,8 @@ static int rising(const void *a, const void *b)
     return *(const int *)a - *(const int *)b;
 }
 
-/* BTF reads matrices by columns, so that ours is transposed: what acts comes before. */
+/* BTF reads matrices by columns, ours are stored by rows: BTF sees the transpose, and a block
+ * precedes those that it acts on. */
 BlockTriangular block_triangular_find(const bool *pattern, int n)
 {
     PatternColumns p = places_of(pattern, n);

@@ -1,7 +1,6 @@
-/* block_triangular.h: matrices of which a part doesn't act back on another, as block triangular
- * ones
+/* block_triangular.h: block triangular form of square matrices
  *
- * A pattern tells which of the n x n entries, row by row, may be other than 0. */
+ * A pattern marks the entries of an n x n matrix, row by row, that may differ from 0. */
 #ifndef COTREE_ALGEBRA_BLOCK_TRIANGULAR_H
 #define COTREE_ALGEBRA_BLOCK_TRIANGULAR_H
 
@@ -25,8 +24,8 @@ void block_triangular_free(BlockTriangular *blocks);
  * far less. */
 bool block_triangular_match(const bool *pattern, int n, int *column);
 
-/* Whether the states come in two kinds that only act on each other: the eigenvalues are then
- * symmetric about the imaginary axis. O(n^2). */
+/* Whether the states split into two kinds, each of which acts on the other kind only. The
+ * eigenvalues are then symmetric about the imaginary axis. O(n^2). */
 bool block_triangular_alternate(const bool *pattern, int n);
 
 #endif

@@ -1,4 +1,4 @@
-/* dense.c: numbers of GSL's behind their head, in one piece */
+/* dense.c: GSL vectors and matrices allocated with their numbers in one block */
 #include "algebra/dense.h"
 
 #include "base/memory.h"
@@ -20,8 +20,8 @@ void dense_quiet(void)
     call_once(&once, switch_off);
 }
 
-/* `count` numbers of that size behind the head of the object; where that is too much for a size_t
- * it is too much for memory, too */
+/* `count` numbers of that size after the head of the object. A size that overflows size_t is
+ * treated as out of memory. */
 static void *behind(void **numbers, size_t head, size_t count, size_t size)
 {
     char *piece;

@@ -13,9 +13,9 @@ gsl_matrix *dense_matrix(size_t rows, size_t columns);
 gsl_vector *dense_vector(size_t count);
 gsl_permutation *dense_permutation(size_t count);
 
-/* Switch off GSL's error handler, which ends the program, once and for the whole process: the codes
- * that its functions return say the same. Each of those above does so; a session does so where it
- * begins, for others to know when. */
+/* Switch off GSL's error handler, which ends the program, once for the whole process. The codes
+ * that GSL's functions return report the same errors. Each function above does so. A session does
+ * so when it is created, so that an embedding program knows when. */
 void dense_quiet(void);
 
 #endif

@@ -1,8 +1,9 @@
 /* elementary.c: sine, cosine, exponential and logarithm by polynomials
  *
- * An argument is brought into a small range by whole quarters of a turn (Cody and Waite 1980: the
- * quarter in parts short enough that their multiples are exact; beyond NEAR, Payne and Hanek 1983:
- * only those digits of 2/pi count that don't give whole turns), or by powers of 2. */
+ * Range reduction first, then a polynomial on a small range. Sine and cosine subtract multiples of
+ * pi/2: pi/2 is split into parts so short that their multiples are exact (Cody and Waite 1980).
+ * Beyond NEAR, only those digits of 2/pi are used that don't contribute whole turns (Payne and
+ * Hanek 1983). Exponential and logarithm split off powers of 2. */
 #include "algebra/elementary.h"
 
 #include "algebra/double_double.h"
@@ -32,7 +33,7 @@
 #define EXP_LEAST -746.0 /* 0 up to there */
 #define ROOT_HALF UINT64_C(0x3FE6A09E667F3BCD) /* bits of sqrt(1/2) */
 
-/* a sum with it is rounded to a whole number, which then stands in the low bits */
+/* a sum with it is rounded to an integer, which is in its low bits */
 #define TO_WHOLE      0x1.8p52
 #define TO_WHOLE_BITS UINT64_C(0x4338000000000000)
 
@@ -69,7 +70,7 @@
 #define L6   0x1.39fd25d62a58ep-3
 #define L7   0x1.2b6776a1c2af9p-3
 
-/* 2 / pi behind the point */
+/* 2 / pi, the fraction's bits */
 static const uint32_t two_over_pi[] = {
     0xA2F9836E, 0x4E441529, 0xFC2757D1, 0xF534DDC0, 0xDB629599, 0x3C439041, 0xFE5163AB, 0xDEBBC561,
     0xB7246E3A, 0x424DD2E0, 0x06492EEA, 0x09D1921C, 0xFE1DEB1C, 0xB129A73E, 0xE88235F5, 0x2EBB4484,
@@ -80,7 +81,7 @@ static const uint32_t two_over_pi[] = {
 
 static void sincos_far(double x, double *sine, double *cosine);
 
-/* a number that no compiler takes together with its neighbours */
+/* a number that the compiler can't fuse or reorder with its neighbours */
 #if defined __x86_64__ && defined __GNUC__
 #define APART(number) __asm__("" : "+x"(number))
 #else
@@ -140,7 +141,7 @@ static unsigned far_quarters(double x, DoubleDouble *left)
     int exponent;
     const uint64_t m = (uint64_t)ldexp(frexp(fabs(x), &exponent), 53);
     const int e = exponent - 53, first = e > 2 ? (e - 2) / 32 : 0;
-    const int point = 32 * (first + DIGITS) - e; /* bits behind the point */
+    const int point = 32 * (first + DIGITS) - e; /* bits of the fraction */
     uint32_t product[DIGITS + 2] = {0};          /* lowest first */
     uint64_t carry = 0;
     unsigned quarters;

@@ -1,8 +1,8 @@
 /* elementary.h: sine, cosine, exponential and logarithm, the same on every machine
  *
- * Sums and products alone, rounded one by one: a number has the same value with two, four or eight
- * beside it, and on any processor. Within a unit in the last place over the whole range: angles of
- * many turns, numbers without a leading digit, infinities and NaN as C has them. */
+ * Only sums and products, each rounded: the result is the same in SIMD batches of two, four or
+ * eight, and on any processor. Errors are within one unit in the last place over the whole range,
+ * with angles of many turns and subnormal numbers. Infinities and NaN are as in C. */
 #ifndef COTREE_ALGEBRA_ELEMENTARY_H
 #define COTREE_ALGEBRA_ELEMENTARY_H
 

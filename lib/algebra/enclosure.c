@@ -1,10 +1,10 @@
 /* enclosure.c: eigenvalues by the Francis method, corrected by their residual
  *
  * With vectors X and values L found in doubles, Y nearly the inverse of X and R = A X - X L, formed
- * in numbers of twice the digits, X^-1 A X = L + (Y X)^-1 Y R. What stands beside L there is small,
- * as rounding is: its diagonal corrects L, the rest moves values by its square over their distance.
- * Discs about the diagonal, row and column k scaled against the others, bound that (Gershgorin
- * 1931; Wilkinson 1965, 2.15). */
+ * in numbers of twice the digits, X^-1 A X = L + (Y X)^-1 Y R. The term added to L is of the size
+ * of rounding. Its diagonal corrects L; its other entries move an eigenvalue by their square over
+ * its distance from the next one. Discs about the diagonal bound that, row and column k scaled
+ * against the others (Gershgorin 1931; Wilkinson 1965, 2.15). */
 #include "algebra/enclosure.h"
 
 #include "algebra/dense.h"
@@ -19,14 +19,15 @@
 
 /* --- in doubles --- */
 
-/* Values and vectors; false where the iteration doesn't come to an end, or GSL has no room. */
+/* Eigenvalues and eigenvectors; false when the iteration doesn't converge or GSL is out of
+ * memory. */
 static bool francis(const DoubleDouble *a, Enclosure *e)
 {
     const size_t count = (size_t)e->n;
     gsl_matrix *matrix = dense_matrix(count, count);
     gsl_vector_complex_view value = gsl_vector_complex_view_array((double *)e->value, count);
     gsl_matrix_complex_view right = gsl_matrix_complex_view_array((double *)e->right, count, count);
-    /* GSL's own room is held while nothing is asked of memory.h */
+    /* no call of memory.h while GSL's workspace is allocated */
     gsl_eigen_nonsymmv_workspace *work = gsl_eigen_nonsymmv_alloc(count);
     bool sound = work != NULL;
 
@@ -38,7 +39,7 @@ static bool francis(const DoubleDouble *a, Enclosure *e)
     return sound;
 }
 
-/* `left` becomes the inverse of `right`; false: vectors are alike */
+/* `left` becomes the inverse of `right`; false: it is singular */
 static bool invert(Enclosure *e)
 {
     const size_t count = (size_t)e->n;
@@ -138,7 +139,7 @@ static double largest_of_column(const double complex *a, int n, int k)
     return largest;
 }
 
-/* Sizes of what stands beside L, from Y R: (Y X)^-1 is within 2 `inexact` of 1. */
+/* Sizes of the entries of the term added to L, from Y R: (Y X)^-1 is within 2 `inexact` of 1. */
 static bool find_sizes(const Enclosure *e, const double complex *residual,
                        const double complex *beside, double norm, double *size)
 {
@@ -213,8 +214,9 @@ static bool turn_left(const Enclosure *e)
     return widest < 0.1;
 }
 
-/* No row reaches farther than a quarter of the way to the next value; row k times `scale` and
- * column k over it keep the others within half, and k's disc as small as that scale. */
+/* No disc reaches farther than a quarter of the way to the next eigenvalue. With row k multiplied
+ * and column k divided by `scale`, the other discs remain within half of that way, and disc k
+ * becomes as small as that scale. */
 static bool bound(const Enclosure *e, const double *size)
 {
     const int n = e->n;
@@ -262,7 +264,8 @@ static bool correct(const DoubleDouble *a, Enclosure *e)
     find_residual(a, e, residual);
     multiply(n, e->left, residual, beside);
     sound = find_sizes(e, residual, beside, norm, size);
-    /* what is real stays so; a mirrored one is seen by the uncorrected one before it */
+    /* real eigenvalues remain real; a conjugate one is recognised by the uncorrected one before
+     * it */
     for (int k = n - 1; k >= 0; k--) {
         const double complex by = beside[k * n + k];
 

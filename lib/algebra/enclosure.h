@@ -1,7 +1,7 @@
-/* enclosure.h: simple eigenvalues of real matrices in doubles, with bounds that are proved after
+/* enclosure.h: simple eigenvalues of real matrices in doubles, with proved error bounds
  *
- * Serves where eigenvalues stand well apart; says where they don't, and numbers of twice the digits
- * are needed (schur.h). */
+ * Works for well separated eigenvalues. Returns false for others, which need numbers of twice the
+ * digits (schur.h). */
 #ifndef COTREE_ALGEBRA_ENCLOSURE_H
 #define COTREE_ALGEBRA_ENCLOSURE_H
 
@@ -20,8 +20,8 @@ typedef struct Enclosure {
     double *turn_right, *turn_left; /* n x n */
 } Enclosure;
 
-/* The matrix stands row by row, balanced. False where the discs can't be proved to lie apart. Free
- * with enclosure_free() in either case. O(n^3). */
+/* The matrix is stored row by row and balanced. False where the discs can't be proved to be
+ * disjoint. Free with enclosure_free() in either case. O(n^3). */
 bool enclosure_find(const DoubleDouble *a, int n, Enclosure *out);
 void enclosure_free(Enclosure *enclosure);
 

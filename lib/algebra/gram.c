@@ -9,7 +9,7 @@
 
 enum { NORMED = 8 }; /* units that rows are off after their division */
 
-/* J J^T below its diagonal, as rows of J come one after the other */
+/* J J^T below its diagonal, in the order of the rows of J */
 struct Gram {
     int m;
     int filled; /* entries of a row of J, at most */

@@ -9,18 +9,18 @@
 
 typedef struct Gram Gram;
 
-/* Of an m x nu matrix, each row divided by its norm (NULL: by 1). New; gram_free(). O(m nu) beside
- * products of rows that share a column. */
+/* Of an m x nu matrix, each row divided by its norm (NULL: by 1). New; gram_free(). O(m nu) plus
+ * the products of rows that share a column. */
 Gram *gram_new(const double *matrix, int m, int nu, const double *norm);
-/* The same of rows that stand as columns of a pattern. O(entries) beside those products. */
+/* The same for rows that are stored as columns of a pattern. O(entries) plus those products. */
 Gram *gram_of_columns(const Pattern *pattern, const double *values, const double *norm);
 void gram_free(Gram *gram);
 double gram_largest(const Gram *gram); /* on the diagonal */
 /* Where no diagonal entry is more than 1: how much rounding moves the eigenvalues of what is
  * factored, at most. */
 double gram_rounding(const Gram *gram);
-/* Factors of it with `added` on its diagonal, without exchange. False where a pivot isn't more than
- * `least` of its diagonal entry, or the watch says stop. */
+/* Factor J J^T + added 1, without exchanges. False when a pivot isn't more than `least` times its
+ * diagonal entry, or the watch requests a stop. */
 bool gram_factor(Gram *gram, double added, double least, const CallMonitor *watch);
 void gram_solve(const Gram *gram, double *b); /* b becomes the solution */
 

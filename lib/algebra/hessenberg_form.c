@@ -1,7 +1,7 @@
 /* hessenberg_form.c: (s - A)^-1 b by a Hessenberg form
  *
- * By hand: GSL has no elimination of s - H, whose O(n^2) for each s is what the form is for, and
- * its reflections go down columns, which takes three times as long (make bench:
+ * Own code: GSL has no elimination of s - H in O(n^2) for each s, which is the purpose of the form.
+ * GSL's reflections run along columns, which takes three times as long (make bench:
  * algebra.hessenberg_*). */
 #include "algebra/hessenberg_form.h"
 
@@ -155,7 +155,7 @@ static double reflect(double *v, int n, double *share)
     return norm * size;
 }
 
-/* rows `a` of a matrix, of `left` entries each, n apart, become those of P a; room: left */
+/* the rows `a` of a matrix (`left` entries each, stride n) become those of P a; room: left */
 static void apply(double *a, int n, const double *v, double share, int left, double *room)
 {
     memset(room, 0, (size_t)left * sizeof(double));

@@ -1,8 +1,8 @@
 /* hessenberg_form.h: (s - A)^-1 b at many s, real and complex, in O(n^2) each
  *
- * A is balanced and brought to Hessenberg form once, D^-1 A D = Q H Q^T (Golub, Van Loan 2013,
- * 7.4 and 7.5.7; Laub 1981); s - H has one diagonal below the main one, which its elimination is
- * about. Matrices stand row by row. */
+ * A is balanced and brought to Hessenberg form once, D^-1 A D = Q H Q^T (Golub, Van Loan 2013, 7.4
+ * and 7.5.7; Laub 1981); s - H has one diagonal below the main one, and elimination removes only
+ * that. Matrices are stored row by row. */
 #ifndef COTREE_ALGEBRA_HESSENBERG_FORM_H
 #define COTREE_ALGEBRA_HESSENBERG_FORM_H
 

@@ -1,10 +1,10 @@
 /* independence.c: J J^T - shift 1 is positive definite where J's singular values are beyond the
  * root of the shift
  *
- * Its factors without exchange stay as sparse as their order allows, while pivots by size, which
- * tell a rank that is less, fill in. The shift is several times what rounding can do to it, which
- * is little where factors are sparse: a chain of n bodies whose speeds all are given has singular
- * values of 1/n^2. */
+ * Factors without exchanges are as sparse as their order allows. Pivoting by size, which determines
+ * a lower rank as well, causes fill-in. The shift is several times the rounding error, which is
+ * small for sparse factors: a chain of n bodies with all speeds given has singular values of
+ * 1/n^2. */
 #include "algebra/independence.h"
 
 #include "algebra/gram.h"
@@ -39,7 +39,7 @@ static double norm_of(const double *row, int count)
     return sqrt(square);
 }
 
-/* `gram`, of rows of unit size, is given */
+/* the caller passes `gram`, of rows of unit size */
 static bool is_definite(Gram *gram, double threshold, const CallMonitor *watch)
 {
     const double shift = fmax(SAFE * gram_rounding(gram), 4 * threshold * threshold);

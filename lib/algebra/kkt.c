@@ -1,10 +1,10 @@
 /* kkt.c: KKT solver in L D L^T, speeds before multipliers, with quasi-definite regularisation
  *
- * In that order a multiplier's pivot d is what is left of p, its diagonal entry of G M^-1 G^T, and
- * d / p the squared sine of the angle between its row and those before in the metric of M. Light
- * parts between heavy ones make it small too; with unit masses only the geometry does (Schur
- * complements of [R^2 G^T; G 0] are those of G R^-2 G^T). Where M has no pivots of its own, as of
- * massless parts, or they leave nothing of the answer, rows are exchanged instead. */
+ * In that order the pivot d of a multiplier is the remainder of p, its diagonal entry of G M^-1
+ * G^T. d / p is the squared sine of the angle, in the metric of M, between its row and the rows
+ * before. Light bodies between heavy ones make d / p small too; with unit masses only the geometry
+ * does (Schur complements of [R^2 G^T; G 0] are those of G R^-2 G^T). Where M has no usable pivots
+ * (massless bodies), or they cancel all digits of the answer, rows are exchanged instead. */
 #include "algebra/kkt.h"
 
 #include "algebra/kkt_border.h"
@@ -24,12 +24,13 @@
  * times the other. */
 #define SUSPECT 2e-2
 #define FOUND   1e-3
-/* likewise of rows exchanged, least over largest: such a pivot comes out as two of its root */
+/* the same for exchanged rows, least over largest: such a pivot appears as two of the size of its
+ * root */
 #define SPLIT 0.15
 #define ROUNDED                                                                                    \
     1e-14 /* of speeds, once over a pivot: what rounding of positions leaves of them               \
            */
-#define MOST_ROUNDING 1e-8  /* what epsilon makes of that */
+#define MOST_ROUNDING 1e-8  /* after regularisation by epsilon */
 #define INEXACT       1e-2  /* d / p below which a sweep of refinement is due, */
 #define SETTLED       1e-11 /* and another where it corrects more than this */
 #define LOST          1e-11 /* d / p that may be rounding for a good part */
@@ -38,7 +39,7 @@
 #define LEAST_MASS    1e-9  /* of the heaviest: what is less borrows from its neighbours */
 #define SWEEPS        2     /* of refinement at least, */
 #define MOST_SWEEPS   30    /* and as long as each leaves less than */
-#define CONTRACTION   0.3   /* of the correction before: what is slower, epsilon is to hold back */
+#define CONTRACTION   0.3   /* of the last correction: epsilon suppresses what is slower */
 #define ROUNDING      1e-15
 /* Pivots of G G^T over the norm of their row: less than DETERMINED, the row isn't left to its own
  * speeds; with a new order those are that have FIRMLY more. Both are beyond NEAR. */
@@ -50,8 +51,8 @@ struct Kkt {
     const Pattern *mass, *constraints;
     int nu, m, size;
     int *rows;
-    /* Stored entry from[k], of M for the first ones, stands at place[k] of the factors. Unknowns
-     * are numbered as they are eliminated: u_i is place_of[i], lambda_k place_of[nu + k]; */
+    /* Stored entry from[k] (entries of M first) is at place[k] of the factors. Unknowns are
+     * numbered as they are eliminated: u_i is place_of[i], lambda_k place_of[nu + k]; */
     int *from, *place, *place_of;
     int *row, *column; /* here they are not */
     int entries, mass_entries;
@@ -75,7 +76,7 @@ struct Kkt {
     Sparse *exchanging;            /* rows exchanged; NULL: not needed yet */
     bool is_exchanging;            /* the last factors are those */
     double *scale;                 /* unknown = scale * its unknown */
-    double *values;                /* its entries, those across behind */
+    double *values;                /* its entries, then the transposed ones */
 };
 
 /* --- the order --- */
@@ -110,7 +111,8 @@ static KktPlaces places_of(const Kkt *kkt)
                        .column = kkt->column};
 }
 
-/* An order found in a call that fails goes with it; the one before comes back, without factors. */
+/* An order found in a call that fails is discarded. The previous order is restored, without
+ * factors. */
 static void keep_order(Kkt *kkt)
 {
     void *const pieces[] = {kkt,        kkt->rows,     kkt->from,  kkt->row, kkt->column,
@@ -267,7 +269,7 @@ static double rest_of_groups(const Kkt *kkt, const double *phi_u)
     return least;
 }
 
-/* what is left of the k-th row in use when those before are taken out, 1 at most */
+/* the relative remainder of the k-th row in use after those before are eliminated, 1 at most */
 static double rest_of_row(const Kkt *kkt, int k)
 {
     const int place = kkt->place_of[kkt->nu + k];
@@ -281,7 +283,7 @@ static bool is_early(const Kkt *kkt, int k)
     return kkt->border != NO_BORDER && kkt->class[kkt->nu + k] == CLASS_EARLY;
 }
 
-/* Rows of which less is left come last; false where there are none. */
+/* Rows with a smaller remainder are ordered last; false when there are none. */
 static bool put_off_rows(Kkt *kkt, double least)
 {
     bool found = false;
@@ -292,8 +294,8 @@ static bool put_off_rows(Kkt *kkt, double least)
     return found;
 }
 
-/* Which rows their own speeds determine is asked anew, of all, where one isn't any more. What is
- * left of others is more when one goes, so the second order holds. */
+/* When a row is no longer determined by its own speeds, all rows are tested again. Without that row
+ * the remainders of the others grow, so that the second order is final. */
 static void renew_order(Kkt *kkt, const double *phi_u)
 {
     keep_order(kkt);
@@ -314,9 +316,10 @@ static bool has_lost_rows(const Kkt *kkt)
     return false;
 }
 
-/* Of rows that nearly cancel each other, the last one's pivot tells little where its own part in
- * that is small. Their parts are in the column of row k of the inverse: what is left of the row of
- * the largest part when all others are taken out, `pivot` at most. */
+/* Among rows that are nearly dependent, the pivot of the last one is a poor measure if its own
+ * coefficient is small. The coefficients are in the column of row k of the inverse. Returns the
+ * remainder of the row with the largest coefficient after eliminating all others, `pivot` at
+ * most. */
 static double as_last(const Kkt *kkt, int k, double pivot)
 {
     const int place = kkt->place_of[kkt->nu + k];
@@ -333,9 +336,9 @@ static double as_last(const Kkt *kkt, int k, double pivot)
                                     : pivot;
 }
 
-/* The least pivot of G R^-2 G^T over the largest norm that its row has had. Rows in the midst of
- * the order have more than what is left of them by their own speeds, which is beyond NEAR; behind
- * the border pivots are those of G R^-2 G^T. */
+/* The least pivot of G R^-2 G^T over the largest norm that its row has had. Rows in the middle of
+ * the order exceed the remainder by their own speeds, which is more than NEAR. After the border the
+ * pivots are those of G R^-2 G^T. */
 static double least_pivot(Kkt *kkt, const double *phi_u)
 {
     double found = 1;
@@ -356,9 +359,9 @@ static double least_pivot(Kkt *kkt, const double *phi_u)
     return kkt->border != NO_BORDER && least >= 0 ? as_last(kkt, least, found) : found;
 }
 
-/* Pivots of rows in groups are at least what is left of them by the groups' own columns, in the
- * order from the last group to the first. Where these don't tell, d / p does as long as it isn't
- * small. */
+/* The pivots of rows in groups are at least their remainders in the groups' own columns, in the
+ * order from the last group to the first. Where these bounds don't suffice, d / p decides as long
+ * as it isn't small. */
 static double least_pivot_at_most(Kkt *kkt, const double *phi_u)
 {
     if (kkt->groups != NULL) {
@@ -485,8 +488,8 @@ static void solve_exchanging(const Kkt *kkt, double *x)
 
 /* --- factors --- */
 
-/* of p to the largest that it has been for each row; what the border adds to p of a row before it
- * is told by its diagonal */
+/* ratio of p to its largest value so far for each row; the diagonal shows what the border adds to p
+ * of an earlier row */
 static void measure_rows(Kkt *kkt)
 {
     const double *taken = ldl_taken(kkt->factors), *entries = ldl_entries(kkt->factors);
@@ -538,7 +541,7 @@ static double least_angle(const Kkt *kkt)
     return least;
 }
 
-/* rows that the geometry holds are held, others not */
+/* only rows that are singular by geometry are regularised */
 static bool factor_held(Kkt *kkt)
 {
     const double *pivots = ldl_pivots(kkt->geometry);
@@ -560,8 +563,8 @@ static bool lacks_mass(const Kkt *kkt)
     return false;
 }
 
-/* Rows exchanged from the outset: their pivots tell first whether a singular configuration may be
- * near. */
+/* Rows are exchanged from the beginning: their pivots show first whether a singular configuration
+ * may be near. */
 static bool factor_massless(Kkt *kkt, const double *phi_u)
 {
     bool sound;
@@ -579,8 +582,8 @@ static bool factor_massless(Kkt *kkt, const double *phi_u)
     return kkt->regularised ? factor_exchanging(kkt) : sound;
 }
 
-/* Masses tell of a singular configuration where all speeds go before all rows. Where some don't,
- * the geometry is asked at once: it tells the order too. */
+/* Pivots with masses indicate a singular configuration when all speeds precede all rows. Otherwise
+ * the geometry is factored at once, which determines the order too. */
 static bool factor(Kkt *kkt, const double *mass, const double *phi_u)
 {
     bool regular;
@@ -631,8 +634,8 @@ bool kkt_is_plain(const Kkt *kkt)
            kkt->angle > (kkt->is_independent_by_groups ? OWN : SUSPECT);
 }
 
-/* Whether all groups are independent in columns of their own, by sizes as they were measured where
- * the step began. One that isn't may show at a row of another. */
+/* Whether all groups are independent in their own columns, by sizes measured at the start of the
+ * step. A dependent group may show at a row of another group. */
 static bool are_groups_sound(Kkt *kkt, const double *phi_u, const int *rows)
 {
     keep_rows(kkt, rows);
@@ -694,7 +697,7 @@ static void solve(Kkt *kkt, double *x)
         ldl_solve(kkt->factors, x);
 }
 
-/* by place: squares of unknowns times this are alike */
+/* by place: weights that make the squares of unknowns comparable */
 static void weigh(Kkt *kkt)
 {
     const double *diagonal = ldl_entries(kkt->factors);
@@ -714,8 +717,8 @@ static double size_of(const Kkt *kkt, const double *x)
     return sqrt(largest);
 }
 
-/* the size of the correction. One sweep makes the solution exact to what the rows themselves
- * determine, however they are scaled (Skeel 1980): masses many decades apart. */
+/* the size of the correction. One sweep makes the solution as exact as the rows determine it,
+ * whatever their scaling (Skeel 1980), even with masses that differ by many decades. */
 static double refine_once(Kkt *kkt)
 {
     ldl_residual(kkt->factors, kkt->right, kkt->answer, kkt->residual);
@@ -740,7 +743,7 @@ static void refine(Kkt *kkt, int least, double enough)
     }
 }
 
-/* the solution by place, as the factors tell it */
+/* the solution by place, from the factors alone */
 static void begin_solution(Kkt *kkt, const double *top, const double *bottom)
 {
     for (int i = 0; i < kkt->nu; i++)

@@ -1,4 +1,4 @@
-/* kkt_border.c: the border of the matrix, by what elimination then takes */
+/* kkt_border.c: selects the border of the matrix by the cost of elimination */
 #include "algebra/kkt_border.h"
 
 #include "base/memory.h"

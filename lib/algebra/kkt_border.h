@@ -1,9 +1,10 @@
-/* kkt_border.h: which unknowns of [M G^T; G 0] wait for others
+/* kkt_border.h: which unknowns of [M G^T; G 0] are eliminated last
  *
- * Where all speeds go before all rows, what one speed shares among many rows couples these: the
- * speeds of a platform make the rows of all its legs one full block. So such speeds, the border,
- * wait until rows are eliminated that their own speeds determine; the work then rises as the number
- * of legs. Rows that their own speeds don't determine, as where a leg is stretched, come last. */
+ * If all speeds precede all rows, a speed that occurs in many rows couples all of these: the speeds
+ * of a platform make the rows of all its legs one full block. Such speeds form the border. They are
+ * eliminated after the rows that are determined by their own speeds, and the work grows linearly
+ * with the number of legs. Rows that their own speeds don't determine, as of a stretched leg, come
+ * last. */
 #ifndef COTREE_ALGEBRA_KKT_BORDER_H
 #define COTREE_ALGEBRA_KKT_BORDER_H
 
@@ -14,8 +15,8 @@
 /* in the order of elimination; without a border there are CLASS_OWN and CLASS_EARLY alone */
 typedef enum KktClass { CLASS_OWN, CLASS_EARLY, CLASS_BORDER, CLASS_LATE } KktClass;
 
-/* Where the entries stand: of M, each pair once, then those of G at speed row[e] and column[e], nu
- * plus the row's number. Borrowed. */
+/* Positions of the entries: those of M, each pair once, then those of G at speed row[e] and
+ * column[e], which is nu plus the number of the constraint row. Borrowed. */
 typedef struct KktPlaces {
     int nu, m;
     int mass_entries, entries;
@@ -24,12 +25,12 @@ typedef struct KktPlaces {
 
 #define NO_BORDER 0
 
-/* How many rows a speed may have before it is of the border; NO_BORDER where elimination in full is
- * cheaper by the products that both take. O(log m) orders are tried. */
+/* The largest number of rows of a speed outside the border; NO_BORDER where elimination without
+ * border needs fewer products. O(log m) orders are tried. */
 int kkt_border(const KktPlaces *places);
 /* The class of speeds and then of rows; late[k]: rows that come last in any case. */
 void kkt_classes(const KktPlaces *places, int border, const bool *late, int *class);
-/* products that a factorisation takes; with a border of the geometry, too */
+/* number of products of a factorisation; with a border, of that of the geometry too */
 double kkt_order_products(const LdlOrder *order, int border);
 
 #endif

@@ -1,4 +1,4 @@
-/* kkt_sizes.c: the largest so far, kept and brought back */
+/* kkt_sizes.c: largest sizes so far, saved and restored */
 #include "algebra/kkt_sizes.h"
 
 #include "algebra/linear.h"
@@ -192,8 +192,8 @@ void kkt_borrow_masses(const KktPlaces *places, const int *place, const double *
                        double least, double *largest, double *room, double *mass)
 {
     find_largest(places, place, entries, largest);
-    /* rows between speeds without mass pass on what these have borrowed; in further rounds those
-     * with a mass of their own stay as they are */
+    /* rows between massless speeds propagate the masses assigned to these; further rounds don't
+     * change speeds with a mass of their own */
     while (borrow_once(places, place, entries, least, largest, room, mass))
         least = 0;
 }

@@ -1,7 +1,8 @@
-/* kkt_sizes.h: how large columns and rows of G have been
+/* kkt_sizes.h: largest sizes so far of the columns and rows of G
  *
- * They are measured against the largest they have been: one that vanishes at a singular position is
- * to be seen vanishing. Lengths are told from angles by what a unit of the speed moves. */
+ * Columns and rows are measured against their largest sizes so far, so that one that vanishes at a
+ * singular position is recognised as small. Speeds along lengths and angles become comparable by
+ * the motion that a unit of the speed causes. */
 #ifndef COTREE_ALGEBRA_KKT_SIZES_H
 #define COTREE_ALGEBRA_KKT_SIZES_H
 
@@ -12,7 +13,7 @@
 
 /* Of all rows, those that aren't in use too. */
 typedef struct KktSizes {
-    const Pattern *rows; /* where entries of G stand, a column each row; borrowed */
+    const Pattern *rows; /* positions of the entries of G, one column for each row; borrowed */
     double *reach;       /* of speeds: the largest entry so far */
     double *square;      /* that, or what counts at least, squared: R^2; 0: not measured yet */
     double *norm;        /* of rows: the largest norm squared so far, columns over R */
@@ -21,13 +22,13 @@ typedef struct KktSizes {
 } KktSizes;
 
 KktSizes kkt_sizes_new(const Pattern *rows); /* all 0; kkt_sizes_free() */
-void kkt_sizes_free(KktSizes *sizes);        /* what it holds */
+void kkt_sizes_free(KktSizes *sizes);        /* its arrays */
 /* Entries of these m rows count from now on; */
 void kkt_sizes_see(KktSizes *sizes, const double *phi_u, const int *rows, int m);
 /* and norms of the rows, once they do. */
 void kkt_sizes_measure(KktSizes *sizes, const double *phi_u, const int *rows, int m);
-/* Keeps the largest p that each row in use has been, of size[], a number a row, and tells what
- * counts of a row at least. */
+/* Update size[] (one number for each row), the largest p so far of each row in use. Returns the
+ * least p that counts as other than 0. */
 double kkt_sizes_store_most(KktSizes *sizes, const int *rows, int m, const double *size);
 /* that or the least of p, for a row */
 static inline double kkt_sizes_reference(const KktSizes *sizes, int row, double least)
@@ -38,13 +39,14 @@ static inline double kkt_sizes_reference(const KktSizes *sizes, int row, double 
  * `taken`, and no p is less than what counts at least */
 bool kkt_sizes_are_sound(KktSizes *sizes, const double *pivot, const double *taken, const int *rows,
                          int m, double part);
-/* Keep them as they are now; or bring back what was kept. */
+/* Save the present sizes; restore the saved ones. */
 void kkt_sizes_store(KktSizes *sizes, bool back);
 
-/* A speed without mass of its own takes the mass that gives it the same weight in its constraints
- * as its heaviest-felt neighbour has: M_i = max_k G_ki^2 / max_j (G_kj^2 / M_j). mass[]: of speeds
- * (nu); those that are at most `least` change, through rows between such speeds too. Entry e of G
- * stands at entries[place[e]]; room is for m and for m + nu numbers. */
+/* A speed without mass of its own is assigned the mass that gives it the same weight in its
+ * constraints as the neighbour with the largest effective mass has: M_i = max_k G_ki^2 / max_j
+ * (G_kj^2 / M_j). mass[]: of speeds (nu); those that are at most `least` change, through rows
+ * between such speeds too. Entry e of G is entries[place[e]]; room is for m and for m + nu
+ * numbers. */
 void kkt_borrow_masses(const KktPlaces *places, const int *place, const double *entries,
                        double least, double *largest, double *room, double *mass);
 

@@ -1,7 +1,8 @@
 /* ldl.c: row after row of L (Davis 2005), its pattern found once
  *
- * Row k of L solves L y = a_k; what column j < k of L does to the rest of y is subtracted as soon
- * as y_j is known. Rows between j and k in column j are those that stand there already. */
+ * Row k of L (n x n, unit lower triangular) solves L y = a_k, and L_kj = y_j / d_j. As soon as y_j
+ * is known, y_j times column j < k of L is subtracted from the rest of y. The entries of column j
+ * in rows between j and k are already known. */
 #include "algebra/ldl.h"
 
 #include "base/memory.h"
@@ -15,7 +16,7 @@ enum { POLLED = 64 }; /* rows between looks at the watch */
 struct LdlOrder {
     int n;
     int *start, *row; /* entries over the diagonal, column by column, the diagonal before them */
-    int *left, *at;   /* columns of a row of L, rising, and where its entry stands */
+    int *left, *at;   /* columns of a row of L, rising, and the index of each entry */
     int *left_start;  /* n + 1 */
     int *below;       /* rows of a column of L, rising */
     int *below_start; /* n + 1 */

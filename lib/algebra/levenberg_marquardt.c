@@ -1,8 +1,8 @@
 /* levenberg_marquardt.c: Levenberg-Marquardt in the form for few equations and many unknowns
  *
- * GSL's and MINPACK's want as many residuals as unknowns at least, and add a step to unknowns; here
- * a mechanism has more freedoms than conditions, a step turns Euler parameters, and some directions
- * are held. */
+ * GSL's and MINPACK's solvers need at least as many residuals as unknowns, and add the step to the
+ * unknowns. A mechanism has more freedoms than conditions, a step rotates Euler parameters, and
+ * some directions are fixed. */
 #include "algebra/levenberg_marquardt.h"
 
 #include "algebra/gram.h"
@@ -15,7 +15,7 @@
 #define ITERATIONS 200
 #define MANY       64    /* rows, from which on sparse factors are tried first */
 #define SOUND      1e-8  /* of its diagonal entry: a pivot that needs no exchange of rows */
-#define RIDGE      1e-15 /* of the largest diagonal entry: keeps redundant rows solvable */
+#define RIDGE      1e-15 /* relative to the largest diagonal entry: makes redundant rows solvable */
 
 typedef struct Least {
     const Rows *rows;
@@ -88,7 +88,7 @@ static double norm_of(const double *v, int n)
     return sqrt(sum);
 }
 
-/* what stands on the diagonal beside J J^T */
+/* term added to the diagonal of J J^T */
 static double ridge(double damping, double largest)
 {
     return damping + RIDGE * fmax(largest, 1e-30);
@@ -170,7 +170,8 @@ static double promised(const Least *l)
     return sqrt(sum);
 }
 
-/* Steps until nothing gets better. Damping follows how well the linear model told the step. */
+/* Steps until the residual no longer decreases. Damping depends on the ratio of actual to predicted
+ * decrease. */
 static void descend(Least *l, double tolerance)
 {
     int m = l->rows->rows;

@@ -1,10 +1,10 @@
 /* linear.h: small dense linear algebra without allocation in its use
  *
- * By hand, since matrices of bodies and their constraints are small or mostly 0: GSL's LU takes
+ * Own code, because matrices of bodies and their constraints are small or mostly 0: GSL's LU takes
  * two to three times as long there, its Cholesky two to ten times (make bench: algebra.lu_*,
- * algebra.cholesky_*), and neither can be stopped or tells its pivots. Matrices stand row by row.
- * An Lu holds one square matrix and its factors; fill lu_matrix(), factor, then solve as often as
- * wanted. */
+ * algebra.cholesky_*). Neither can be stopped or reports its pivots. Matrices are stored row by
+ * row. An Lu stores one square matrix A (n x n) and its factors P A = L U; fill lu_matrix(),
+ * factor, then solve for any number of right sides. */
 #ifndef COTREE_ALGEBRA_LINEAR_H
 #define COTREE_ALGEBRA_LINEAR_H
 
@@ -19,15 +19,15 @@ void lu_free(Lu *lu);      /* NULL is fine */
 double *lu_matrix(Lu *lu); /* n x n; overwritten by lu_factor() */
 /* Factor in place with row exchanges (Gauss). False when a pivot is 0 or not finite. O(n^3). */
 bool lu_factor(Lu *lu);
-/* the same, false when the watch says stop, too */
+/* the same; false also when the watch requests a stop */
 bool lu_factor_watched(Lu *lu, const CallMonitor *watch);
 /* least over largest pivot in size, of the last lu_factor(); 0 when singular */
 double lu_pivot_ratio(const Lu *lu);
 void lu_solve(const Lu *lu, double *b); /* b becomes the solution; O(n^2) */
 
-/* The Cholesky factor L, in place, of the lower half of an n x n matrix: the least pivot; where
- * that isn't positive the factor ends there. Entries in front of the first one of a row stay 0 and
- * are passed over. O(n^3). */
+/* Replace the lower half of an n x n matrix A by its Cholesky factor L, A = L L^T. Returns the
+ * least pivot; the factorisation ends at one that isn't positive. Entries of a row before its first
+ * one other than 0 remain 0 and are skipped. O(n^3). */
 double cholesky_factor(double *matrix, int n);
 void cholesky_forward(const double *l, int n, double *b);  /* b becomes L^-1 b; zeros passed over */
 void cholesky_backward(const double *l, int n, double *b); /* b becomes L^-T b */

@@ -1,4 +1,4 @@
-/* markov_parameters.c: c A^k b of doubles, to the last digit */
+/* markov_parameters.c: c A^k b of doubles, computed exactly */
 #include "algebra/markov_parameters.h"
 
 #include "algebra/double_double.h"
@@ -11,7 +11,7 @@
 enum {
     MOST_PRIMES = 2048,
     LARGEST = INT_MAX, /* the first prime, 2^31 - 1: products fit into 64 bits */
-    PRIME_BITS = 30,   /* so much each of them holds at least */
+    PRIME_BITS = 30,   /* least number of bits of each prime */
     DIGITS = 53
 };
 
@@ -22,7 +22,7 @@ typedef struct Whole {
 } Whole;
 
 struct MarkovParameters {
-    int n, primes, power; /* the power of A that v stands for */
+    int n, primes, power; /* v is A^power b */
     Whole *a, *b, *c;
     int a_at, b_at, c_at; /* their least powers of 2 */
     uint32_t *prime;

@@ -1,8 +1,8 @@
-/* markov_parameters.h: c b, c A b, c A^2 b ... of doubles, to the last digit
+/* markov_parameters.h: c b, c A b, c A^2 b ... of doubles, exact
  *
- * Doubles are whole numbers times a power of 2. Remainders modulo so many primes that their product
- * exceeds all that the sums can be tell the sums, whatever cancels in them (Knuth, The Art of
- * Computer Programming 2, 4.3.2). */
+ * Doubles are integers times a power of 2. The remainders of a sum modulo several primes determine
+ * it if the product of the primes exceeds the range of the sum, whatever cancels in it (Knuth, The
+ * Art of Computer Programming 2, 4.3.2). */
 #ifndef COTREE_ALGEBRA_MARKOV_PARAMETERS_H
 #define COTREE_ALGEBRA_MARKOV_PARAMETERS_H
 

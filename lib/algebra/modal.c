@@ -1,4 +1,4 @@
-/* modal.c: vectors in doubles, put right by their residuals in twice the digits
+/* modal.c: eigenvectors in doubles, corrected by residuals in twice the digits
  *
  * With R = K X - M X L, L diagonal, and G = X^T M X: X^-1 M^-1 K X = L + G^-1 X^T R. Products with
  * M and K are sums in numbers of twice the digits (Ogita, Rump and Oishi 2005); vectors are
@@ -20,7 +20,7 @@
 
 #define UNIT     0x1p-53
 #define SMALL    0.1     /* a correction of first order that is one */
-#define ROUNDED  1.01    /* what rounding of bounds themselves may take from them */
+#define ROUNDED  1.01    /* margin for the rounding of the bounds themselves */
 #define PRODUCTS 0x1p-95 /* what the wide sums round away: n^2 2^-104 up to n = 4000, in part */
 
 enum { CORRECTIONS = 2, MOST = 4000 /* n, that bounds allow for */ };
@@ -109,7 +109,7 @@ typedef struct Vectors {
     Modal *out;
 } Vectors;
 
-/* some coordinates, those that meet stiffness behind the still ones */
+/* some coordinates: rigid ones first, then those with stiffness */
 typedef struct Coordinates {
     const int *at;
     int still, count;
@@ -224,7 +224,7 @@ static bool solve_others(const Vectors *v, const Coordinates *c, const double *l
     for (int j = 0; j < m; j++)
         follow_still(v, c, l, c->still + j, p.along + (ptrdiff_t)j * c->still);
     sound = fill_pencil(v, c, &p);
-    /* GSL's own room is held while nothing is asked of memory.h */
+    /* no call of memory.h while GSL's workspace is allocated */
     work = sound ? gsl_eigen_gensymmv_alloc(size) : NULL;
     sound = work != NULL && gsl_eigen_gensymmv(p.stiffness, p.mass, p.square, p.vector, work) == 0;
     gsl_eigen_gensymmv_free(work);
@@ -234,8 +234,8 @@ static bool solve_others(const Vectors *v, const Coordinates *c, const double *l
     return sound;
 }
 
-/* Vectors of coordinates that act on each other; gensymmv() leaves them of length 1, so they are
- * put to x^T M x = 1 after. */
+/* Eigenvectors of coordinates that act on each other. gensymmv() returns them with length 1, so
+ * they are scaled to x^T M x = 1 afterwards. */
 static bool solve_some(const Vectors *v, const int *at, int count, const bool *meets)
 {
     int *order = NEW_ARRAY(int, count);
@@ -309,7 +309,7 @@ static bool find_vectors(const Vectors *v, BoundedMatrix mass, BoundedMatrix sti
 
 /* --- residuals --- */
 
-/* of the vectors as they stand */
+/* of the present vectors */
 typedef struct Residuals {
     int n;
     double *moved;  /* M X, rounded */
@@ -353,7 +353,8 @@ static void find_residuals(const Modal *m, const double *mass, const double *sti
     MEM_FREE(low, moved_low);
 }
 
-/* X (1 + Z), Z of first order; still ones keep among themselves, so that their columns stay 0 */
+/* X (1 + Z), Z of first order; rigid modes mix only with each other, so that their columns remain
+ * 0 */
 static void correct(const Modal *m, const Residuals *r)
 {
     const int n = m->n;

@@ -1,9 +1,10 @@
 /* modal.h: coordinates in which M s'' + K s nearly decouples, with bounds of what is left
  *
- * M and K stand row by row, n x n, every entry with how far it may be off. Vectors x_k, the columns
- * of X, are found for their symmetric parts, X^T M X being about 1 and X^T K X about diagonal. What
- * the entries leave open then counts in sizes |x|^T |dM| |x| beside x^T M x, so that slow modes of
- * long chains keep their digits, which they lose in M^-1 K (Parlett 1998, 15.4). */
+ * Eigenvalue problem K x = lambda M x. M and K are n x n, stored row by row, every entry with an
+ * error bound. The vectors x_k, the columns of X, are those of the symmetric parts: X^T M X is
+ * about 1 and X^T K X about diagonal. Errors of the entries then enter as |x|^T |dM| |x| relative
+ * to x^T M x, so that slow modes of long chains keep their digits, which they lose in M^-1 K
+ * (Parlett 1998, 15.4). */
 #ifndef COTREE_ALGEBRA_MODAL_H
 #define COTREE_ALGEBRA_MODAL_H
 
@@ -27,8 +28,9 @@ typedef struct Modal {
     double skewed;  /* its largest row sum, below 1 */
 } Modal;
 
-/* New; free with modal_free(). What no entry of the three couples stays apart; `damping` has no
- * other use here (NULL: none). NULL where M isn't positive definite for certain. O(n^3). */
+/* New; free with modal_free(). Coordinates that no entry of the three matrices couples are solved
+ * separately; `damping` has no other use here (NULL: none). NULL unless M is proved to be positive
+ * definite. O(n^3). */
 Modal *modal_new(BoundedMatrix mass, BoundedMatrix stiffness, const BoundedMatrix *damping, int n);
 void modal_free(Modal *modal); /* NULL is fine */
 
@@ -39,10 +41,10 @@ void modal_transform(const Modal *modal, BoundedMatrix b, int columns, double *o
 /* b X, b: rows x n; out as b */
 void modal_move(const Modal *modal, BoundedMatrix b, int rows, double *out, double *out_error);
 
-/* The n eigenvalues of M^-1 K as groups that are apart for certain, rising: group[k] is the first
- * of k's, mean[k] their mean, within error[k] of which they all lie; those of still ones are 0. By
- * discs (Gershgorin 1931), weighted so that slow and fast ones don't disturb each other. False
- * where one isn't finite. O(n^2). */
+/* The n eigenvalues of M^-1 K in rising order, in groups that are proved to be disjoint. group[k]
+ * is the first index of k's group, mean[k] the group's mean, and all its eigenvalues lie within
+ * error[k] of it; those of rigid modes are 0. By discs (Gershgorin 1931), weighted so that slow and
+ * fast modes don't disturb each other. False where one isn't finite. O(n^2). */
 bool modal_groups(const Modal *modal, int *group, double *mean, double *error);
 
 #endif

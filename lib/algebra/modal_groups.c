@@ -1,8 +1,9 @@
 /* modal_groups.c: eigenvalues of M^-1 K by discs about the diagonal of modal coordinates
  *
- * Row k weighted by d_k and column k by 1/d_k leave eigenvalues as they are. Weights that balance
- * rows and columns keep the discs of slow modes as small as these; a weight of a group as a whole
- * then leaves its discs what couples its members, and others up to where they meet it. */
+ * Weighting row k by d_k and column k by 1/d_k does not change eigenvalues. Weights that balance
+ * rows and columns make the discs of slow modes as small as these modes. A common weight of a group
+ * then reduces its discs to the coupling among its members, while the other discs may grow until
+ * they meet it. */
 #include "algebra/modal.h"
 
 #include "algebra/schur.h"
@@ -14,9 +15,9 @@
 
 typedef struct Discs {
     const Modal *m;
-    double *size;  /* n x n: weighted entries beside the diagonal, errors on it */
+    double *size;  /* n x n: weighted entries off the diagonal, errors on it */
     double *reach; /* of a row in all */
-    int *order;    /* those that aren't still, by where their discs begin */
+    int *order;    /* modes that aren't rigid, by the lower ends of their discs */
     int count;
 } Discs;
 
@@ -27,7 +28,7 @@ static void weigh(Discs *d)
 
     for (int i = 0; i < n; i++)
         for (int k = 0; k < n; k++)
-            /* what leaves still ones as they are acts on nothing */
+            /* what doesn't change rigid modes has no effect */
             d->size[i * n + k] = d->m->is_still[i] || d->m->is_still[k]
                                      ? 0
                                      : fabs(d->m->off[i * n + k]) + d->m->error[i * n + k];
@@ -48,7 +49,7 @@ static double beginning(const Discs *d, int k)
     return d->m->square[k] - d->reach[k];
 }
 
-/* by insertion: modes come nearly in order */
+/* by insertion: modes are nearly in order */
 static void sort(Discs *d)
 {
     for (int k = 0; k < d->m->n; k++) {
@@ -63,8 +64,9 @@ static void sort(Discs *d)
     }
 }
 
-/* The weight (1: none) by which entries from outside fall for rows first..end of the order, while
- * the discs of others, which grow by what the group puts into their rows, stay apart from these. */
+/* The weight (1: none) that reduces outside entries in rows first..end of the order as far as
+ * possible. The discs of other rows grow by the group's entries in them, and must remain disjoint
+ * from these. */
 static double group_weight(const Discs *d, int first, int end, double begin, double last)
 {
     const int n = d->m->n;

@@ -1,6 +1,6 @@
 /* multinomial.c: sums, products and quotients of polynomials in several variables
  *
- * Products and quotients merge rows p_i q by a heap that holds the highest term left of each
+ * Products and quotients merge rows p_i q by a heap of the highest remaining term of each row
  * (Johnson 1974; Monagan and Pearce 2007). */
 #include "algebra/multinomial_impl.h"
 
@@ -95,7 +95,7 @@ void multinomials_free(MultinomialList *list)
     LIST_FREE(*list);
 }
 
-/* a term behind the last */
+/* append a term; there is room */
 static void push(Multinomial *p, const mpz_t factor, const uint64_t *power)
 {
     mpz_init_set(p->at[p->count], factor);
@@ -323,7 +323,7 @@ static void sift_down(Merge *m)
     }
 }
 
-/* a row more, which begins at a place of b */
+/* add a row that starts at a term of b */
 static void open_row(Merge *m, const uint64_t *power, int place)
 {
     const int row = m->place.count;
@@ -346,7 +346,7 @@ static void open_row(Merge *m, const uint64_t *power, int place)
     }
 }
 
-/* the row on top goes on to its next term, or ends */
+/* advance the row on top to its next term, or remove it */
 static void next_of_row(Merge *m, const uint64_t *power)
 {
     const int row = m->heap.at[0];
@@ -365,7 +365,7 @@ static void merge_free(Merge *m)
     LIST_FREE(m->key);
 }
 
-/* a term behind the last, of which nobody knows how many come */
+/* append a term; their final count is unknown */
 static void grow(Multinomial *p, const mpz_t factor, const uint64_t *power)
 {
     Ring *ring = p->ring;

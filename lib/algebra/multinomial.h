@@ -1,10 +1,10 @@
 /* multinomial.h: polynomials in several variables over unbounded integers (GMP)
  *
- * All polynomials belong to a Ring, which has a fixed count of variables and bounds the work: the
- * first result beyond the bound, or a stop, is remembered, and from then on results are harmless.
- * Whoever called the last operation asks ring_status() once. A polynomial is immutable, new, and
- * lives until multinomial_free() or the end of its ring. The variable 0 comes first in the order of
- * terms. */
+ * All polynomials belong to a Ring, which has a fixed count of variables and bounds the work. The
+ * ring records the first result beyond the bound, or a stop; later results are valid objects
+ * without meaning. After the last operation the caller checks ring_status() once. Every polynomial
+ * returned is new and immutable, and lives until multinomial_free() or the end of its ring.
+ * Variable 0 is first in the order of terms. */
 #ifndef COTREE_ALGEBRA_MULTINOMIAL_H
 #define COTREE_ALGEBRA_MULTINOMIAL_H
 
@@ -52,7 +52,7 @@ Multinomial *multinomial_quotient(const Multinomial *p, const Multinomial *q);
 /* q where factor q^n = p is what p is known to be: as multinomial_quotient(), never NULL */
 Multinomial *multinomial_exact(const Multinomial *p, const Multinomial *q);
 Multinomial *multinomial_slope(const Multinomial *p, int variable);
-/* what stands behind the powers of some variables (bit 1 << v), one for each product of them that
+/* the coefficients of the powers of some variables (bit 1 << v), one for each product of them that
  * occurs, the highest first */
 void multinomial_coefficients(const Multinomial *p, uint64_t variables, MultinomialList *out);
 Multinomial *multinomial_coefficient(const Multinomial *p, int variable, int power);
@@ -65,7 +65,7 @@ Multinomial *multinomial_gcd(const Multinomial *p, const Multinomial *q);
  * coefficients of p by some variable, or p and its slope. One that is linear in each of its
  * variables has no more. */
 void multinomial_split(const Multinomial *p, MultinomialList *out);
-void multinomials_free(MultinomialList *list); /* with what stands in it */
+void multinomials_free(MultinomialList *list); /* with its polynomials */
 
 enum {
     RING_VARIABLES = 64, /* at most */

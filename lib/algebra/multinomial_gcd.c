@@ -1,9 +1,9 @@
-/* multinomial_gcd.c: what polynomials in several variables have in common
+/* multinomial_gcd.c: greatest common divisor of polynomials in several variables
  *
  * Images modulo a prime, in one variable each, bound the degrees of the greatest common divisor
- * from above. A variable of which it is free leaves the coefficients behind its powers; where no
- * variable is left only an integer is. The rest is divided after Euclid, in the variable of the
- * least degree, by primitive remainders (Knuth, The Art of Computer Programming 2, 4.6.1). */
+ * from above. If it is free of a variable, it divides the coefficients of that variable's powers;
+ * if it is free of all, it is an integer. The rest is Euclid's algorithm in the variable of the
+ * least degree, with primitive remainders (Knuth, The Art of Computer Programming 2, 4.6.1). */
 #include "algebra/multinomial_impl.h"
 
 #include <string.h>
@@ -115,8 +115,8 @@ static int common_degree(uint32_t *a, int m, uint32_t *b, int n)
     return m;
 }
 
-/* By variable: what the degree of the greatest common divisor can't be above. An image of full
- * degree keeps that of its divisor. */
+/* By variable: an upper bound of the degree of the greatest common divisor. An image of full degree
+ * preserves the degree of its divisor. */
 static void bound_degrees(const Multinomial *p, const Multinomial *q, int *bound)
 {
     const Ring *ring = p->ring;
@@ -209,7 +209,7 @@ static Multinomial *list_gcd(MultinomialList *list)
     return out;
 }
 
-/* of the coefficients behind powers of some variables */
+/* of the coefficients of powers of some variables */
 static Multinomial *content_over(const Multinomial *p, const Multinomial *q, uint64_t variables)
 {
     MultinomialList list = {0};

@@ -1,7 +1,7 @@
 /* multinomial_impl.h: how terms are stored, for the files of multinomial*.c
  *
- * Powers stand a byte each in words, variable 0 in the highest byte of the first: products of
- * terms add words, and words compare as terms do. */
+ * Exponents are packed into words, one byte each, variable 0 in the highest byte of the first word.
+ * A product of terms adds the words, and words compare as terms do. */
 #ifndef COTREE_ALGEBRA_MULTINOMIAL_IMPL_H
 #define COTREE_ALGEBRA_MULTINOMIAL_IMPL_H
 

@@ -1,4 +1,4 @@
-/* pattern.h: where the entries of a sparse matrix stand, by columns */
+/* pattern.h: positions of the entries of a sparse matrix, by columns */
 #ifndef COTREE_ALGEBRA_PATTERN_H
 #define COTREE_ALGEBRA_PATTERN_H
 
@@ -13,7 +13,7 @@ typedef struct Pattern {
  * place[k] becomes that of term k. New; pattern_free(). O(count + rows + columns). */
 Pattern pattern_of(int rows, int columns, int count, const int *row, const int *column, int *place);
 Pattern pattern_full(int rows, int columns); /* of a matrix of which any entry may not be 0 */
-void pattern_free(Pattern *pattern);         /* what it holds */
+void pattern_free(Pattern *pattern);         /* its arrays */
 
 /* With the values of all places: column c times v; */
 double pattern_dot(const Pattern *pattern, const double *values, int c, const double *v);

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-enum { ROUNDS = 12 }; /* each bounds it from above; a few come close */
+enum { ROUNDS = 12 }; /* each gives an upper bound; a few rounds come close */
 
 double perron_bound(PerronApply *apply, const void *context, int n)
 {
@@ -26,7 +26,7 @@ double perron_bound(PerronApply *apply, const void *context, int n)
         }
         if (!isfinite(bound) || largest == 0)
             break;
-        /* a little of the old keeps all above 0 */
+        /* a small part of the old v makes all components positive */
         for (int i = 0; i < n; i++)
             v[i] = w[i] / largest + 1e-3 * v[i];
     }

@@ -2,7 +2,8 @@
 #ifndef COTREE_ALGEBRA_PERRON_H
 #define COTREE_ALGEBRA_PERRON_H
 
-/* The matrix is known by what it makes of a vector v > 0 (n). O(12 calls). */
+/* The matrix A >= 0 (n x n) is defined by a function that returns A v for a vector v > 0 (n x 1).
+ * O(12 calls). */
 typedef void PerronApply(const void *context, const double *v, double *out);
 double perron_bound(PerronApply *apply, const void *context, int n);
 

@@ -1,7 +1,7 @@
 /* polynomial.h: polynomials whose coefficients are rationals without bounds (GMP)
  *
- * Products of the shapes of a beam need a hundred bits at a dozen terms, and nothing of them may
- * be rounded before it is a number of the run. */
+ * Products of the shape functions of a beam need a hundred bits at a dozen terms, and must not be
+ * rounded before they become numbers of the simulation. */
 #ifndef COTREE_ALGEBRA_POLYNOMIAL_H
 #define COTREE_ALGEBRA_POLYNOMIAL_H
 
@@ -23,7 +23,7 @@ Polynomial polynomial_primitive(const Polynomial *p); /* 0 at 0 */
 void polynomial_integral(const Polynomial *p, const Polynomial *q, int n, mpq_t out);
 /* its coefficients of Legendre's polynomials over 0..1, in the place of those of powers */
 Polynomial legendre_of(const Polynomial *p);
-/* in digits enough that nothing cancels */
+/* with enough digits that cancellation loses none */
 double polynomial_value(const Polynomial *p, double x);
 
 #endif

@@ -1,9 +1,10 @@
 /* rank.c: rank decisions by pivoted QR
  *
- * Householder's reflections I - tau v v^T, columns exchanged such that the longest remainder comes
- * next. A row of constraints moves few bodies, so a reflection touches few entries, and most
- * columns not at all: only what isn't 0 is worked on. GSL's pivoted QR works on all, which takes
- * twice as long for some dozen bodies (make bench: algebra.rank_*), and can't be stopped. */
+ * Q R = phi^T P of the m x nu matrix phi by Householder reflections I - tau v v^T. Columns are
+ * exchanged so that the one with the longest remainder is next. A constraint row moves few bodies,
+ * so a reflection changes few entries, and most columns not at all: only entries other than 0 are
+ * processed. GSL's pivoted QR processes all, takes twice as long for some dozen bodies (make bench:
+ * algebra.rank_*), and can't be stopped. */
 #include "algebra/rank.h"
 
 #include "algebra/independence.h"
@@ -61,7 +62,7 @@ static double square_of(const double *v, int from, int to)
     return sum;
 }
 
-/* the longest remainder comes to place k */
+/* exchange the column with the longest remainder to place k */
 static void exchange(Pivoted *p, int k, double *square, double *fresh)
 {
     int best = k;
@@ -81,8 +82,8 @@ static void exchange(Pivoted *p, int k, double *square, double *fresh)
     fresh[best] = fresh[k];
 }
 
-/* Column k becomes R's entry and the reflection that takes what is below to 0: how many entries
- * that has in p->filled. */
+/* Column k becomes R's entry and the reflection that eliminates the entries below it; p->filled
+ * becomes the reflection's count of entries. */
 static int reflect(Pivoted *p, int k)
 {
     double *const v = p->column[k];

@@ -1,4 +1,4 @@
-/* rank.h: which constraint rows say something new */
+/* rank.h: which constraint rows are independent */
 #ifndef COTREE_ALGEBRA_RANK_H
 #define COTREE_ALGEBRA_RANK_H
 
@@ -6,18 +6,18 @@
 #include "base/call_monitor.h"
 
 /* Rank of the m x nu matrix by QR with pivoting of its transpose, rows brought to unit size first;
- * what is below `threshold` of the largest counts as 0. order[0..rank-1] are independent rows,
- * rising; the rest, rising too, depend on them. E_STOPPED when the watch says so. O(nu m^2), less
- * for entries that are 0. Golub and Van Loan (2013), 5.4.2. */
+ * a remainder below `threshold` times the largest counts as 0. order[0..rank-1] are independent
+ * rows, rising; the rest, rising too, depend on them. E_STOPPED when the watch requests a stop.
+ * O(nu m^2), less for entries that are 0. Golub and Van Loan (2013), 5.4.2. */
 MUST_USE Status rank_rows(const double *matrix, int m, int nu, double threshold,
                           const CallMonitor *watch, int *rank, int *order);
 
-/* The same of rows that stand as columns of a pattern; where many are independent beyond doubt they
- * aren't written out. */
+/* The same for rows that are stored as columns of a pattern. When they are certainly independent,
+ * the full matrix isn't formed. */
 MUST_USE Status rank_columns(const Pattern *pattern, const double *values, double threshold,
                              const CallMonitor *watch, int *rank, int *order);
 
-/* The `count` rows that are the least dependent on each other, rising, and what is told of them is
+/* The `count` rows that are the least dependent on each other, rising; the number reported is their
  * rank_ratio(). O(nu m count). */
 double rank_choose(const double *matrix, int m, int nu, int count, int *rows);
 /* Least over largest pivot of some rows, brought to unit size first: how independent they are.

@@ -1,4 +1,4 @@
-/* roots.c: what is known of an eigenvalue, and groups of those that can't be distinguished */
+/* roots.c: eigenvalues with error bounds, and groups of those that can't be distinguished */
 #include "algebra/roots.h"
 
 #include "base/memory.h"
@@ -8,7 +8,7 @@
 
 #define UNIT       0x1p-53 /* an entry is a double at best */
 #define SECOND     2       /* of the first order, for what it leaves out */
-#define STRUCTURAL 1e3     /* of the method's rounding: what is below, and stays there, is 0 */
+#define STRUCTURAL 1e3     /* times the rounding of the method: what remains below is 0 */
 
 /* --- roots --- */
 

@@ -1,4 +1,4 @@
-/* row_closure.c: what a motion decides: rows in the order of their classes, by elimination
+/* row_closure.c: matroid closure of rows in the order of their classes, by elimination
  *
  * Gauss-Jordan elimination of the transposed rows leaves each row that depends on those before it
  * as a sum of these. Which rows of a basis such sums need connects them into sets. */
@@ -43,7 +43,8 @@ static void scale(double *a, int unknowns, int count)
     }
 }
 
-/* the unknown by which row r tells most that no row before it does; -1: it follows from these */
+/* the unknown with the largest coefficient in the remainder of row r after the rows before it; -1:
+ * it follows from these */
 static int pivot_of(const double *a, int unknowns, int count, int r, int rank, double least)
 {
     double most = least;
@@ -104,7 +105,7 @@ static int root_of(int *set, int r)
     return r;
 }
 
-/* Rows of a class, and those that are given, that depend on each other become one set. */
+/* Rows of a class and given rows that depend on each other become one set. */
 static void join(const double *a, int count, const int *of, int kind, const int *place, int *set)
 {
     int r, p;

@@ -1,13 +1,14 @@
-/* row_closure.h: what a motion decides that some rows are given of, and constraints hold
+/* row_closure.h: which rows of a motion follow from given rows and constraints
  *
- * A row is a linear function of the motion: a constraint, which is 0; one whose change is given; or
- * one that would rather stay. Such rows come in classes, the first of which is asked first. Modulo
- * the constraints, and what stays of the classes before, the given rows and those of a class fall
- * into the smallest sets that don't depend on each other (the components of their matroid, Oxley
- * (2011), 4.1). A set without given rows stays. Where those that are given span their set the rest
- * of it follows. In any other set neither decides: so many rows more would have to be given.
+ * A row is a linear function of the motion. It is a constraint, which is 0; or a given row, whose
+ * change the caller prescribes; or one that is preferably constant. The latter belong to classes,
+ * which are decided in rising order. Modulo the constraints, and the constant rows of earlier
+ * classes, the given rows and those of a class form the smallest sets that don't depend on each
+ * other (the components of their matroid, Oxley (2011), 4.1). The rows of a set without given rows
+ * are constant. Where the given rows span their set, the rest of it follows. Any other set is
+ * undetermined: the missing rank is the number of further rows to be given.
  *
- * That is the same in whatever coordinates, as rows alone count. The file goes into FMUs, too. */
+ * The result doesn't depend on the choice of coordinates. The file is also part of FMUs. */
 #ifndef COTREE_ALGEBRA_ROW_CLOSURE_H
 #define COTREE_ALGEBRA_ROW_CLOSURE_H
 
@@ -23,9 +24,9 @@ enum {
 
 typedef enum RowStatus {
     ROW_FOLLOWS,    /* from other rows */
-    ROW_DETERMINES, /* a constraint or a given row, from none before it */
+    ROW_DETERMINES, /* a constraint or a given row, independent of those before it */
     ROW_HOLDS,      /* and those that follow from such rows with it */
-    ROW_IS_OPEN     /* neither follows nor stays: it, or another row of its set, is to be given */
+    ROW_IS_OPEN     /* undetermined: it, or another row of its set, has to be given */
 } RowStatus;
 
 /* Rows are the columns of a: row r moves by a[i * count + r] with unknown i. a (unknowns x count)

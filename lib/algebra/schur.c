@@ -1,7 +1,7 @@
 /* schur.c: balancing, Hessenberg form, and the QR method with single complex shifts
  *
- * GSL and LAPACK have the same in doubles, which is where it is not enough (enclosure.h); only the
- * scales, powers of 2, need no more. */
+ * GSL and LAPACK have the same in doubles, which don't suffice here (enclosure.h). Only the scales,
+ * powers of 2, are doubles. */
 #include "algebra/schur.h"
 
 #include "algebra/dense.h"
@@ -181,8 +181,8 @@ static void sweep(DoubleDoubleComplex *t, int n, int first, int last, DoubleDoub
         t[i * n + i] = dd_cadd(t[i * n + i], shift);
 }
 
-/* where the part that ends at `last` begins: behind an entry that is rounding beside its
- * neighbours, which becomes 0 */
+/* the first row of the part that ends at `last`: after a subdiagonal entry that is negligible
+ * against its neighbours, which becomes 0 */
 static int part_begin(DoubleDoubleComplex *t, int n, int last, double norm)
 {
     int first = last;
@@ -236,7 +236,7 @@ bool schur(const DoubleDouble *a, int n, DoubleDoubleComplex *t, DoubleDoubleCom
 
 /* --- vectors --- */
 
-/* t_kk - t_ii, or what rounding would make of 0 */
+/* t_kk - t_ii, or the size of its rounding where that is larger */
 static DoubleDoubleComplex apart(const DoubleDoubleComplex *t, int n, int k, int i, double least)
 {
     const DoubleDoubleComplex between = dd_csub(t[k * n + k], t[i * n + i]);

@@ -1,7 +1,7 @@
 /* schur.h: Hessenberg and Schur forms of real matrices in numbers of twice the digits
  *
- * Matrices stand row by row. Errors of rounding are some 1e-31 of the largest entry, so scale
- * before. */
+ * Matrices are stored row by row. Rounding errors are some 1e-31 of the largest entry, so balance
+ * the matrix first. */
 #ifndef COTREE_ALGEBRA_SCHUR_H
 #define COTREE_ALGEBRA_SCHUR_H
 
@@ -20,12 +20,12 @@ void dd_reflect(DoubleDouble *at, int n, int stride, int from, const DoubleDoubl
  * Q. Of 10/3 n^3 products. */
 void matrix_hessenberg(DoubleDouble *a, int n, DoubleDouble *q);
 
-/* t = Z^H a Z, upper triangular, and z = Z (NULL: not wanted). False where the iteration doesn't
- * come to an end. By the QR method with single shifts (Francis 1961, Kublanovskaya 1961). */
+/* t = Z^H a Z, upper triangular, and z = Z (NULL: not wanted). False when the iteration doesn't
+ * converge. By the QR method with single shifts (Francis 1961, Kublanovskaya 1961). */
 bool schur(const DoubleDouble *a, int n, DoubleDoubleComplex *t, DoubleDoubleComplex *z);
 
 /* Right eigenvectors of a as columns of `right`, and the inverse, whose rows are the left ones:
- * from its Schur form. Eigenvalues that are equal are taken as apart by rounding. O(n^3). */
+ * from its Schur form. Equal eigenvalues are treated as if they differed by rounding. O(n^3). */
 void schur_vectors(const DoubleDoubleComplex *t, const DoubleDoubleComplex *z, int n,
                    DoubleDoubleComplex *right, DoubleDoubleComplex *left);
 

@@ -14,15 +14,16 @@
                  */
 #define OFTEN 4 /* solutions with the same factors, from which on they are unpacked */
 
-/* KLU's factors for many solutions, LU + F = P (R \ A) Q: it keeps them so that they are found
- * fast, with a division an unknown and all blocks apart. Here rows: of L, and of F before them, and
- * of U over its pivots: where each begins, and after the last one. */
+/* KLU's factors for many solutions, LU + F = P (R \ A) Q. KLU's storage makes factoring fast, but
+ * its solution divides once for each unknown and treats each block separately. Here they are stored
+ * by rows: F and L, then U divided by its pivots, with the start of each row and the end of the
+ * last one. */
 typedef struct Unpacked {
     int *lower, *lower_column, *upper, *upper_column;
     double *lower_value, *upper_value;
     double *pivot, *scale; /* over each, of rows as they are permuted */
     int *p, *q;
-    int *block, block_count; /* where blocks begin, and the end */
+    int *block, block_count; /* start of each block, and the end */
     double *x;
     int lower_room, upper_room;
 } Unpacked;
@@ -43,7 +44,7 @@ struct Sparse {
     Unpacked unpacked;
 };
 
-/* entries by columns: start of each, and where each entry went */
+/* entries by columns: start of each, and the new index of each entry */
 static void by_columns(Sparse *s, const int *row, const int *column)
 {
     for (int k = 0; k < s->entries; k++)
@@ -222,7 +223,8 @@ static void count_rows(int n, const SparseColumns *from, int *start)
                 start[from->row[k] + 2]++;
 }
 
-/* Rows where `start`, one place on, says that each goes on; diagonals go to their place. */
+/* Append entries to rows: start[r + 1] is the next free index of row r. Diagonal entries are stored
+ * separately. */
 static void bring_rows(int n, const SparseColumns *from, int *start, int *column, double *value,
                        double *diagonal)
 {
@@ -239,7 +241,7 @@ static void bring_rows(int n, const SparseColumns *from, int *start, int *column
         }
 }
 
-/* F's part of a row comes before L's: what it takes off are blocks that are solved earlier. */
+/* F's part of a row precedes L's: it subtracts blocks that are solved earlier. */
 static void merge(Sparse *s, const SparseColumns *l, const SparseColumns *u, const SparseColumns *f)
 {
     Unpacked *to = &s->unpacked;
@@ -288,7 +290,7 @@ static bool unpack(Sparse *s)
     return sound;
 }
 
-/* from - what entries first..end-1 of a row take off */
+/* from - sum of the products of entries first..end-1 of a row */
 static double taken_off(double from, const int *column, const double *value, int first, int end,
                         const double *x)
 {

@@ -1,6 +1,6 @@
 /* sparse.h: one square sparse matrix and its factors: small ones dense, large ones by KLU
  *
- * The pattern is given once; values as often as wanted, in the order of the pattern. */
+ * The pattern is set once; values any number of times, in the order of the pattern. */
 #ifndef COTREE_ALGEBRA_SPARSE_H
 #define COTREE_ALGEBRA_SPARSE_H
 
@@ -8,7 +8,7 @@
 
 typedef struct Sparse Sparse;
 
-/* New; free with sparse_free(). Entry k stands at row[k], column[k], each place at most once. */
+/* New; free with sparse_free(). Entry k is at row[k], column[k]; each position at most once. */
 Sparse *sparse_new(int n, int entries, const int *row, const int *column);
 void sparse_free(Sparse *sparse); /* NULL is fine */
 /* Factor for these values (one an entry). False when singular or not finite. The work of ordering

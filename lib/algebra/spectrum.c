@@ -1,11 +1,11 @@
-/* spectrum.c: eigenvalues block by block, and how far each may be off
+/* spectrum.c: eigenvalues block by block, with an error bound for each
  *
- * A matrix is put into blocks that don't act back (block_triangular.h); a block is balanced.
- * Eigenvalues that doubles tell apart, and far better than its entries do, are taken from these
- * (enclosure.h). Else they and their vectors are found in numbers of twice the digits. The matrix
- * is then disturbed by what its entries may be off before, so that multiple eigenvalues split as
- * far as they would under errors, and no farther; its first order is taken back from the
- * eigenvalues at the end.
+ * A matrix is permuted to block triangular form (block_triangular.h) and each block is balanced.
+ * Eigenvalues are computed in doubles (enclosure.h) if these separate them, with errors far below
+ * those of the matrix entries. Otherwise they and their vectors are computed in numbers of twice
+ * the digits. In that case the matrix is first perturbed by the error bounds of its entries, so
+ * that multiple eigenvalues split as far as they would under errors, and no farther. The first
+ * order of that perturbation is subtracted from the eigenvalues at the end.
  *
  * With A = sum lambda_k x_k y_k^T an eigenvalue is off by |y|^T |dA| |x| (Stewart and Sun 1990).
  * Of a group c about mu, which can't be distinguished, none is farther from mu than r where the sum
@@ -24,7 +24,7 @@
 
 #define UNIT   0x1p-53 /* an entry is a double at best */
 #define SECOND 2       /* of the first order, for what it leaves out */
-#define BETTER 0.1     /* of what entries tell: rounding that hardly adds to it */
+#define BETTER 0.1     /* relative to the error by the entries: rounding that hardly adds to it */
 
 /* of one block: right vectors as columns, left ones as rows */
 typedef struct SpectrumPart {
@@ -372,7 +372,8 @@ static bool are_apart(const double complex *value, const double *error, int n)
     return true;
 }
 
-/* Roots by doubles; false where these don't tell them apart, or worse than entries do. */
+/* Eigenvalues by doubles; false where these don't separate them, or have larger errors than the
+ * entries cause. */
 static bool solve_in_doubles(const SpectrumPart *part, const double *block, const double *scale,
                              double complex *value, Root *root)
 {

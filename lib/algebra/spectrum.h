@@ -1,7 +1,7 @@
-/* spectrum.h: eigenvalues of real matrices, with what they are known to
+/* spectrum.h: eigenvalues of real matrices, with error bounds
  *
- * Matrices stand row by row. Every entry comes with how far it may be off; the errors of
- * eigenvalues follow from that and don't depend on how the states are scaled. */
+ * Matrices are stored row by row. Every entry has an error bound. The error bounds of eigenvalues
+ * follow from these and don't depend on the scaling of the states. */
 #ifndef COTREE_ALGEBRA_SPECTRUM_H
 #define COTREE_ALGEBRA_SPECTRUM_H
 

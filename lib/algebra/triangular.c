@@ -1,7 +1,8 @@
 /* triangular.c: groups found by columns that few rows have, from the tips of a tree inward
  *
- * All rows that some column has are a group if they have at least as many columns for themselves.
- * When they are taken away, columns that they shared have fewer rows, and are looked at again. */
+ * The rows with an entry in some column form a group if at least as many columns have entries in
+ * these rows only. After their removal the columns that they shared have fewer rows, and are
+ * examined again. */
 #include "algebra/triangular.h"
 
 #include "base/memory.h"
@@ -65,8 +66,7 @@ static void list_rows(TriangularSearch *s, int m)
     memset(s->hits, 0, (size_t)columns * sizeof(int));
 }
 
-/* Those with few rows are looked at first: the fewer a group has, the less they take from each
- * other. */
+/* Columns with few rows are examined first: smaller groups compete less for rows. */
 static void wait_for(TriangularSearch *s, const int *columns, int count)
 {
     for (int rows = MOST_ROWS; rows > 0; rows--)

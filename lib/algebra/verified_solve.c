@@ -3,7 +3,7 @@
  * Rows are matched to columns, the rest is permuted to block triangular form (Duff and Reid 1978).
  * With |B^-1| known the error of x is at most |B^-1| (|db| + |dB| |x|) (Higham 2002, 7.2), which
  * doesn't depend on how rows and columns are scaled. B within dB is regular where the spectral
- * radius of |B^-1| |dB| is below 1. Libraries eliminate in doubles, and tell no error of a single
+ * radius of |B^-1| |dB| is below 1. Libraries eliminate in doubles and give no error bound for each
  * entry. */
 #include "algebra/verified_solve.h"
 
@@ -35,7 +35,7 @@ static void permute(VerifiedSolve *s, const int *column)
     const int n = s->n;
     bool *pattern = NEW_ARRAY(bool, n *n);
 
-    /* row r belongs to unknown column[r]; unknown j acts on i where row of i holds j */
+    /* row r belongs to unknown column[r]; unknown j acts on i if the row of i contains j */
     for (int r = 0; r < n; r++)
         for (int j = 0; j < n; j++)
             pattern[column[r] * n + j] = s->matrix[r * n + j] != 0 || s->error[r * n + j] != 0;
@@ -110,7 +110,7 @@ static bool factor_block(VerifiedSolve *s, int first, int end)
     return sound;
 }
 
-/* x, permuted, becomes the solution; what it holds before `from` is 0 */
+/* x, permuted, becomes the solution; components before `from` are 0 */
 static void solve_permuted(const VerifiedSolve *s, DoubleDouble *x, int from)
 {
     const int n = s->n;

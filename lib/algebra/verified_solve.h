@@ -1,8 +1,8 @@
-/* verified_solve.h: square systems of equations of which a part may be far larger than another
+/* verified_solve.h: square systems B x = b with badly scaled rows and columns
  *
- * Solved in numbers of twice the digits (double_double.h), block by block where a part doesn't act
- * back, so that what must be 0 is 0, with a bound of every number's error. Matrices stand row by
- * row. */
+ * Solved in numbers of twice the digits (double_double.h), block by block of the block triangular
+ * form, so that structural zeros of x are exactly 0, with an error bound for every number. B (n x
+ * n) is stored row by row. */
 #ifndef COTREE_ALGEBRA_VERIFIED_SOLVE_H
 #define COTREE_ALGEBRA_VERIFIED_SOLVE_H
 
