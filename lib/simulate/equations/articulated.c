@@ -1,9 +1,9 @@
-/* articulated.c: leaves first, each speed takes off what it yields (Featherstone 1983)
+/* articulated.c: M u' = F by articulated-body inertias, leaves first (Featherstone 1983)
  *
- * What hangs beyond a place resists its motion, alpha and a of its origin in its axes, with a
- * moment t = J alpha + H a and a force f = H^T alpha + M a. A speed of motion (k, s) yields: D is
- * the inertia that it has, U = (J k + H s, H^T k + M s), and J, H, M lose U U^T / D. In a plane
- * alpha, t and J are numbers. */
+ * The bodies beyond a place resist the motion of its origin, in its axes: an angular acceleration
+ * alpha and an acceleration a need a moment t = J alpha + H a and a force f = H^T alpha + M a.
+ * Elimination of a speed with motion (k, s): U = (J k + H s, H^T k + M s), the speed's inertia is D
+ * = k . U_t + s . U_f, and J, H, M lose U U^T / D. In a plane alpha, t and J are scalars. */
 #include "simulate/equations/articulated.h"
 
 #include "base/memory.h"
@@ -12,19 +12,19 @@
 #include <math.h>
 #include <string.h>
 
-#define MOST_EXCESS 1e12 /* of what D is the rest of: it would be rounding */
+#define MOST_EXCESS 1e12 /* times D the inertia before elimination: D would be rounding error */
 
-/* what resists, of a place */
+/* articulated-body inertia of a place */
 typedef struct Beyond {
     double J[9], H[9], M[9];
 } Beyond;
 
-typedef struct Both { /* motion, or load */
+typedef struct Both { /* a motion (angular, linear) or a load (moment, force) */
     double turn[3], shift[3];
 } Both;
 
-typedef struct ArticulatedShare { /* inertia of a speed's own */
-    int speed, number;            /* of the needs */
+typedef struct ArticulatedShare { /* inertia that belongs to one speed alone */
+    int speed, number;            /* number: index into `needs` */
 } ArticulatedShare;
 
 struct Articulated {
@@ -33,9 +33,9 @@ struct Articulated {
     LIST(ArticulatedShare) shares;
     int first_body;
     const double *numbers;
-    Beyond *blocks; /* a place each */
-    Both *passed;   /* a place each: load that is passed on, then its motion */
-    Both *yield;    /* U, a speed each */
+    Beyond *blocks; /* one per place */
+    Both *passed;   /* one per place: first the load that is passed on, then the place's motion */
+    Both *yield;    /* U, one per speed */
     double *own;    /* inertia of each speed's own, and what of it others took off before */
     double *inverse, *rest, *lost;
 };
@@ -55,7 +55,7 @@ Articulated *articulated_new(const System *system)
     ar->mass = mass;
     for (int i = 0; i < mass->needs.count; i++)
         LIST_PUSH(ar->needs, mass->needs.at[i]);
-    for (int j = 0; j < mass->speed_count; j++) /* loads of composites are M's alone */
+    for (int j = 0; j < mass->speed_count; j++) /* loads of composites belong to M alone */
         for (int k = 0; k < 3; k++)
             ar->needs.at[mass->speeds[j].force + k] = ar->needs.at[mass->speeds[j].torque + k] =
                 ar->needs.at[mass->speeds[j].turn + k];
@@ -92,7 +92,7 @@ const Expr *articulated_needs(const Articulated *ar, int *count)
     return ar->needs.at;
 }
 
-/* --- what both say of a speed and a load --- */
+/* --- common to both cases: work of a load in a speed, loads and motions along the tree --- */
 
 static inline double work(const Articulated *ar, int speed, const Both *load)
 {
@@ -174,7 +174,7 @@ static void take_off_planar(Beyond *b, double inverse, const Both *u)
     b->M[2] -= u->shift[1] * y;
 }
 
-/* with e = (-y, x) of the way: H += M e, J += e . (H before and after) */
+/* e = (-y, x) of the vector between the origins: H += M e, J += e . (H before and after) */
 static void hand_on_planar(const Articulated *ar, const MassPlace *place, Beyond *b, Beyond *onto)
 {
     const double *way = ar->numbers + place->way;
@@ -246,7 +246,8 @@ static void take_off_spatial(Beyond *b, double inverse, const Both *u)
     }
 }
 
-/* about a point from which r leads here: H += r x M, J += r x H^T after, less H r before */
+/* Move to a point from which r leads to this one: H += r x M, J += r x H^T after, minus H r
+ * before. */
 static void move_block(const double *r, Beyond *b)
 {
     for (int k = 0; k < 3; k++) { /* H before times the matrix of r x: its rows times */
@@ -307,7 +308,8 @@ static void hand_on_spatial(const Articulated *ar, const MassPlace *place, Beyon
 
 /* --- elimination --- */
 
-/* what others would take off a speed behind this one, of which a load on its place is told */
+/* what the other speeds of this place would remove from the inertia of a later speed; `load` is U
+ * of the one that is eliminated */
 static void note_lost(Articulated *ar, const MassPlace *at, int from, const Both *load,
                       double inverse)
 {

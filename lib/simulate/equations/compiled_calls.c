@@ -1,5 +1,5 @@
-/* compiled_calls.c: what the Equations call: programs run a stage further, with what is known by
- * then */
+/* compiled_calls.c: the callbacks of Equations; each runs its program up to the stage whose inputs
+ * are known */
 #include "simulate/equations/compiled_equations_impl.h"
 
 #include <string.h>
@@ -49,7 +49,7 @@ static bool set_accelerations(void *context, double *acceleration)
     return true;
 }
 
-/* q and u stand one behind the other, in y as in the inputs */
+/* q and u are adjacent, in y as in the inputs */
 static bool outright(void *context, double t, const double *y, double *out)
 {
     CompiledEquations *nb = context;
@@ -71,7 +71,7 @@ bool compiled_need_no_mass(const CompiledEquations *nb)
            nb->eliminated_by == ELIMINATED_PRESCRIBED;
 }
 
-/* likewise where all is prescribed */
+/* likewise where all speeds are prescribed */
 static void set_prescribed(void *context, double *acceleration, double *multiplier)
 {
     const CompiledEquations *nb = context;
@@ -81,7 +81,7 @@ static void set_prescribed(void *context, double *acceleration, double *multipli
     memcpy(multiplier, nb->eliminated_accelerations + nb->layout->nu, size);
 }
 
-/* likewise with multipliers of rows in use */
+/* likewise with multipliers of the rows in use */
 static bool constrained_has_pivots(void *context)
 {
     const CompiledEquations *nb = context;

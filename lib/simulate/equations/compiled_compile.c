@@ -1,10 +1,10 @@
-/* compiled_compile.c: which expressions a program of the equations holds, and where each block
- * stands */
+/* compiled_compile.c: which expressions a program of the equations computes, and the index of each
+ * block */
 #include "simulate/equations/compiled_equations_impl.h"
 
 #include <string.h>
 
-/* angles that count turns, then their rates */
+/* multi-turn angles, then their rates */
 static Status push_multi_turns(CompiledRoots *roots, System *system, Diag *diag)
 {
     Status status = OK;
@@ -21,7 +21,7 @@ done:
     return status;
 }
 
-/* append a block; its first place */
+/* append a block; returns its first index */
 static int block(CompiledRoots *roots, const Expr *entries, int count)
 {
     int first = roots->count;
@@ -34,7 +34,7 @@ static int block(CompiledRoots *roots, const Expr *entries, int count)
     return first;
 }
 
-/* the same on the sides of the layout's surfaces */
+/* the same, on the layout's sides of its surfaces */
 static int block_on(const VariableIndex *l, CompiledRoots *roots, const Expr *entries, int count)
 {
     int first = roots->count;
@@ -44,7 +44,7 @@ static int block_on(const VariableIndex *l, CompiledRoots *roots, const Expr *en
     return first;
 }
 
-/* places of the entries of A, and the latest stage of what the network's equations hold */
+/* positions of the entries of A, and the latest stage of what the network's equations contain */
 static Stage network_shape(CompiledEquations *nb)
 {
     const EquationForm *r = system_run(nb->layout->system);
@@ -99,7 +99,7 @@ done:
     return status;
 }
 
-/* append the entries that aren't 0, row by row; where they stand in the transpose */
+/* Append the entries that aren't 0, row by row. Records their positions in the transpose. */
 static int stored_block(CompiledRoots *roots, const Expr *entries, int rows, int columns,
                         Pattern *out)
 {
@@ -124,7 +124,8 @@ static int stored_block(CompiledRoots *roots, const Expr *entries, int rows, int
     return first;
 }
 
-/* append the entries of N that may not be 0, row by row and by rising speeds, as they are placed */
+/* Append the entries of N that may not be 0, row by row, speeds ascending, which is their storage
+ * order. */
 static void map_block(CompiledEquations *nb, CompiledRoots *roots)
 {
     const VariableIndex *l = nb->layout;
@@ -151,7 +152,7 @@ static void map_block(CompiledEquations *nb, CompiledRoots *roots)
     mem_free(place);
 }
 
-/* whether they are known in that stage */
+/* whether the entries are known in that stage */
 static bool are_known_by(Stage stage, const Expr *entries, int count)
 {
     for (int i = 0; i < count; i++)
@@ -160,7 +161,7 @@ static bool are_known_by(Stage stage, const Expr *entries, int count)
     return true;
 }
 
-/* M, or what it is made from */
+/* M, or the expressions that it is computed from */
 static int mass_block(CompiledEquations *nb, CompiledRoots *roots)
 {
     const int nu = nb->layout->nu;
@@ -208,7 +209,7 @@ done:
     return status;
 }
 
-/* first places of blocks among the roots of the main program */
+/* first index of each block among the roots of the main program */
 typedef struct CompiledBlocks {
     int phi, phi_u, mass, nu_rate, gamma, q_rate, network, rhs, force, eliminated_symbols, work,
         angles;
@@ -245,7 +246,7 @@ static Status push_equations(CompiledEquations *nb, bool iterates, const Expr *e
     return OK;
 }
 
-/* the equations read what the main program finds */
+/* Point the equations to the values that the main program computes. */
 static void place_equations(CompiledEquations *nb, bool iterates, const CompiledBlocks *p)
 {
     const VariableIndex *l = nb->layout;

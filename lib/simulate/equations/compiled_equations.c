@@ -1,11 +1,11 @@
-/* compiled_equations.c: the recursive form in numbers, compiled in stages, and once more with
- * constraints eliminated */
+/* compiled_equations.c: the recursive form compiled to numbers, in stages; compiled once more when
+ * constraints are eliminated */
 #include "simulate/equations/compiled_equations_impl.h"
 
 #include <math.h>
 #include <string.h>
 
-/* of the entries of y; NULL: all 1 */
+/* nominal values of the entries of y; NULL: all 1 */
 static double *units_of(const VariableIndex *layout)
 {
     const int states = layout->n + layout->nu, count = variable_index_references(layout);
@@ -27,7 +27,8 @@ static double *units_of(const VariableIndex *layout)
     return unit;
 }
 
-/* of the entries of y: angles count to 1 in errors, however far they turn; new */
+/* Magnitude bounds of the entries of y: an angle counts as at most 1 in errors, however far it
+ * turns. New. */
 static double *magnitude_bounds_of(const VariableIndex *layout)
 {
     const int states = variable_index_references(layout), count = states + layout->multi_turns;
@@ -56,7 +57,7 @@ static void find_quaternions(CompiledEquations *nb)
     nb->eq.quaternion_count = count;
 }
 
-/* Where this fails the equations are as they were, but for what they may have eliminated before. */
+/* Where this fails the equations are unchanged, except for what they may have eliminated before. */
 static Status compile_constrained(CompiledEquations *nb, const Constrained *solved, const int *rows,
                                   int row_count, Diag *diag)
 {
@@ -111,7 +112,7 @@ static Status eliminate(void *context, const int *rows, int row_count, double mo
         nb->eq.eliminate = NULL;
     if (status == E_STOPPED && diag != NULL)
         *diag = why;
-    status = status == E_STOPPED ? E_STOPPED : OK; /* factors serve as they did */
+    status = status == E_STOPPED ? E_STOPPED : OK; /* the factorisation remains in use */
     constrained_free(solved);
     (void)mem_scratch(before);
     return status;

@@ -1,6 +1,6 @@
-/* compiled_equations.h: the recursive form of a System as Equations in numbers
+/* compiled_equations.h: the recursive form of a System compiled to numeric Equations
  *
- * On the layout's sides of its surfaces. */
+ * The layout determines on which sides of its surfaces they are. */
 #ifndef COTREE_SIMULATE_EQUATIONS_COMPILED_EQUATIONS_H
 #define COTREE_SIMULATE_EQUATIONS_COMPILED_EQUATIONS_H
 
@@ -12,24 +12,24 @@ MUST_USE Status compiled_new(const VariableIndex *layout, Parameters *parameters
                              CompiledEquations **out, Diag *diag);
 void compiled_free(CompiledEquations *numbers); /* NULL is fine */
 const Equations *compiled_equations(const CompiledEquations *numbers);
-/* Another value of a parameter in all of its programs, where they hold it. */
+/* Set a parameter in all of its programs that contain it. */
 void compiled_set(CompiledEquations *numbers, Expr parameter, double value);
-/* what is run: the equations first, and with them M and F where they are asked for */
+/* The programs of a run: first the equations, with M and F where these are requested. */
 typedef enum CompiledPart {
     COMPILED_EQUATIONS,
     COMPILED_NETWORK,
     COMPILED_CONDITIONS,
     COMPILED_DRIFT,
     COMPILED_MASS,
-    COMPILED_RATES, /* once constraints are eliminated: what a run asks for most of all */
+    COMPILED_RATES, /* once constraints are eliminated: what a run evaluates most often */
     COMPILED_PARTS
 } CompiledPart;
 /* NULL: there is none; borrowed */
 const Program *compiled_program(const CompiledEquations *numbers, CompiledPart part);
-/* what condition i of the equations compares with 0; NULL: it is whether a diode stays on its side
- */
+/* The expression that condition i of the equations compares with 0. NULL: the condition is whether
+ * a diode keeps its switch state. */
 Expr compiled_condition(const CompiledEquations *numbers, int i);
-/* the switch, of system_ideal(), that a condition is the margin of, where that gives NULL */
+/* where that is NULL: the switch, of system_ideal(), whose margin the condition is */
 int compiled_margin(const CompiledEquations *numbers, int condition);
 
 #endif

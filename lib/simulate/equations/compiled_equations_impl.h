@@ -1,4 +1,4 @@
-/* compiled_equations_impl.h: what makes Numbers, and what of it is watched */
+/* compiled_equations_impl.h: the compiled equations, and the conditions that a run monitors */
 #ifndef COTREE_SIMULATE_EQUATIONS_COMPILED_EQUATIONS_IMPL_H
 #define COTREE_SIMULATE_EQUATIONS_COMPILED_EQUATIONS_IMPL_H
 
@@ -15,35 +15,37 @@ struct CompiledEquations {
     const VariableIndex *layout;
     Parameters *parameters;
     Probe *main, *switching, *network;
-    Pattern rows, masses, maps; /* where entries of Phi_u, M and N stand */
-    /* M: of the main program; or NULL. By a matrix, from what that holds from mass_needs on; where
-     * elimination does without, from a program of its own, as far as that was asked for. */
+    Pattern rows, masses, maps; /* positions of the entries of Phi_u, M and N */
+    /* M. NULL: the main program computes it. Otherwise a MassMatrix computes it from the main
+     * program's roots from mass_needs on; or, where elimination needs no M, from a program of its
+     * own, once M is requested. */
     MassMatrix *mass;
     Articulated *articulated;
     Probe *massing;
-    Probe *rates; /* rates of t, q and u alone, where rows are eliminated; NULL: not so */
+    Probe *rates; /* rates by t, q and u alone, where rows are eliminated; NULL: none */
     int mass_needs;
-    EliminatedBy eliminated_by;          /* whether the main program has eliminated M itself */
-    bool is_articulated, is_mass_old;    /* factors are there; M is of another position */
-    bool is_mass_constant, is_mass_kept; /* with the parameters of now: of bodies without joints */
-    const double *eliminated_accelerations; /* of the main program, and what tells their rounding */
+    EliminatedBy eliminated_by;          /* whether and how the main program eliminates M itself */
+    bool is_articulated, is_mass_old;    /* the factorisation is valid; M is of another position */
+    bool is_mass_constant, is_mass_kept; /* with the current parameters, as of free bodies */
+    const double *eliminated_accelerations; /* of the main program, with rounding indicators */
     Eliminated eliminated;                  /* of constrained speeds, */
     const double *eliminated_excess, *eliminated_step;
     int *eliminated_rows; /* for these rows */
     ConstrainedPlaces eliminated_places;
-    /* of what `rates` tells: whether q' is there; where what tells rounding begins, and how much */
+    /* layout of the values of `rates`: whether they include q'; index and number of the rounding
+     * indicators */
     bool has_rates_of_q;
     int rates_excess, rates_pivots;
-    Probe *slip;        /* of surfaces that are slid along: h', or what of it they reach, and h */
+    Probe *slip;        /* of surfaces slid along: slip of each, then `off` of each */
     Guard *guards;      /* of the conditions, */
-    Expr *shown_guards; /* which are these for a user; NULL: margins */
+    Expr *shown_guards; /* the expressions that users see for these; NULL: margins */
     int *quaternions, *network_places;
-    LIST(int) margins;   /* whose they are, of the switches */
-    bool is_network_new; /* its program has seen t, q, u, x as they are */
+    LIST(int) margins;   /* number of the switch that each belongs to */
+    bool is_network_new; /* its program was run with the current t, q, u, x */
     double *magnitude_bound, *unit;
 };
 
-/* of roots that are on their surfaces as far as they have to be */
+/* Compile roots that are already on their surfaces where they need to be. */
 MUST_USE static inline Status compiled_compile(const VariableIndex *layout, Parameters *parameters,
                                                const CompiledRoots *roots, Probe **out, Diag *diag)
 {
@@ -55,10 +57,11 @@ MUST_USE static inline Status compiled_compile(const VariableIndex *layout, Para
 
 /* --- compiled_calls.c --- */
 
-/* M and F are brought from a program of their own when somebody asks for them */
+/* whether a program of their own computes M and F, once they are requested */
 bool compiled_need_no_mass(const CompiledEquations *numbers);
-/* The calls of the equations: those that are there anyway; behind the main program, where the
- * network and the power are known in these stages; behind the network's; behind that of M. */
+/* Set the callbacks of the equations: those always present; those after the main program, where the
+ * network and the power are known in these stages; those after the network's program; those after
+ * the program of M. */
 void compiled_connect(CompiledEquations *numbers);
 void compiled_connect_equations(CompiledEquations *numbers, Stage network, Stage power);
 void compiled_connect_network(CompiledEquations *numbers);
@@ -66,8 +69,8 @@ void compiled_connect_mass(CompiledEquations *numbers);
 
 /* --- compiled_compile.c --- */
 
-/* The main program, and the network's where it is solved by iteration. `told` is what they tell of
- * accelerations themselves, if they do. */
+/* The main program, and the network's where it is solved by iteration. `told` are the accelerations
+ * that they compute themselves, if they do. */
 MUST_USE Status compiled_compile_equations(CompiledEquations *numbers, const Expr *shown_guards,
                                            int eliminated_count, Diag *diag);
 /* M and F, where elimination does without them */
@@ -75,7 +78,7 @@ MUST_USE Status compiled_compile_mass(CompiledEquations *numbers, Diag *diag);
 
 /* --- compiled_rates.c --- */
 
-bool compiled_have_pivots(const double *excess, int count); /* none is what rounding left */
+bool compiled_have_pivots(const double *excess, int count); /* false: a pivot is rounding error */
 bool compiled_speeds_are_rates(const System *system);       /* q' = u */
 /* A program of rates alone where constraints are eliminated, if it may be. */
 MUST_USE Status compiled_rates(CompiledEquations *numbers, const Constrained *solved, Diag *diag);
@@ -83,9 +86,9 @@ void compiled_end_rates(CompiledEquations *numbers);
 
 /* --- compiled_watch.c --- */
 
-/* conditions of jumps and bends, and of switches that stay on their sides; with their program */
+/* Conditions of jumps and kinks, and of switches that keep their states; with their program. */
 MUST_USE Status compiled_watch(CompiledEquations *numbers, Parameters *parameters, Diag *diag);
-/* how the surfaces that are slid along are left */
+/* the conditions at which the motion leaves the surfaces that it slides along */
 MUST_USE Status compiled_slide(CompiledEquations *numbers, Parameters *parameters, Diag *diag);
 
 #endif

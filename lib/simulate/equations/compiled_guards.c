@@ -1,4 +1,4 @@
-/* compiled_watch.c: conditions that a run watches, and surfaces that it slides along */
+/* compiled_guards.c: conditions that a run monitors, and surfaces that it slides along */
 #include "simulate/equations/compiled_equations_impl.h"
 
 #include "base/memory.h"
@@ -55,7 +55,7 @@ static bool guard_is_of_stiff_element(void *context, int k)
            !system_is_ideal(nb->layout->system, i);
 }
 
-/* what tells whether ideal switches stay on their sides */
+/* the conditions that hold as long as ideal switches keep their states */
 static Status add_margins(CompiledEquations *nb, CompiledRoots *roots, Diag *diag)
 {
     System *system = nb->layout->system;
@@ -98,8 +98,8 @@ static void push_condition(CompiledEquations *nb, Conditions *c, Expr condition,
     LIST_PUSH(c->guards, guard);
 }
 
-/* what watches a surface that the equations stay on: whether its sign leaves -1 .. 1; or its side
- */
+/* The condition of a surface that the equations stay on: whether its sign leaves -1 .. 1, or its
+ * side changes. */
 static void push_surface(CompiledEquations *nb, Conditions *c, int number, const Surface *surface)
 {
     Arena *arena = system_arena(nb->layout->system);
@@ -108,14 +108,14 @@ static void push_surface(CompiledEquations *nb, Conditions *c, int number, const
         push_condition(nb, c, surface->measure, (Guard){number, .side = surface->side});
         return;
     }
-    nb->eq.switches_read_network = true; /* with which signs are found */
+    nb->eq.switches_read_network = true; /* signs follow from it */
     push_condition(nb, c, expr_sub(arena, expr_int(arena, 1), surface->sign),
                    (Guard){number, .end = 1});
     push_condition(nb, c, expr_add(arena, expr_int(arena, 1), surface->sign),
                    (Guard){number, .end = -1});
 }
 
-/* the entry of the layout's surfaces; NULL: it is none of them */
+/* the entry of the layout's surfaces; NULL: the condition is none of them */
 static const Surface *find_surface(const VariableIndex *l, Expr condition)
 {
     int way;
@@ -136,7 +136,7 @@ static bool is_watched(const Conditions *c, int surface)
     return false;
 }
 
-/* conditions that can be looked at before the accelerations are known */
+/* conditions that can be evaluated before the accelerations are known */
 static void push_conditions(CompiledEquations *nb, Conditions *c)
 {
     const VariableIndex *l = nb->layout;
@@ -156,7 +156,7 @@ static void push_conditions(CompiledEquations *nb, Conditions *c)
         else if (number >= 0)
             push_condition(nb, c, variable_index_on_surfaces(l, system_surface(l->system, number)),
                            (Guard){.surface = number});
-        else if (on == NULL) /* else its bend lies on a surface that is watched */
+        else if (on == NULL) /* else a surface monitors its kink */
             push_condition(nb, c, variable_index_on_surfaces(l, switches[i].condition),
                            (Guard){.surface = -1});
         nb->eq.time_only += i < time_only ? c->roots.count - before : 0;
@@ -193,8 +193,9 @@ done:
     return status;
 }
 
-/* How a surface is left: by h where signs reach that, else h', else h''; and what has to be 0
- * beside it. */
+/* The lowest time derivative of h that signs affect, h, h' or h'': slip, which is 0 while the
+ * motion slides along the surface. `off`, which has to be 0 besides, is the derivative below it, 0
+ * for h itself. */
 static Status slip_of(const VariableIndex *l, Expr h, Expr *slip, Expr *off, Diag *diag)
 {
     const unsigned solved = 1U << SYMBOL_ALGEBRAIC | 1U << SYMBOL_STATE_RATE;

@@ -1,14 +1,14 @@
-/* compiled_rates.c: rates by a program of their own, and whether pivots are more than rounding
+/* compiled_rates.c: rates by a program of their own, and whether pivots exceed rounding error
  *
- * What a run asks for most of all, where nothing else has to be seen to: accelerations, what tells
- * their rounding, power, and q' where it isn't u, all of t, q and u. */
+ * A run evaluates these most often, where nothing else is needed: accelerations, their rounding
+ * indicators, power, and q' where it isn't u, all functions of t, q and u. */
 #include "simulate/equations/compiled_equations_impl.h"
 
 #include "base/four.h"
 
 #include <string.h>
 
-#define MOST_EXCESS 1e12 /* of what a pivot of M is the rest of: it would be rounding */
+#define MOST_EXCESS 1e12 /* entry before elimination over pivot: more is rounding error */
 
 static bool has_few_pivots(const double *excess, int count)
 {
@@ -84,7 +84,7 @@ static void push_roots(CompiledEquations *nb, const Constrained *solved, Compile
         LIST_PUSH(*roots, system_q_rate(l->system, i));
     nb->rates_excess = roots->count;
     for (int j = 0; j < l->nu; j++)
-        if (!expr_is_number(solved->excess[j])) /* of speeds that rows tell it is 1 */
+        if (!expr_is_number(solved->excess[j])) /* it is 1 for speeds that rows determine */
             LIST_PUSH(*roots, solved->excess[j]);
     nb->rates_pivots = roots->count - nb->rates_excess;
 }

@@ -1,4 +1,5 @@
-/* elimination.c: the accelerations that a run's program tells, so that nothing has to be solved */
+/* elimination.c: accelerations that a run's program computes in closed form, so that no linear
+ * system is left */
 #include "simulate/equations/elimination.h"
 #include "formulate/dynamics/cutset_equations.h"
 #include "formulate/reduced/accelerations.h"
@@ -6,7 +7,7 @@
 #include "base/memory.h"
 #include "compile/program.h"
 
-/* before they are known: nothing in them may follow from accelerations */
+/* early: none of them may depend on accelerations */
 static bool is_known_early(const Expr *eliminated, int count)
 {
     for (int i = 0; i < count; i++)
@@ -15,7 +16,7 @@ static bool is_known_early(const Expr *eliminated, int count)
     return true;
 }
 
-/* where no row holds the speeds */
+/* where no row constrains the speeds */
 static Status choose_free(const VariableIndex *l, EliminatedBy *by, Expr *eliminated, Diag *diag)
 {
     const EquationForm *r = system_run(l->system);

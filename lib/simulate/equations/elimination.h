@@ -7,13 +7,13 @@
 #include "formulate/reduced/prescribed.h"
 #include "simulate/equations/variable_index.h"
 
-/* u' on the layout's surfaces, then what tells its rounding, or where all is prescribed the
- * multipliers (2 nu): new, also where it is not told. */
+/* u' on the layout's surfaces, followed by its rounding indicators or, where all speeds are
+ * prescribed, by the multipliers (2 nu). New, also where there is no such form. */
 MUST_USE Status elimination_choose(const VariableIndex *layout, EliminatedBy *by, Expr **out,
                                    Diag *diag);
 
-/* Where these constraint rows hold the speeds: new, constrained_free(). NULL: it is left to
- * numbers, as where it takes more than `most` products. */
+/* Where these rows constrain the speeds. New, free with constrained_free(). NULL: numeric
+ * factorisation does it, as where elimination takes more than `most` products. */
 Constrained *elimination_of_rows(const VariableIndex *layout, const int *rows, int row_count,
                                  double most);
 

@@ -1,4 +1,4 @@
-/* factors.c: sparse factors as long as they are sound, full ones else */
+/* factors.c: sparse factors while they are well conditioned, full ones otherwise */
 #include "simulate/equations/factors.h"
 
 #include "algebra/linear.h"
@@ -10,16 +10,16 @@
 #include <string.h>
 
 #define FEW 40    /* unknowns for full matrices from the start */
-#define ILL 1e-12 /* least pivot over largest, below which full matrices decide */
+#define ILL 1e-12 /* least pivot over largest, below which full matrices are used */
 
 struct Factors {
     int n;
     const int *start, *row;
     Sparse *sparse; /* NULL: full only */
-    double *scaled; /* values over the size of their row, then of their column */
+    double *scaled; /* each value over the size of its row, then of its column */
     double *row_size, *column_size;
-    double *full; /* by rows; NULL where it would be too large */
-    bool is_full; /* as the last values were factored */
+    double *full; /* row by row; NULL where it would be too large */
+    bool is_full; /* how the last values were factored */
 };
 
 Factors *factors_new(int n, const int *start, const int *row, bool full)

@@ -1,5 +1,5 @@
-/* failure_diagnosis.c: frames at the same point, what has no mass, a driver at the end of its loop
- */
+/* failure_diagnosis.c: coincident frames, motions without mass, drivers at the end of their
+ * range */
 #include "simulate/equations/failure_diagnosis.h"
 
 #include "algebra/linear.h"
@@ -11,13 +11,13 @@
 #include <math.h>
 #include <string.h>
 
-#define CLOSE    1e-12 /* m: positions are solved to less */
+#define CLOSE    1e-12 /* m: positions are solved more closely than this */
 #define PART     1e-3  /* of the largest part in a driver's row: less is rounding */
 #define ROUNDING 1e-13 /* of the largest entry of the mass matrix */
 #define SINGULAR 1e-9  /* of a scaled column of it */
-#define BRIEF    1e-6  /* of a time that is short: rates are as good as constant */
+#define BRIEF    1e-6  /* of a time that counts as short: rates are taken as constant */
 
-enum { MOST_LOOKED_AT = 100 }; /* speeds; the cost is of their fourth power */
+enum { MOST_LOOKED_AT = 100 }; /* speeds; the cost grows with their fourth power */
 
 static bool value_at(const VariableIndex *l, Parameters *parameters, Expr e, double t,
                      const double *y, double *out)
@@ -28,7 +28,7 @@ static bool value_at(const VariableIndex *l, Parameters *parameters, Expr e, dou
     return probe_at(l, parameters, e, &row, out, &ignored) == OK;
 }
 
-/* a spring, damper or actuator between frames that meet: it has no direction there */
+/* a spring, damper or actuator whose two frames coincide: its direction is undefined there */
 bool failure_meeting(const VariableIndex *l, Parameters *parameters, double t, const double *y,
                      const char *what, Diag *diag)
 {
@@ -92,7 +92,7 @@ static bool report_massless(const VariableIndex *l, const char *what, Diag *diag
 {
     const EquationForm *run = system_run(l->system);
 
-    /* constraints may lend a speed the mass of another */
+    /* constraints may couple a speed to the mass of another */
     if (l->m > 0 || system_form_mass(l->system, NULL) != OK)
         return false;
     for (int j = 0; j < l->nu; j++) {
@@ -129,7 +129,8 @@ static const char *thin_beam(const VariableIndex *l)
 }
 
 /* [S M S; Phi_u S R] at y, (nu + m) x nu: S divides columns by the root of the diagonal entry of M,
- * which `scale` tells; where that is zero it stays. R divides rows of Phi_u by their size. */
+ * which is returned in `scale`; a column where that is zero is unchanged. R divides rows of Phi_u
+ * by their size. */
 static void scaled_rows(const VariableIndex *l, Parameters *parameters, double t, const double *y,
                         double *rows, double *scale)
 {
@@ -158,8 +159,8 @@ static void scaled_rows(const VariableIndex *l, Parameters *parameters, double t
     }
 }
 
-/* Speeds, in `shares`, that together move no mass and obey the constraints: of column j what the
- * others don't make of it is nothing. */
+/* Speeds that together move no mass and obey the constraints, returned in `shares`: column j is a
+ * linear combination of the others. */
 static bool find_massless(const VariableIndex *l, const double *rows, int j, double *shares)
 {
     const int count = l->nu + l->m;
@@ -201,7 +202,7 @@ static int name_shares(const VariableIndex *l, const double *shares, const doubl
     return count;
 }
 
-/* the way out where what moves without mass is a body, a beam, or several */
+/* what to change where the motion without mass belongs to a body, a beam, or several parts */
 static void hint_at_mass(const char *beam, Diag *diag)
 {
     if (beam != NULL)
@@ -214,8 +215,8 @@ static void hint_at_mass(const char *beam, Diag *diag)
                         "motion out by a joint with less freedom, as universal for spherical");
 }
 
-/* Speeds that together move no mass at y, and that constraints leave: that about which a straight
- * beam turns, or a rod without inertia between two ball joints. */
+/* Speeds that together move no mass at y and that constraints don't prevent. Examples: the rotation
+ * of a straight beam about its axis, or of a rod without inertia between two ball joints. */
 static bool report_massless_here(const VariableIndex *l, Parameters *parameters, double t,
                                  const double *y, const char *what, Diag *diag)
 {
@@ -246,7 +247,8 @@ static bool report_massless_here(const VariableIndex *l, Parameters *parameters,
     return found;
 }
 
-/* what rows take part with in a driver's row, and what is left of it */
+/* the share of each constraint row in a driver's row, and the part of the driver's row that is
+ * left */
 static double find_parts(const VariableIndex *l, const Equations *equations, int driver,
                          double *parts)
 {
@@ -285,7 +287,7 @@ static void add_joint(const char *name, const char **named, int *count)
     named[(*count)++] = name;
 }
 
-/* joints that a row is of or that move it, each once */
+/* joints that a row belongs to or that move it, each once */
 static void add_joints(const VariableIndex *l, const Equations *equations, int row,
                        const char **named, int *count)
 {

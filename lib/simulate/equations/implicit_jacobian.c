@@ -1,4 +1,5 @@
-/* implicit_jacobian.c: rows of implicit equations, their derivatives, and where these go */
+/* implicit_jacobian.c: rows of the implicit equations, their derivatives, and the positions of
+ * these in dF/dw + c dF/dw' */
 #include "simulate/equations/implicit_jacobian.h"
 
 #include "algebra/linear.h"
@@ -12,11 +13,12 @@
 
 typedef LIST(Expr) ImplicitJacobianRoots;
 
-/* what is added at a place of the matrix: a product of two entries of the Jacobian, or of less */
+/* A term that is added to an entry of the matrix: a product of two entries of the Jacobian, of one
+ * and 1, or 1. */
 typedef struct ImplicitJacobianTerm {
     int entry, other;        /* of the Jacobian; -1: 1 */
-    int row;                 /* constraint that has to be in use, or mustn't; -1: none */
-    bool is_unused, by_rate; /* it mustn't; times c */
+    int row;                 /* constraint that has to be in use, or out of use; -1: none */
+    bool is_unused, by_rate; /* it has to be out of use; the term is multiplied by c */
     double sign;
 } ImplicitJacobianTerm;
 
@@ -24,7 +26,7 @@ struct ImplicitSlopes {
     const VariableIndex *l;
     Parameters *parameters;
     Motion *motion;
-    bool is_asked, is_made; /* made once, if it can be */
+    bool is_asked, is_made; /* made once, if possible */
     /* columns of the Jacobian: [x'; z], u' and lambda, q, u, x; rows: G, balance, q', references,
      * Phi, Phi_u u - nu */
     int network, by_rate, states;
@@ -38,12 +40,13 @@ struct ImplicitSlopes {
     LIST(int) columns;
     int *place;
     Pattern pattern;
-    bool *in_use; /* constraint rows */
-    /* of networks: G by [x'; z], where its entries are, and what each column that G reads moves */
+    bool *in_use; /* whether each constraint row is in use */
+    /* of networks: dG/d[x'; z], the positions of its entries, and the derivatives of [x'; z] by
+     * each column that G reads */
     Sparse *factors;
     LIST(int) own;
     LIST(int) reads;
-    LIST(int) readers; /* rows of the Jacobian behind G that read it */
+    LIST(int) readers; /* rows of the Jacobian after G that read it */
     double *entries, *moved;
 };
 
@@ -105,7 +108,7 @@ static Status push_rows(const ImplicitSlopes *j, ImplicitJacobianRoots *roots)
     return OK;
 }
 
-/* the inputs that are unknowns, a column each */
+/* the inputs that are unknowns, one column each */
 static void push_moves(const ImplicitSlopes *j, ColumnMoves *moves)
 {
     const VariableIndex *l = j->l;
@@ -120,9 +123,9 @@ static void push_moves(const ImplicitSlopes *j, ColumnMoves *moves)
     moves_push(moves, follow + l->n + l->nu, l->x, l->nx);
 }
 
-/* --- where entries go --- */
+/* --- positions of entries --- */
 
-/* the row of F that a row of the Jacobian stands in, with its sign there */
+/* the row of F that corresponds to a row of the Jacobian, with its sign there */
 static int row_of(const ImplicitSlopes *j, int row, double *sign)
 {
     const VariableIndex *l = j->l;
@@ -137,7 +140,7 @@ static int row_of(const ImplicitSlopes *j, int row, double *sign)
     return j->tail + row - j->position;
 }
 
-/* the entry of w that a column of the Jacobian moves, or whose rate it is */
+/* the entry of w that a column of the Jacobian belongs to, or whose rate it is */
 static int column_of(const ImplicitSlopes *j, int column)
 {
     const VariableIndex *l = j->l;
@@ -148,7 +151,7 @@ static int column_of(const ImplicitSlopes *j, int column)
     return own < l->nu ? l->n + own : j->tail + own - l->nu;
 }
 
-/* the constraint that an entry is of, by its row or as a multiplier's; -1: none */
+/* the constraint that an entry belongs to, by its row or as a multiplier's column; -1: none */
 static int constraint_of(const ImplicitSlopes *j, int row, int column)
 {
     const int multiplier = column - j->network - j->l->nu;
@@ -185,7 +188,8 @@ static void add_entries(ImplicitSlopes *j)
     }
 }
 
-/* what stands in F as a rate by itself: all of y but u; L and M where their rows aren't in use */
+/* rates that F contains with coefficient 1: all of y but u; L and M where their rows aren't in
+ * use */
 static void add_rates(ImplicitSlopes *j)
 {
     const VariableIndex *l = j->l;
@@ -247,8 +251,8 @@ static void find_network(ImplicitSlopes *j)
     MEM_FREE(row, column, reads, reader);
 }
 
-/* Places of these entries stand behind the terms': of x' and of each reader, by each column that G
- * reads. */
+/* Entries that come through the network follow the terms' entries: of x' and of each reader, by
+ * each column that G reads. */
 static void add_network(ImplicitSlopes *j)
 {
     double sign;
@@ -265,8 +269,8 @@ static void add_network(ImplicitSlopes *j)
     }
 }
 
-/* Whether G reads a multiplier: where rows are redundant that is one of all of them, which don't
- * follow from one each. */
+/* Whether G reads a multiplier. Where rows are redundant the multipliers that it reads are those of
+ * all rows, each of which follows from several unknowns. */
 static bool reads_multiplier(const ImplicitSlopes *j)
 {
     for (int c = 0; c < j->reads.count; c++)
@@ -275,7 +279,7 @@ static bool reads_multiplier(const ImplicitSlopes *j)
     return false;
 }
 
-/* --- making --- */
+/* --- construction --- */
 
 static void find_matrix(ImplicitSlopes *j)
 {
@@ -293,7 +297,7 @@ static void find_matrix(ImplicitSlopes *j)
 
 static bool make(ImplicitSlopes *j)
 {
-    const bool before = mem_scratch(true); /* numbers that each call finds anew */
+    const bool before = mem_scratch(true); /* numbers that each call computes anew */
     const int columns = j->network + j->by_rate + j->states;
     ImplicitJacobianRoots roots = {0};
     ColumnMoves moves = {0};
@@ -313,7 +317,7 @@ static bool make(ImplicitSlopes *j)
         find_matrix(j);
         sound = used == j->l->m || !reads_multiplier(j);
     } else {
-        arena_reset(arena); /* what was too large is given up: others go on */
+        arena_reset(arena); /* the program was too large and is discarded */
     }
     LIST_FREE(moves);
     LIST_FREE(roots);
@@ -339,7 +343,7 @@ int implicit_jacobian_pattern(void *context, const int **row, const int **column
 
 /* --- at a state --- */
 
-/* what [x'; z] do where a column moves: G_e de = -G_w, a solution each */
+/* the change of [x'; z] with each column: G_e de = -G_w, one solution each */
 static bool solve_network(ImplicitSlopes *j)
 {
     const Pattern *p = jacobian_pattern(j->jacobian);
@@ -360,7 +364,7 @@ static bool solve_network(ImplicitSlopes *j)
     return true;
 }
 
-/* the derivative of a row of the Jacobian by what [x'; z] move by */
+/* the derivative of a row of the Jacobian by the change `moved` of [x'; z] */
 static void follow_network(const ImplicitSlopes *j, const double *moved, double *out)
 {
     const Pattern *p = jacobian_pattern(j->jacobian);

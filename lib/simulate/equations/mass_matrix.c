@@ -1,7 +1,8 @@
-/* mass_matrix.c: forces and moments passed on towards the datum, column by column
+/* mass_matrix.c: M (nu x nu) column by column, from forces and moments passed on towards the datum
  *
- * f, t: force and moment on a place, in its axes; s its step, R the rotation to the axes of its
- * parent, r the way from there. What a place passes on is R f and R (t + s x f) + r x R f. */
+ * f, t: force and moment on a place, in its axes; s its displacement, R the rotation to the axes of
+ * its parent, r the vector from the parent's origin. A place passes on the force R f and the moment
+ * R (t + s x f) + r x R f. */
 #include "simulate/equations/mass_matrix.h"
 
 #include "base/memory.h"
@@ -10,8 +11,8 @@
 #include <string.h>
 
 typedef struct MassMatrixShare {
-    int at;     /* in M */
-    int number; /* which of the needs */
+    int at;     /* index into M */
+    int number; /* index into the needs */
 } MassMatrixShare;
 
 struct MassMatrix {
@@ -19,13 +20,13 @@ struct MassMatrix {
     LIST(MassMatrixShare) shares;
     LIST(Expr) needs;
     Pattern places;
-    int *pair;  /* where the entries of pairs of speeds stand, as they are met, each and across */
-    int next;   /* of those, in a pass */
+    int *pair;  /* positions of entries of pairs in the order of the pass, and transposed */
+    int next;   /* the next of those in a pass */
     double *at; /* M */
 };
 
-/* Pairs that are met on the ways towards the datum, those of one place in the column of the later
- * one; then shares. */
+/* Pairs of speeds that meet on the paths towards the datum; two speeds of one place are in the
+ * column of the later one. Shares follow. */
 static void find_pairs(MassMatrix *matrix)
 {
     const CompositeMass *mass = matrix->mass;
@@ -118,7 +119,7 @@ static void column(MassMatrix *matrix, const double *numbers, int k)
             const int j = mass->speed_at[i];
             const MassSpeed *met = &mass->speeds[j];
 
-            /* those of one place stand in the column of the later one */
+            /* two speeds of one place are in the column of the later one */
             if (p != own->place || j <= k)
                 put_pair(matrix, (met->turns ? dot(numbers + met->turn, t) : 0) +
                                      (met->slides ? dot(numbers + met->slide, f) : 0));
@@ -134,7 +135,7 @@ static void column(MassMatrix *matrix, const double *numbers, int k)
     }
 }
 
-/* all axes are those of the datum: the force stays, and the moment is about z */
+/* all axes are parallel to those of the datum: the force is unchanged, and the moment is about z */
 static void planar_column(MassMatrix *matrix, const double *numbers, int k)
 {
     const CompositeMass *mass = matrix->mass;
@@ -161,7 +162,7 @@ static void planar_column(MassMatrix *matrix, const double *numbers, int k)
 
 void mass_matrix_set(MassMatrix *matrix, const double *numbers)
 {
-    /* pairs that no place passes on are and stay 0, but for shares */
+    /* pairs that no place passes on are 0 throughout, except for shares */
     for (int i = 0; i < matrix->shares.count; i++)
         matrix->at[matrix->shares.at[i].at] = 0;
     matrix->next = 0;

@@ -1,4 +1,4 @@
-/* mode_forms.c: Hessenberg forms by sides of switches */
+/* mode_forms.c: Hessenberg forms by switch states */
 #include "simulate/equations/mode_forms.h"
 
 #include "base/memory.h"
@@ -18,7 +18,7 @@ struct ModeForms {
     int switches;
     double bytes;
     LIST(Kept) kept;
-    int oldest; /* where all the room is in use: whose place is next */
+    int oldest; /* when memory is full: the form that is replaced next */
 };
 
 ModeForms *mode_forms_new(int switches)

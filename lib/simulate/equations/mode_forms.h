@@ -1,7 +1,8 @@
-/* mode_forms.h: Hessenberg forms of linear equations, one a mode of switches, kept for a run
+/* mode_forms.h: Hessenberg forms of linear equations, one per mode of the switches, cached for a
+ * run
  *
- * A run comes back to most of its modes, and a form costs as much as many steps. Those kept longest
- * are forgotten where memory would grow without bound. */
+ * A run returns to most of its modes, and computing a form costs as much as many steps. The oldest
+ * forms are discarded where memory would grow without bound. */
 #ifndef COTREE_SIMULATE_EQUATIONS_MODE_FORMS_H
 #define COTREE_SIMULATE_EQUATIONS_MODE_FORMS_H
 
@@ -11,10 +12,11 @@ typedef struct ModeForms ModeForms;
 
 ModeForms *mode_forms_new(int switches); /* new; free with mode_forms_free() */
 void mode_forms_free(ModeForms *forms);  /* NULL is fine */
-/* The form with the switches on these sides; borrowed until the next mode_forms_store(). NULL: none
- * is kept. */
+/* The form of these switch states; borrowed until the next mode_forms_store(). NULL: none is
+ * stored. */
 const HessenbergForm *mode_forms_find(const ModeForms *forms, const bool *closed);
-/* Keep `given` for these sides, of which none is kept. The result is borrowed likewise. */
+/* Store `given` for these switch states, for which none is stored. The result is borrowed
+ * likewise. */
 const HessenbergForm *mode_forms_store(ModeForms *forms, const bool *closed, HessenbergForm *given);
 
 #endif

@@ -1,7 +1,8 @@
 /* motion.c: accelerations, multipliers and network rates from the equations; projection
  *
- * The matrix factored last is kept with the t and q it belongs to: a projection that ends
- * at q leaves it ready for the first evaluation there. */
+ * Solves [M Phi_u^T; Phi_u 0] [u'; lambda] = [F; gamma] (nu + rows in use). The last factorisation
+ * is kept with the t and q that it belongs to: after a projection that ends at q, the first
+ * evaluation there uses it. */
 #include "simulate/equations/motion_impl.h"
 
 #include "algebra/linear.h"
@@ -12,11 +13,11 @@
 #include <string.h>
 
 #define PROJECTION_SWEEPS 8
-#define NEAR              0.1  /* independence of rows: a singular position isn't far; */
-#define FAR               0.2  /* and here it is, for all of a step */
-#define LEAST_SIZE        1e-6 /* of a row, as its entries go */
+#define NEAR              0.1  /* independence of rows: below, a singular position is near */
+#define FAR               0.2  /* above, it is far for the whole step */
+#define LEAST_SIZE        1e-6 /* of a row, relative to its entries */
 #define REFERENCE_ERROR_FLOOR                                                                      \
-    0.03 /* rad: what a step may leave between an angle and its reference */
+    0.03 /* rad: largest difference of an angle and its reference after a step */
 
 static bool rate(void *context, double t, const double *y, double *out);
 static bool project(void *context, double t, double *y);
@@ -209,8 +210,8 @@ void motion_switches(Motion *mo, double t, const double *y, double *out)
     eq->switches(eq->context, t, y, y + eq->n, y + eq->n + eq->nu, out);
 }
 
-/* Residuals are measured as distances: a row over the largest entry it has had in Phi_u, where
- * steps began. */
+/* Residuals are measured as distances: a row over the largest entry that it has had in Phi_u at
+ * starts of steps. */
 static void measure_rows(Motion *mo)
 {
     for (int k = 0; k < mo->eq->m; k++) {
@@ -221,7 +222,7 @@ static void measure_rows(Motion *mo)
     }
 }
 
-/* where another step begins than the last one */
+/* The next step starts at another time than the last one. */
 static void close_trend(Trend *trend)
 {
     trend->before = trend->now;
@@ -229,8 +230,8 @@ static void close_trend(Trend *trend)
     trend->at = NAN;
 }
 
-/* The least that it comes to up to h behind t, as it went on from the step before; where that was
- * not asked for, by the part that is left by another measure (NAN: not known). */
+/* The least independence up to t + h, extrapolated linearly from the step before. Where it was not
+ * computed there, the fraction `part` that another measure predicts is used (NAN: not known). */
 static double follow_trend(Trend *trend, double t, double h, double now, double part)
 {
     trend->now = now;
@@ -240,8 +241,8 @@ static double follow_trend(Trend *trend, double t, double h, double now, double 
     return part < 1 ? part * now : now;
 }
 
-/* Rows that are always independent need no look at how much so; how large they are is looked at
- * where they are brought back. */
+/* Rows that are always independent need no check of their independence. Their sizes are measured
+ * where the state is projected. */
 static void start_determined(Motion *mo, double t, double h)
 {
     mo->began = t;
@@ -250,11 +251,12 @@ static void start_determined(Motion *mo, double t, double h)
     mo->is_projecting = false;
 }
 
-/* Off the manifold the constraints contradict each other a little, and near a singular position the
- * accelerations that obey them grow without bound: there they are those of the nearest state on it.
- * These are two fields that agree on the manifold alone; a step that took some stages from one and
- * some from the other would be of no order. Hence it is decided where a step begins, by how
- * independent the rows are there and, as they went on from the step before, will be at its end. */
+/* Off the manifold the constraints are slightly inconsistent, and near a singular position the
+ * accelerations that satisfy them grow without bound. There the accelerations are those of the
+ * nearest state on the manifold. The two vector fields agree only on the manifold: a step that took
+ * some stages from one and some from the other would have no order. So the choice is made at the
+ * start of a step, by the independence of the rows there and by its extrapolation to the end of the
+ * step. */
 static void begin(void *context, double t, const double *y, double h)
 {
     Motion *mo = context;
@@ -282,7 +284,7 @@ static void begin(void *context, double t, const double *y, double h)
         by_all = follow_trend(&mo->by_all, t, h, kkt_independence(mo->kkt, mo->eq->phi_u, mo->rows),
                               by_groups / mo->by_groups.now);
     mo->is_projecting = fmax(by_groups, by_all) < NEAR;
-    if (mo->is_projecting) /* as no factors may be asked for */
+    if (mo->is_projecting) /* no factors may be used then */
         mo->rounding_error = fmax(mo->rounding_error, kkt_rounding_error_at(mo->by_all.now));
     mo->is_far = fmax(by_groups, by_all) > FAR;
 }
@@ -298,7 +300,7 @@ static bool solve_on_manifold(Motion *mo, double t, const double *y)
     return motion_evaluate_all(mo, t, y) && motion_solve_rates(mo);
 }
 
-/* Most evaluations of small models are these, which would be bookkeeping for the most part. */
+/* Small models spend most evaluations here; anything else would be overhead. */
 static bool rate_outright(Motion *mo, double t, const double *y, double *out)
 {
     const Equations *eq = mo->eq;
@@ -394,7 +396,7 @@ static void move(Motion *mo, const double *du, double *q)
     equations_normalise(eq, q);
 }
 
-/* Phi_u du = bottom where Phi_u is a permutation but for signs: what is prescribed */
+/* Phi_u du = bottom where Phi_u is a permutation except for signs: prescribed speeds */
 static void take_prescribed(Motion *mo)
 {
     memset(mo->du, 0, (size_t)mo->eq->nu * sizeof(double));
@@ -402,9 +404,9 @@ static void take_prescribed(Motion *mo)
         pattern_add(mo->eq->rows, mo->eq->phi_u, mo->rows[k], mo->bottom[k], mo->du);
 }
 
-/* What rows of one speed each miss is that speed's alone, as of a driver: masses would have others
- * make up for it, which the drift of what is prescribed has nothing to do with. Whether there are
- * such rows. */
+/* The residual of a row with a single speed, as of a driver, corrects that speed alone. A
+ * correction weighted by masses would spread it over other speeds, although the drift of a
+ * prescribed speed has nothing to do with them. Returns whether there are such rows. */
 static bool take_single_rows(Motion *mo)
 {
     const Pattern *rows = mo->eq->rows;
@@ -428,12 +430,12 @@ static void take_missed_positions(Motion *mo)
         mo->bottom[k] = -mo->eq->phi[mo->rows[k]];
 }
 
-/* Whether a position is brought back by what the equations have eliminated themselves: to the
- * nearest by masses. Where elimination is sound no singular position is near (kkt_is_sound()), and
- * for what a step leaves that is as good. What drifts over many steps is off as the error test lets
- * it be, and belongs to the nearest position by the same measure: by masses, which depend on units,
- * a pendulum that goes round was read with two to four times the error. The stages of a step that
- * is projected all take one metric. */
+/* Whether a position is projected with the eliminated equations, which lead to the nearest position
+ * in the norm of M. Where elimination is sound no singular position is near (kkt_is_sound()), and
+ * for the residual of one step this norm is as good. Drift over many steps is as large as the error
+ * test allows, and is projected in the norm of the error test: in the norm of M, which depends on
+ * units, a rotating pendulum had two to four times the error. All stages of a projected step use
+ * one norm. */
 static bool moves_by_masses(Motion *mo)
 {
     return !mo->is_projecting && !mo->drifts && motion_is_eliminated(mo);
@@ -451,13 +453,14 @@ static void find_move(Motion *mo, bool by_masses)
         kkt_correct(mo->nearest_kkt, mo->bottom, mo->du);
 }
 
-/* Near a singular position the nearest by how errors are measured, not by masses: where rounding is
- * what is left as a residual, a light crank at its dead centre would go far to spare a heavy rocker
- * some 1e-16 rad.
+/* Near a singular position the nearest position is that in the norm of the error test, not of M:
+ * when the residual is rounding error, a light crank at its dead centre would move far to spare a
+ * heavy rocker some 1e-16 rad.
  *
- * Simplified Newton: one factorisation serves all sweeps. They go on to the limit of rounding, near
- * a singular position to the last bit: what is left as a residual turns the motion off its branch
- * there. At most a hundredth of the run's tolerance may be left where they don't get there. */
+ * Simplified Newton: one factorisation serves all sweeps. They continue to the limit of rounding,
+ * and near a singular position to the last bit, because a residual there turns the motion off its
+ * branch. Where the sweeps don't get there, at most a hundredth of the run's tolerance may
+ * remain. */
 static bool project_position(Motion *mo, double t, double *y)
 {
     bool by_masses;
@@ -485,11 +488,11 @@ static bool project_position(Motion *mo, double t, double *y)
     for (int sweep = 0; sweep < PROJECTION_SWEEPS && left > (by_masses ? 1e-15 : 1e-16) * size;
          sweep++) {
         if (left <= 1e-13 * size && left > 0.5 * before)
-            break; /* rounding */
+            break; /* rounding error */
         before = left;
         find_move(mo, by_masses);
         move(mo, mo->du, y);
-        motion_at_position(mo, t, y); /* factors of a matrix stay those of the first sweep */
+        motion_at_position(mo, t, y); /* the factors remain those of the first sweep */
         left = distance(mo);
         if (!isfinite(left))
             break;
@@ -511,7 +514,7 @@ static void add_speeds(const Motion *mo, double *u)
         u[j] += mo->du[j];
 }
 
-/* nu, where positions are */
+/* bring nu up to date; positions already are */
 static void bring_nu(const Equations *eq, const double *u, const double *x)
 {
     if (!eq->has_nu_early)
@@ -543,7 +546,8 @@ static bool project_velocity(Motion *mo, double t, const double *y, double *u, c
     return vector_is_finite(u, eq->nu);
 }
 
-/* Rows in use may be dependent where a step has led: there others hold y too. */
+/* Rows in use may have become dependent at the end of a step: the rows that replace them constrain
+ * y too. */
 static bool project_both(Motion *mo, double t, double *y)
 {
     const Equations *eq = mo->eq;

@@ -1,8 +1,9 @@
 /* motion_implicit.c: a motion as implicit equations F(t, w, w') = 0
  *
  * With multipliers, w = (y, L, M): L' = lambda and M' = mu of all rows, 0 where they aren't in use,
- * so that the equations keep their places when other rows come into use. In the embedded form w is
- * y, and F tells its rates. */
+ * so that the positions of the equations don't depend on the rows in use. F is the stabilised
+ * index-2 formulation (Gear, Gupta, Leimkuhler 1985): q' = N (u + Phi_u^T mu), M u' + Phi_u^T
+ * lambda = F, Phi = 0, Phi_u u = nu. In the embedded form w is y, and F is y' less its rates. */
 #include "simulate/equations/motion_impl.h"
 
 #include "algebra/linear.h"
@@ -163,7 +164,7 @@ static bool embedded_jacobian(void *context, double t, double c, const double *w
     return true;
 }
 
-/* --- what is offered --- */
+/* --- the interface to solvers --- */
 
 void motion_offer_implicit(Motion *mo, ImplicitJacobian offered)
 {
@@ -193,7 +194,7 @@ void motion_open_implicit(Motion *mo)
     mo->dae_weight = NEW_ARRAY(double, mo->ode.dae.n);
     for (int i = 0; i < mo->ode.dae.n; i++)
         mo->dae_weight[i] = eq->unit != NULL && i < mo->ode.n ? eq->unit[i] : 1;
-    mo->dae_weight[y - 1] = 1e20; /* work steers nothing */
+    mo->dae_weight[y - 1] = 1e20; /* work has no influence on other unknowns */
     mo->ode.dae.weight = mo->dae_weight;
     mo->is_tested = NEW_ARRAY(bool, mo->ode.dae.n);
     for (int i = 0; i < y; i++)

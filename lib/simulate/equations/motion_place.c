@@ -1,4 +1,4 @@
-/* motion_place.c: a motion brought to a place: its programs run there, its matrices factored */
+/* motion_place.c: evaluates a motion at a state: runs its programs and factors its matrices */
 #include "simulate/equations/motion_impl.h"
 
 #include "algebra/linear.h"
@@ -19,8 +19,8 @@ double motion_clock(const Motion *mo, double t)
 
 /* --- evaluation --- */
 
-/* whether references are those of the last evaluation, or so near that they choose the same turns
- */
+/* whether references are those of the last evaluation, or so near that they determine the same
+ * turns */
 static bool turns_alike(const Motion *mo, const double *near)
 {
     for (int k = 0; k < mo->eq->multi_turn_count; k++)
@@ -83,9 +83,9 @@ bool motion_factor(Motion *mo)
     return mo->is_factored;
 }
 
-/* Whether it is known by other means how independent rows are where the motion stands: far from
- * dependent, as a step foresees it; or near, so that each position is looked at when it is brought
- * back. Then pivots tell no more than whether rounding has left them. */
+/* Whether the independence of rows is known without pivots at the current state: far from
+ * dependent, by the extrapolation of the step; or near a singular position, where each position is
+ * checked when it is projected. Then pivots are only compared with rounding error. */
 static bool are_rows_known(const Motion *mo)
 {
     return (mo->is_far || mo->is_projecting) && motion_is_in_step(mo);
@@ -145,7 +145,7 @@ bool motion_find_network(Motion *mo, double t, const double *y)
     return true;
 }
 
-/* what evaluate() does, with signs on surfaces as they are */
+/* what evaluate() does, with the current signs on surfaces */
 bool motion_evaluate(Motion *mo, double t, const double *y)
 {
     if (!motion_find_network(mo, t, y))

@@ -1,7 +1,7 @@
-/* motion_renew.c: constraint rows and independent speeds chosen anew where they have worn out
+/* motion_renew.c: chooses constraint rows and independent speeds anew where the choice has worn out
  *
- * Which of redundant rows are in use, and which speeds of the embedded form are independent, is
- * good near the configuration at which it was chosen. */
+ * The choice of rows in use, where some are redundant, and of independent speeds in the embedded
+ * form is good only near the configuration at which it was made. */
 #include "simulate/equations/motion_impl.h"
 
 #include "algebra/rank.h"
@@ -12,8 +12,8 @@
 
 #define ROWS_WORN                                                                                  \
     0.5             /* of the pivot ratio when they were chosen: it falls to 0 within a few steps */
-#define DEARER 4    /* what a product of factors takes, over one of a straight line */
-#define POOR   1e-2 /* pivot ratio of rows that others may better */
+#define DEARER 4    /* cost of a product in factors over one in straight-line code */
+#define POOR   1e-2 /* pivot ratio of rows below which others may be better */
 
 bool motion_choose_independent(Motion *mo)
 {
@@ -44,7 +44,7 @@ void motion_partition(Motion *mo, double t, const double *y)
     mo->is_repartitioned = false;
 }
 
-/* Other rows in place of worn ones, where all of them, given in full, offer better. */
+/* Replace worn rows by others, where the rows of the full Phi_u offer better ones. */
 static bool choose_rows_of(Motion *mo, const double *phi_u)
 {
     const Equations *eq = mo->eq;
@@ -124,7 +124,7 @@ Renewed motion_renew(Motion *mo, double t, const double *y)
     return renewed;
 }
 
-/* The first steps may be small ones: what they foresee counts when there have been some. */
+/* The first steps may be small: their extrapolation counts after some steps only. */
 static bool elimination_pays(const Motion *mo, double steps_ahead)
 {
     const double ahead = steps_ahead * mo->factored / mo->steps;
@@ -142,6 +142,6 @@ Status motion_try_coordinate_partitioning(Motion *mo, double steps_ahead, Diag *
         return OK;
     mo->factored = mo->steps = 0;
     mo->is_evaluated = mo->is_factored = mo->is_alone = false;
-    mem_keep(mo); /* as it is now: where the call fails, so does what was evaluated behind it */
+    mem_keep(mo); /* as it is now: where the call fails, so does what was evaluated after it */
     return eq->eliminate(eq->context, mo->rows, mo->used, DEARER * kkt_products(mo->kkt), diag);
 }

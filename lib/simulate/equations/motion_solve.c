@@ -1,4 +1,4 @@
-/* motion_solve.c: accelerations, multipliers and network rates where a motion stands */
+/* motion_solve.c: accelerations, multipliers and network rates at the current state */
 #include "simulate/equations/motion_impl.h"
 
 #include "algebra/linear.h"
@@ -9,8 +9,8 @@
 #include <string.h>
 
 #define TURNS    50
-#define STALLED  3     /* turns that no longer shrink, */
-#define ROUNDING 1e-11 /* and are rounding below this */
+#define STALLED  3     /* turns without a decrease, */
+#define ROUNDING 1e-11 /* whose change below this is rounding error */
 #define LEAST    1e-15
 #define SUSPECT  1e-2 /* pivot ratio of Phi_d above which no position is singular */
 
@@ -46,9 +46,10 @@ static bool solve_augmented(Motion *mo)
     return true;
 }
 
-/* Accelerations don't depend on which speeds are independent, as long as Phi_d is sound: where it
- * is worn others are taken, in the middle of a step too. Near a singular position no choice is
- * sound, and the augmented form tells the same accelerations. */
+/* Accelerations don't depend on the choice of independent speeds as long as Phi_d is well
+ * conditioned. Where the choice is worn others are chosen, in the middle of a step too. Near a
+ * singular position every choice is ill conditioned, and the augmented form gives the same
+ * accelerations. */
 static bool solve_embedded(Motion *mo)
 {
     bool sound = motion_factor_embedded(mo);
@@ -68,7 +69,7 @@ static bool solve_embedded(Motion *mo)
     return true;
 }
 
-/* The multipliers of rows in use among all; 0 for the others. */
+/* Copy the multipliers of rows in use to their positions among all rows; 0 for the others. */
 static void place_multipliers(Motion *mo)
 {
     memset(mo->lambda_all, 0, (size_t)mo->eq->m * sizeof(double));
@@ -76,7 +77,7 @@ static void place_multipliers(Motion *mo)
         mo->lambda_all[mo->rows[k]] = mo->lambda[k];
 }
 
-/* after u' is known: power may read it and the multipliers, also in the embedded form */
+/* call after u' is known: power may read it and the multipliers, also in the embedded form */
 void motion_bring_power(Motion *mo, const double *acceleration)
 {
     if (mo->eq->accelerated == NULL)
@@ -104,7 +105,8 @@ void motion_write_rates(const Motion *mo, double *out)
     out[multi_turn_place(eq) + eq->multi_turn_count] = eq->power != NULL ? *eq->power : 0;
 }
 
-/* Multipliers of all rows from those in use: the least of all that give the same forces. */
+/* Multipliers of all rows from those in use: of all that give the same forces, the ones of least
+ * norm. */
 void motion_spread_multipliers(Motion *mo)
 {
     const Equations *eq = mo->eq;
@@ -121,7 +123,7 @@ void motion_spread_multipliers(Motion *mo)
     mem_free(phi_u);
 }
 
-/* how far w moved in a turn, in the sizes of its entries; 0: by their last digits */
+/* the change of w in a turn, relative to the sizes of its entries; 0: within their last digits */
 static double turn_of(Motion *mo, int n)
 {
     double largest = 0;
@@ -143,12 +145,13 @@ static void note_size(Motion *mo, int n)
         mo->solved_size[i] = fmax(mo->solved_size[i], fabs(mo->solved[i]));
 }
 
-/* A network that reads u' or lambda, while forces read the network: w = F(w), w = [x'; z], where F
- * solves for u' and lambda at w, and then for w. Where forces don't read what follows from u' the
- * second turn is the last. A reflected inertia larger than that of M makes F diverge by itself.
+/* A network that reads u' or lambda, while forces read the network: the fixed point w = F(w), w =
+ * [x'; z], where F solves for u' and lambda at w, and then for w. Where forces don't depend on what
+ * follows from u' the second turn is the last. A reflected inertia larger than that of M makes the
+ * iteration w <- F(w) diverge; Anderson's acceleration is applied.
  *
- * Ends where w stands, or where it moves by rounding alone: what is small among large terms that
- * cancel has fewer digits. */
+ * Ends where w doesn't change, or changes by rounding alone: a small difference of large terms has
+ * fewer digits. */
 static bool solve_together(Motion *mo)
 {
     const Equations *eq = mo->eq;
@@ -183,7 +186,7 @@ static bool solve_together(Motion *mo)
     return false;
 }
 
-/* u' and lambda in the augmented form, with what the network reads of them */
+/* Solve for u' and lambda in the augmented form, with what the network reads of them. */
 bool motion_solve_plain(Motion *mo)
 {
     return mo->eq->network_reads != NULL ? solve_together(mo) : solve_augmented(mo);

@@ -1,7 +1,8 @@
-/* motion_surfaces.c: a motion that slides along surfaces its equations jump on
+/* motion_surfaces.c: a motion that slides along surfaces on which its equations jump
  *
- * What jumps there stands in the equations as a sign between -1 and 1, which is found such that the
- * motion stays. A projection onto the surfaces goes the way that signs push it. */
+ * The jumping term is replaced by a sign between -1 and 1, which is solved for such that the motion
+ * stays on the surface (Filippov 1988). A projection onto the surfaces moves along the effect of
+ * signs on the rates. */
 #include "simulate/equations/motion_impl.h"
 
 #include "algebra/linear.h"
@@ -28,7 +29,7 @@ typedef struct Where {
     const double *y;
 } Where;
 
-/* slip and how far off, everything solved with these signs */
+/* slip and distance from the surfaces, with everything solved for these signs */
 static bool try_signs(void *context, const double *signs, double *slip)
 {
     const Where *at = context;
@@ -65,7 +66,7 @@ bool motion_find_signs(Motion *mo, double t, const double *y)
 
 /* --- projection --- */
 
-/* u' and x' as they were solved last, in their places of y; 0 elsewhere */
+/* u' and x' of the last solution, at their indices in y; 0 elsewhere */
 static void keep_way(const Motion *mo, double *way)
 {
     const Equations *eq = mo->eq;
@@ -75,7 +76,8 @@ static void keep_way(const Motion *mo, double *way)
     memcpy(way + eq->n + eq->nu, mo->solved, (size_t)eq->nx * sizeof(double));
 }
 
-/* One move along what unit signs do to the rates, which changes what is off as they change slip. */
+/* One move along the effect of unit signs on the rates, which changes the distance from the
+ * surfaces as the signs change slip. */
 static bool sweep_surfaces(Motion *mo, const Where *at, double *y)
 {
     int count = mo->eq->slide_count, length = motion_length(mo);

@@ -1,4 +1,4 @@
-/* netdae.c: G and its derivatives by x, x' and z in numbers */
+/* netdae.c: G and its derivatives by x, x' and z, compiled to numbers */
 #include "simulate/equations/netdae.h"
 
 #include "algebra/linear.h"
@@ -13,26 +13,26 @@ struct NetDae {
     Parameters *parameters;
     Motion *motion;
     Dae dae;
-    Probe *probe; /* G by x, x', z; power */
+    Probe *probe; /* computes G, its derivatives by x, x', z, and power */
     bool is_compiled, is_linear;
     Pattern pattern; /* of the Jacobian by w */
-    int *place;      /* in it, of a slope, and behind them of work' */
+    int *place;      /* index into it of each derivative, then of work' */
     double *weight;
     bool *has_rate;
-    ModeForms *forms; /* where the equations are linear; NULL: not asked for yet */
+    ModeForms *forms; /* where the equations are linear; NULL: not needed yet */
 };
 
 /* --- compiling --- */
 
 typedef LIST(Expr) Values;
 
-/* of [x; z] in w: work stands between them */
+/* index of [x; z] in w: work is between them */
 static int shifted(const VariableIndex *l, int place)
 {
     return place < l->nx ? place : place + 1;
 }
 
-/* slopes by x' and by x share a place */
+/* derivatives by x' and by x have a common entry */
 static void find_pattern(NetDae *d)
 {
     const VariableIndex *l = d->l;
@@ -48,7 +48,7 @@ static void find_pattern(NetDae *d)
         column[k] = shifted(l, by < l->nx ? by : by - l->nx);
         d->is_linear = d->is_linear && (slopes[k].kinds & ~(1U << SYMBOL_PARAMETER)) == 0;
     }
-    /* work' alone: what it follows from needn't be told to a solver */
+    /* only the derivative by work': others have no influence on the solution */
     row[count] = column[count] = l->nx;
     d->place = NEW_ARRAY(int, count + 1);
     d->pattern = pattern_of(d->dae.n, d->dae.n, count + 1, row, column, d->place);
@@ -189,7 +189,7 @@ NetDae *netdae_new(const VariableIndex *l, Parameters *parameters, Motion *motio
     d->weight = NEW_ARRAY(double, d->dae.n);
     d->has_rate = NEW_ARRAY(bool, d->dae.n);
     for (int i = 0; i < d->dae.n; i++) {
-        d->weight[i] = i == l->nx ? 1e20 : 1; /* work steers nothing */
+        d->weight[i] = i == l->nx ? 1e20 : 1; /* work has no influence on other unknowns */
         d->has_rate[i] = i <= l->nx;
     }
     d->dae.weight = d->weight;

@@ -2,7 +2,7 @@
  *
  *     G([x'; z], x, t) = 0,   work' = power    in w = (x, work, z)
  *
- * Derivatives are formed in symbols, and compiled when a solver starts with them first. */
+ * Derivatives are symbolic, and are compiled when a solver first needs them. */
 #ifndef COTREE_SIMULATE_EQUATIONS_NETDAE_H
 #define COTREE_SIMULATE_EQUATIONS_NETDAE_H
 

@@ -1,4 +1,4 @@
-/* netsolve.c: the network's equations in numbers */
+/* netsolve.c: solves the network's equations G(w) = 0, w = [x'; z], numerically */
 #include "simulate/equations/netsolve.h"
 
 #include "algebra/linear.h"
@@ -10,23 +10,23 @@
 #include <math.h>
 #include <string.h>
 
-#define KEPT       4 /* solutions with the same factors: a step's end is looked at from all sides */
+#define KEPT       4 /* solutions with the same factors: a step's end is evaluated often */
 #define ITERATIONS 100
-#define ENOUGH     1e-9 /* of a step; what is left then is its square */
-#define LEAST_SIZE 1e-3 /* of an unknown, */
-#define FAR_OFF    1e3  /* times as large on the way: not what it is */
-#define ROUNDING   1e-7 /* a step that no longer shrinks below this is rounding */
-#define PATIENCE   4    /* steps before rounding is thought of */
-#define MOVES      3    /* that tell how far it reaches, */
-#define DIGITS     4    /* of so many units in the last place */
-#define LEAST      1e-4 /* damping */
+#define ENOUGH     1e-9 /* relative step that ends the search; the error is its square */
+#define LEAST_SIZE 1e-3 /* least scale of an unknown */
+#define FAR_OFF    1e3  /* times as large on the way: the scale is out of date */
+#define ROUNDING   1e-7 /* a relative step that no longer shrinks below this is rounding error */
+#define PATIENCE   4    /* steps before rounding error is considered */
+#define MOVES      3    /* random moves that estimate it, */
+#define DIGITS     4    /* of up to so many units in the last place */
+#define LEAST      1e-4 /* of damping */
 #define FURTHEST   4096
-#define PLAIN      20    /* whole steps from piece to piece */
-#define SHORTEST   1e-14 /* the same on the way down over kinks */
+#define PLAIN      20    /* undamped steps by pieces */
+#define SHORTEST   1e-14 /* least share of a step that lowers the residual across kinks */
 #define NEARBY     12    /* steps to a solution near the last one, */
-#define CLOSE      1e-3  /* as close as that needs be */
-#define BESIDE     1e-6  /* of an unknown: off where a slope has no end */
-/* sources come up from so small a share of theirs, times so much at once, or a little at least */
+#define CLOSE      1e-3  /* and how close they come */
+#define BESIDE     1e-6  /* of an unknown: perturbation where a derivative is infinite */
+/* continuation: first share of the sources, and the largest and least factor from share to share */
 #define LEAST_SHARE  1e-16
 #define FACTOR       4.0
 #define LEAST_FACTOR 1.01
@@ -34,13 +34,13 @@
 struct NetSolve {
     const Equations *eq;
     Sparse *matrix;
-    bool is_factored; /* and stays so, as long as switches stay */
-    uint64_t sides;   /* of those, as they were then */
-    double *kept;     /* right sides with these factors and what they gave, 2 x KEPT x n */
-    int kept_count;   /* since they were made; the newest are kept */
+    bool is_factored; /* valid until switches change */
+    uint64_t sides;   /* counter of switch changes when it was factored */
+    double *kept;     /* right-hand sides with these factors and their solutions, 2 x KEPT x n */
+    int kept_count;   /* since the factorisation; the newest are kept */
     int n;
     double *w, *step, *trial, *next, *size;
-    double *noise;  /* in their residuals */
+    double *noise;  /* rounding error of the residuals */
     double *weight; /* of the equations, where their residuals are compared */
 };
 
@@ -130,7 +130,7 @@ void netsolve_refine(NetSolve *s)
 
 /* --- Newton --- */
 
-/* A^-1 G at w, with the factors there are */
+/* A^-1 G at w, with the current factors */
 static bool correction(NetSolve *s, double *out)
 {
     memcpy(out, s->eq->network_residual, (size_t)s->n * sizeof(double));
@@ -149,7 +149,7 @@ static double norm(const NetSolve *s, const double *v)
     return sqrt(sum / s->n);
 }
 
-/* every component is met to `share` of itself */
+/* whether every component is at most `share` of the unknown */
 static bool is_small(const NetSolve *s, const double *step, double share)
 {
     for (int i = 0; i < s->n; i++)
@@ -158,9 +158,9 @@ static bool is_small(const NetSolve *s, const double *step, double share)
     return true;
 }
 
-/* What an unknown counts by is the largest that it was on the way. Where that was a way from far
- * off, as from a trial step's state, which nothing bounds, all is small beside it: it counts no
- * more. Whether there is such an unknown. */
+/* The scale of an unknown is the largest value that it had on the way. Where the search began far
+ * off, as from a trial step's state, which nothing bounds, all later values are small compared to
+ * it. Then the scale becomes the value now. Returns whether a scale has changed. */
 static bool measure_anew(NetSolve *s)
 {
     bool changed = false;
@@ -176,10 +176,10 @@ static bool measure_anew(NetSolve *s)
     return changed;
 }
 
-/* Every equation is met as far as numbers can tell: a move of w by its last digits changes it as
- * much, or what was rounded on the way, of states and sources, leaves as much. So ends the search
- * for what hardly anything determines, as the potential of what diodes isolate, or what large
- * currents that cancel leave for a small capacitor. */
+/* Whether every residual is 0 within rounding: it changes as much when w moves by its last digits,
+ * or the rounding of states and sources is as large. This ends the search for unknowns that hardly
+ * any equation determines, such as the potential of a node that diodes isolate, or what remains of
+ * large currents that cancel at a small capacitor. */
 static bool is_met(NetSolve *s)
 {
     const Equations *eq = s->eq;
@@ -193,7 +193,7 @@ static bool is_met(NetSolve *s)
         eq->network_rounding(eq->context, s->noise);
     for (int i = 0; i < s->n; i++)
         if (!isfinite(s->noise[i]))
-            s->noise[i] = 0; /* there is no bound: moves tell */
+            s->noise[i] = 0; /* there is no bound: moves estimate it */
     for (int turn = 0; turn < MOVES; turn++) {
         for (int i = 0; i < s->n; i++)
             s->trial[i] = s->w[i] * (1 + DIGITS * DBL_EPSILON * random_unit(&seed));
@@ -207,7 +207,7 @@ static bool is_met(NetSolve *s)
     return met;
 }
 
-/* The correction behind w - share * step, by the factors there are; NAN where there is none. */
+/* The correction at w - share * step, with the current factors; NAN where there is none. */
 static double correction_at(NetSolve *s, double share)
 {
     for (int i = 0; i < s->n; i++)
@@ -216,7 +216,8 @@ static double correction_at(NetSolve *s, double share)
     return correction(s, s->next) ? norm(s, s->next) : (double)NAN;
 }
 
-/* Beyond a full step: down an exponential, as of a diode, each one is as long as the last. */
+/* More than a full step: along an exponential, as of a diode, each Newton step is as long as the
+ * last. */
 static double furthest(NetSolve *s, double full)
 {
     double share = 1;
@@ -232,7 +233,7 @@ static double furthest(NetSolve *s, double full)
     return share;
 }
 
-/* One damped step; false where even the smallest share of it makes nothing better. */
+/* One damped step; false where even its smallest share gives no decrease. */
 static bool advance(NetSolve *s, double before)
 {
     double share = 1;
@@ -253,7 +254,7 @@ static bool advance(NetSolve *s, double before)
     return false;
 }
 
-/* how far the equations are from being met */
+/* weighted norm of the residuals */
 static double misfit(const NetSolve *s)
 {
     double sum = 0;
@@ -264,7 +265,7 @@ static double misfit(const NetSolve *s)
     return sqrt(sum);
 }
 
-/* of each equation, by its largest term at the start */
+/* weight of each equation, from its largest term at the start */
 static void weigh(NetSolve *s)
 {
     const Equations *eq = s->eq;
@@ -279,8 +280,9 @@ static void weigh(NetSolve *s)
         s->weight[i] = s->weight[i] > 0 ? 1 / s->weight[i] : 1;
 }
 
-/* The same along the misfit. Behind a kink, as of a diode, slopes are other ones by many orders,
- * and corrections with the slopes before it tell nothing; the misfit still falls. */
+/* The same by the norm of the residuals. After a kink, as of a diode, derivatives differ by many
+ * orders of magnitude. Corrections with the derivatives before it are useless there, but the
+ * residual still decreases. */
 static bool descend(NetSolve *s)
 {
     const Equations *eq = s->eq;
@@ -300,13 +302,13 @@ static bool descend(NetSolve *s)
     return false;
 }
 
-/* ways to take a step of Newton's: so much of it that corrections fall, that the misfit falls, or
- * all of it, from one straight piece to the next, as of diodes of two lines */
+/* Step control of Newton's method: damped so that corrections decrease; damped so that residuals
+ * decrease; or undamped from one linear piece to the next, as of piecewise linear diodes. */
 typedef enum Way { BY_CORRECTION, BY_MISFIT, BY_PIECES, WAYS } Way;
 
 static bool take_step(NetSolve *s, Way way, int turn)
 {
-    double share = turn < PLAIN ? 1 : 1 - fmod(turn * 0.381966011, 1); /* out of circles */
+    double share = turn < PLAIN ? 1 : 1 - fmod(turn * 0.381966011, 1); /* leaves cycles */
 
     if (way == BY_CORRECTION)
         return advance(s, norm(s, s->step));
@@ -322,8 +324,8 @@ static bool has_endless_slope(const NetSolve *s)
     return !vector_is_finite(s->eq->network, s->eq->network_entries);
 }
 
-/* Unknowns in which a slope has no end move on a little, each by a share of its own so that
- * differences move, too: a law such as sign(v)*sqrt(abs(v)) is solved from beside its 0. */
+/* Unknowns in which a derivative is infinite are moved a little, each by a share of its own so that
+ * differences move too: a law such as sign(v)*sqrt(abs(v)) can't be solved from exactly 0. */
 static void step_perturbed(NetSolve *s)
 {
     const Equations *eq = s->eq;
@@ -350,7 +352,7 @@ static bool solve_newton(NetSolve *s, Way way)
         eq->network_at(eq->context, s->w);
         if (has_endless_slope(s)) {
             if (vector_largest(eq->network_residual, s->n) == 0)
-                return true; /* no slope is needed to tell */
+                return true; /* no derivative is needed */
             step_perturbed(s);
             continue;
         }
@@ -378,7 +380,7 @@ static bool solve_newton(NetSolve *s, Way way)
     return false;
 }
 
-/* Whole steps to G(w) = left G(0), `origin` = G(0), as near as it takes to go on from there. */
+/* Undamped steps to G(w) = left G(0), `origin` = G(0), close enough to continue from. */
 static bool solve_near(NetSolve *s, const double *origin, double left)
 {
     const Equations *eq = s->eq;
@@ -402,8 +404,8 @@ static bool solve_near(NetSolve *s, const double *origin, double left)
     return false;
 }
 
-/* From w = 0, where G(w) = G(0), on the way G(w) = (1 - share) G(0): sources come up from nothing
- * through the decades that an exponential takes, each solution a start for the next. */
+/* Source stepping from w = 0 along G(w) = (1 - share) G(0): the sources rise from 0 through the
+ * decades that an exponential covers, and each solution is the initial guess of the next. */
 static bool solve_rising(NetSolve *s)
 {
     double *origin = NEW_ARRAY(double, s->n), *last = NEW_ARRAY(double, s->n);
@@ -432,7 +434,7 @@ static bool solve_rising(NetSolve *s)
     return arrived && solve_newton(s, BY_CORRECTION);
 }
 
-/* from the last solution, then from nothing: the last one may belong to another branch */
+/* from the last solution, then from 0, since the last one may belong to another branch */
 static bool find_by_iteration(NetSolve *s)
 {
     double *kept;

@@ -1,4 +1,4 @@
-/* parameters.c: values of parameters, as they were when a run asked for them */
+/* parameters.c: values of parameters, fixed when a run first reads them */
 #include "simulate/equations/parameters.h"
 
 #include "base/memory.h"
@@ -15,7 +15,7 @@ static int number_of(Expr symbol)
     return number;
 }
 
-/* its place; -1: it isn't kept */
+/* its index; -1: no value is stored */
 static int find(const Parameters *p, Expr symbol)
 {
     const int number = number_of(symbol);

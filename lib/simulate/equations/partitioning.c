@@ -1,8 +1,8 @@
-/* partitioning.c: partitioned elimination of constrained speeds
+/* partitioning.c: coordinate partitioning (Wehage, Haug 1982): elimination of dependent speeds
  *
- * Which speeds depend on others is found by Gauss's elimination with the largest pivot among those
- * that nobody wants independent; where these are used up, among all. Library factorisations take
- * no such wish. */
+ * Dependent speeds are chosen by Gaussian elimination with the largest pivot among the speeds that
+ * are not wanted as independent; when these are used up, among all. Factorisations of libraries
+ * have no such preference. */
 #include "simulate/equations/partitioning.h"
 
 #include "algebra/linear.h"
@@ -17,9 +17,9 @@ struct Partitioning {
     int *independent; /* f */
     double *mass;     /* nu x nu, borrowed at the last factor */
     double *g;        /* nu x f */
-    double *work;     /* m x nu, of the choice; a column elsewhere */
+    double *work;     /* m x nu while choosing; a column elsewhere */
     double *particular, *force, *reduced;
-    double ratio, chosen_ratio; /* of Phi_d: now; when it was chosen */
+    double ratio, chosen_ratio; /* pivot ratio of Phi_d: now; when it was chosen */
     Lu *phi_d, *small;
 };
 
@@ -151,8 +151,7 @@ double partitioning_pivots(const Partitioning *p)
     return p->ratio;
 }
 
-/* u_d of a speed whose independent part is given: Phi_d u_d = right - Phi_i u_i, right in `column`
- */
+/* u_d for a given independent part: Phi_d u_d = right - Phi_i u_i, right in `column` */
 static void solve_dependent(const Partitioning *p, double *column, double *out, int stride)
 {
     lu_solve(p->phi_d, column);
@@ -160,7 +159,7 @@ static void solve_dependent(const Partitioning *p, double *column, double *out, 
         out[p->dependent[k] * stride] = column[k];
 }
 
-/* out[j] = (G^T v)_j, nu - m of them */
+/* out[j] = (G^T v)_j, nu - m entries */
 static void reduce(const Partitioning *p, const double *v, double *out)
 {
     for (int i = 0; i < p->f; i++) {
@@ -205,7 +204,7 @@ bool partitioning_factor(Partitioning *p, const double *mass, const double *phi_
 
 void partitioning_solve(Partitioning *p, const double *force, const double *gamma, double *du)
 {
-    /* a particular solution of Phi_u p = gamma, then what is left along G */
+    /* a particular solution of Phi_u p = gamma, then the rest along G */
     memset(p->particular, 0, (size_t)p->nu * sizeof(double));
     memcpy(p->work, gamma, (size_t)p->m * sizeof(double));
     solve_dependent(p, p->work, p->particular, 1);

@@ -1,7 +1,7 @@
 /* partitioning.h: the embedded form: independent accelerations without multipliers
  *
- * With u = (u_d, u_i), G = [J; 1], J = -Phi_d^-1 Phi_i: Phi_u G = 0, and
- * [G^T M; Phi_u] u' = [G^T F; gamma] is solved as a system in u_i' alone. */
+ * With u = (u_d, u_i), G = [J; 1], J = -Phi_d^-1 Phi_i: Phi_u G = 0, and [G^T M; Phi_u] u' = [G^T
+ * F; gamma] is solved as a system in u_i' (nu - m) alone. Phi_d is m x m, J m x (nu - m). */
 #ifndef COTREE_SIMULATE_EQUATIONS_PARTITIONING_H
 #define COTREE_SIMULATE_EQUATIONS_PARTITIONING_H
 
@@ -12,7 +12,7 @@ typedef struct Partitioning Partitioning;
 Partitioning *partitioning_new(int nu, int m);      /* new; free with partitioning_free() */
 void partitioning_free(Partitioning *partitioning); /* NULL is fine */
 /* Choose dependent speeds by elimination with full pivoting of the rows of phi_u; the `wanted` ones
- * become independent as far as the rows allow. False, and all as before, when the rows are
+ * become independent as far as the rows allow. False, and nothing has changed, when the rows are
  * dependent. */
 bool partitioning_choose(Partitioning *partitioning, const double *phi_u, const int *rows,
                          const int *wanted, int wanted_count);
@@ -21,7 +21,7 @@ const int *partitioning_independent(const Partitioning *partitioning); /* nu - m
 bool partitioning_factor(Partitioning *partitioning, const double *mass, const double *phi_u,
                          const int *rows);
 double partitioning_condition(
-    const Partitioning *partitioning); /* pivot ratio of Phi_d, of its choice at 1 */
+    const Partitioning *partitioning); /* pivot ratio of Phi_d, over that at its choice */
 double partitioning_pivots(const Partitioning *partitioning); /* the ratio itself */
 void partitioning_solve(Partitioning *partitioning, const double *force, const double *gamma,
                         double *du);

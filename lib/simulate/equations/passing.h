@@ -1,4 +1,4 @@
-/* passing.h: vectors of a place in the axes of another */
+/* passing.h: vectors of one place in the axes of another */
 #ifndef COTREE_SIMULATE_EQUATIONS_PASSING_H
 #define COTREE_SIMULATE_EQUATIONS_PASSING_H
 
@@ -24,7 +24,7 @@ static inline void turn_by(const double *R, double *v)
         v[i] = R[3 * i] * x + R[3 * i + 1] * y + R[3 * i + 2] * z;
 }
 
-/* by a cosine and a sine, in the plane of two axes */
+/* rotation by a cosine and a sine in the plane of two axes */
 static inline void turn_in(int j, int k, const double *R, double *v)
 {
     const double y = v[j], z = v[k];
@@ -33,7 +33,7 @@ static inline void turn_in(int j, int k, const double *R, double *v)
     v[k] = R[1] * y + R[0] * z;
 }
 
-/* v in the axes of the place's parent; R: its rotation, as it stands among the needs */
+/* v in the axes of the place's parent; R: its rotation, as stored among the needs */
 static inline void turn_onto(const MassPlace *place, const double *R, double *v)
 {
     if (place->axis == AXIS_ANY)
@@ -42,7 +42,7 @@ static inline void turn_onto(const MassPlace *place, const double *R, double *v)
         turn_in((place->axis + 1) % 3, (place->axis + 2) % 3, R, v);
 }
 
-/* and back */
+/* the inverse of that */
 static inline void turn_back(const MassPlace *place, const double *R, double *v)
 {
     const double across[2] = {R[0], -R[1]};

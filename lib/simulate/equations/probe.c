@@ -1,4 +1,4 @@
-/* probe.c: a residual over a layout, its workspace, and how a row becomes its inputs */
+/* probe.c: a residual over a variable index, its workspace, and its inputs from a row of values */
 #include "simulate/equations/probe.h"
 
 #include "base/memory.h"
@@ -11,7 +11,7 @@ static Expr put_on_surfaces(const void *layout, Expr e)
     return variable_index_on_surfaces(layout, e);
 }
 
-/* values of parameters, once for all; sides are told by the layout */
+/* values of parameters, set once; the layout determines sides of switches */
 static void put_parameters(Probe *probe, Parameters *parameters)
 {
     int count;
@@ -91,7 +91,8 @@ const Residual *probe_residual(const Probe *probe)
 
 bool probe_reads_state(const Probe *probe)
 {
-    /* signs of surfaces that are slid along are states to a program, and have to be found */
+    /* signs of surfaces that the motion slides along are inputs of the program, and have to be
+     * solved for */
     return probe->layout->slides == 0 &&
            program_last_stage(residual_program(probe->residual)) <= STAGE_VELOCITY;
 }
@@ -184,7 +185,7 @@ const double *probe_values(Probe *probe, const RowValues *row)
     return workspace_roots(probe->workspace);
 }
 
-/* of all inputs, where the row is off by these; new */
+/* errors of all inputs for these errors of the row; new */
 static double *input_errors(const Probe *probe, const RowValues *errors)
 {
     const VariableIndex *l = probe->layout;

@@ -1,6 +1,7 @@
 /* probe.h: expressions over a layout in numbers: a Residual and a workspace of it
  *
- * What is computed is put on the layout's sides of its surfaces. A probe is used by one thread. */
+ * Expressions are evaluated on the layout's sides of its surfaces. A probe is used by one
+ * thread. */
 #ifndef COTREE_SIMULATE_EQUATIONS_PROBE_H
 #define COTREE_SIMULATE_EQUATIONS_PROBE_H
 
@@ -13,20 +14,20 @@
 
 #include <string.h>
 
-/* what a row knows; arrays may be NULL for 0 */
+/* Known values at an instant; NULL arrays are 0. */
 typedef struct RowValues {
     double t;
     const double *references, *q, *u, *x, *signs, *rates, *z, *acceleration, *multipliers, *efforts,
         *jerk;
 } RowValues;
 
-/* t, and what y holds */
+/* from t and y */
 RowValues row_of_state(const VariableIndex *layout, double t, const double *y);
-/* and what was solved for there */
+/* and from the solution there */
 RowValues row_of_solved(const VariableIndex *layout, double t, const double *y,
                         const Solved *solved);
-/* the same, solved now, and borrowed until the next call on the motion; false: there is no
- * solution, and the row is without */
+/* The same with the solution computed now, borrowed until the next call on the motion. False: there
+ * is no solution, and the row is without. */
 bool row_solve(const VariableIndex *layout, Motion *motion, double t, const double *y,
                RowValues *out);
 
@@ -35,84 +36,83 @@ typedef struct SideInput {
     int input, side;
 } SideInput;
 
-/* Told here for the equations of a run, which are evaluated so often that calls count. */
+/* Defined here because the equations of a run are evaluated so often that calls cost time. */
 typedef struct Probe {
     const VariableIndex *layout;
     Residual *residual;
     Workspace *workspace;
     double *inputs; /* the workspace's */
     LIST(SideInput) sides;
-    uint64_t seen; /* sides, as they were then */
+    uint64_t seen; /* counter of switch changes when the sides were set */
 } Probe;
 
 /* What is computed: roots, and the derivatives of the first of them (compile/residual.h). */
 typedef struct ProbeOrder {
     const Expr *roots;
     int root_count, row_count;
-    const Expr *unknowns; /* by these symbols */
+    const Expr *unknowns; /* derivatives are by these symbols */
     int unknown_count;
-    bool is_apart; /* blocks are computed at the same time, by the parameters' threads */
-    bool is_put;   /* the roots are on their surfaces already, or shall stay as they are */
+    bool is_apart; /* independent blocks are computed in parallel, by the parameters' threads */
+    bool is_put;   /* the roots are on their surfaces already, or are used unchanged */
     const CallMonitor *watch; /* may be NULL */
 } ProbeOrder;
 
-/* Compile; the layout outlives the probe. Parameters have the values of `parameters`, and what
- * depends on them alone is computed. Fails as residual_new() does. */
+/* Compile; the layout outlives the probe. Parameters get the values of `parameters`, and
+ * expressions of parameters alone are evaluated. Fails as residual_new() does. */
 MUST_USE Status probe_make(const VariableIndex *layout, Parameters *parameters,
                            const ProbeOrder *order, Probe **out, Diag *diag);
-/* the same of roots alone */
+/* the same, for roots alone */
 MUST_USE Status probe_new(const VariableIndex *layout, Parameters *parameters, const Expr *roots,
                           int count, Probe **out, Diag *diag);
 void probe_free(Probe *probe); /* NULL is fine */
-/* one value, once */
+/* evaluate one expression once */
 MUST_USE Status probe_at(const VariableIndex *layout, Parameters *parameters, Expr e,
                          const RowValues *row, double *out, Diag *diag);
 const Residual *probe_residual(const Probe *probe);
-/* whether t, coordinates, speeds and states are all that its values need: nothing has to be solved
- */
+/* whether its values depend on t, coordinates, speeds and states alone: nothing has to be solved */
 bool probe_reads_state(const Probe *probe);
 
-/* Another value of a parameter, for this probe alone. False: no root holds it. */
+/* Set a parameter, for this probe alone. False: no root contains it. */
 bool probe_turn(Probe *probe, Expr parameter, double value);
-/* The number of a symbol that somebody has put behind those of the layout, `place` among its
+/* The value of a symbol that a caller has appended to those of the layout, `place` among its
  * symbols: write here. */
 double *probe_input(Probe *probe, int place);
 
-/* the values of the roots, then of the slopes; borrowed, until the next call */
+/* the values of the roots, then of the derivatives; borrowed, until the next call */
 const double *probe_values(Probe *probe, const RowValues *row);
-/* Of a probe that reads the state alone, at `count` instants with a y of `length` each, one behind
- * the other: its first `roots` values, count x roots. Many are computed several at once, by what
- * the evaluator names. */
+/* For a probe that reads the state alone: its first `roots` values at `count` instants, count x
+ * roots. y has `length` entries per instant, instant by instant. Many instants are computed in SIMD
+ * batches, by the evaluator. */
 void probe_values_of_states(Probe *probe, Evaluator evaluator, const double *times, const double *y,
                             int length, int count, int roots, double *out);
-/* How far these values may be off where the row is off by `errors`; t and parameters are as
- * number_error() has them. */
+/* Bound the error of these values where the row has the errors `errors`; t and parameters have
+ * those of number_error(). */
 void probe_errors(const Probe *probe, const RowValues *errors, double *out);
 
-/* Take these numbers as inputs, for who computes with the program by other means. */
+/* Set these values as inputs, for callers that run the program by other means. */
 void probe_set(Probe *probe, const RowValues *row);
-/* The same values, with their errors unless `errors` is NULL, in tangents of its program. */
+/* The same values as tangents of its program, with errors unless `errors` is NULL. */
 void probe_tangents(Probe *probe, const RowValues *row, const RowValues *errors,
                     Tangents *tangents);
-/* The same, without errors, where every number is moved by up to four units in its last place, at
- * random: alike for the same seed. What rounding leaves is another then, what is true is as it was.
- */
+/* The same, without errors, with every number perturbed at random by up to four units in its last
+ * place; equal seeds give equal perturbations. Results that are rounding error change, others
+ * don't. */
 void probe_tangents_beside(Probe *probe, const RowValues *row, uint64_t seed, Tangents *tangents);
-/* which input of its program a symbol is; -1: no root holds it */
+/* index of a symbol among the inputs of its program; -1: no root contains it */
 int probe_place(const Probe *probe, Expr symbol);
 
 /* --- stage by stage, by workspace_run() --- */
 
-/* Take sides of switches as the layout has them now, with what follows from them. */
+/* Set sides of switches to the layout's, with what depends on them. */
 void probe_set_sides(Probe *probe);
-/* Its inputs by the layout, write here; sides are as the layout has them. */
+/* Its inputs in the order of the layout, write here; sides of switches are brought up to date. */
 static inline double *probe_inputs(Probe *probe)
 {
     if (probe->seen != probe->layout->sides)
         probe_set_sides(probe);
     return probe->inputs;
 }
-/* NULL: 0 */
+/* values NULL: all 0 */
 static inline void inputs_set(double *inputs, int first, const double *values, int count)
 {
     if (values != NULL)

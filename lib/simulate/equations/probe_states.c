@@ -1,11 +1,11 @@
-/* probe_states.c: a probe at many states, several at once */
+/* probe_states.c: evaluates a probe at many states, in SIMD batches */
 #include "simulate/equations/probe.h"
 
 #include "compile/simd_batch.h"
 
 enum {
     LANES = 8,
-    FEW = 2 * LANES /* states that are computed one by one: lanes have to be made */
+    FEW = 2 * LANES /* states that are computed one by one: a batch has a cost of its own */
 };
 
 typedef struct ProbeStates {
@@ -25,7 +25,7 @@ static void put_parameters(const Probe *probe, SimdBatch *lanes)
     }
 }
 
-/* Of these states, from one place on. */
+/* Set one part of these states, from index `place` of y on. */
 static void put_part(const double *const y[LANES], int place, int count, int input, Stage stage,
                      SimdBatch *lanes)
 {
@@ -38,7 +38,7 @@ static void put_part(const double *const y[LANES], int place, int count, int inp
     }
 }
 
-/* From one on; where the last ones have no next it stands in for them. */
+/* Set the states from `first` on; a batch that is not full repeats the last state. */
 static void put_states(const VariableIndex *l, const ProbeStates *s, int first, SimdBatch *lanes)
 {
     const int last = s->count - 1;
@@ -66,7 +66,7 @@ static void by_lanes(Probe *probe, Evaluator evaluator, const ProbeStates *s, in
     Native *native = simd_batch_native_if_it_pays(program, LANES, evaluator, blocks);
     SimdBatch *lanes = simd_batch_new(program, native, LANES);
 
-    (void)probe_inputs(probe); /* sides as they are now */
+    (void)probe_inputs(probe); /* brings sides of switches up to date */
     put_parameters(probe, lanes);
     for (int first = 0; first < s->count; first += LANES) {
         const int count = s->count - first < LANES ? s->count - first : LANES;

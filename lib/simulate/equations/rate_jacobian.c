@@ -1,4 +1,4 @@
-/* rate_jacobian.c: E, its derivatives, and what they make of each entry of the state */
+/* rate_jacobian.c: E, its derivatives, and the derivatives of rates by each entry of the state */
 #include "simulate/equations/rate_jacobian.h"
 
 #include "algebra/linear.h"
@@ -16,13 +16,13 @@ struct RateJacobian {
     const VariableIndex *l;
     Parameters *parameters;
     Motion *motion;
-    bool is_asked, is_made; /* made once, if it can be */
-    int follow, states;     /* entries of e and of w */
+    bool is_asked, is_made; /* made once, if possible */
+    int follow, states;     /* numbers of entries of e and of w */
     Probe *probe;           /* E, q', rates of references, power */
-    Jacobian *jacobian;     /* of these by e, then by w; */
+    Jacobian *jacobian;     /* derivatives of these by e, then by w */
     double *values;         /* its entries */
-    Pattern matrix;         /* E_e, with room on the diagonal for multipliers that aren't in use */
-    int *place;             /* in it, of an entry of the Jacobian; -1: none; behind them of these */
+    Pattern matrix;         /* E_e, with diagonal entries for multipliers that aren't in use */
+    int *place;             /* index into it: entries of the Jacobian, diagonals; -1: none */
     double *entries;        /* of the matrix */
     Sparse *factors;
     double *right; /* follow */
@@ -72,7 +72,7 @@ static Status push_rows(const RateJacobian *j, RateJacobianRoots *roots)
     return OK;
 }
 
-/* the inputs that e and w are, a column each */
+/* the inputs that are e and w, one column each */
 static void push_moves(const RateJacobian *j, ColumnMoves *moves)
 {
     const VariableIndex *l = j->l;
@@ -123,7 +123,7 @@ static void open_room(RateJacobian *j)
 
 static bool make(RateJacobian *j)
 {
-    const bool before = mem_scratch(true); /* numbers that each call finds anew */
+    const bool before = mem_scratch(true); /* numbers that each call computes anew */
     RateJacobianRoots roots = {0};
     ColumnMoves moves = {0};
     Arena *arena = system_arena(j->l->system);
@@ -138,7 +138,7 @@ static bool make(RateJacobian *j)
         open_room(j);
     }
     if (!sound)
-        arena_reset(arena); /* what was too large is given up: others go on */
+        arena_reset(arena); /* the program was too large and is discarded */
     LIST_FREE(moves);
     LIST_FREE(roots);
     (void)mem_scratch(before);
@@ -147,7 +147,7 @@ static bool make(RateJacobian *j)
 
 /* --- at a state --- */
 
-/* E_e; multipliers of rows that aren't in use are 0 instead */
+/* Factor E_e; multipliers of rows that aren't in use are set to 0. */
 static bool factor(RateJacobian *j)
 {
     const VariableIndex *l = j->l;
@@ -167,7 +167,7 @@ static bool factor(RateJacobian *j)
     return sparse_factor(j->factors, j->entries);
 }
 
-/* what follows from an entry of the state: E_e de = -E_w */
+/* derivative of e by an entry of the state: E_e de = -E_w */
 static void find_follow(RateJacobian *j, int state)
 {
     const VariableIndex *l = j->l;
@@ -184,7 +184,7 @@ static void find_follow(RateJacobian *j, int state)
     sparse_solve(j->factors, j->right);
 }
 
-/* The row of y' that a row behind E tells: those of q, of references, of work. */
+/* The row of y' that a row after E gives: those of q, of references, of work. */
 static int rate_row(const RateJacobian *j, int row)
 {
     const VariableIndex *l = j->l;
@@ -193,7 +193,7 @@ static int rate_row(const RateJacobian *j, int row)
     return own < l->n ? own : variable_index_references(l) + own - l->n;
 }
 
-/* the entries of a column of the Jacobian behind E, so many times */
+/* add `by` times the entries after E of a column of the Jacobian */
 static void add_column(const RateJacobian *j, int c, double by, double *out, int stride)
 {
     const Pattern *p = jacobian_pattern(j->jacobian);

@@ -1,7 +1,7 @@
 /* redundant.c: which joints a dependent constraint row repeats
  *
- * A dependent row is a combination of the independent ones; the joints of those that take
- * part are what it repeats. Rows are brought to unit size first. */
+ * A dependent row of Phi_u is a linear combination of the independent ones; it repeats the joints
+ * of those with a share in it. Rows are scaled to unit size first. */
 #include "simulate/equations/redundant.h"
 
 #include "algebra/dense.h"
@@ -11,7 +11,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-#define PART 1e-6 /* of a combination: less is rounding */
+#define PART 1e-6 /* of a combination: less is rounding error */
 
 static double size_of(const double *row, int nu)
 {
@@ -22,7 +22,7 @@ static double size_of(const double *row, int nu)
     return size;
 }
 
-/* shares of the independent rows in the others: (m - rank) x rank */
+/* Shares of the independent rows in the others: (m - rank) x rank. */
 static void find_shares(const double *phi_u, int m, int nu, const int *order, int rank,
                         double *shares)
 {

@@ -1,4 +1,4 @@
-/* remark.c: what runs say, in words */
+/* remark.c: the texts of a run's remarks */
 #include "simulate/equations/remark.h"
 
 #include <float.h>
@@ -10,7 +10,7 @@ enum {
     SHOWN_TIMES = 6 /* of an event */
 };
 
-/* --- kept --- */
+/* --- store --- */
 
 static const char *keep(Pool *pool, const char *text)
 {
@@ -48,7 +48,7 @@ void remarks_free(Remarks *r)
     r->pool = NULL;
 }
 
-/* --- said --- */
+/* --- write --- */
 
 static void write_times(const Remark *r, Text *out)
 {

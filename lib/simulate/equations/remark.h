@@ -1,7 +1,7 @@
-/* remark.h: what a run has to say beside its numbers
+/* remark.h: remarks of a run besides its numbers
  *
- * Whoever knows it adds a remark: its kind, which part it is about, when it was, how much. Who asks
- * for one looks at these; the words are written in one place. */
+ * The code that finds something adds a remark: its kind, the part that it is about, when it
+ * happened, how much. Callers query these; remark.def and remark.c alone contain the wording. */
 #ifndef COTREE_SIMULATE_EQUATIONS_REMARK_H
 #define COTREE_SIMULATE_EQUATIONS_REMARK_H
 
@@ -15,7 +15,7 @@ typedef enum RemarkKind {
     REMARK_KINDS
 } RemarkKind;
 
-/* what a kind has of these is told in remark.def */
+/* remark.def defines which of these fields a kind has */
 typedef struct Remark {
     RemarkKind kind;
     const char *what, *more, *others;
@@ -37,7 +37,7 @@ void remarks_append(Remarks *remarks, const Remarks *more);
 void remarks_free(Remarks *remarks);
 /* a line of its words, with "warning: " where it warns; no newline */
 void remark_write(const Remark *remark, Text *out);
-/* all of them, in lines */
+/* all of them, one line each */
 void remarks_write(const Remarks *remarks, Text *out);
 
 #endif

@@ -1,4 +1,4 @@
-/* rows.c: residuals in symbols, and steps from them */
+/* rows.c: the equations as symbolic residuals, and steps from them */
 #include "simulate/equations/rows.h"
 
 #include "algebra/dense.h"
@@ -98,7 +98,7 @@ int speed_coordinate(const System *system, int speed)
 
 /* --- steps --- */
 
-/* largest entry of a row or a column, 1 where there is none */
+/* largest entry of a row or a column, 1 where all are 0 */
 static double size_of(const double *first, int count, int stride)
 {
     double largest = 0;
@@ -108,7 +108,7 @@ static double size_of(const double *first, int count, int stride)
     return largest > 0 ? largest : 1;
 }
 
-/* `a` and `b` by rows of like size, then `a` by columns of like size: scale (columns) */
+/* Scale `a` and `b` by rows to equal size, then `a` by columns to equal size: scale (columns). */
 static void load(const double *matrix, int rows, int columns, const double *right, gsl_matrix *a,
                  gsl_vector *b, double *scale)
 {
@@ -147,7 +147,7 @@ static int solve_loaded(gsl_matrix *a, const gsl_vector *b, gsl_vector *x)
 
 int rows_solve(const double *matrix, int rows, int columns, const double *right, double *out)
 {
-    /* rows of zeros below few rows: the factorisation takes no wide matrix */
+    /* zero rows are appended where rows are few: the factorisation needs rows >= columns */
     size_t tall = (size_t)(rows > columns ? rows : columns);
     gsl_matrix *a;
     gsl_vector *b, *x;

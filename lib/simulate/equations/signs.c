@@ -9,12 +9,12 @@
 
 #define MOVES    30
 #define PROBED   1e-6  /* of a sign, for differences */
-#define NEAR     1e-11 /* of a sign: near enough */
+#define NEAR     1e-11 /* of a sign: close enough */
 #define SINGULAR 1e-11 /* least over largest pivot */
 #define DAMPED   1e-10 /* of the largest entry's square */
 #define TURNS    4
-#define FAR      100  /* a sign that isn't between its ends, nor soon behind one */
-#define BEYOND   1e-6 /* of a sign, past an end */
+#define FAR      100  /* a sign that is neither within its interval nor soon outside */
+#define BEYOND   1e-6 /* of a sign, outside its interval */
 #define LEFT     2    /* a sign where the surface is left */
 #define HALVES   40
 #define ROUNDS   10
@@ -68,8 +68,8 @@ bool signs_slopes(Signs *s, SignsTrial trial, void *context, double *slip)
     return true;
 }
 
-/* (A^T A + d) x = A^T b, d so small that a few turns on what is left find the least x: 0 where A
- * is, as of sign(x)*sqrt(abs(x)) at x = 0 */
+/* (A^T A + d) x = A^T b with so small a d that a few iterations of refinement find the x of least
+ * norm: 0 where A is 0, as of sign(x)*sqrt(abs(x)) at x = 0. */
 static bool least(const double *a, int n, double *b)
 {
     Lu *lu = lu_new(n);
@@ -142,7 +142,7 @@ static bool newton(Signs *s, SignsTrial trial, void *context)
         moved = vector_largest(s->slip, s->count);
         for (int i = 0; i < s->count; i++)
             s->values[i] += s->slip[i];
-        /* as near as rounding lets them come */
+        /* as close as rounding allows */
         if (moved <= NEAR * fmax(1, vector_largest(s->values, s->count)) ||
             (turn > 2 && moved > 0.5 * before && moved < 1e-6))
             return trial(context, s->values, s->move);
@@ -153,7 +153,8 @@ static bool newton(Signs *s, SignsTrial trial, void *context)
     return false;
 }
 
-/* Sign k alone between its ends, by halves. Where slip there is all on one side: false, *sound. */
+/* Sign k alone within its interval, by bisection. False and *sound where slip has one sign
+ * there. */
 static bool bisect(Signs *s, int k, SignsTrial trial, void *context, bool *sound)
 {
     double ends[2] = {-1, 1}, slip[2];
@@ -174,7 +175,7 @@ static bool bisect(Signs *s, int k, SignsTrial trial, void *context, bool *sound
     return *sound;
 }
 
-/* Signs beyond an end, which is where they leave it, unless there are others between. */
+/* Look for signs within their intervals when some are outside, which is where the motion leaves. */
 static bool look_between(Signs *s, SignsTrial trial, void *context)
 {
     double *kept = NEW_ARRAY(double, s->count);
@@ -201,9 +202,9 @@ static bool is_beyond(const Signs *s)
     return vector_largest(s->values, s->count) > 1 + BEYOND;
 }
 
-/* Where the one sign hardly reaches slip, as of sign(x)*sqrt(abs(x)) beside x = 0, Newton's method
- * leads far away. Slip is then of one sign between the ends, and the motion has left the surface on
- * that side: the sign is beyond the end there. False: it is not so. */
+/* Where the one sign hardly affects slip, as of sign(x)*sqrt(abs(x)) next to x = 0, Newton's method
+ * diverges. Slip then has one sign over the whole interval, and the motion has left the surface on
+ * that side: the sign is outside the interval there. False: this is not the case. */
 static bool lies_beyond(Signs *s, SignsTrial trial, void *context)
 {
     bool sound;
@@ -218,7 +219,7 @@ bool signs_find(Signs *s, SignsTrial trial, void *context)
 {
     bool found = newton(s, trial, context);
 
-    /* where slip bends strongly, one by one, for Newton's method to begin near */
+    /* where slip is strongly nonlinear, one by one, as initial guess of Newton's method */
     for (int round = 0; round < ROUNDS && !found; round++) {
         for (int k = 0; k < s->count; k++) {
             bool sound, between = bisect(s, k, trial, context, &sound);

@@ -1,7 +1,6 @@
 /* signs.h: signs on the surfaces that a motion slides along, by Newton's method
  *
- * slip(signs) = 0. Forces and networks mostly hold signs linearly: then the first move is the last.
- */
+ * slip(signs) = 0. Forces and networks are mostly linear in signs: then one step suffices. */
 #ifndef COTREE_SIMULATE_EQUATIONS_SIGNS_H
 #define COTREE_SIMULATE_EQUATIONS_SIGNS_H
 
@@ -9,17 +8,16 @@
 
 typedef struct Signs Signs;
 
-/* slip at these signs; false: nothing can be told there */
+/* slip at these signs; false: it can't be evaluated there */
 typedef bool (*SignsTrial)(void *context, const double *signs, double *slip);
 
 Signs *signs_new(int count);        /* new, all 0; free with signs_free() */
 void signs_free(Signs *signs);      /* NULL is fine */
-double *signs_values(Signs *signs); /* of the last search, where the next one begins */
-/* d slip_i / d sign_k, at the values, becomes the matrix; slip there goes into `slip`. */
+double *signs_values(Signs *signs); /* of the last search; the next one starts there */
+/* The matrix d slip_i / d sign_k at the values; slip there is stored in `slip`. */
 bool signs_slopes(Signs *signs, SignsTrial trial, void *context, double *slip);
-/* matrix x = b in the place of b (n x n); where the matrix is singular the least x, if there is
- * any.
- */
+/* Solve matrix x = b, x replaces b (n x n); where the matrix is singular the x of least norm, if
+ * there is one. */
 bool signs_least(const double *matrix, int n, double *b);
 /* After signs_slopes(): the moves of signs that change slip by -`slip`, in its place. */
 bool signs_solve(Signs *signs, double *slip);

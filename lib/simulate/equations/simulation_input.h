@@ -1,7 +1,7 @@
-/* simulation_input.h: what a run takes from the session: values of parameters, initial values,
+/* simulation_input.h: what a run gets from the session: values of parameters, initial values,
  * events
  *
- * Everything is borrowed during the call, but for what a result asks again. */
+ * Everything is borrowed during the call, except for what a result reads later. */
 #ifndef COTREE_SIMULATE_EQUATIONS_SIMULATION_INPUT_H
 #define COTREE_SIMULATE_EQUATIONS_SIMULATION_INPUT_H
 
@@ -25,20 +25,20 @@ typedef struct StartValues {
 typedef struct Result Result;             /* simulate/run/result.h */
 typedef struct ResultReader ResultReader; /* simulate/run/result_reader.h */
 
-/* Numbers of a parameter, asked once a run. Results keep the answers; they ask again for parameters
- * that only a later question about them brings in, so `context` outlives them. */
+/* Value of a parameter, read once a run. Results store the values; they read further parameters
+ * that only a later query needs, so `context` outlives them. */
 typedef double (*ParameterValue)(void *context, Expr symbol);
-/* The program that runs a model: it sees its rows, and sets its inputs. What it set is kept, for
- * whoever goes over a part of the run again. */
+/* The program that runs a model: it reads output rows and sets inputs. The values that it set are
+ * stored, for repeated evaluation of a part of the run. */
 typedef struct HostValue {
     double t;
     int instance; /* of the input */
     double value;
 } HostValue;
 typedef struct Host {
-    const Expr *items; /* that it is told: over the user's variables */
+    const Expr *items; /* expressions that it receives: over the user's variables */
     int item_count;
-    /* both tell whether to stop; NULL: it doesn't ask to be called, or the run is over */
+    /* Both return whether to stop. NULL: the program wants no call, or the run is over. */
     bool (*row)(void *context, double t, const double *values);
     bool (*input)(void *context, const char *name, double t, const double *values, double *value);
     void *context;
@@ -48,7 +48,7 @@ typedef struct Host {
 typedef struct SimulationInput {
     ParameterValue parameter;
     void *context;
-    SceneSource scene; /* of the system: its ideal switches make others from it */
+    SceneSource scene; /* of the system: its ideal switches make further systems from it */
     Form form;
     Evaluator evaluator;
     Threads *threads; /* borrowed as long as what is made with it; NULL: the caller's */
@@ -57,9 +57,9 @@ typedef struct SimulationInput {
     const Event *const *events; /* borrowed during the call; what a result needs it copies */
     int event_count;
     const StartValues *start;
-    Host *host;               /* NULL: nobody. It outlives results, as `context` does */
-    bool keeps_rates;         /* of an equilibrium: what is driven moves as at `at` */
-    double at;                /* s: sources and drivers of an equilibrium are as then */
+    Host *host;               /* NULL: none. It outlives results, as `context` does */
+    bool keeps_rates;         /* of an equilibrium: driven parts move as at `at` */
+    double at;                /* s: time at which an equilibrium evaluates sources and drivers */
     const CallMonitor *watch; /* borrowed as long as what is made with it */
 } SimulationInput;
 

@@ -1,8 +1,8 @@
-/* stiff_elements.c: equations with steep functions and sources in the place of inputs
+/* stiff_elements.c: equations with inputs in place of stiff functions and sources
  *
- * An element N(a) becomes n + s (a - a0), whose n, s and a0 are inputs: s is next to nothing
- * where it doesn't conduct. A source becomes an input. What is left is solved for w as a linear
- * system; how it answers to inputs is found by differences, exact where it is affine. */
+ * An element N(a) becomes n + s (a - a0) with inputs n, s and a0: the slope s is almost 0 where the
+ * element doesn't conduct. A source becomes an input. The rest is solved for w as a linear system.
+ * Its sensitivities to inputs are found by differences, which are exact where it is affine. */
 #include "simulate/equations/stiff_elements_impl.h"
 
 #include "algebra/elementary.h"
@@ -12,8 +12,8 @@
 #include <math.h>
 #include <string.h>
 
-#define LEAST_POWER 8   /* exponents from which on a power is steep */
-#define ELEMENT     1e6 /* what an element is moved by: the smallest saturation current still shows */
+#define LEAST_POWER 8   /* exponents from which on a power is stiff */
+#define ELEMENT     1e6 /* perturbation: the smallest saturation current is visible */
 
 #define SOLVED (1U << SYMBOL_STATE_RATE | 1U << SYMBOL_ALGEBRAIC)
 #define MOVING                                                                                     \
@@ -21,7 +21,7 @@
 #define AFTER                                                                                      \
     (1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER | 1U << SYMBOL_EFFORT | 1U << SYMBOL_JERK)
 
-/* --- what there is --- */
+/* --- elements and sources of the equations --- */
 
 /* of t and parameters, none of which is the side of a switch */
 static bool is_of_time(const VariableIndex *l, Expr e)
@@ -63,7 +63,7 @@ static void add_source(StiffElements *s, Expr e)
               (Source){.function = e, .is_continuous = stiff_elements_add_corners(NULL, e) == 0});
 }
 
-/* exp(min(c, x)) is exp(x) as far as it goes */
+/* exp(min(c, x)) equals exp(x) for x < c */
 static Expr without_magnitude_bound(Expr argument)
 {
     if (expr_kind(argument) == EXPR_CALL && expr_op(argument) == OP_MIN &&
@@ -85,7 +85,7 @@ static bool is_bent(Arena *arena, Expr argument)
     return bent;
 }
 
-/* what stands in e of time alone, where e holds more than that */
+/* subexpressions of e that depend on time alone, where e depends on more */
 static void add_sources_of(StiffElements *s, Expr e)
 {
     for (int i = 0; i < expr_arg_count(e); i++)
@@ -123,7 +123,7 @@ static void find_all(StiffElements *s, const Expr *roots, int count)
     mem_free(nodes);
 }
 
-/* G, F and gamma */
+/* the roots G, F and gamma */
 static StiffElementRoots equations_of(const VariableIndex *l)
 {
     const EquationForm *r = system_run(l->system);
@@ -143,7 +143,7 @@ static bool holds_time(Expr e, void *context)
     return (expr_kinds(e) & 1U << SYMBOL_TIME) != 0 && !is_of_time(context, e);
 }
 
-/* What stands of time in an expression that other things than rates depend on. */
+/* Sources in an expression that affects more than rates. */
 static void find_sources(StiffElements *s, Expr e)
 {
     Expr *nodes;
@@ -156,7 +156,8 @@ static void find_sources(StiffElements *s, Expr e)
     mem_free(nodes);
 }
 
-/* in what switches by more than time: a source may turn it without any effect on rates */
+/* sources in conditions of switches that depend on more than time: they may switch without an
+ * effect on rates */
 static Status find_sources_of_switches(StiffElements *s, Diag *diag)
 {
     System *system = s->l->system;
@@ -252,7 +253,7 @@ Range stiff_elements_size(const StiffElements *s, int k, Range a)
     switch (element->op) {
     case OP_EXP:
         return a;
-    case OP_TANH: /* what is left to 1 */
+    case OP_TANH: /* the difference to 1 */
         return (Range){-2 * size.high, -2 * size.low};
     case OP_HOLD:
         size = (Range){element->exponent * elementary_log(size.low),
@@ -291,7 +292,7 @@ static void make_inputs(StiffElements *s)
     }
 }
 
-/* roots with inputs in the place of sources and elements, then arguments of elements */
+/* replace sources and elements of the roots by inputs, then those in arguments of elements */
 static void put_inputs(const StiffElements *s, StiffElementRoots *roots)
 {
     Arena *arena = system_arena(s->l->system);
@@ -327,7 +328,7 @@ static void put_inputs(const StiffElements *s, StiffElementRoots *roots)
     LIST_FREE(arguments);
 }
 
-/* the network's rows by x' and z */
+/* derivatives of the network's equations by x' and z */
 static Sparse *open_network(const Probe *probe, int n)
 {
     int count;
@@ -374,7 +375,7 @@ static void compile(StiffElements *s)
 static bool is_ready(StiffElements *s)
 {
     if (s->probe == NULL && !s->has_failed) {
-        const bool before = mem_scratch(true); /* numbers that each look finds anew */
+        const bool before = mem_scratch(true); /* numbers that each query computes anew */
 
         compile(s);
         (void)mem_scratch(before);
@@ -412,7 +413,7 @@ static void set_element(StiffElements *s, int k, double n, double slope, double 
     inputs[2] = a;
 }
 
-/* w, sources and the row at (t, y) */
+/* set w, sources and time at (t, y) */
 static bool go_to(StiffElements *s, double t, const double *y)
 {
     const double *w;
@@ -436,7 +437,7 @@ bool stiff_elements_arguments(StiffElements *s, double t, const double *y, doubl
     return vector_is_finite(a, s->elements.count);
 }
 
-/* N and its slope at a */
+/* N and its derivative at a */
 static void value_of(const StiffElement *element, double a, double *n, double *slope)
 {
     switch (element->op) {
@@ -461,7 +462,7 @@ static void value_of(const StiffElement *element, double a, double *n, double *s
     }
 }
 
-/* From now on about (t, y): roots in `here`, the network factored. */
+/* Linearise about (t, y): the roots are stored in `here`, and the network is factored. */
 static bool settle(StiffElements *s, const double *y, const double *leaks, const double *a)
 {
     for (int k = 0; k < s->elements.count; k++) {
@@ -475,7 +476,7 @@ static bool settle(StiffElements *s, const double *y, const double *leaks, const
     return s->l->nx + s->l->nz == 0 || sparse_factor(s->network, s->here + s->matrix);
 }
 
-/* How w answers to what has moved the roots, per `by`; into s->answer. */
+/* The derivative of w when the roots have changed by this, over `by`; into s->answer. */
 static void answer(StiffElements *s, const double *roots, double by)
 {
     int n = s->l->nx + s->l->nz;
@@ -486,7 +487,7 @@ static void answer(StiffElements *s, const double *roots, double by)
         sparse_solve(s->network, s->answer);
 }
 
-/* How arguments answer to the same, w going with it; y is where that has gone. */
+/* The derivatives of arguments likewise, with w; y is the perturbed state. */
 static void arguments_answer(StiffElements *s, const double *y, double by, double *out, int stride)
 {
     const double *roots;
@@ -500,8 +501,8 @@ static void arguments_answer(StiffElements *s, const double *y, double by, doubl
         out[k * stride] = (roots[s->argument + k] - s->here[s->argument + k]) / by;
 }
 
-/* a = rate (x - t) + bend (x - t)^2 by its values at the end of the way, of which `rate` holds the
- * slope so far, and half way */
+/* Fit a = rate (x - t) + bend (x - t)^2 to the values at the end of the interval and half way;
+ * `rate` contains the slope so far. */
 static void find_bends(StiffElements *s, const double *y, const double *slope, double by,
                        double *moved, Affine *out)
 {
@@ -523,8 +524,9 @@ static void find_bends(StiffElements *s, const double *y, const double *slope, d
     }
 }
 
-/* The way to look along y', s: a step, but no further than y is large. Differences are taken over
- * such ways, for rounding may be 1e12 times larger in what nothing but leakage determines. */
+/* The time along y' that is evaluated, s: a step, but no further than y is large. Differences are
+ * over such distances since rounding error may be 1e12 times larger where leakage alone determines
+ * a value. */
 static double way_along(const double *y, const double *slope, int length, double h)
 {
     for (int i = 0; i < length; i++)
@@ -587,7 +589,7 @@ bool stiff_elements_answers(StiffElements *s, double t, const double *y, const d
     return sound;
 }
 
-/* the largest rate that answers, over its scale: of states, and of speeds as if each body moved
+/* the largest rate that changes, over its scale: of states, and of speeds as if each body moved
  * alone */
 static double effect(StiffElements *s, double by, const double *scale)
 {

@@ -1,15 +1,15 @@
-/* stiff_elements_ranges.c: between which values sources are over an interval, how they bend there,
- * and how large they get in a run */
+/* stiff_elements_ranges.c: ranges of sources and of their second derivatives over an interval, and
+ * sizes of sources in a run */
 #include "simulate/equations/stiff_elements_impl.h"
 
 #include <math.h>
 #include <string.h>
 
-#define PIECES 64 /* of a run, for the ranges of sources in it */
+#define PIECES 64 /* subintervals of a run, for the ranges of sources in it */
 
 /* --- what there is --- */
 
-/* jumps have a derivative of zero, and of data some points alone tell the range */
+/* a jump has a derivative of 0, and tables have a range that only some points determine */
 static bool may_jump(Expr e, void *context)
 {
     const Op op = expr_kind(e) == EXPR_CALL ? expr_op(e) : OP_SIN;
@@ -67,7 +67,7 @@ const Range *stiff_elements_sources_over(StiffElements *s, Range over)
     return ranges_over(s->values, over);
 }
 
-/* A corner bends without bound, and no second derivative tells of it. */
+/* The second derivative is unbounded at a corner, which its expression doesn't show. */
 const Range *stiff_elements_bends_over(StiffElements *s, Range over)
 {
     const Range *corners;
@@ -85,7 +85,7 @@ const Range *stiff_elements_bends_over(StiffElements *s, Range over)
     return s->bent;
 }
 
-/* the part of a that lies within reach of b's middle too, where that makes sense */
+/* the part of a within `reach` of b's middle, where that is an interval */
 static Range narrowed(Range a, Range b, double reach)
 {
     const double middle = (b.low + b.high) / 2, half = (b.high - b.low) / 2 + reach;

@@ -27,8 +27,8 @@ static Expr jerk_symbol(System *system, int i)
     return symbol;
 }
 
-/* Surfaces in the order of their numbers, those that are slid along first; the signs of inner ones
- * stand in the measures of those around them. */
+/* Number the surfaces, those that are slid along first; the measure of a surface contains the signs
+ * of inner ones. */
 static void place_surfaces(VariableIndex *l, const OnSurface *on, int count)
 {
     Arena *arena = system_arena(l->system);
@@ -50,7 +50,7 @@ static void place_surfaces(VariableIndex *l, const OnSurface *on, int count)
             l->slides += on[i].side == 0;
             text_free(&name);
         }
-    for (int turn = 0; turn < l->surface_count; turn++) /* as deep as they stand in one another */
+    for (int turn = 0; turn < l->surface_count; turn++) /* as deep as they are nested */
         for (int i = 0; i < l->surface_count; i++) {
             int way;
 
@@ -134,7 +134,7 @@ VariableIndex *variable_index_new_on(System *system, const OnSurface *on, int co
     for (int k = 0; k < system_drive_count(system); k++) {
         Expr effort = system_drive(system, k)->effort;
 
-        /* a driver's own effort is minus its multiplier, and no unknown of its own */
+        /* a driver's own effort is minus its multiplier, and not a further unknown */
         if (expr_kind(effort) == EXPR_SYMBOL && expr_symbol_kind(effort) == SYMBOL_EFFORT)
             (void)append(l, &room, effort);
     }
@@ -201,7 +201,7 @@ bool variable_index_follows_time(const VariableIndex *l, const Expr *roots, int 
     if ((kinds & solved) != 0)
         for (int i = 0; i < l->nx + l->nz; i++)
             kinds |= expr_kinds(run->network_residual[i]);
-    for (int i = 0; i < l->nu && l->slides > 0; i++) /* signs follow from forces */
+    for (int i = 0; i < l->nu && l->slides > 0; i++) /* signs depend on forces */
         kinds |= expr_kinds(run->force[i]);
     for (int i = 0; i < l->nx + l->nz && l->slides > 0; i++)
         kinds |= expr_kinds(run->network_residual[i]);
