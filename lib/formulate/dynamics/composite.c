@@ -1,8 +1,9 @@
-/* composite.c: what hangs beyond a node taken together
+/* composite.c: composite rigid bodies beyond each node
  *
- * Where the same nodes hang beyond a branch in both trees, one unit of its speed moves them as one
- * rigid body: its mass m, first moment S and inertia J about the node's origin say all that
- * the branches nearer to the datum feel (Walker and Orin 1982, here on a linear graph). */
+ * Where both trees have the same nodes beyond a branch, one unit of its speed moves these nodes as
+ * one rigid body. The branches nearer to the datum depend only on its mass m (kg), first moment S
+ * (kg m, 3 x 1) and inertia J (kg m^2, 3 x 3) about the node's origin (Walker and Orin 1982, here
+ * on a linear graph). */
 #include "formulate/dynamics/composite.h"
 #include "formulate/dynamics/loads.h"
 #include "formulate/kinematics/frames.h"
@@ -26,7 +27,7 @@ bool speed_moves_as_one(const System *system, int speed)
 
     if (system->dynamics->elastics.count > 0) /* it may bend beyond */
         return false;
-    /* the branch's own shift must not turn with what it carries */
+    /* the branch's own shift must not turn with the nodes beyond it */
     if (branch != tree_parent_edge(rotation, node) || (slide_node >= 0 && slide_node != node) ||
         (system->kinematics->frames[node].base == node &&
          !vec_is_zero(system->kinematics->frames[node].step)))
@@ -39,7 +40,8 @@ bool speed_moves_as_one(const System *system, int speed)
     return carried == turned;
 }
 
-/* inertia of a mass m with first moment S, moved by r: (2 r.S + m r.r) 1 - r S' - S r' - m r r' */
+/* inertia of a mass m with first moment S, shifted by r: (2 r.S + m r.r) 1 - r S' - S r' - m r
+ * r' */
 static Rotation shifted(Arena *arena, const Composite *part, Vec r)
 {
     Expr two = expr_int(arena, 2);
@@ -80,7 +82,8 @@ static Rotation tensor_express(const System *system, Rotation tensor, int from, 
     return tensor;
 }
 
-/* whose composite is that of its instance alone, as of the first's */
+/* the instance whose composite equals that of the first instance, when that instance is all there
+ * is */
 static const Follower *follows_whole(const System *system, int node, int *first)
 {
     const Follower *follower = isomorphic_node(system, node, first);
@@ -96,7 +99,7 @@ Composite composite_at(const System *system, const Composites *all, int node)
 
     if (follower == NULL)
         return all->at[node];
-    /* the first may follow another one, as deep as definitions stand in one another */
+    /* the first may follow another one, nested as deep as the definitions are */
     own = composite_at(system, all, first);
     own.mass = isomorphic_take(follower, own.mass);
     own.moment = isomorphic_vec(follower, own.moment);
@@ -142,7 +145,7 @@ static void place_masses(const System *system, Composites *all)
     }
 }
 
-/* What of its nodes is passed on inward, and to where */
+/* what is passed on inward from the nodes, and to which node */
 typedef struct Passing {
     const int *place;
     bool *moves; /* a node */
@@ -173,7 +176,7 @@ static void recall_composites(const System *system, const Passing *passing, Comp
     }
 }
 
-/* adds what hangs there to what hangs at its parent */
+/* adds the composite at the node to that of its parent */
 static void pass_on(const System *system, Composites *all, int node)
 {
     Arena *arena = system->arena;

@@ -1,6 +1,7 @@
 /* composite_entries.c: M by the recursion of composite_mass.h, in symbols
  *
- * What a place passes on to the next is held, so that all speeds met from there on share it. */
+ * What a place passes on to the next is a named temporary, which all speeds further inward
+ * share. */
 #include "formulate/dynamics/composite_mass.h"
 #include "formulate/system/dynamics.h"
 #include "formulate/system/system_impl.h"
@@ -34,7 +35,7 @@ static Vec turn_onto(Arena *arena, const CompositeMass *mass, const MassPlace *p
     return vec_hold(arena, rotation_apply(arena, &whole, v));
 }
 
-/* a force and a moment on the place, to its parent */
+/* passes a force and a moment on the place to its parent */
 static void pass_on(Arena *arena, const CompositeMass *mass, const MassPlace *place, Vec *force,
                     Vec *torque)
 {
@@ -72,7 +73,7 @@ static void add_column(Arena *arena, const CompositeMass *mass, int k, MassEntri
     for (int p = own->place; p >= 0; p = mass->places[p].parent) {
         const MassPlace *place = &mass->places[p];
 
-        /* those of one place stand in the column of the later one */
+        /* entries of one place are in the column of the later speed */
         for (int i = place->first; i < place->first + place->count; i++)
             if (p != own->place || mass->speed_at[i] <= k)
                 add_entry(arena, mass, mass->speed_at[i], k, force, torque, out);

@@ -1,4 +1,4 @@
-/* composite_mass.c: what is passed on towards the datum, and where */
+/* composite_mass.c: which loads are passed on towards the datum, and at which places */
 #include "formulate/dynamics/composite_mass.h"
 #include "formulate/kinematics/frames.h"
 #include "formulate/kinematics/identity.h"
@@ -11,7 +11,7 @@
 #include "formulate/system/system_impl.h"
 #include "formulate/system/vector.h"
 
-/* speeds up to which M written out is run faster, zeros and ones of its terms left out */
+/* speeds up to which the expanded M is cheaper, as it omits zeros and ones */
 enum { FEW_SPEEDS = 16 };
 
 /* both trees reach every node by the same edge, and every speed moves one body */
@@ -59,7 +59,7 @@ static Rotation rotation_between(const System *system, int from, int to)
     return rotation;
 }
 
-/* cosine and sine of a turn about one of the axes; else row by row */
+/* as cosine and sine for a turn about one of the axes; otherwise row by row */
 static void add_rotation(const System *system, CompositeMass *mass, int from, int to,
                          MassPlace *place)
 {
@@ -81,8 +81,8 @@ static void add_rotation(const System *system, CompositeMass *mass, int from, in
     place->rotation = need(mass, R.at, 9);
 }
 
-/* Nodes between that no speed moves have the axes of the place's parent: their steps are one way.
- */
+/* Nodes between that no speed moves have the axes of the place's parent: their shifts are one
+ * vector. */
 static MassPlace place_of(const System *system, CompositeMass *mass, int node, const int *at)
 {
     const Frame *frames = system->kinematics->frames;
@@ -136,7 +136,7 @@ typedef struct SpeedVectors { /* as in MassSpeed */
     Vec turn, slide, force, torque;
 } SpeedVectors;
 
-/* motion per unit; what that takes is to be found */
+/* motion per unit of the speed; find_vectors() adds the loads that this motion needs */
 static SpeedVectors speed_motion(const System *system, int j)
 {
     const int axes = node_axes(system, speed_node(system, j));
@@ -147,7 +147,7 @@ static SpeedVectors speed_motion(const System *system, int j)
                           .slide = speed_slide(system, j, axes)};
 }
 
-/* In the names of an instance, or recalled, or derived. `all`: of those that others take over */
+/* By renaming within an instance, recalled, or derived. `all`: of those that others take over */
 static void find_vectors(const System *system, const Composites *composites, Loads *loads, int j,
                          SpeedVectors *all)
 {
@@ -218,7 +218,7 @@ static void add_speeds(System *system, CompositeMass *mass, const int *at)
 
     mass->speed_count = count;
     mass->speeds = pool_alloc(system->pool, (size_t)count * sizeof *mass->speeds);
-    /* what others take over comes before them */
+    /* first those that others take over */
     for (int level = 0, done = 0; done < count; level++)
         for (int j = 0; j < count; j++) {
             const int node = speed_node(system, j);
@@ -233,7 +233,7 @@ static void add_speeds(System *system, CompositeMass *mass, const int *at)
     list_speeds(system, mass);
 }
 
-/* what moves with each place as one body */
+/* adds the body that moves with each place as one rigid body */
 static void add_bodies(System *system, CompositeMass *mass, const int *at)
 {
     int nodes;
@@ -281,15 +281,15 @@ void composite_mass_free(CompositeMass *mass)
     mem_free(mass);
 }
 
-/* --- its price --- */
+/* --- operation count --- */
 
 static OpCount times(OpCount a, int64_t n)
 {
     return (OpCount){n * a.add, n * a.mul, n * a.fun};
 }
 
-/* Passing on takes a cross product for a step, a product with a matrix for a turn of each vector,
- * and meeting a speed a dot product; in a plane less. */
+/* Passing on needs a cross product for a shift and a matrix product for the turn of each vector.
+ * Meeting a speed needs a dot product. In a plane both need less. */
 static OpCount passing(const CompositeMass *mass, const MassPlace *place)
 {
     const OpCount cross = mass->planar ? (OpCount){2, 2, 0} : (OpCount){6, 6, 0};

@@ -27,12 +27,12 @@
 #include <math.h>
 #include <string.h>
 
-/* Speeds of the largest mass matrix that is written out: it is dense, and some 100 bytes stand
- * behind each entry. Where it is made in numbers (composite_mass.h) what the constraints and
- * coordinates make of each speed is the largest table, of a few numbers an entry. */
+/* Limits for the number of speeds. A mass matrix that is written out is dense, with some 100 bytes
+ * for each entry. Where M is computed numerically (composite_mass.h), the largest table holds what
+ * the constraints and coordinates derive for each speed: a few numbers an entry. */
 enum { MOST_SPEEDS_WRITTEN = 4000, MOST_SPEEDS = 7000 };
 
-/* the row of a speed: its cutset projected on its motion */
+/* the row of a speed: its cutset projected on its motion space */
 static Expr sums_project(const System *system, const Sums *sums, int speed)
 {
     const Speed *own = &system->kinematics->speeds[speed];
@@ -105,7 +105,7 @@ static void unit_elastic(const System *system, const Elastic *elastic, int speed
     mem_free(rates);
 }
 
-/* inertia forces, signs reversed, of that motion */
+/* inertia forces of that motion, with reversed signs */
 static Status unit_loads(const System *system, int speed, const Vec *v, Loads *loads)
 {
     Arena *arena = system->arena;
@@ -132,8 +132,8 @@ static Status unit_loads(const System *system, int speed, const Vec *v, Loads *l
     return OK;
 }
 
-/* how many bodies a speed moves: those that it turns, or whose way it turns or lengthens; `moves`
- * has room for every node */
+/* the number of bodies that a speed moves: it turns them, or turns or lengthens the vector to them;
+ * `moves` has room for every node */
 static int bodies_moved(const System *system, int speed, bool *moves)
 {
     int turned = system->kinematics->speeds[speed].chain;
@@ -166,7 +166,7 @@ static int bodies_moved(const System *system, int speed, bool *moves)
     return moved;
 }
 
-/* whether the pair (j, k) is read from column k */
+/* whether the pair (j, k) is taken from column k */
 static bool column_serves(const System *system, const int *moved, int j, int k)
 {
     const Tree *tree = system->origin->trees[TREE_TRANSLATION];
@@ -178,8 +178,8 @@ static bool column_serves(const System *system, const int *moved, int j, int k)
     return depth_k != depth_j ? depth_k > depth_j : k >= j;
 }
 
-/* In rows of dependent speeds stands what works on the shapes that they follow from: the nu x nu
- * entries of F' C F, from C of all n speeds. */
+/* Rows of dependent speeds hold loads on the shapes that they follow from: the nu x nu entries of
+ * F' C F, from C of all n speeds. */
 static Expr *of_own_speeds(const System *system, const Expr *all, int n)
 {
     Arena *arena = system->arena;
@@ -288,8 +288,8 @@ static Inertia inertia_of(const System *system, const Mass *mass, Outward *gravi
     return inertia;
 }
 
-/* What a mass at rest accelerations does: of a follower's it is all on its node so far, as inertia
- * comes before other loads. */
+/* Inertia load of a mass at rest accelerations. For a follower all load on its node is this load so
+ * far, as inertia is added before other loads. */
 static Inertia find_inertia(const System *system, const Loads *loads, const Mass *mass,
                             const Follower *follower, int first, Outward *gravity)
 {
@@ -317,7 +317,7 @@ void loads_add_inertia(const System *system, Loads *loads, const Vec *alpha, con
 {
     Outward gravity = outward_new(system, system->origin->gravity);
 
-    /* what others take over comes before them */
+    /* first those that others take over */
     for (int level = 0, done = 0; done < system->dynamics->masses.count; level++)
         for (int i = 0; i < system->dynamics->masses.count; i++) {
             const Mass *mass = &system->dynamics->masses.at[i];
@@ -351,7 +351,7 @@ static bool is_one_of(Expr symbol, const Expr *symbols, int count)
     return false;
 }
 
-/* an effort on a coordinate works on the speeds that the coordinate depends on */
+/* an effort on a coordinate acts on the speeds that the coordinate depends on */
 static void add_on_coordinate(const System *system, Expr coordinate, Expr effort)
 {
     Arena *arena = system->arena;
@@ -376,7 +376,7 @@ static void add_on_coordinate(const System *system, Expr coordinate, Expr effort
     mem_free(symbols);
 }
 
-/* what a part adds to an entry of M */
+/* adds a part's share to an entry of M */
 static void add_share(System *system, int row, int column, Expr share)
 {
     if (!expr_is_zero(share))
@@ -434,7 +434,7 @@ static Status add_inertia(System *system, const Effort *effort, Diag *diag)
 
 enum { MOST_SAMPLES = 8, ENOUGH_SAMPLES = 2 }; /* laws may be undefined at some */
 
-/* whether M(j, k) is M(k, j), as far as rounding of what the two speeds move lets tell */
+/* whether M(j, k) equals M(k, j) within the rounding error of what the two speeds move */
 static bool is_symmetric(const System *system, Sample *const *samples, int j, int k)
 {
     const Expr *mass = system->run.mass;
@@ -454,7 +454,7 @@ static bool is_symmetric(const System *system, Sample *const *samples, int j, in
     return identity >= ENOUGH_SAMPLES;
 }
 
-/* a part whose law holds one of two entries of u' */
+/* a part whose law contains one of the two entries of u' */
 static const char *pusher_that_reads(System *system, int j, int k)
 {
     const Expr *u_dot = system->kinematics->accelerations;
@@ -468,7 +468,7 @@ static const char *pusher_that_reads(System *system, int j, int k)
     return "a load";
 }
 
-/* a law that hands on accelerations one way only would make M unsymmetric */
+/* a law that transmits accelerations in one direction only would make M unsymmetric */
 static Status check_symmetry(System *system, Diag *diag)
 {
     int n = system->kinematics->u.count;
@@ -538,7 +538,7 @@ static Status joint_efforts(System *system, Diag *diag)
         if (instance->row->rotor != NULL)
             TRY(add_rotor(system, instance, diag));
     }
-    /* an effort that an inverse run finds at another coordinate */
+    /* an effort that an inverse run computes at another coordinate */
     for (int i = 0; i < system->constraints->drives.count; i++) {
         Expr s;
 
@@ -555,7 +555,7 @@ static Status joint_efforts(System *system, Diag *diag)
     return OK;
 }
 
-/* the rows of what hangs beyond each speed; what acts on stations works on shapes */
+/* the rows: loads beyond each speed; loads on section frames act on shapes */
 static void project(System *system, const Sums *sums, Expr *rows)
 {
     Arena *arena = system->arena;
@@ -577,7 +577,7 @@ static void project(System *system, const Sums *sums, Expr *rows)
         rows[j] = expr_name_temporary(arena, rows[j]);
 }
 
-/* what laws between frames hold of u' */
+/* adds the parts of laws between frames that contain u' */
 static Status take_inertial_laws(System *system, Diag *diag)
 {
     const int n = system->kinematics->u.count;

@@ -5,11 +5,10 @@
 #include "formulate/system/dynamics.h"
 
 MUST_USE Status dynamics_build(System *system, Diag *diag);
-/* the part of F that neither inertia nor gravity makes */
+/* the part of F that is due neither to inertia nor to gravity */
 MUST_USE Status system_pushes(System *view, Expr *out, Diag *diag);
 
-/* M u' - F for u' that are given, by one pass outward and one inward: nu. False: something deforms.
- */
+/* M u' - F for given u', by one pass outward and one inward: nu x 1. False: a part is flexible. */
 bool dynamics_lack(System *view, const Expr *acceleration, Expr *out);
 
 #endif

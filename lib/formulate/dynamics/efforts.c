@@ -1,4 +1,4 @@
-/* efforts.c: what pushes: forces, springs, dampers, actuators, motors */
+/* efforts.c: applied loads: forces, springs, dampers, actuators, motors */
 #include "formulate/dynamics/efforts.h"
 #include "formulate/dynamics/laws.h"
 #include "formulate/dynamics/loads.h"
@@ -163,7 +163,7 @@ static void add_shift(System *system, Loads *loads, const Instance *owner, const
     force = vec_scale(arena, effort, frame_vector(system, owner->tail, force));
     loads_add_force(system, loads, owner->head, force, chain);
     loads_add_force(system, loads, owner->tail, vec_neg(arena, force), chain);
-    /* the tail feels the force where the head is */
+    /* the force on the tail acts at the head's position */
     force = vec_express(system, force, chain, 0);
     loads_add_torque(system, loads, owner->tail, vec_neg(arena, vec_cross(arena, way, force)), 0);
 }

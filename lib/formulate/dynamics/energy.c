@@ -15,7 +15,7 @@
 #include "formulate/system/system_impl.h"
 #include "formulate/system/vector.h"
 
-enum { SHORT = 4 }; /* terms of a sum that is not worth avoiding */
+enum { SHORT = 4 }; /* terms; a longer sum is worth avoiding */
 
 typedef LIST(Expr) EnergyTerms;
 
@@ -29,7 +29,7 @@ static void push(const System *system, EnergyTerms *terms, Expr scale, Expr a, E
     LIST_PUSH(*terms, expr_product(system->arena, (Expr[]){scale, a, b}, 3));
 }
 
-/* what a scalar edge stores; 0 where nothing is known of it */
+/* energy stored in a scalar edge; 0 where it is unknown */
 static Expr stored_field(System *system, const Branchlike *branch)
 {
     Expr stored = expr_int(system->arena, 0);
@@ -40,7 +40,7 @@ static Expr stored_field(System *system, const Branchlike *branch)
     return stored;
 }
 
-/* flywheels and slugs hold energy of motion, as does the liquid of an inertance */
+/* flywheels and slugs store kinetic energy, as does the liquid of an inertance */
 static bool is_of_motion(const System *system, const Branchlike *branch)
 {
     Domain domain = graph_edge(system->origin->graph, branch->edge)->domain;
@@ -104,8 +104,8 @@ static bool stored_in(System *system, const Effort *effort, Expr displacement, E
     return variables_resolve(system, stored, out, NULL) == OK;
 }
 
-/* How far nodes are along gravity, times it. Step by step: positions in the axes of the datum would
- * turn each step through all the turns before it. New, mem_free(). */
+/* Distance of each node along gravity times gravity, shift by shift: positions in the axes of
+ * the datum would rotate each shift by all the turns before it. New, mem_free(). */
 static Expr *falls_of(const System *system, const Vec *gravity)
 {
     Arena *arena = system->arena;
@@ -180,7 +180,7 @@ Expr system_potential(System *system)
     return sum;
 }
 
-/* an effort less the part that a potential accounts for */
+/* the part of an effort that does not derive from a potential */
 static Expr lost_effort(System *system, const Effort *effort)
 {
     Arena *arena = system->arena;
@@ -213,14 +213,14 @@ static void push_wrench(System *system, EnergyTerms *terms, const Instance *inst
          vec_dot(arena, torque, system->kinematics->motions[frame->chain].w));
 }
 
-/* along the tree, so that terms of two edges may cancel */
+/* whether to follow the tree, so that terms of two edges may cancel */
 static bool is_short(Expr e)
 {
     return expr_kind(e) != EXPR_SUM || expr_arg_count(e) <= SHORT;
 }
 
-/* v and i of a scalar edge, whose product is the power that it takes. What is a state's rate times
- * a number follows from that where along the tree it is a sum over many edges. */
+/* v and i of a scalar edge: their product is the power into it. Where the rate of a state times a
+ * number is a sum over many edges along the tree, it follows from that rate. */
 static void power_of(System *system, const Branchlike *branch, Expr *v, Expr *i)
 {
     const RelationKind kind = branch->relation.kind;
@@ -236,8 +236,8 @@ static void power_of(System *system, const Branchlike *branch, Expr *v, Expr *i)
         *derived = rate;
 }
 
-/* minus the power that scalar edges take and don't store; heat is power by itself, and no balance
- * holds it */
+/* Subtracts the power that scalar edges absorb and do not store. Heat flow is a power by itself,
+ * and the balance excludes it. */
 static void push_network(System *system, EnergyTerms *terms)
 {
     Arena *arena = system->arena;
@@ -251,7 +251,7 @@ static void push_network(System *system, EnergyTerms *terms)
         if (system_rate_of(system, stored_field(system, branch), &rate, NULL) == OK)
             LIST_PUSH(*terms, rate);
         else if (expr_is_zero(branch->relation.rest))
-            continue; /* all that it takes is stored */
+            continue; /* all power into it is stored */
         power_of(system, branch, &v, &through);
         push(system, terms, expr_int(arena, -1), v, through);
     }
@@ -272,7 +272,7 @@ static void push_drives(System *system, EnergyTerms *terms)
     }
 }
 
-/* damping, and a load */
+/* damping and applied load */
 static void push_elastic(System *system, const Elastic *elastic, EnergyTerms *terms)
 {
     Arena *arena = system->arena;

@@ -1,7 +1,7 @@
-/* laws.c: what parts push with, as functions of the motion
+/* laws.c: efforts of parts, as functions of the motion
  *
- * A law that holds u' pushes with inertia: of a flywheel on a shaft's end, of the liquid before a
- * cylinder. Its slope belongs into M, and what it is at u' = 0 into F. */
+ * A law that contains u' acts as inertia: that of a flywheel on a shaft's end, or of the liquid
+ * before a cylinder. Its derivative by u' is added to M, and its value at u' = 0 to F. */
 #include "formulate/dynamics/laws.h"
 #include "formulate/system/dynamics.h"
 #include "formulate/system/kinematics.h"
@@ -9,7 +9,7 @@
 #include "formulate/system/resolve.h"
 #include "formulate/system/system_impl.h"
 
-/* While equations are formed, a law can't read what follows from them. */
+/* While the equations are being formed, a law cannot read their results. */
 Status law_read(System *system, const Instance *instance, Expr law, Expr *out, Diag *diag)
 {
     const Status status = variables_resolve(system, law, out, diag);

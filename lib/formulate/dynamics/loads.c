@@ -1,7 +1,7 @@
 /* loads.c: forces and moments of one pass, summed inward over both trees
  *
- * Each is resolved in the axes of its chain's `resolve` chain and held, so that a program computes
- * it once. */
+ * Each is resolved in the axes of its orientation class's `resolve` class, as a named temporary: a
+ * program computes it once. */
 #include "formulate/dynamics/loads.h"
 #include "formulate/kinematics/frames.h"
 #include "formulate/kinematics/identity.h"
@@ -41,13 +41,14 @@ void loads_add_torque(const System *system, Loads *loads, int node, Vec torque, 
 typedef struct Summing {
     const System *system;
     Sums *sums;
-    int *forces, *torques; /* nodes inward, of each tree; without the datum */
+    int *forces, *torques; /* inward order of the nodes in each tree, without the datum */
     int force_count, torque_count;
-    /* a node each */
-    bool *asks_force, *asks_torque;   /* somebody asks for the sum */
-    Expr *force_key, *torque_key;     /* of what adds up there; NULL: nothing, or it isn't told */
-    bool *knows_force, *knows_torque; /* the sum is recalled, or nothing */
-    bool *alike;                      /* the sums are those of the first's */
+    /* one for each node */
+    bool *asks_force, *asks_torque; /* the sum is needed */
+    /* identity of the sum at a node; NULL: no load, or unknown identity */
+    Expr *force_key, *torque_key;
+    bool *knows_force, *knows_torque; /* the sum was recalled, or is 0 */
+    bool *alike;                      /* the sums equal those of the first instance */
 } Summing;
 
 enum { FORCE, TORQUE };
@@ -108,7 +109,7 @@ static void recall_torques(Summing *s)
     }
 }
 
-/* the loads on all of an instance are those of the first's */
+/* the loads on all of an instance equal those of the first */
 static bool loaded_alike(const System *system, const Follower *follower, const Loads *loads)
 {
     int count, first;
@@ -123,8 +124,8 @@ static bool loaded_alike(const System *system, const Follower *follower, const L
     return alike;
 }
 
-/* Instances whose sums are those of the first, of all or none of its nodes; they are asked where
- * something is to be derived. */
+/* Finds instances whose sums equal those of the first, at all or none of their nodes. Their sums
+ * are computed where something has to be derived. */
 static void find_alike(const Summing *s, const Loads *loads)
 {
     const int count = graph_node_count(s->system->origin->graph);
@@ -150,10 +151,10 @@ static void find_alike(const Summing *s, const Loads *loads)
 }
 
 typedef struct Carried {
-    Vec force, moment; /* in the axes of the parent, and of the base */
+    Vec force, moment; /* in the axes of the parent and of the base */
 } Carried;
 
-/* a shift passes on the moment of what it carries to the frame that it is fixed in */
+/* a shift transfers the moment of all loads beyond it to the frame that it is fixed in */
 static void pass_force(const Summing *s, int n)
 {
     const System *system = s->system;
@@ -194,7 +195,7 @@ static void pass_torque(const Summing *s, int n, int parent)
     s->sums->torque[parent] = vec_add(system->arena, s->sums->torque[parent], passed);
 }
 
-/* the sum at a node to which all beyond has been added, unless it is known */
+/* completes the sum at a node after all loads beyond have been added, unless it is known */
 static void end_sum(const Summing *s, int n, bool is_known, Expr key, Derived which, Vec *of)
 {
     if (is_known)
@@ -219,7 +220,7 @@ static void sum_forces(const Summing *s)
         if (!s->asks_force[n])
             continue;
         end_sum(s, n, s->knows_force[n], s->force_key[n], DERIVED_FORCE, s->sums->force);
-        /* most loads of a motion of few bodies are none */
+        /* for a motion of few bodies most loads are 0 */
         if (!(s->alike[n] && s->alike[parent]) && !vec_is_zero(s->sums->force[n]))
             pass_force(s, n);
     }
@@ -239,7 +240,7 @@ static void sum_torques(const Summing *s)
     }
 }
 
-/* no joint leads to the datum; a turn is one of the chain, wherever its nodes stand */
+/* no joint leads to the datum; a turn belongs to the orientation class, whatever its nodes */
 static void find_asked(Summing *s, SumsFor whom)
 {
     const System *system = s->system;

@@ -1,8 +1,8 @@
-/* reactions.c: forces and moments of joints, from lambda where the joint is a chord, from what
- * hangs beyond it where it is a branch (theory 5)
+/* reactions.c: forces and moments of joints (theory 5)
  *
- * Rows that vanished have multipliers too (redundancy.c). Where some of them are open, so is every
- * component of a reaction that changes with them, and no other. */
+ * If the joint is a chord they follow from lambda; if it is a branch, from the loads beyond it.
+ * Redundant rows have multipliers too (redundancy.c). Where some of these are undetermined, so is
+ * every component of a reaction that depends on them, and no other. */
 #include "formulate/dynamics/reactions.h"
 #include "formulate/dynamics/efforts.h"
 #include "formulate/dynamics/laws.h"
@@ -83,7 +83,7 @@ Status actual_build(System *system, Diag *diag)
     return OK;
 }
 
-/* what a row puts on the head of its chord per unit of -lambda: force or moment, ground axes */
+/* load of a row on the head of its chord per unit of -lambda: force or moment, ground axes */
 static Vec row_reaction(const System *system, const Row *row, bool rotation)
 {
     Arena *arena = system->arena;
@@ -101,9 +101,9 @@ static Vec row_reaction(const System *system, const Row *row, bool rotation)
     return vec_express(system, along, row->kind == ROW_DATUM ? 0 : tail, 0);
 }
 
-/* What a screw's tie carries beside its row. The rows of motion have a torque on it as the force on
- * the shift that does the same work, and so their multiplier lacks that force; it comes with the
- * moment that makes the wrench do no work. */
+/* Load that a screw's tie carries in addition to its row. The motion rows replace a torque on the
+ * screw by the force on the shift that does the same work, so their multiplier lacks that force. It
+ * is added here, with the moment that makes the wrench do no work. */
 static Vec tied_reaction(System *system, const Instance *joint, bool rotation)
 {
     Arena *arena = system->arena;
@@ -158,7 +158,7 @@ Vec branch_reaction(const System *system, const Instance *instance, const Sums *
     return tree_is_forward(tree, node) ? vec_neg(system->arena, reaction) : reaction;
 }
 
-/* the component that is asked for, of a vector in the axes of a chain */
+/* the wanted component of a vector in the axes of an orientation class */
 static Expr component(const System *system, const Instance *joint, ReactionPart part, Vec vector,
                       int chain)
 {
@@ -171,7 +171,7 @@ static Expr component(const System *system, const Instance *joint, ReactionPart 
     return vector.at[part.axis];
 }
 
-/* the component per unit of the multiplier of a row that vanished */
+/* the component per unit of the multiplier of a redundant row */
 static Expr share_of(System *system, const Instance *joint, const void *wanted, int redundant)
 {
     const ReactionPart part = *(const ReactionPart *)wanted;
@@ -188,7 +188,8 @@ static Expr share_of(System *system, const Instance *joint, const void *wanted, 
     return component(system, joint, part, vector, chain);
 }
 
-/* whose multiplier is open, and with it the sum of shares[k] by multiplier k; NULL: nothing is */
+/* A row whose multiplier is undetermined and on which the sum of shares[k] by multiplier k depends;
+ * NULL: none. */
 static const Row *open_row(const System *system, const double *shares, int instance)
 {
     enum { DIGITS = 7 };
@@ -206,7 +207,7 @@ static const Row *open_row(const System *system, const double *shares, int insta
             sum += term;
             if (fabs(term) > size)
                 size = fabs(term);
-            /* another part's row says more */
+            /* the row of another part tells the user more */
             if (term != 0 && (found == NULL || found->reported.instance == instance))
                 found = &system->constraints->redundant_rows.at[k];
         }

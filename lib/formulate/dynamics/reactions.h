@@ -6,28 +6,27 @@
 #include "formulate/system/constraints.h"
 #include "formulate/system/sample.h"
 
-/* multipliers of rows that vanished, from virtual branches that carry nothing (redundancy.c) */
+/* multipliers of redundant rows, from virtual branches that carry no load (redundancy.c) */
 typedef struct Recovery {
-    Expr *multipliers; /* mu, one a vanished row; 0 where it is open */
-    Sums **sums;       /* what a unit of each puts beyond every node */
+    Expr *multipliers; /* mu, one for each redundant row; 0 where it is undetermined */
+    Sums **sums;       /* loads of a unit of each beyond every node */
     int open_count;    /* combinations of mu that nothing determines */
-    double *open;      /* vanished rows x open_count, at `sample` */
+    double *open;      /* null space of W: redundant rows x open_count, at `sample` */
     Sample *sample;    /* the position */
 } Recovery;
 
 /* accelerations with u', sums inward with lambda */
 MUST_USE Status actual_build(System *system, Diag *diag);
-/* multipliers of the rows that vanished, from the loads without them */
+/* multipliers of the redundant rows, from the loads without them */
 void recovery_build(System *system, const Loads *loads);
 
 /* the force or torque that a branch carries from its tail to its head, in the axes of `chain` */
 Vec branch_reaction(const System *system, const Instance *instance, const Sums *sums, bool rotation,
                     int *chain);
-/* what a figure of a part, `wanted`, changes by per unit of the multiplier of a row that vanished
- */
+/* derivative of a part's quantity `wanted` by the multiplier of a redundant row */
 typedef Expr RowShare(System *system, const Instance *part, const void *wanted, int redundant);
-/* A row that vanished and on which the figure depends, though nothing determines its multiplier.
- * NULL: there is none. */
+/* A redundant row whose multiplier nothing determines, though the quantity depends on it. NULL:
+ * there is none. */
 const Row *reaction_open_row(System *system, const Instance *part, RowShare *share,
                              const void *wanted);
 

@@ -1,16 +1,16 @@
-/* redundancy.c: multipliers of equations that vanished (theory 5)
+/* redundancy.c: multipliers of redundant equations (theory 5)
  *
- * A row that holds in every position has a multiplier mu all the same: what its joint carries in
- * that direction. A virtual branch in the joint's place carries nothing, so the sums beyond it,
- * P without mu and W mu, cancel:
+ * A row that holds in every position still has a multiplier mu: the load that its joint carries in
+ * that direction. A virtual branch at the joint's position carries no load. So the sums of loads
+ * beyond it, P without mu and W mu, cancel:
  *
  *     W mu = -P,   W^T W mu = -W^T P = b
  *
  * with three force rows for each virtual branch of the translation tree and three moment rows for
- * each of the rotation tree; those along its motion are zero by themselves. W depends on q
- * alone. Its rank is found in numbers, at a random position; on independent columns W^T W is
- * positive definite, so that L D L^T needs no pivots and can be written down in symbols. What
- * stays open (W y = 0) is redundant: no trees determine it. */
+ * each of the rotation tree; those along its motion are zero by themselves. W depends on q alone.
+ * Its rank is computed numerically, at a random position. On independent columns W^T W is positive
+ * definite, so L D L^T needs no pivoting and can be formed in symbols. The null space (W y = 0)
+ * remains undetermined, whichever trees are chosen. */
 #include "formulate/dynamics/efforts.h"
 #include "formulate/dynamics/loads.h"
 #include "formulate/dynamics/reactions.h"
@@ -25,7 +25,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define NONE 1e-9 /* a pivot of unit directions and lengths that is zero */
+#define NONE 1e-9 /* a pivot this small is 0; directions have unit length */
 
 /* --- the equations --- */
 
@@ -59,7 +59,7 @@ static void add_rows(const Recovery *recovery, const Sums *sums, int node, bool 
     }
 }
 
-/* each virtual branch carries nothing */
+/* each virtual branch carries no load */
 static void gather(System *system, const Recovery *recovery, const Sums *sums,
                    RedundancyMatrix *out)
 {
@@ -91,8 +91,8 @@ static void unit_sums(System *system, Recovery *recovery)
 
 /* --- rank ---
  *
- * By hand, since what it leaves goes into formulas: ones and zeros of directions along axes stay
- * what they are in Gauss's elimination, while orthogonal factors turn them into rounding. */
+ * Gauss elimination, since its result is used in formulas: zeros and ones of directions along axes
+ * remain exact, while orthogonal factors would add rounding errors. */
 
 typedef struct RedundancyElimination {
     int rows, columns;
@@ -111,7 +111,7 @@ static void swap_rows(RedundancyElimination *e, int a, int b)
     }
 }
 
-/* the largest entry left becomes the pivot; false: it is none */
+/* makes the largest remaining entry the pivot; false: it is 0 */
 static bool choose_pivot(RedundancyElimination *e)
 {
     double largest = NONE;
@@ -153,7 +153,7 @@ static void eliminate(RedundancyElimination *e)
     }
 }
 
-/* the null space of W: a free column is one, the pivots balance it */
+/* the null space of W: a free column is 1, and the pivot columns balance it */
 static void find_open(System *system, const RedundancyElimination *e, Recovery *recovery)
 {
     int count = e->columns - e->rank;
@@ -177,7 +177,7 @@ static void find_open(System *system, const RedundancyElimination *e, Recovery *
 /* sum over the rows of W_ra W_rb; of W_ra P_r where b is -1 */
 static Expr product(const System *system, const RedundancyMatrix *m, int a, int b)
 {
-    enum { SHORT = 400 }; /* operations of what may be written out */
+    enum { SHORT = 400 }; /* operations of an expression that may be written out */
     Arena *arena = system->arena;
     Expr sum = expr_int(arena, 0);
 
@@ -187,7 +187,7 @@ static Expr product(const System *system, const RedundancyMatrix *m, int a, int 
 
         sum = expr_add(arena, sum, expr_mul(arena, left, right));
     }
-    /* axes that turn together leave 1 and 0 */
+    /* axes that turn together give 1 and 0 */
     if (b >= 0 && op_count_total(expr_count(&sum, 1)) < SHORT)
         sum = expr_fold(arena, expr_open(arena, sum));
     return expr_name_temporary(arena, sum);
@@ -245,8 +245,8 @@ static int by_number(const void *a, const void *b)
     return *(const int *)a - *(const int *)b;
 }
 
-/* what is open, and pivot columns in the order of the joints: L stays as sparse as their
- * neighbourhood */
+/* finds the undetermined combinations, and the pivot columns in the order of the joints: L is then
+ * as sparse as their adjacency */
 static void find_columns(System *system, const RedundancyMatrix *m, Recovery *recovery,
                          RedundancyElimination *e)
 {

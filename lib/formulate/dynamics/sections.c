@@ -1,7 +1,7 @@
 /* sections.c: forces and moments in the sections of a beam, by a cut (theory 9)
  *
- * What is beyond the cut is in equilibrium with its inertia: weight and load of the beam there, and
- * what its frames there carry, those at the cut among them. */
+ * The loads on the part beyond the cut are in equilibrium with its inertia: the section loads, its
+ * weight, the applied load there, and the loads on its frames, including those at the cut. */
 #include "formulate/dynamics/sections.h"
 #include "formulate/dynamics/laws.h"
 #include "formulate/dynamics/reactions.h"
@@ -14,7 +14,7 @@
 #include "formulate/system/shown.h"
 #include "formulate/system/system_impl.h"
 
-/* force, and moment about the root's origin; axes of its chain */
+/* force, and moment about the root's origin; axes of the root's orientation class */
 typedef struct Wrench {
     Vec force, moment;
 } Wrench;
@@ -28,7 +28,7 @@ static const Elastic *elastic_of(const System *system, const Instance *part)
     return elastic;
 }
 
-/* 1 where a frame stands beyond the cut or at it, 0 before it */
+/* 1 where a frame is beyond the cut or at it, otherwise 0 */
 static Expr is_beyond(const System *system, const Instance *part, const Instance *frame, Expr at)
 {
     static const double rounding = 1e-12; /* of the length */
@@ -43,7 +43,7 @@ static Expr is_beyond(const System *system, const Instance *part, const Instance
                                          expr_int(arena, 0), expr_int(arena, 1));
 }
 
-/* what the frames beyond the cut hand on to the beam */
+/* loads of the frames beyond the cut on the beam */
 static void add_frames(const System *system, const Instance *part, Expr at, const Sums *sums,
                        Wrench *to)
 {
@@ -77,7 +77,7 @@ static void add_frames(const System *system, const Instance *part, Expr at, cons
     }
 }
 
-/* what acts on the beam itself */
+/* loads on the beam itself */
 static Status add_beam(System *system, const Instance *part, Expr at, Wrench *to, Diag *diag)
 {
     const Elastic beyond = elastic_beyond(system, elastic_of(system, part), at);
@@ -128,7 +128,7 @@ typedef struct SectionQuery {
     Expr at;
 } SectionQuery;
 
-/* per unit of the multiplier of a row that vanished */
+/* per unit of the multiplier of a redundant row */
 static Expr share_of(System *system, const Instance *part, const void *wanted, int redundant)
 {
     const SectionQuery *section = wanted;

@@ -1,4 +1,4 @@
-/* sections.h: what the sections of a beam carry */
+/* sections.h: forces and moments in the sections of beams */
 #ifndef COTREE_FORMULATE_DYNAMICS_SECTIONS_H
 #define COTREE_FORMULATE_DYNAMICS_SECTIONS_H
 

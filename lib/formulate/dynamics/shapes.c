@@ -1,4 +1,4 @@
-/* shapes.c: local blocks of parts that deform */
+/* shapes.c: local blocks of flexible parts */
 #include "formulate/dynamics/shapes.h"
 #include "formulate/dynamics/laws.h"
 #include "formulate/kinematics/frames.h"
@@ -28,7 +28,7 @@ Vec elastic_vector(const System *system, const Elastic *elastic, const Expr in_r
     return frame_vector(system, elastic->node, (Vec){{in_root[0], in_root[1], in_root[2]}});
 }
 
-/* components in the root's frame of a vector in the axes of its node */
+/* components in the root's frame of a vector in the node's axes */
 static Vec to_root(const System *system, const Elastic *elastic, Vec v)
 {
     const Frame *frame = &system->kinematics->frames[elastic->node];
@@ -96,7 +96,7 @@ static Vec vector_at(const Expr *at)
     return (Vec){{at[0], at[1], at[2]}};
 }
 
-/* force and torque in the root's frame onto the node, with a sign */
+/* adds a force and torque on the node, given in the root's frame, with a sign */
 static void put(const System *system, const Elastic *elastic, Loads *loads, Vec force, Vec torque,
                 int sign)
 {
@@ -150,7 +150,7 @@ void elastic_add_motion(const System *system, const Elastic *elastic, Loads *loa
     put(system, elastic, loads, force, torque, sign);
 }
 
-/* what is left where nothing accelerates, and what pushes */
+/* terms at zero acceleration, and applied loads */
 static void add_rest(const System *system, const Elastic *elastic, Loads *loads)
 {
     const ShapeInertia *b = &elastic->block;

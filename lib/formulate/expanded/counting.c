@@ -1,4 +1,4 @@
-/* counting.c: what the blocks of a system cost, as written and after sharing */
+/* counting.c: operation counts of a system's blocks, as written and with shared subexpressions */
 #include "formulate/system/system_impl.h"
 
 static const Expr *run_block(const System *system, Block block)
@@ -29,7 +29,7 @@ static const Expr *run_block(const System *system, Block block)
     return NULL;
 }
 
-/* the entries of A that aren't 0 */
+/* the nonzero entries of A */
 static OpCount count_network(const System *system, bool shared)
 {
     const EquationForm *run = &system->run;
@@ -49,8 +49,9 @@ static bool exceeds(OpCount a, OpCount b)
     return a.add > b.add || a.mul > b.mul || a.fun > b.fun;
 }
 
-/* The recursive form shares what the equations of a run compute once; of what is short as written
- * it may have more operations of a kind. What is written shares its own common parts then. */
+/* The recursive form shares subexpressions that a run computes once. For short blocks it may need
+ * more operations of a kind than the written form: then the written form with its own shared
+ * subexpressions is counted. */
 Status system_count(System *system, Block block, bool shared, OpCount *out, Diag *diag)
 {
     system_touch(system);

@@ -1,7 +1,7 @@
-/* derivation.c: terms of constraints, ways round, directions and motions as a reader wants them
+/* derivation.c: terms of constraints, paths, directions and motions, for a reader
  *
- * What the equations were formed from is kept in the axes of chains at the zero position; a reader
- * thinks in the axes of frames, so vectors are handed on in those. */
+ * The equations are formed in the axes of orientation classes at the zero position. A reader thinks
+ * in the axes of frames, so vectors are returned in those. */
 #include "formulate/expanded/derivation.h"
 #include "formulate/expanded/derivation_impl.h"
 #include "formulate/kinematics/coordinate.h"
@@ -34,7 +34,7 @@ static NarrativeVector reported(const System *system, int node, Vec v)
     return out;
 }
 
-/* the frame whose axes stand for a chain: the first made */
+/* the first frame with these axes: it represents the orientation class */
 static int orientation_node(const System *system, int chain)
 {
     const Graph *graph = system->origin->graph;
@@ -56,7 +56,7 @@ static Vec branch_shift(const System *system, int node)
                : vec_neg(system->arena, frame->shift);
 }
 
-/* the branches between two nodes; a new list of `*count`, their signs behind them */
+/* the branches between two nodes: a new list of `*count` edges, followed by their signs */
 static int *path_between(const System *system, int tail, int head, int *count)
 {
     const Tree *tree = system->origin->trees[TREE_TRANSLATION];
@@ -122,7 +122,8 @@ static void push_shifts(System *system, const Row *row, Terms *terms)
     mem_free(path);
 }
 
-/* turns about the row's axis, from the tail down to the last chain in common and up to the head */
+/* turns about the row's axis, from the tail down to the last common orientation class and up to the
+ * head */
 static void push_turns(System *system, const Row *row, Terms *terms)
 {
     const OrientationClass *chains = system->kinematics->chains.at;
@@ -154,7 +155,7 @@ static void push_turns(System *system, const Row *row, Terms *terms)
                                  .value = rest});
 }
 
-/* whether a driver's or coupler's row is the difference of a coordinate and what is asked of it */
+/* whether a driver's or coupler's row is a coordinate less its prescribed value */
 static bool is_difference(const System *system, const Row *row)
 {
     return row->kind == ROW_COUPLER ||

@@ -1,41 +1,40 @@
-/* derivation.h: how an equation came about: what its entries are sums of, and the circuits and
- * cutsets that they were projected from
+/* derivation.h: how an equation was derived: the terms of its entries, and the circuits and cutsets
+ * that were projected
  *
- * A view tells them of the definitions that the equations themselves were formed from. Lists are
- * new, and freed with LIST_FREE() by whoever asked; what they point to is the view's. theory 3-4,
- * 8. */
+ * A view describes the definitions that the equations were formed from. Lists are new, and the
+ * caller frees them with LIST_FREE(); what they point to belongs to the view. theory 3-4, 8. */
 #ifndef COTREE_FORMULATE_EXPANDED_DERIVATION_H
 #define COTREE_FORMULATE_EXPANDED_DERIVATION_H
 
 #include "formulate/system/system.h"
 
 typedef enum TermKind {
-    TERM_SHIFT,   /* of a constraint: a branch on the way round, along the row's direction */
-    TERM_TURN,    /* of a constraint: a turn on the way round */
+    TERM_SHIFT,   /* of a constraint: a branch on the path, along the row's direction */
+    TERM_TURN,    /* of a constraint: a turn on the path */
     TERM_WHOLE,   /* of a constraint that is no sum over branches */
-    TERM_ASKED,   /* less what a driver asks for */
+    TERM_ASKED,   /* minus the value that a driver prescribes */
     TERM_MASS,    /* m v_j.v_k; of F: -m v_j.a at u' = 0 */
-    TERM_INERTIA, /* w_j.I.w_k; of F: the same of what spins */
+    TERM_INERTIA, /* w_j.I.w_k; of F: the velocity products of rotation */
     TERM_WEIGHT,  /* m g.v_j */
     TERM_FORCE,   /* F.v_j */
     TERM_TORQUE,  /* T.w_j */
     TERM_EFFORT,  /* on a coordinate or a line: effort times how much speed j moves it */
     TERM_ROTOR,   /* inertia on a coordinate */
-    TERM_SHAPES,  /* of what deforms: its local block on the root and the shapes */
-    TERM_DRIVE    /* what an inverse run finds */
+    TERM_SHAPES,  /* of a flexible part: its local block on the root and the shapes */
+    TERM_DRIVE    /* computed by an inverse run */
 } TermKind;
 
 typedef struct Term {
     TermKind kind;
-    int edge; /* of SHIFT and TURN, with its sign on the way from tail to head; else -1 */
+    int edge; /* of SHIFT and TURN, with its sign on the path from tail to head; otherwise -1 */
     int sign;
-    int instance; /* of the others */
+    int instance; /* of all other kinds */
     Expr value;
 } Term;
 typedef LIST(Term) Terms;
 
-/* What the entry is the sum of. None where it stands over definitions because it would be too long,
- * or where the block's entries are no such sums. Fails as system_show() does. */
+/* The terms of the sum that an entry is. None where definitions replace the sum because it would be
+ * too long, or where the block's entries are no such sums. Fails as system_show() does. */
 MUST_USE Status system_terms(System *view, Block block, int row, int column, Terms *out,
                              Diag *diag);
 
@@ -45,10 +44,10 @@ typedef struct NarrativeVector {
     Expr at[3];
 } NarrativeVector;
 
-/* a branch on the way round a circuit of the translation tree */
+/* a branch on the path of a circuit of the translation tree */
 typedef struct WayStep {
     int edge;
-    int sign;              /* +1 where the way from the chord's tail to its head runs with it */
+    int sign; /* +1 where the path from the chord's tail to its head has its direction */
     NarrativeVector shift; /* from the edge's tail to its head, in the axes of its tail */
 } WayStep;
 typedef LIST(WayStep) Way;
@@ -59,14 +58,14 @@ void system_way(const System *view, int chord, Way *out);
 typedef LIST(Expr) Angles;
 void system_angles(const System *view, int node, Angles *out);
 
-/* along what a constraint row projects its circuit */
+/* the direction on which a constraint row projects its circuit */
 typedef enum ConstraintDirection {
     ALONG_AXIS,   /* `a`, fixed in its node */
-    ALONG_SQUARE, /* none: `a` and `b`, each fixed in its node, stay square */
-    ALONG_TURN,   /* `a` is what the turns are about */
-    ALONG_TIE,    /* `a`, the shift less what the turn makes it */
-    ALONG_DRIVEN, /* none: a coordinate that is asked for */
-    ALONG_COUPLED /* none: one that follows others */
+    ALONG_SQUARE, /* none: `a` and `b`, each fixed in its node, remain orthogonal */
+    ALONG_TURN,   /* `a` is the axis of the turns */
+    ALONG_TIE,    /* `a`: the shift minus its value by the turn */
+    ALONG_DRIVEN, /* none: a prescribed coordinate */
+    ALONG_COUPLED /* none: a coordinate that follows others */
 } ConstraintDirection;
 typedef struct Projection {
     ConstraintDirection along;
@@ -74,8 +73,8 @@ typedef struct Projection {
 } Projection;
 Projection system_projection(const System *view, int row);
 
-/* What a part with mass does per unit of a speed: v of its mass centre, a sum over frames, and w,
- * all zero where it isn't turned. */
+/* Motion of a part with mass per unit of a speed: v of its mass centre, a sum over frames, and w,
+ * which is 0 where the speed does not turn it. */
 typedef struct UnitMotion {
     int instance;
     LIST(NarrativeVector) v;

@@ -6,7 +6,7 @@
 #include "formulate/expanded/derivation.h"
 #include "formulate/kinematics/framesum.h"
 
-/* the terms of an entry as they are before they are tidied */
+/* the terms of an entry, before simplification */
 typedef Status TermsFunction(System *system, int row, int column, Terms *out, Diag *diag);
 MUST_USE Status constraint_terms(System *system, int k, int column, Terms *out, Diag *diag);
 MUST_USE Status jacobian_terms(System *system, int k, int j, Terms *out, Diag *diag);
@@ -15,10 +15,10 @@ MUST_USE Status jacobian_terms(System *system, int k, int j, Terms *out, Diag *d
 
 /* the velocity of a node per unit of speed j */
 FrameSum partial_velocity(const System *system, int node, int speed);
-/* angular velocity of a chain per unit of speed j, in its own axes; zero where it doesn't turn it
- */
+/* angular velocity of an orientation class per unit of speed j, in its own axes; 0 where j does not
+ * turn it */
 Vec partial_turn(const System *system, int chain, int speed);
-/* angular velocity of a chain in its own axes, and what its rate is at u' = 0 */
+/* angular velocity w of an orientation class in its own axes, and its rate at u' = 0 */
 void orientation_motion(const System *system, int chain, Vec *w, Vec *alpha);
 /* acceleration of a node at u' = 0 */
 FrameSum rest_acceleration(const System *system, int node);

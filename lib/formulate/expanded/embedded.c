@@ -1,9 +1,9 @@
 /* embedded.c: G^T M and G^T F in symbols, for up to three constraints
  *
  * G = [J; 1] with J = -Phi_d^-1 Phi_i by minors (Cramer), so that every column of G has the
- * determinant of Phi_d below it once. Drivers are left out of Phi, and what they drive is
- * independent: their efforts stand in the equations instead (theory 6). Beyond three rows
- * a run solves with Phi_d in numbers. */
+ * determinant of Phi_d below it once. Phi excludes drivers, and driven coordinates are independent:
+ * the equations contain the efforts of the drivers instead (theory 6). Beyond three rows a run
+ * solves with Phi_d numerically. */
 #include "formulate/expanded/embedded.h"
 #include "formulate/expanded/expanded.h"
 #include "formulate/kinematics/coordinate.h"
@@ -88,7 +88,7 @@ static bool is_independent(const System *system, int j)
     return false;
 }
 
-/* the next choice of m among `count` places: fall like an odometer; false after the last */
+/* the next choice of m among `count` places, counted like an odometer; false after the last */
 static bool next_choice(int *place, int m)
 {
     int i = 0;
@@ -103,7 +103,7 @@ static bool next_choice(int *place, int m)
     return true;
 }
 
-/* what the user named are coordinates of these trees */
+/* checks that the names given by the user are coordinates of these trees */
 static Status check_named(const System *system, Diag *diag)
 {
     for (int i = 0; i < system->origin->independent_count; i++) {
@@ -129,7 +129,7 @@ static Status check_named(const System *system, Diag *diag)
     return OK;
 }
 
-/* dependent speeds: the last ones that may be, with a determinant that isn't zero */
+/* chooses the dependent speeds: the last permissible ones with a determinant that is not 0 */
 static Status choose(System *system, Partition *part, Diag *diag)
 {
     LIST(int) free = {0};
@@ -206,8 +206,8 @@ static int independent_speed(const System *system, const Partition *part, int ro
     return -1;
 }
 
-/* J of a dependent speed: minus the minor with the independent column in its place, over the
- * determinant */
+/* J of a dependent speed: minus the minor with the independent column at its position, divided by
+ * the determinant */
 static Expr follow(System *system, const Partition *part, int which, int independent, Diag *diag,
                    Status *status)
 {

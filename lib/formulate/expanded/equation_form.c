@@ -1,8 +1,8 @@
-/* equation_form.c: which reading a program is made from, and what a program costs
+/* equation_form.c: which equation form a program is made from, and what a program costs
  *
- * A small system written as by hand often takes fewer operations, once its common
- * subexpressions are shared, than the definitions that serve a system of any size. Where
- * writing it out is cheap, both are tried, and M multiplied out too; the run uses the cheapest. */
+ * A small system in expanded form often needs fewer operations, once common subexpressions are
+ * shared, than the recursive definitions that serve a system of any size. Where expanding is cheap,
+ * both forms are tried, and M multiplied out as well. The run uses the cheapest. */
 #include "formulate/expanded/equation_form.h"
 #include "formulate/dynamics/composite_mass.h"
 #include "formulate/expanded/expanded.h"
@@ -16,15 +16,15 @@
 #include <string.h>
 
 enum {
-    MOST_SPEEDS = 7,       /* beyond, definitions win and writing out takes long */
-    MOST_OPERATIONS = 800, /* of the definitions: spatial chains of three grow out of hand */
+    MOST_SPEEDS = 7,       /* above, definitions are cheaper and expanding takes long */
+    MOST_OPERATIONS = 800, /* of the definitions: spatial chains of three become too long */
     FUNCTION_PRICE = 20    /* a sine costs about as much as twenty additions in a run */
 };
 
 static const Block blocks[] = {BLOCK_MASS, BLOCK_FORCES, BLOCK_CONSTRAINTS, BLOCK_JACOBIAN,
                                BLOCK_ACCELERATION};
 
-/* operations, functions weighed */
+/* operation count, with weighted functions */
 static int64_t cost(const Expr *roots, int count)
 {
     OpCount ops = expr_count_shared(roots, count);
@@ -87,7 +87,8 @@ static void open_mass(System *system, Expr *mass)
         }
 }
 
-/* Let the entries of all blocks share what they can; keep them where that is the least so far. */
+/* Shares common subexpressions in the entries of all blocks. Stores the entries in `best` where
+ * they are the cheapest so far. */
 static void offer(System *system, Expr *entries, int count, Expr *best, int64_t *least)
 {
     int counts[COUNT(blocks)];
@@ -144,7 +145,7 @@ done:
     return status;
 }
 
-/* --- the price of a program --- */
+/* --- operation cost of a program --- */
 
 typedef LIST(Expr) EquationFormRoots;
 
@@ -204,7 +205,7 @@ Status system_price(const System *system, const CallMonitor *watch, OpCount *cou
 
     TRY(program_count(system, watch, &ops));
 
-    /* Gauss: as many additions as multiplications, both while factoring and while substituting */
+    /* Gauss elimination: as many additions as multiplications, in factoring and in substituting */
     *price = (double)(ops.add + ops.mul + FUNCTION_PRICE * ops.fun) +
              2 * unknowns * unknowns * (unknowns / 3 + 1);
     *count = ops;

@@ -1,10 +1,10 @@
-/* equation_form.h: the reading that programs are made from */
+/* equation_form.h: the equation form that programs are made from */
 #ifndef COTREE_FORMULATE_EXPANDED_EQUATION_FORM_H
 #define COTREE_FORMULATE_EXPANDED_EQUATION_FORM_H
 
 #include "formulate/system/system.h"
 
-/* which form a run takes: the recursive, or the expanded where that is shorter */
+/* chooses the form that a run uses: the recursive, or the expanded where that is shorter */
 MUST_USE Status equation_form_choose(System *system, Diag *diag);
 
 #endif

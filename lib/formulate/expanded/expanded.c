@@ -27,15 +27,15 @@
 
 /* --- entries --- */
 
-/* `e` folded and collected where that is shorter than `best` */
+/* `e` folded and collected, where that is shorter than `best` */
 static Expr shorter(Arena *arena, Expr best, Expr e)
 {
     e = expr_collect(arena, expr_fold(arena, e));
     return op_count_total(expr_count(&e, 1)) < op_count_total(expr_count(&best, 1)) ? e : best;
 }
 
-/* as built, or multiplied out first where that folds to less, all of it or with sums of constants
- * left together; products of long sums stay */
+/* as built, or multiplied out first where folding then gives less, all of it or with sums of
+ * constants kept together; products of long sums are not multiplied out */
 static Expr tidy(System *system, Expr e)
 {
     enum { MOST_TERMS = 200 };
@@ -71,7 +71,7 @@ static void push_term(Terms *terms, TermKind kind, int instance, Expr value)
     LIST_PUSH(*terms, (Term){.kind = kind, .edge = -1, .instance = instance, .value = value});
 }
 
-/* distance of two frames as a reader would write it */
+/* distance of two frames, as shown to the user */
 static Expr length_shown(const System *system, const Instance *instance)
 {
     FrameSum way = framesum_way(system, instance->tail, instance->head);
@@ -119,7 +119,7 @@ static Status push_wrench(System *system, const Instance *instance, int j, int t
     return OK;
 }
 
-/* what a law that holds u' adds to M */
+/* what a law that contains u' adds to M */
 static Status push_inertia_of(System *system, const Instance *instance, int j, int k, Terms *terms,
                               Diag *diag)
 {
@@ -139,7 +139,7 @@ static Status push_inertia_of(System *system, const Instance *instance, int j, i
     return OK;
 }
 
-/* what a part that deforms adds, in one term */
+/* what a flexible part adds, in one term */
 static void push_shapes(System *system, const Elastic *elastic, Summands *summands, Terms *terms)
 {
     push_term(terms, TERM_SHAPES, elastic->instance,
@@ -147,7 +147,7 @@ static void push_shapes(System *system, const Elastic *elastic, Summands *summan
     LIST_FREE(*summands);
 }
 
-/* what the load of a beam adds to M where its law holds u' */
+/* what the load of a beam adds to M where its law contains u' */
 static Status push_inertial_load(System *system, const Elastic *elastic, int j, int k,
                                  Summands *terms, Diag *diag)
 {
@@ -202,7 +202,7 @@ static Status mass_terms(System *system, int j, int k, Terms *terms, Diag *diag)
     return OK;
 }
 
-/* weight and velocity products of the masses, together as they are shortest or apart */
+/* weight and velocity products of the masses, in one term or separately (`apart`) */
 static void push_inertia(const System *system, int j, bool apart, Terms *terms)
 {
     Arena *arena = system->arena;
@@ -235,7 +235,7 @@ static void push_inertia(const System *system, int j, bool apart, Terms *terms)
     }
 }
 
-/* what the second rate of `e` is at u' = 0 */
+/* the second rate of `e` at u' = 0 */
 static Status second_rate_at_rest(System *system, Expr e, Expr *out, Diag *diag)
 {
     TRY(system_rate_of(system, e, out, diag));
@@ -310,7 +310,7 @@ static Status forces_together(System *system, int j, int column, Terms *terms, D
     return push_forces(system, j, false, terms, diag);
 }
 
-/* what is shown of an entry that is a sum of terms */
+/* the shown form of an entry that is a sum of terms */
 static Status show_sum(System *system, TermsFunction *terms_of, int row, int column, Expr *out,
                        Diag *diag)
 {
@@ -393,7 +393,7 @@ static Status show_network_rhs(System *system, int row, int column, Expr *out, D
 typedef struct BlockRow {
     const char *name;
     Status (*show)(System *system, int row, int column, Expr *out, Diag *diag);
-    TermsFunction *terms; /* what the entry is the sum of; NULL: of nothing that has a name */
+    TermsFunction *terms; /* the terms that the entry is the sum of; NULL: none that have a name */
 } BlockRow;
 
 static const BlockRow blocks[BLOCK_COUNT] = {
@@ -434,8 +434,8 @@ void system_block_size(const System *system, Block block, int *rows, int *column
 
 /* --- the budget --- */
 
-/* chains whose turns move a mass on its way from ground, and the turns that are left between them
- */
+/* counts the orientation classes whose turns move a mass on its path from ground, and the remaining
+ * turns between them */
 static void way_size(const System *system, int node, int *parts, int *turns)
 {
     Turns between = {0};
@@ -456,9 +456,9 @@ static void way_size(const System *system, int node, int *parts, int *turns)
     }
 }
 
-/* Whether entries of M and F can be written out: a guess of their terms, before any of them is
- * built. Every pair of parts of two velocities is turned into the other's axes, and a
- * turn about another axis makes three terms of one. */
+/* Whether entries of M and F can be expanded. Estimates the number of their terms before any is
+ * built: each pair of parts of two velocities is rotated into common axes, and a turn about another
+ * axis makes three terms of one. */
 bool expanded_fits(const System *system)
 {
     enum { MOST_TERMS = 6000, MOST_TURNS = 8 };
@@ -477,7 +477,7 @@ bool expanded_fits(const System *system)
     return terms <= MOST_TERMS;
 }
 
-/* the definitions of a block, of those that can be long; NULL: it is always written out */
+/* the definitions of a block whose entries can be long; NULL: it is always expanded */
 static const Expr *defined_block(const System *system, Block block)
 {
     switch (block) {
@@ -494,7 +494,7 @@ static const Expr *defined_block(const System *system, Block block)
     }
 }
 
-/* those of a block formed so far; a view begins with what making the System needed */
+/* entries of a block formed so far; a view starts with those that building the System needed */
 static Expr *entries_of(System *system, Block block, int count)
 {
     Expr **entries = &system->shown->entries[block];

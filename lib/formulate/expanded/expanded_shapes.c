@@ -1,4 +1,4 @@
-/* expanded_shapes.c: what parts that deform add to entries of the expanded form */
+/* expanded_shapes.c: what flexible parts add to entries of the expanded form */
 #include "formulate/dynamics/shapes.h"
 #include "formulate/expanded/derivation_impl.h"
 #include "formulate/system/dynamics.h"
@@ -7,7 +7,7 @@
 #include "formulate/system/system_impl.h"
 #include "formulate/system/vector.h"
 
-/* the place of speed j among the shapes of a part; -1: it is none of its */
+/* the index of speed j among the shapes of a part; -1: it is none of them */
 static int shape_of(const System *system, const Elastic *elastic, int j)
 {
     const Instance *part = &system->origin->instances[elastic->instance];
@@ -16,7 +16,7 @@ static int shape_of(const System *system, const Elastic *elastic, int j)
     return i >= 0 && i < part->coord_count - part->pose_count ? i : -1;
 }
 
-/* what a unit of u'_k asks of the root, and of speed j as the shape that it is */
+/* the load that a unit of u'_k needs on the root, and on speed j as a shape */
 void elastic_mass_terms(const System *system, const Elastic *elastic, int j, int k, Summands *terms)
 {
     Arena *arena = system->arena;
@@ -56,7 +56,7 @@ void elastic_mass_terms(const System *system, const Elastic *elastic, int j, int
     }
 }
 
-/* inertia at u' = 0, weight, and what elasticity and damping push */
+/* inertia at u' = 0, weight, elasticity and damping */
 void elastic_force_terms(const System *system, const Elastic *elastic, int j, Summands *terms)
 {
     Arena *arena = system->arena;

@@ -8,7 +8,7 @@
 
 /* --- partial velocities --- */
 
-/* the part of the way from ground to a node that speed j moves by itself */
+/* the part of the vector from ground to a node whose change is due to speed j itself */
 static FrameSum own_velocity(const System *system, int node, int speed)
 {
     Expr one = expr_int(system->arena, 1);
@@ -41,7 +41,7 @@ static Vec own_turn(const System *system, int chain, int speed)
     return speed_axis(system, speed, chain);
 }
 
-/* how a dependent speed follows from speed j; NULL: it doesn't */
+/* the factor of speed j in a dependent speed; NULL: the dependent speed does not follow from it */
 static Expr factor_of(const System *system, int dependent, int j)
 {
     const Dependent *own = &system->kinematics->dependents.at[dependent];

@@ -1,4 +1,4 @@
-/* circuits.c: rows n.d and a_t.b_h, as they are shown and as they are run */
+/* circuits.c: constraint rows n.d and a_t.b_h, in the shown and in the recursive form */
 #include "formulate/kinematics/circuits.h"
 
 #include "formulate/kinematics/frames.h"
@@ -20,8 +20,8 @@ Expr circuit_shown(const System *system, const Row *row)
     return expr_fold(system->arena, expr_open(system->arena, framesum_dot(system, n, to)));
 }
 
-/* the part of the way from `ancestor` to a node that `chain` turns (-1: all of it), added from the
- * far end to `sum`, so that what hangs together is one definition */
+/* adds to `sum`, from the far end, the part of the vector from `ancestor` to a node that `chain`
+ * turns (-1: all of it): shared parts are one definition */
 static Vec add_way(const System *system, int node, int ancestor, int chain, int axes, Vec sum)
 {
     for (; node != ancestor; node = system->kinematics->frames[node].parent) {
@@ -36,8 +36,8 @@ static Vec add_way(const System *system, int node, int ancestor, int chain, int 
     return sum;
 }
 
-/* Inside an instance that follows another the way is that of the first. False: it isn't, or not all
- * of it is passed; else *node is where it hangs. */
+/* Inside an instance that follows another, the path is renamed from the first. False: it is not, or
+ * not all of it is passed; otherwise *node is the node that the instance hangs from. */
 static bool way_alike(const System *system, int *node, int ancestor, int chain, int axes, Vec *out)
 {
     int first, around;
@@ -111,7 +111,7 @@ static Expr circuit_slide(const System *system, const Row *row, Vec n, int speed
                     vec_dot(system->arena, n, speed_slide(system, speed, axes)));
 }
 
-/* rows n.d: the axes that they are computed in, n in those axes */
+/* rows n.d: the axes that they are computed in, and n in those axes */
 static int row_axes(const System *system, const Row *row, Vec *n)
 {
     int tail = system->kinematics->frames[row->tail].chain;
@@ -124,14 +124,14 @@ static int row_axes(const System *system, const Row *row, Vec *n)
 
 /* --- which speeds a row can move --- */
 
-/* the turns of a chain and of those that it hangs from */
+/* marks the turns of an orientation class and of all classes inward of it */
 static void mark_turns(const System *system, int chain, bool *moves)
 {
     for (; chain > 0; chain = system->kinematics->chains.at[chain].parent) {
         const OrientationClass *own = &system->kinematics->chains.at[chain];
 
         if (moves[own->speed])
-            return; /* and all nearer ones are marked */
+            return; /* all classes further inward are marked */
         for (int j = own->speed; j < own->speed + own->speed_count; j++)
             moves[j] = true;
     }
@@ -171,7 +171,8 @@ int circuit_speeds(const System *system, const Row *row, int *speeds)
     return count;
 }
 
-/* adds to an entry of Phi_u; of a dependent speed to those of the shapes that it follows from */
+/* adds to an entry of Phi_u; for a dependent speed, to the entries of the shapes that it follows
+ * from */
 static void put_entry(const System *system, int k, int speed, Expr value)
 {
     Arena *arena = system->arena;
@@ -200,7 +201,7 @@ static void run_way(const System *system, const Row *row, int k, const int *spee
     int resolve_head =
         system->kinematics->chains.at[system->kinematics->frames[row->head].chain].resolve;
     bool turns_with_tail = row->kind == ROW_TAIL;
-    int seen = -1; /* chain whose part of the way is D */
+    int seen = -1; /* orientation class whose part of the path is D */
     Vec D = vec_zero(arena);
     Vec d = circuit_turned(system, row, -1, axes);
     Vec rest =

@@ -5,13 +5,13 @@
 
 #include "formulate/system/constraints.h"
 
-/* where the ways from the datum to two nodes part */
+/* the node where the paths from the datum to two nodes separate */
 int circuit_parting(const System *system, int a, int b);
 Expr circuit_shown(const System *system, const Row *row);
-/* Speeds that the row's derivative can hold, in order: of a long mechanism few. Room for all; how
- * many there are. */
+/* Lists the speeds that the row's derivative can contain, in order: few in a long mechanism.
+ * `speeds` has room for all. Returns their number. */
 int circuit_speeds(const System *system, const Row *row, int *speeds);
-/* puts row k into what is run: Phi, Phi_u of those speeds, gamma */
+/* adds row k to the recursive form: Phi, Phi_u of those speeds, gamma */
 void circuit_run(const System *system, const Row *row, int k, const int *speeds, int count);
 
 #endif

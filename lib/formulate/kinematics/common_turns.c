@@ -1,15 +1,15 @@
 /* common_turns.c: frames whose orientation differs by one turn, whatever turns lie between
  *
- * Turns about parallel axes add. Where those between two chains merge into one and the
- * frames at their ends agree when every angle is 0, the sum is a coordinate that a virtual
- * joint between the frames can have. */
+ * Turns about parallel axes add. Where those between two orientation classes merge into one and the
+ * frames at their ends agree when every angle is 0, the sum is a coordinate that a virtual joint
+ * between the frames can have. */
 #include "formulate/kinematics/frames.h"
 #include "formulate/system/kinematics.h"
 #include "formulate/system/origin.h"
 #include "formulate/system/system_impl.h"
 #include "formulate/system/vector.h"
 
-/* the chains between merge to one turn, and there are at least two of them */
+/* the orientation classes between merge to one turn, and there are at least two of them */
 static bool merges(const System *system, int from, int to, Vec *axis)
 {
     const OrientationClass *chains = system->kinematics->chains.at;
@@ -25,7 +25,7 @@ static bool merges(const System *system, int from, int to, Vec *axis)
     return one;
 }
 
-/* the chain furthest back from which the way to `to` is one turn; -1: none */
+/* the furthest orientation class inward from which the path to `to` is one turn; -1: none */
 static int furthest(const System *system, int to, Vec *axis)
 {
     int found = -1;
@@ -44,7 +44,8 @@ static bool turns_alike(const System *system, int a, int b)
     return rotation_is_one(&between);
 }
 
-/* an edge joins frames of the two chains that can be a branch and so tell their orientation */
+/* an edge joins frames of the two orientation classes; it can be a branch that determines their
+ * orientation */
 static bool are_joined(const System *system, int from, int to)
 {
     for (int e = 0; e < graph_edge_count(system->origin->graph); e++) {
@@ -56,7 +57,7 @@ static bool are_joined(const System *system, int from, int to)
             continue;
         tail = system->kinematics->frames[edge->tail].chain;
         head = system->kinematics->frames[edge->head].chain;
-        /* a body's own edge in space brings three angles, where one will do */
+        /* a body's own edge in space adds three angles, where one is enough */
         if ((tail == from && head == to) || (tail == to && head == from))
             if (system->origin->planar ||
                 system->origin->instances[edge->component].row->family != FAMILY_BODY)
@@ -65,7 +66,7 @@ static bool are_joined(const System *system, int from, int to)
     return false;
 }
 
-/* frames of the two chains that agree at zero, of the earliest making; false: there are none */
+/* the first frames of the two orientation classes that agree at zero; false: there are none */
 static bool find_frames(const System *system, int from, int to, CommonTurn *out)
 {
     int count;

@@ -1,9 +1,9 @@
 /* constraint_rows.c: circuits of chords projected on their reaction spaces
  *
- * A row n.d says that the way d from the tail of a chord to its head has no part along
- * n; a row a_t.b_h that two axes stay square; a row of angles that turns about one
- * axis cancel. Symbols as in system_impl.h; D_j is the part of the way that speed j
- * turns, so that the rate of d is the sum of k_j x D_j u_j and the slides. */
+ * A row n.d = 0: the vector d (m, 3 x 1) from the tail of a chord to its head has no component
+ * along n. A row a_t.b_h = 0: two axes remain orthogonal. A row of angles: turns about one axis
+ * cancel. Symbols as in system/kinematics.h; D_j is the part of d that speed j turns. So the rate
+ * of d is the sum of k_j x D_j u_j and the slides. */
 #include "formulate/kinematics/constraint_rows.h"
 #include "formulate/kinematics/circuits.h"
 #include "formulate/kinematics/coordinate.h"
@@ -24,9 +24,9 @@
 #include <math.h>
 #include <string.h>
 
-#define MISFIT 1e-9 /* m or 1: parts that are off by less fit */
+#define MISFIT 1e-9 /* m or 1: smaller differences are treated as 0 */
 
-enum { SAMPLES = 3 }; /* positions at which a row that vanishes is looked at */
+enum { SAMPLES = 3 }; /* positions at which a row is evaluated to test whether it vanishes */
 
 /* --- which rows --- */
 
@@ -55,7 +55,7 @@ static Vec step_axis(const System *system, const Instance *joint, const Step *st
     return frame_vector(system, joint->tail, (Vec){{step->axis[0], step->axis[1], step->axis[2]}});
 }
 
-/* forces that a joint transmits: all, less those along its slides */
+/* forces that a joint transmits: all except those along its slides */
 static void force_rows(System *system, const Instance *joint, const Steps *steps)
 {
     static const char *const names[] = {"x", "y", "z"};
@@ -84,7 +84,7 @@ static void force_rows(System *system, const Instance *joint, const Steps *steps
     }
 }
 
-/* moments that a joint transmits: all, less those about its turns (theory 2, orientation
+/* moments that a joint transmits: all except those about its turns (theory 2, orientation
  * constraints) */
 static void moment_rows(System *system, const Instance *joint, const Steps *steps)
 {
@@ -120,7 +120,7 @@ static void moment_rows(System *system, const Instance *joint, const Steps *step
         } else if (turns.count == 1 && turns.at[0].matrix == NULL && rotation_is_one(&constant)) {
             Vec axis = turns.at[0].axis;
 
-            /* the axis stays where it is: those rows vanish, what they carry doesn't */
+            /* the axis does not move: those rows vanish, but not the loads that they carry */
             push_row(system, joint, ROW_ANGLE, axis, vec_zero(arena), "turn");
             axis_complement(arena, axis.at, axes[1].at, axes[2].at);
             push_row(system, joint, ROW_DOT, axis, axes[1], "n1");
@@ -134,7 +134,7 @@ static void moment_rows(System *system, const Instance *joint, const Steps *step
     }
 }
 
-/* a screw's shift follows its turn */
+/* a screw's shift is proportional to its turn */
 static void tie_row(System *system, const Instance *joint, const Steps *steps)
 {
     Vec axis = step_axis(system, joint, &steps->shift[0]);
@@ -164,8 +164,8 @@ static void driver_row(System *system, const Instance *driver)
 
 /* --- rows to show --- */
 
-/* sin(f - angle) of a chord's angle that is told by its sine and cosine, zero where it is f: any
- * number of turns are alike to it */
+/* sin(f - angle) of a chord's angle that is given by sine and cosine. It is 0 where the angle is f,
+ * plus any number of full turns. */
 static Expr angle_missed(System *system, const ChordTurn *turn, Expr f)
 {
     Arena *arena = system->arena;
@@ -174,7 +174,7 @@ static Expr angle_missed(System *system, const ChordTurn *turn, Expr f)
                     expr_mul(arena, expr_cos(arena, f), turn->sine));
 }
 
-/* for what looks for positions: sine and cosine together know half a turn */
+/* for position solvers: sine and cosine together also detect half a turn */
 static void compare_angle(System *system, const char *name, const ChordTurn *turn, Expr f)
 {
     Arena *arena = system->arena;
@@ -208,7 +208,7 @@ static Expr tie_shown(System *system, const Row *row)
     return expr_mul(arena, row->pitch, angle_missed(system, &turn, s));
 }
 
-/* a driven coordinate less what it is to be */
+/* a driven coordinate minus its prescribed value */
 static Status driver_shown(System *system, Row *row, Diag *diag)
 {
     Arena *arena = system->arena;
@@ -226,7 +226,7 @@ static Status driver_shown(System *system, Row *row, Diag *diag)
         if (steps.turn[k].coordinate != row->coordinate)
             continue;
         if (multi_turn_angle(system, row->owner, row->coordinate) == NULL)
-            continue; /* the coordinate is a sum, or told by a shift */
+            continue; /* the coordinate is a sum, or determined by a shift */
         chord_turn(system, owner, &steps, k, &turn);
         multi_turn_drive(system, row->owner, row->coordinate, row->prescribed);
         compare_angle(system, owner->coord[row->coordinate], &turn, row->prescribed);
@@ -238,7 +238,7 @@ static Status driver_shown(System *system, Row *row, Diag *diag)
     return OK;
 }
 
-/* what a coupler follows, and a coordinate less that */
+/* the coordinate that a coupler determines, minus its prescribed value */
 static Status coupler_shown(System *system, Row *row, Diag *diag)
 {
     Arena *arena = system->arena;
@@ -270,7 +270,7 @@ done:
     return status;
 }
 
-/* what a row of a circuit follows from; NULL: that isn't told */
+/* identity of a circuit's row; NULL: unknown identity */
 static Expr circuit_key(const System *system, const Row *row)
 {
     const Expr kind = expr_int(system->arena, row->kind);
@@ -339,7 +339,7 @@ static Status row_shown(System *system, RowPatterns *patterns, Row *row, Diag *d
     return OK;
 }
 
-/* of the terms of a sum, without their cancelling; at least of a unit length */
+/* size of the terms of a sum, without cancellation; at least a unit length */
 static double size_of_terms(Sample *sample, Expr e)
 {
     double size = 1;
@@ -349,8 +349,9 @@ static double size_of_terms(Sample *sample, Expr e)
     return size;
 }
 
-/* the same number in every position, though rounding may hide that in symbols; a number that
- * parameters make is taken as it is, but what else depends on them may change with them */
+/* the row has the same value in every position, though rounding may hide that in symbols. A number
+ * computed from parameters counts as constant; other expressions of parameters may change with
+ * them. */
 static bool row_is_constant(const System *system, const Row *row, Sample *const *samples,
                             double *value)
 {
@@ -371,7 +372,7 @@ static bool row_is_constant(const System *system, const Row *row, Sample *const 
 
         if (off <= rounding || off <= rounding * size_of_terms(samples[i], row->phi))
             continue;
-        /* whatever the parameters are: those of samples are no special ones */
+        /* for any parameters: those of the samples are not special values */
         if (isfinite(off))
             derived_store(system, row->key, DERIVED_ROW_VARIES, &row->phi, sizeof row->phi);
         return false;
@@ -390,7 +391,7 @@ static Status row_vanishes(System *system, const Row *row, Sample *const *sample
     if (!row_is_constant(system, row, samples, &value))
         return OK;
     if (row->kind == ROW_ANGLE)
-        value = remainder(value, 2 * M_PI); /* whole turns are none */
+        value = remainder(value, 2 * M_PI); /* full turns count as 0 */
     if (fabs(value) > MISFIT) {
         (void)diag_set(diag, E_ASSEMBLE,
                        "%s can't be assembled: its equation along %s is %.6g = 0 in every position",
@@ -421,9 +422,9 @@ bool system_holds(const System *system, uint64_t revision,
     return holds;
 }
 
-/* --- rows to run --- */
+/* --- rows of the recursive form --- */
 
-/* rows whose own expression is short: angles, drivers and couplers */
+/* rows whose expression is short: angles, drivers and couplers */
 static Status run_plain(System *system, const Row *row, int k, Diag *diag)
 {
     Arena *arena = system->arena;
@@ -448,7 +449,7 @@ done:
     return status;
 }
 
-/* the speeds of a row, of which no other one moves it, are a part of what is kept */
+/* the speeds of a row are part of what the row patterns store; no other speed moves the row */
 static void run_circuit(const System *system, RowPatterns *patterns, const Row *row, int k,
                         int *speeds)
 {

@@ -35,7 +35,7 @@ bool steps_are_tied(const Steps *steps)
            steps->shift[0].coordinate == steps->turn[0].coordinate;
 }
 
-/* a slide of a chord: the way from tail to head along the axis */
+/* a slide of a chord: the component along the axis of the vector from tail to head */
 Expr slide_value(const System *system, const Instance *owner, const Step *slide)
 {
     Vec axis =
@@ -63,7 +63,7 @@ static Vec turn_axis(const Step *turn)
     return (Vec){{turn->axis[0], turn->axis[1], turn->axis[2]}};
 }
 
-/* an axis of the tail, as it lies after the joint's turns: fixed in the head, seen from the tail */
+/* an axis of the tail after the joint's turns: fixed in the head, in components of the tail */
 static Vec far_axis(const System *system, const Instance *owner, const Rotation *constant, Vec axis)
 {
     axis = rotation_apply(system->arena, constant, frame_vector(system, owner->tail, axis));
@@ -71,7 +71,7 @@ static Vec far_axis(const System *system, const Instance *owner, const Rotation 
                        system->kinematics->frames[owner->tail].chain);
 }
 
-/* of two turns u1, u2 (theory 2, coordinate of a chord) */
+/* first or second of two turns u1, u2 (theory 2, coordinate of a chord) */
 static void universal_turn(const System *system, const Instance *owner, const Steps *steps,
                            int which, ChordTurn *out)
 {
@@ -116,7 +116,7 @@ void chord_turn(const System *system, const Instance *owner, const Steps *steps,
         out->sine = vec_dot(arena, frame_vector(system, owner->tail, n2), axis);
         out->cosine = vec_dot(arena, frame_vector(system, owner->tail, n1), axis);
     }
-    /* what stands still in these trees is an angle, and has whole turns like any other */
+    /* an angle that is constant in these trees has full turns like any other */
     if (out->angle == NULL &&
         ((expr_kinds(out->sine) | expr_kinds(out->cosine)) & 1U << SYMBOL_COORDINATE) == 0)
         out->angle = expr_call2(arena, OP_ATAN2, out->sine, out->cosine);
@@ -139,13 +139,13 @@ Vec joint_axis(const System *system, const Instance *owner, const Steps *steps, 
         return rotation_apply(system->arena, &constant,
                               frame_vector(system, owner->tail, turn_axis(&steps->turn[which])));
     }
-    /* one between others has no coordinate unless it is a branch */
+    /* a turn between two others has no coordinate unless it is a branch */
     *chain = system->kinematics->speeds[speed].axis_chain;
     return system->kinematics->speeds[speed].axis;
 }
 
-/* Of three turns u1, u2, u3, each axis at a right angle to the one before, R = R1 R2 R3. With n =
- * u1 x u2, w = R u3 in the tail:
+/* Three turns u1, u2, u3, each axis orthogonal to the one before, R = R1 R2 R3. With n = u1 x u2, w
+ * = R u3 in the tail:
  *
  *     u3 = s n, s = 1 or -1   s (w.u1) = sin a2,  s (-w.u2, w.n) = cos a2 (sin a1, cos a1)
  *                             (-s u1.R u2, u1.R u1) = cos a2 (sin a3, cos a3)
@@ -185,15 +185,15 @@ static Expr euler_angle(const System *system, const Instance *owner, const Steps
         sine = expr_neg(arena, expr_mul(arena, sense, sine));
     if (which == 0)
         cosine = expr_mul(arena, returns ? expr_int(arena, -1) : sense, cosine);
-    /* no value where both are 0 */
+    /* undefined where both are 0 */
     return expr_call2(arena, OP_ATAN2, expr_div(arena, sine, size), expr_div(arena, cosine, size));
 }
 
-/* depth that two ends may differ by for a way between them to be written out */
+/* difference in depth of two nodes up to which the vector between them is written out */
 enum { FAR_APART = 20 };
 
-/* The same by positions, each a step from the one before: a way of many turns, written out, turns
- * each of its steps through all of them. */
+/* The same by positions, from node to node. A written-out vector past many turns would rotate each
+ * of its shifts through all of them. */
 static Expr far_slide(System *system, const Instance *owner, const Step *slide)
 {
     Arena *arena = system->arena;
@@ -231,7 +231,8 @@ static Status chord_value(System *system, const Instance *owner, int coordinate,
 
         if (steps.turn[k].coordinate != coordinate)
             continue;
-        if (steps_are_tied(&steps) && !owner->is_virtual) { /* its shift knows all turns */
+        /* its shift determines full turns too */
+        if (steps_are_tied(&steps) && !owner->is_virtual) {
             *out = expr_div(system->arena, shown_slide(system, owner, &steps.shift[0]),
                             steps.shift[0].scale);
             return OK;

@@ -1,7 +1,7 @@
 /* critical.c: where three turns in a row lose a freedom
  *
- * Turns about u1, u2, u3 with u2 square to both span all rotations but where the first and the
- * last axis fall on one line: after a sequence such as zxz at u2's angle 0 or half a turn, after
+ * Turns about u1, u2, u3 with u2 orthogonal to both span all rotations, except where the first and
+ * the last axis are parallel: after a sequence such as zxz at u2's angle 0 or half a turn, after
  * one such as zyx at a quarter turn. */
 #include "formulate/kinematics/frames.h"
 #include "formulate/system/kinematics.h"

@@ -1,4 +1,4 @@
-/* edges.c: what a system tells about its mechanical edges */
+/* edges.c: queries for the mechanical edges of a system */
 #include "formulate/kinematics/edges.h"
 #include "formulate/kinematics/coordinate.h"
 #include "formulate/kinematics/frames.h"
@@ -44,7 +44,7 @@ int system_coordinate(const System *system, const Instance *instance, int coordi
     return system->kinematics->coordinate[instance->number][coordinate];
 }
 
-/* a member of the frame that bears the head of the name */
+/* a member of the frame that the first part of the name names */
 static VariableReferent frame_referent(const System *system, int node, const char *member)
 {
     VariableReferent referent = {.node = node};
@@ -73,7 +73,7 @@ VariableReferent system_referent(const System *system, const char *name)
         const CoordinateOwner *owner = &system->origin->coordinate_owners.at[number];
 
         if (owner->coordinate >= system->origin->instances[owner->instance].pose_count)
-            return referent; /* of a shape: it places no frame by itself */
+            return referent; /* of a shape: it determines no frame by itself */
 
         return (VariableReferent){.kind = REFERENT_COORDINATE,
                                   .instance = &system->origin->instances[owner->instance],

@@ -1,4 +1,4 @@
-/* edges.h: the mechanical edges of a system, for whoever places its frames in numbers
+/* edges.h: the mechanical edges of a system, for code that computes its frames numerically
  *
  * Everything is borrowed from the System. */
 #ifndef COTREE_FORMULATE_KINEMATICS_EDGES_H
@@ -13,12 +13,12 @@ const Tree *system_tree(const System *system, TreeKind kind); /* NULL: there is 
 bool system_is_planar(const System *system);
 int system_instance_count(const System *system);
 const Instance *system_instance(const System *system, int i);
-/* Steps of an instance whose row has any, over parameters. */
+/* Joint primitives of an instance whose type has any, over parameters. */
 void system_steps(const System *system, const Instance *instance, Steps *out);
-/* The place in q of a coordinate of an instance; -1: it is one of a chord. */
+/* The index in q of a coordinate of an instance; -1: it is the coordinate of a chord. */
 int system_coordinate(const System *system, const Instance *instance, int coordinate);
 
-/* What a name says about where frames stand. */
+/* What a name refers to in the position of frames. */
 typedef enum EdgeStanding {
     REFERENT_NONE,       /* something else */
     REFERENT_COORDINATE, /* a coordinate of an instance */
@@ -36,8 +36,8 @@ typedef struct VariableReferent {
 } VariableReferent;
 VariableReferent system_referent(const System *system, const char *name);
 
-/* What drives the coordinate in a constraint row, in t and parameters; NULL: the row is no driver's
- */
+/* The prescribed value of the coordinate in a constraint row, in t and parameters; NULL: the row
+ * belongs to no driver. */
 Expr system_driven(const System *system, int row, const Instance **owner, int *coordinate);
 
 #endif

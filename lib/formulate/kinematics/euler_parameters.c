@@ -51,7 +51,7 @@ static void parameters_of(const System *system, const Rotation *rotation, Expr p
     k = (i + 2) % 3;
     square = expr_sub(arena, expr_add(arena, one, R[4 * i]), expr_add(arena, R[4 * j], R[4 * k]));
     half = expr_div(arena, half, expr_sqrt(arena, square));
-    /* the first one stays positive */
+    /* the first one remains positive */
     if (sample_number(now, R[3 * k + j]) < sample_number(now, R[3 * j + k]))
         half = expr_neg(arena, half);
     p[0] = expr_mul(arena, half, expr_sub(arena, R[3 * k + j], R[3 * j + k]));

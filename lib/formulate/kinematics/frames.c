@@ -1,4 +1,5 @@
-/* frames.c: chains of turns along the rotation tree, steps along the translation tree */
+/* frames.c: orientation classes along the rotation tree, joint primitives along the translation
+ * tree */
 #include "formulate/kinematics/frames.h"
 #include "formulate/kinematics/identity.h"
 #include "formulate/kinematics/section_frames.h"
@@ -20,9 +21,9 @@ Vec frame_vector(const System *system, int node, Vec in_frame)
     return rotation_apply(system->arena, &system->kinematics->frames[node].zero, in_frame);
 }
 
-/* --- chains --- */
+/* --- orientation classes --- */
 
-/* a chain beyond `parent`, its speeds still to be told */
+/* an orientation class beyond `parent`; its speeds are set later */
 static int add_chain(System *system, int parent, int speed)
 {
     OrientationClass chain = {.parent = parent,
@@ -31,13 +32,13 @@ static int add_chain(System *system, int parent, int speed)
                               .speed = speed,
                               .speed_count = 1};
 
-    /* in a plane every turn is about one axis, and ground's axes serve all */
+    /* in a plane every turn is about one axis, and ground's axes serve all classes */
     chain.resolve = system->origin->planar ? 0 : system->kinematics->chains.count;
     LIST_PUSH(system->kinematics->chains, chain);
     return system->kinematics->chains.count - 1;
 }
 
-/* the same axis 1, the opposite one -1, another 0 */
+/* 1 for the same axis, -1 for the opposite one, otherwise 0 */
 static int axis_sense(Arena *arena, Vec a, Vec b)
 {
     if (vec_same(a, b))
@@ -45,14 +46,15 @@ static int axis_sense(Arena *arena, Vec a, Vec b)
     return vec_same(a, vec_neg(arena, b)) ? -1 : 0;
 }
 
-/* held, so that the angles along a chain share their sums */
+/* a named temporary, so that the angles of successive classes share their sums */
 static Expr turn_further(Arena *arena, Expr angle, int sense, Expr by)
 {
     angle = expr_name_temporary(arena, angle);
     return sense > 0 ? expr_add(arena, angle, by) : expr_sub(arena, angle, by);
 }
 
-/* the turn of a chain goes on where that before it ended, about the same line */
+/* joins a coaxial group: the turn of an orientation class continues that before it, about the same
+ * line */
 static void join_run(const System *system, OrientationClass *chain)
 {
     const OrientationClass *chains = system->kinematics->chains.at,
@@ -78,7 +80,7 @@ static Vec unit_axis(Arena *arena, int k)
 
 static Vec turn_vector(Arena *arena, const Turn *turn, Vec b);
 
-/* of a turn askew: what many vectors pass is formed once */
+/* for a turn about an oblique axis: one matrix serves all vectors that pass it */
 static void add_matrix(Arena *arena, OrientationClass *chain)
 {
     const Turn turn = {chain->axis, chain->angle, NULL, false};
@@ -179,7 +181,7 @@ static int add_free(System *system, int parent, const Rotation *zero, int coordi
     return number;
 }
 
-/* a station turns about z, then the new y, then the newest x */
+/* a section frame turns about z, then the new y, then the newest x */
 static int turn_section_frame(System *system, const SectionFrame *station, int first, int chain,
                               const Rotation *zero, int node, bool forward)
 {
@@ -297,7 +299,7 @@ static void step_branch(System *system, int node)
     frame->shift = forward ? shift : vec_neg(arena, shift);
 }
 
-/* number the chains so that what hangs beyond one has the numbers first..last */
+/* numbers the orientation classes so that all beyond one have the numbers first..last */
 static void number_chains(System *system)
 {
     OrientationClass *chains = system->kinematics->chains.at;
@@ -373,7 +375,7 @@ void frames_build(System *system)
     add_masses(system);
 }
 
-/* --- turns between chains --- */
+/* --- turns between orientation classes --- */
 
 bool orientation_is_beyond(const System *system, int chain, int turn)
 {
@@ -382,7 +384,8 @@ bool orientation_is_beyond(const System *system, int chain, int turn)
     return chains[chain].first >= chains[turn].first && chains[chain].first <= chains[turn].last;
 }
 
-/* the next chain on the way from one to another, behind a whole run of turns where the way is */
+/* the next orientation class on the path from one to another; a whole coaxial group is skipped
+ * where the path passes all of it */
 static int behind(const System *system, int chain, int other)
 {
     const OrientationClass *chains = system->kinematics->chains.at;
@@ -391,7 +394,8 @@ static int behind(const System *system, int chain, int other)
     return chains[orientation_is_beyond(system, other, run) ? chain : run].parent;
 }
 
-/* the turn from `start` to a chain, or back: of a whole run, or that of the chain alone */
+/* adds the turn from `start` to an orientation class, or back: of a whole coaxial group, or of the
+ * class alone */
 static void append_turn(const System *system, Turns *turns, int start, int number, bool back)
 {
     Arena *arena = system->arena;
@@ -423,7 +427,7 @@ void turns_between(const System *system, int from, int to, Turns *turns)
     LIST(int) down = {0};
 
     turns->count = 0;
-    /* up to the chain both hang from, and down again */
+    /* up to the common orientation class, and down again */
     while (from != to) {
         if (chains[from].depth >= chains[to].depth) {
             const int next = behind(system, from, to);
@@ -463,7 +467,7 @@ static Vec turn_vector(Arena *arena, const Turn *turn, Vec b)
     return vec_add(arena, along, vec_add(arena, across, side));
 }
 
-/* v has the line of an axis of the frame */
+/* v is parallel to an axis of the frame */
 static bool is_along(Vec axis, Vec v)
 {
     int others = 0;
@@ -476,7 +480,7 @@ static bool is_along(Vec axis, Vec v)
     return others == 2;
 }
 
-/* all turns on the way are about the line of v */
+/* all turns on the path are about the line of v */
 static bool is_carried_unchanged(const System *system, Vec v, int from, int to)
 {
     const OrientationClass *chains = system->kinematics->chains.at;
@@ -537,7 +541,7 @@ Vec outward_at(const System *system, Outward *outward, int chain)
 {
     const OrientationClass *chains = system->kinematics->chains.at;
 
-    /* from the last one that is known on: most who ask do so outward, too */
+    /* outward from the last known one: most callers go outward as well */
     while (!outward->is_known[chain]) {
         int next = chain;
 
@@ -576,7 +580,7 @@ int node_axes(const System *system, int node)
     return system->kinematics->chains.at[system->kinematics->frames[node].chain].resolve;
 }
 
-/* several who sum up ask for it, and other Systems of the arena */
+/* several sums need it, and so do other Systems of the arena */
 Vec speed_axis(const System *system, int speed, int axes)
 {
     const OrientationClass *chains = system->kinematics->chains.at;

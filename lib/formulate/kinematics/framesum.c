@@ -1,7 +1,7 @@
-/* framesum.c: vectors as sums over chains, for the expanded form
+/* framesum.c: vectors as sums over orientation classes, for the expanded form
  *
- * A dot product of two parts turns only what lies between their chains, so that
- * what is printed stays as short as what is written by hand. */
+ * A dot product of two parts contains only the turns between their classes. So the printed
+ * expression is as short as one written by hand. */
 #include "formulate/kinematics/framesum.h"
 #include "formulate/kinematics/frames.h"
 #include "formulate/system/kinematics.h"

@@ -1,4 +1,4 @@
-/* identity.c: identities of chains and frames, and keys made of them */
+/* identity.c: identities of orientation classes and frames, and keys made of them */
 #include "formulate/kinematics/identity.h"
 
 #include "formulate/system/origin.h"
@@ -15,7 +15,7 @@ void key_add(Key *key, const void *entries, size_t size)
 {
     const int count = (int)(size / sizeof(Expr));
 
-    /* whoever follows from more is derived anew each time */
+    /* with more entries the result is derived anew each time */
     if (count > MOST_KEY - key->count) {
         key->is_determined = false;
         return;
@@ -31,7 +31,7 @@ Expr key_end(const System *system, const Key *key)
     return key->is_determined ? expr_tuple(system->arena, key->at, key->count) : NULL;
 }
 
-/* what a chain turns, beyond what is told of the one before it */
+/* the turn of an orientation class relative to the class before it */
 static void add_turn(Key *key, const OrientationClass *chain)
 {
     if (chain->is_free) {
@@ -43,7 +43,8 @@ static void add_turn(Key *key, const OrientationClass *chain)
     }
 }
 
-/* the turns from one chain to another that hangs from it, or both as they are */
+/* key of the turns from one orientation class to another one beyond it, or of both classes as they
+ * are */
 static Expr turn_key(const System *system, int from, int to)
 {
     const OrientationClass *chains = system->kinematics->chains.at;
@@ -52,7 +53,7 @@ static Expr turn_key(const System *system, int from, int to)
     if (to < from || chains[to].first < chains[from].first || chains[to].first > chains[from].last)
         return expr_tuple(system->arena, (Expr[]){chains[from].identity, chains[to].identity}, 2);
     for (int c = to; c != from; c = chains[c].parent) {
-        /* of several turns those about one line add up, from where the first of them stands */
+        /* several turns about one line add up from the first of them */
         const Expr is_whole =
             expr_int(system->arena,
                      chains[c].parent == from || chains[chains[c].run].depth > chains[from].depth);
@@ -114,7 +115,7 @@ void derived_store(const System *system, Expr key, Derived which, const void *va
         expr_remember(system->arena, key, which, values, size);
 }
 
-/* what tells a plane from space, where each chain has axes of its own */
+/* distinguishes a plane from space, where each orientation class has axes of its own */
 static Expr datum_identity(const System *system)
 {
     return expr_tuple(system->arena, (Expr[]){expr_int(system->arena, system->origin->planar)}, 1);

@@ -1,9 +1,9 @@
 /* isomorphic.c: which instances follow which
  *
- * Names pair what two instances of one definition made. They are alike when each pair of frames,
- * turns and masses is the same but for the names in it: from these alone motion, composites and
- * forces follow. The datum that an instance hangs from has to be the same chain; how it moves is
- * paired when that is known. */
+ * Names pair the parts that two instances of one definition made. Two instances are isomorphic when
+ * each pair of frames, turns and masses is equal except for the names in it: motion, composites and
+ * forces follow from these alone. Both must hang from the same orientation class outside. The
+ * motion of that class is paired when it is known. */
 #include "formulate/kinematics/isomorphic.h"
 
 #include "base/names.h"
@@ -18,10 +18,10 @@
 
 typedef LIST(int) IntList;
 
-typedef struct Inside { /* what an instance made, those inside it too */
+typedef struct Inside { /* what an instance made, including the instances inside it */
     int use;
     char *prefix; /* "leg1." */
-    int begin;    /* where the first of its nodes stands in the tree */
+    int begin;    /* position of its first node in the tree's order */
     IntList nodes, chains, speeds, masses;
     bool is_open; /* something else hangs on it */
     LIST(FirstWay) ways;
@@ -36,17 +36,17 @@ struct Follower {
 };
 
 struct IsomorphicSubsystems {
-    Arena *arena; /* that keeps the renamings */
-    int count;    /* of instances */
+    Arena *arena; /* owns the renamings */
+    int count;    /* number of instances */
     Inside *inside;
-    int *use_of_node, *use_of_chain; /* the innermost; -1 */
-    int *place;                      /* of a node in the tree's order */
+    int *use_of_node, *use_of_chain; /* the innermost instance; -1: none */
+    int *place;                      /* position of a node in the tree's order */
     Follower **of;                   /* instances; NULL: it follows none */
     Follower **of_node, **of_chain, **of_speed;
     int *node, *chain, *speed; /* counterparts */
 };
 
-/* --- what is inside --- */
+/* --- contents of instances --- */
 
 static int innermost(const Names *uses, const char *name)
 {
@@ -111,7 +111,7 @@ static void gather(const System *system, const Names *uses, IsomorphicSubsystems
     }
 }
 
-/* `use` is it or in it */
+/* `use` is the instance `around`, or inside it */
 static bool is_within(const System *system, int use, int around)
 {
     while (use >= 0 && use != around)
@@ -140,7 +140,7 @@ static void find_open(const System *system, IsomorphicSubsystems *alike)
     }
 }
 
-/* whether an earlier System derived its motion and its masses; nothing of this one's is yet */
+/* whether an earlier System derived its motion and its masses; this one has derived none yet */
 static bool is_recalled(const System *system, const Inside *inside)
 {
     const Kinematics *kinematics = system->kinematics;
@@ -159,12 +159,12 @@ static bool is_recalled(const System *system, const Inside *inside)
     return known;
 }
 
-/* --- whether two are alike --- */
+/* --- whether two are isomorphic --- */
 
 typedef struct Pairing {
     const System *system;
     const IsomorphicSubsystems
-        *alike; /* counterparts of those of `own`, as far as they were looked at */
+        *alike; /* counterparts of those of `own`, as far as they were compared */
     const Inside *own;
     Inside *first;
     Renaming *renaming;
@@ -206,7 +206,7 @@ static bool same_names(const Pairing *p)
     return true;
 }
 
-/* nodes stand in the order of the tree, which may be another one among brothers */
+/* nodes are in the order of the tree, which may differ among siblings */
 static bool pair_nodes(const Pairing *p)
 {
     const size_t prefix = strlen(p->first->prefix), own = strlen(p->own->prefix);
@@ -227,7 +227,7 @@ static bool pair_nodes(const Pairing *p)
     return same;
 }
 
-/* a speed, chain or node that is outside is the same for both */
+/* a speed, orientation class or node that is outside is the same for both */
 static bool is_speed(const Pairing *p, int own, int first)
 {
     const Instance *owner =
@@ -312,7 +312,7 @@ static bool are_isomorphic(const Pairing *p)
     return true;
 }
 
-/* --- who follows whom --- */
+/* --- which instance follows which --- */
 
 static void follow(IsomorphicSubsystems *alike, const Pairing *p, int use)
 {
@@ -331,7 +331,7 @@ static void follow(IsomorphicSubsystems *alike, const Pairing *p, int use)
     }
 }
 
-/* inside one that follows already */
+/* inside an instance that follows another already */
 static bool is_taken(const System *system, const IsomorphicSubsystems *alike, int use)
 {
     for (; use >= 0; use = system->origin->uses[use].outer)
@@ -340,7 +340,7 @@ static bool is_taken(const System *system, const IsomorphicSubsystems *alike, in
     return false;
 }
 
-/* among those that begin before it in the tree */
+/* searches those that precede it in the tree */
 static void look_for_first(const System *system, IsomorphicSubsystems *alike, const int *order,
                            int at)
 {
@@ -471,7 +471,7 @@ void isomorphic_free(IsomorphicSubsystems *alike)
     mem_free(alike);
 }
 
-/* --- asking --- */
+/* --- queries --- */
 
 Follower *isomorphic_node(const System *system, int node, int *first)
 {
@@ -606,8 +606,8 @@ typedef struct Inward {
     int *list;
 } Inward;
 
-/* A node behind what hangs on it, and behind the whole of the instance that its own follows: those
- * calls go as deep as definitions stand in one another. */
+/* Lists a node after all nodes that hang on it, and after the whole instance that its own follows:
+ * the recursion is as deep as definitions are nested. */
 static void list_node(Inward *inward, int node);
 
 static void list_inside(Inward *inward, const Inside *inside)

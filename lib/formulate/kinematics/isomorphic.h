@@ -1,10 +1,9 @@
-/* isomorphic.h: instances of one definition: what was derived of the first, the others take over
+/* isomorphic.h: instances of one definition reuse the results derived for the first
  *
- * Where the frames and masses of an instance are those of an earlier one with its own names in the
- * place of the other's, it *follows* that one: its motion, composite bodies, forces and ways come
- * from the first's by renaming, as long as nothing else stands in them. An instance that the tree
- * enters another way, or whose numbers differ, is derived by itself. Only while a System is made.
- */
+ * Where the frames and masses of an instance equal those of an earlier one with its own names
+ * substituted, it *follows* that one: its motion, composite bodies, forces and paths come from the
+ * first by renaming, as long as they contain nothing else. An instance that the tree enters another
+ * way, or whose numbers differ, is derived by itself. Exists only while a System is built. */
 #ifndef COTREE_FORMULATE_KINEMATICS_ISOMORPHIC_H
 #define COTREE_FORMULATE_KINEMATICS_ISOMORPHIC_H
 
@@ -15,52 +14,54 @@
 
 typedef struct Follower Follower; /* an instance that follows another one */
 
-/* behind the frames and masses, before anything follows from them; what system_instanced() tells */
+/* after the frames and masses, before any results; the data that system_instanced() returns */
 void isomorphic_build(System *system);
 void isomorphic_free(struct IsomorphicSubsystems *alike); /* NULL is fine */
 
-/* Whose it is, and its counterpart in the first; NULL: it follows none. */
+/* The follower that a node belongs to, and its counterpart in the first; NULL: it follows none. */
 Follower *isomorphic_node(const System *system, int node, int *first);
 Follower *isomorphic_chain(const System *system, int chain, int *first);
 Follower *isomorphic_speed(const System *system, int speed, int *first);
 const int *isomorphic_members(const Follower *follower, int *count); /* its nodes */
-/* The counterpart of a chain that is inside, or itself where it is outside of both (-1: none);
- * false: it is inside the first. */
+/* The counterpart of an orientation class that is inside, or the class itself where it is outside
+ * of both (-1: none); false: it is inside the first. */
 bool isomorphic_chain_for(const System *system, const Follower *follower, int chain, int *out);
 
 bool isomorphic_is_first(const System *system, const Follower *follower,
                          int node);                         /* in the first */
-bool isomorphic_is_outside(const System *system, int node); /* of all */
+bool isomorphic_is_outside(const System *system, int node); /* of all instances */
 
-/* What the ways through a first instance sum up to, kept for all that follow it. */
+/* Sums along the paths through a first instance, stored for all instances that follow it. */
 typedef struct FirstWay {
     int node, chain, axes;
-    Vec sum; /* from where the instance hangs to the node, as far as the chain turns it */
+    /* from where the instance hangs to the node, as far as the orientation class turns it */
+    Vec sum;
 } FirstWay;
-bool isomorphic_find_way(const Follower *follower, FirstWay *way); /* false: not kept yet */
+bool isomorphic_find_way(const Follower *follower, FirstWay *way); /* false: not stored yet */
 void isomorphic_keep_way(const Follower *follower, const FirstWay *way);
-/* where it hangs moves as `to`, where the first hangs as `from`: the motion inside is taken over */
+/* the follower's attachment moves as `to`, the first's as `from`: takes over the motion inside */
 bool isomorphic_hangs(Follower *follower, Vec from, Vec to);
-bool isomorphic_moves(const Follower *follower); /* it could be, so far */
-/* nothing but its own hangs on it or on the first */
+bool isomorphic_moves(const Follower *follower); /* possible so far */
+/* nothing else hangs on it or on the first */
 bool isomorphic_ends(const Follower *follower);
 
-/* From now on a symbol becomes that in what it takes over; false: something else became of it. */
+/* From now on `hole` becomes `value` in what it takes over; false: another value was set before. */
 bool isomorphic_fill(const Follower *follower, Expr hole, Expr value);
 Expr isomorphic_take(const Follower *follower, Expr e);
 Vec isomorphic_vec(const Follower *follower, Vec v);
 
-/* What is taken over needs no key: it is found by the first's. But whoever comes first where that
- * one is gone, the heir, has it kept under keys of its own. */
+/* Results that are taken over need no key: the first's key finds them. Where the first no longer
+ * exists, the first follower, the heir, stores them under keys of its own. */
 bool isomorphic_is_heir(const Follower *follower);
 void isomorphic_keep(const System *system, const Follower *follower, Expr key, Derived which,
                      const void *values, size_t size);
 
-/* How many first ones lie behind a node: that of its instance, that of whose this is, ... */
+/* How many first instances precede a node: that of its instance, that of the first's instance,
+ * ... */
 int isomorphic_level(const System *system, int node);
 
-/* The nodes of a tree inward, each behind all of the instance that its own takes its loads over
- * from: new, mem_free() */
+/* The nodes of a tree inward, each after all nodes of the instance that its own takes its loads
+ * over from: new, mem_free() */
 int *isomorphic_inward(const System *system, TreeKind kind, int *count);
 
 #endif

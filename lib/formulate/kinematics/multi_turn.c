@@ -1,4 +1,4 @@
-/* multi_turn.c: turns of chords over any number of turns, as they were told (multi_turn_build.c) */
+/* multi_turn.c: multi-turn angles of chords, as multi_turn_build.c determined them */
 #include "formulate/kinematics/multi_turn.h"
 #include "formulate/system/constraints.h"
 #include "formulate/system/kinematics.h"

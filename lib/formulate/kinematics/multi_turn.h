@@ -1,18 +1,18 @@
-/* multi_turn.h: turns of chords that only their sine and cosine tell, or that count whole turns */
+/* multi_turn.h: turns of chords that only sine and cosine determine, or that count full turns */
 #ifndef COTREE_FORMULATE_KINEMATICS_MULTI_TURN_H
 #define COTREE_FORMULATE_KINEMATICS_MULTI_TURN_H
 
 #include "formulate/system/constraints.h"
 
-/* which turns of chords are told by sine and cosine alone */
+/* finds the turns of chords that only sine and cosine determine */
 void multi_turn_build(System *system);
-/* the angle of such a turn; NULL: it is none of them */
+/* the angle of such a turn; NULL: it is no such turn */
 Expr multi_turn_angle(const System *system, int instance, int coordinate);
-/* the whole turns that the angle of a chord has beside the sum that tells it; 0: it has none */
+/* the full turns of a chord's angle, to be added to the sum that determines it; 0: it has none */
 Expr multi_turn_whole(const System *system, int instance, int coordinate);
-/* to rows of angles that sum up to 0, in the recursive form */
+/* adds full turns to rows of angles with sum 0, in the recursive form */
 void multi_turn_add_rows(System *system);
-/* a driver makes it so */
+/* a driver prescribes the angle */
 void multi_turn_drive(System *system, int instance, int coordinate, Expr prescribed);
 
 #endif

@@ -1,10 +1,11 @@
-/* multi_turn_build.c: turns of chords that are told by their sine s and cosine c, over any number
- * of turns
+/* multi_turn_build.c: turns of chords that are determined by their sine s and cosine c, over any
+ * number of turns
  *
  * Where the turns of a circuit don't merge about one axis, only s and c of a chord's angle are
- * known, and atan2(s, c) jumps by a full turn. The angle is the one of them all that is nearest to
- * a reference, a symbol of its own that runs keep beside q: integrated by the angle's rate, and put
- * back onto the angle wherever they put q back onto the constraints. */
+ * known, and atan2(s, c) (rad) jumps by a full turn. The angle is the value nearest to a reference,
+ * among all that differ by full turns. The reference is a symbol of its own that runs store in
+ * addition to q. They integrate it by the angle's rate, and set it to the angle whenever they
+ * project q onto the constraints. */
 #include "formulate/kinematics/coordinate.h"
 #include "formulate/kinematics/frames.h"
 #include "formulate/kinematics/multi_turn.h"
@@ -62,7 +63,7 @@ static void add_multi_turn(System *system, const Instance *joint, const Steps *s
         return;
     }
     if (steps_are_tied(steps) && !joint->is_virtual)
-        return; /* told by the shift */
+        return; /* determined by the shift */
     chord.sine = turn.sine;
     chord.cosine = turn.cosine;
     chord.reported.name = joint->coord[coordinate];
@@ -83,7 +84,7 @@ void multi_turn_build(System *system)
         if (joint->row->steps == NULL || joint->edge < 0 || joint->coord_count == 0)
             continue;
         instance_steps(system, joint, &steps);
-        /* three turns in a chord have no angles that could be determined */
+        /* three turns of a chord have no angles that sine and cosine could determine */
         for (int k = 0; k < steps.turn_count && steps.turn_count < 3; k++)
             if (system->kinematics->coordinate[i][steps.turn[k].coordinate] < 0)
                 add_multi_turn(system, joint, &steps, k);

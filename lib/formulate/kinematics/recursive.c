@@ -1,7 +1,9 @@
 /* recursive.c: motion outward, for the recursive form
  *
- * Each quantity is resolved in the axes of its chain's `resolve` chain and held, so that
- * a program computes it once. */
+ * Each quantity is resolved in the axes of its orientation class's `resolve` class, as a named
+ * temporary: a program computes it once. From the parent p to the child, with the axis k of a turn,
+ * a slide along s' (its rate u) and r from p to the child: w = w_p + k rate (rad/s) and v = v_p + w
+ * x r + s' u (m/s), all 3 x 1. */
 #include "formulate/kinematics/recursive.h"
 #include "formulate/kinematics/frames.h"
 #include "formulate/kinematics/identity.h"
@@ -15,9 +17,9 @@
 
 #include <string.h>
 
-enum { MANY_TURNS = 20 }; /* from the datum */
+enum { MANY_TURNS = 20 }; /* number of turns from the datum */
 
-/* whether what hangs from a chain turns as the first does: outside it is the same chain */
+/* whether an orientation class turns as that of the first instance; outside it is the same class */
 static bool turns_alike(const System *system, Follower *follower, int chain)
 {
     const OrientationMotion *motion = &system->kinematics->motions[chain];
@@ -48,7 +50,7 @@ static OrientationMotion turn_motion(const System *system, int c)
                                vec_hold(arena, vec_cross(arena, w, turn))};
 }
 
-/* As the first's, or recalled, or derived. */
+/* From the first's, or recalled, or derived. */
 static void find_turn_motion(const System *system, int c)
 {
     const OrientationClass *chain = &system->kinematics->chains.at[c];
@@ -70,7 +72,7 @@ static void find_turn_motion(const System *system, int c)
     derived_store(system, chain->identity, DERIVED_TURN, &motions[c], sizeof motions[c]);
 }
 
-/* whether a node moves as the first's does, of whose parent and whose own that is told */
+/* whether a node moves as that of the first; its parent's motion and its own are known */
 static bool moves_alike(const System *system, Follower *follower, int node, Vec from, Vec to)
 {
     int first;
@@ -138,7 +140,7 @@ static void find_step_motion(System *system, int node)
     frame->product = motion.product;
 }
 
-/* a = a_parent + alpha x r + what the speeds make of it + s' u' */
+/* a = a_parent + alpha x r + the velocity products + s' u' */
 static Vec node_acceleration(const System *system, int n, const Expr *accelerations,
                              const Vec *alpha, const Vec *a)
 {
@@ -180,7 +182,7 @@ static Vec orientation_acceleration(const System *system, int c, const Expr *acc
     return vec_hold(arena, own);
 }
 
-/* what is left of a chain's at u' = 0: as the first's, recalled, or derived */
+/* angular acceleration of an orientation class at u' = 0: from the first's, recalled, or derived */
 static Vec orientation_rest(const System *system, int c, const Vec *alpha)
 {
     const OrientationClass *chain = &system->kinematics->chains.at[c];
@@ -205,7 +207,7 @@ static Vec orientation_rest(const System *system, int c, const Vec *alpha)
     return rest;
 }
 
-/* the same of a node */
+/* the same for a node */
 static Vec node_rest(const System *system, int n, const Vec *alpha, const Vec *a)
 {
     const Frame *frames = system->kinematics->frames, *frame = &frames[n];
@@ -249,7 +251,7 @@ void accelerations_build(const System *system, const Expr *accelerations, Vec *a
 
 void node_moved(System *shadow, int node)
 {
-    /* it is no frame of the model's any more */
+    /* it is no longer a frame of the model */
     shadow->kinematics->frames[node].identity = NULL;
     find_step_motion(shadow, node);
     shadow->kinematics->a0[node] =
@@ -284,7 +286,7 @@ void motion_build(System *system)
     accelerations_build(system, NULL, system->kinematics->alpha0, system->kinematics->a0);
 }
 
-/* those formed so far; a view begins with what making the System needed */
+/* those formed so far; a view starts with those that building the System needed */
 static Vec *positions_of(System *system)
 {
     Vec **positions = &system->shown->positions;
@@ -300,7 +302,7 @@ static Vec *positions_of(System *system)
     return *positions;
 }
 
-/* x, y and z of the datum in the axes of every chain */
+/* x, y and z of the datum in the axes of every orientation class */
 static const Vec *datum_axes(System *system)
 {
     const int chains = system->kinematics->chains.count;
@@ -318,8 +320,8 @@ static const Vec *datum_axes(System *system)
     return *axes;
 }
 
-/* In the axes of the datum. From beyond many turns by what these are over there: each turn stands
- * there once, and not once for each step beyond it. */
+/* v in the axes of the datum. Beyond many turns it uses x, y and z of the datum in the axes there:
+ * the result contains each turn once, and not once for each shift beyond it. */
 static Vec in_datum(System *system, Vec v, int chain)
 {
     const OrientationClass *chains = system->kinematics->chains.at;

@@ -5,11 +5,12 @@
 #include "formulate/system/kinematics.h"
 
 void motion_build(System *system);
-/* angular accelerations of chains and accelerations of nodes, with u' or (NULL) without */
+/* angular accelerations of orientation classes and accelerations of nodes, with u' or (NULL)
+ * without */
 void accelerations_build(const System *system, const Expr *accelerations, Vec *alpha, Vec *a);
-/* a node's own, anew, of a copy whose step to it is another one */
+/* a node's own motion, anew, in a copy where the shift to it differs */
 void node_moved(System *shadow, int node);
-/* position of a node in ground axes, held; formed at the first call */
+/* position of a node in ground axes, a named temporary; formed at the first call */
 Vec node_position(System *system, int node);
 
 #endif

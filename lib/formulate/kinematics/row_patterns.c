@@ -1,4 +1,4 @@
-/* row_patterns.c: patterns of rows, and what they become */
+/* row_patterns.c: patterns of rows, and the rows made from them */
 #include "formulate/kinematics/row_patterns.h"
 
 #include "formulate/kinematics/circuits.h"
@@ -8,10 +8,10 @@
 
 #include <string.h>
 
-/* An instance that closes in more ways than these brings no more of them. */
+/* An instance that closes circuits in more ways than this gets no more patterns. */
 enum { MOST = 16 };
 
-typedef struct Hole { /* a symbol in the place of a number */
+typedef struct Hole { /* a symbol that replaces a number */
     int node, component;
     Expr symbol;
 } Hole;
@@ -19,12 +19,12 @@ typedef struct Hole { /* a symbol in the place of a number */
 typedef struct PatternRow {
     Row row;
     Expr shown;
-    Expr *phi_u; /* NULL: it isn't run yet */
+    Expr *phi_u; /* NULL: its recursive form is not built yet */
     Expr phi, gamma;
 } PatternRow;
 
 typedef struct RowPattern {
-    System shadow; /* in which the holes are */
+    System shadow; /* the System with the holes */
     Kinematics kinematics;
     int tail, head;
     LIST(Hole) holes;
@@ -34,7 +34,7 @@ typedef struct RowPattern {
 struct RowPatterns {
     System *system;
     LIST(RowPattern *) list;
-    /* what was found last: a chord has several rows */
+    /* the last result: a chord has several rows */
     int tail, head;
     RowPattern *pattern;
     const Follower *follower;
@@ -62,15 +62,15 @@ void row_patterns_free(RowPatterns *patterns)
     mem_free(patterns);
 }
 
-/* --- making one --- */
+/* --- making a pattern --- */
 
-/* a number, or of parameters: those that stand for numbers of parts, too */
+/* a number, or an expression of parameters, including lifted constants */
 static bool is_constant(Expr e)
 {
     return (expr_kinds(e) & ~(1U << SYMBOL_PARAMETER)) == 0;
 }
 
-/* Its number may be another one: nothing moves with it but the chord's own end. */
+/* Its number may differ: nothing moves with it except the chord's own end. */
 static bool may_differ(const System *system, const RowPattern *pattern, int node)
 {
     const Frame *frame = &system->kinematics->frames[node];
@@ -80,8 +80,8 @@ static bool may_differ(const System *system, const RowPattern *pattern, int node
             (vec_is_zero(frame->v) && vec_is_zero(system->kinematics->a0[node])));
 }
 
-/* Where it or that of the instance isn't 0; outward, since what moves with one moves with those
- * before it. */
+/* Adds holes where its shift or that of the instance isn't 0; outward, since the frames that move
+ * with one also move with those before it. */
 static void add_holes(const RowPatterns *patterns, RowPattern *pattern, int node, int own,
                       int ancestor)
 {
@@ -122,7 +122,7 @@ static void *copied(const System *system, const void *from, size_t size)
     return memcpy(pool_alloc(system->pool, size), from, size);
 }
 
-/* through the first of an instance, to where the chord of another one leads */
+/* through the first of an instance, to the frame where the chord of another one leads */
 static RowPattern *add_pattern(RowPatterns *patterns, int tail, int head)
 {
     const System *system = patterns->system;
@@ -146,7 +146,7 @@ static RowPattern *add_pattern(RowPatterns *patterns, int tail, int head)
     return pattern;
 }
 
-/* --- finding one --- */
+/* --- finding a pattern --- */
 
 static Expr hole_at(const RowPattern *pattern, int node, int component)
 {
@@ -156,7 +156,7 @@ static Expr hole_at(const RowPattern *pattern, int node, int component)
     return NULL;
 }
 
-/* whether one outside stands as the pattern's does, but for the numbers of holes */
+/* whether an instance outside has the pattern's position, except for the numbers of holes */
 static bool is_same_pattern(const System *system, const RowPattern *pattern,
                             const Follower *follower, int node, int own)
 {
@@ -236,7 +236,7 @@ static RowPattern *find(RowPatterns *patterns, const Row *row)
     return patterns->pattern;
 }
 
-/* the same row of the pattern; NULL: it has none */
+/* the corresponding row of the pattern; NULL: it has none */
 static PatternRow *find_row(RowPatterns *patterns, const Row *row)
 {
     RowPattern *pattern = find(patterns, row);

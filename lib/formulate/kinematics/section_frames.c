@@ -1,4 +1,4 @@
-/* section_frames.c: dependent speeds of frames on parts that deform */
+/* section_frames.c: dependent speeds of frames on flexible parts */
 #include "formulate/kinematics/section_frames.h"
 #include "formulate/system/origin.h"
 #include "formulate/system/system_impl.h"
@@ -15,7 +15,7 @@ static Expr *new_array(const System *system, int count)
     return pool_alloc(system->pool, (size_t)count * sizeof(Expr));
 }
 
-/* the part that an arm with at= stands on; NULL: it is an arm of a body */
+/* the flexible part that an arm with at= belongs to; NULL: it is an arm of a body */
 static const Instance *part_under(const System *system, const Instance *arm)
 {
     if (arm->row->family != FAMILY_ARM || !instance_value(arm, "at")->given)
@@ -56,7 +56,7 @@ ShapeState shapes_state(const System *system, const Instance *part)
     return (ShapeState){q, rate, {zero, zero, zero}};
 }
 
-/* --- stations --- */
+/* --- section frames --- */
 
 static Dependent dependent(const System *system, int first, int count, const Expr *factor,
                            Expr rest)

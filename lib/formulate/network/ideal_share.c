@@ -1,8 +1,8 @@
-/* ideal_share.c: ideal switches as the network tells them, and what closed or open ones alone share
+/* ideal_share.c: relations of ideal switches, and indeterminate circuits and cutsets of switches
  *
- * Where closed ones alone make a circuit nothing determines what each of them carries, and where
- * open ones alone part the network, nothing what is across each: they share alike, as equal
- * resistances would, however small or large. theory 8. */
+ * A circuit of closed switches alone leaves their currents undetermined, and a cutset of open
+ * switches alone their voltages. They are distributed as by equal resistances, whatever their size.
+ * theory 8. */
 #include "formulate/network/ideal_sides.h"
 #include "formulate/network/scalar_edges.h"
 #include "formulate/system/network.h"
@@ -10,15 +10,15 @@
 #include "formulate/system/resolve.h"
 #include "formulate/system/system_impl.h"
 
-/* --- what sources of nothing share --- */
+/* --- shares in indeterminate circuits and cutsets --- */
 
-/* an ideal switch without resistance on that side */
+/* an ideal switch without resistance in that state */
 static bool is_on_side(const Branchlike *branch, RelationKind kind)
 {
     return branch->ideal >= 0 && !branch->relation.switches && branch->relation.kind == kind;
 }
 
-/* of a closed chord: i around the circuit. Where voltages are left over there is none. */
+/* for a closed chord: i around the circuit. Where voltages remain there is none. */
 static Status share_circuit(System *system, const Branchlike *branch, bool *shared, Expr *out,
                             Diag *diag)
 {
@@ -52,7 +52,7 @@ done:
     return status;
 }
 
-/* of an open branch: v across the cutset */
+/* for an open branch: v across the cutset */
 static Status share_cutset(System *system, const Branchlike *branch, bool *shared, Expr *out,
                            Diag *diag)
 {
@@ -88,7 +88,7 @@ Status ideal_share(System *system, const Branchlike *branch, bool *shared, Expr 
     return OK;
 }
 
-/* --- looking --- */
+/* --- queries --- */
 
 Status system_scalar(System *system, int i, ScalarPair *out, Diag *diag)
 {
@@ -110,7 +110,7 @@ Status system_scalar(System *system, int i, ScalarPair *out, Diag *diag)
     return OK;
 }
 
-/* where the unknown of the branch, and so its equation, stands in [x'; z] */
+/* the index in [x'; z] of the branch's unknown, and so of its equation */
 static int row_of(const System *system, const Branchlike *branch)
 {
     if (system->network->closed != NULL || branch->unknown < 0 || branch->relation.switches)
@@ -121,7 +121,8 @@ static int row_of(const System *system, const Branchlike *branch)
     return -1;
 }
 
-/* of a diode in a mode: of an open one its voltage backwards, of a closed one its current */
+/* event function of a diode in a mode: the reverse voltage of an open one, the current of a closed
+ * one */
 static Expr margin_of(const System *system, int i, const IdealSwitch *diode)
 {
     Arena *arena = system->arena;

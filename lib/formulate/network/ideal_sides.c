@@ -1,13 +1,13 @@
 /* ideal_sides.c: relations of switches and diodes without resistance
  *
- * A system with both sides of each in one equation is for looking at, and for operating points:
+ * A system that has both sides of each in one equation serves for display and for operating points:
  *
  *     diode    i = max(0, i + g (v - least)), g = 1 S; any g > 0 has the same solutions
  *     switch   v = on i while it is closed, v = off i or i = 0 while it is open
  *
- * In a mode each is on one side. A closed one is a source of across, an open one a source of
- * through variables, of nothing: so the normal tree is another one, and with it what is a state.
- * theory 8. */
+ * In a mode each is on one side. A closed one is a source of the across variable 0, an open one a
+ * source of the through variable 0. So the normal tree of each mode differs, and with it the
+ * states. theory 8. */
 #include "formulate/network/ideal_sides.h"
 #include "formulate/system/origin.h"
 #include "formulate/system/system_impl.h"
@@ -26,9 +26,9 @@ static Expr both_sides(System *system, const Ideal *ideal, Expr v, Expr i)
     return expr_if(arena, ideal->when, closed, open);
 }
 
-/* Where the side is a number of the run, as between two resistances, the equation of both is this
- * one, which gives neither v nor i: a large resistance times a current, and a voltage over a small
- * one, would tell little but rounding.
+/* Where the side is a number of the run, as between two resistances, this equation serves both
+ * sides. It gives neither v nor i: a large resistance times a current, or a voltage over a small
+ * resistance, would be mostly rounding error.
  *
  *     closed = 1: v = on (i - least/off) + least, closed = 0: v/off = i
  *
@@ -49,7 +49,7 @@ static Expr either_side(System *system, Expr closed, const Ideal *ideal, Expr v,
                  expr_sub(arena, expr_mul(arena, v, leak), i)));
 }
 
-/* one side, as the relation of a source or a resistor */
+/* one side, with the relation of a source or a resistor */
 static void one_side(System *system, bool closed, Relation *relation)
 {
     const Ideal *ideal = &relation->ideal;

@@ -1,8 +1,9 @@
 /* law_ends.c: where the law of a part that stores ends
  *
- * A charge eA/(s0 - s) v has no bound where the gap s0 - s comes to 0, and no meaning behind it; a
- * flux (L0 - k s) i none where its coil stores nothing any more. What comes to 0 there, of each
- * law: the bases of negative powers that move, or without any the coefficient itself. */
+ * A charge eA/(s0 - s) v (C) is unbounded where the gap s0 - s (m) reaches 0, and has no meaning
+ * beyond. A flux (L0 - k s) i (Wb) has no meaning where its coil stores no more energy. For each
+ * law this file finds the expression that is 0 there: the variable bases of negative powers, or
+ * without any the coefficient itself. */
 #include "formulate/system/kinematics.h"
 #include "formulate/system/network.h"
 #include "formulate/system/origin.h"
@@ -34,7 +35,7 @@ static void add_denominators(Measures *measures, Expr e)
         add_denominators(measures, expr_arg(e, i));
 }
 
-/* of the charge or flux of an edge, by the edge's own voltage or current */
+/* coefficient of the charge or flux of an edge: of its own voltage or current */
 static Expr coefficient(const System *system, const Branchlike *branch)
 {
     const Instance *instance = &system->origin->instances[branch->instance];

@@ -1,12 +1,14 @@
 /* network.c: scalar domains: unknowns by the tree, every other variable along it
  *
- * Every chord starts with its through variable as unknown and every branch with its across
- * variable, each with its own relation as equation; a pair is struck out where the relation gives
- * the unknown and following it never leads back to itself. What is followed: a chord's v along its
- * circuit, a branch's i from its cutset. In state form the tree is a normal tree, capacitors in it
- * and inductors out of it bring the states, and a rate that an equation needs of something
- * algebraic is an unknown more, with that one's equation differentiated. In the form of the user's
- * tree any rate of an unknown may be met, and the highest ones are solved for. theory 8. */
+ * Initially the through variable of every chord and the across variable of every branch is an
+ * unknown, with its own relation as equation. Such a pair is eliminated where the relation gives
+ * the unknown, unless following it leads back to the unknown. Other variables follow from the tree:
+ * a chord's v from its circuit, a branch's i from its cutset.
+ *
+ * In state form the tree is a normal tree: capacitors in it and inductors out of it are the states.
+ * If an equation needs the rate of an algebraic variable, this rate becomes one more unknown, and
+ * the variable's equation is differentiated. In the form of the user's tree any rate of an unknown
+ * may occur, and the equations are solved for the highest ones. theory 8. */
 #include "formulate/system/network.h"
 #include "formulate/network/network_impl.h"
 #include "formulate/network/scalar_edges.h"
@@ -30,7 +32,7 @@ Unknown network_unknown_of_branch(const System *system, const Branchlike *branch
                      .derives = -1};
 }
 
-/* a chord whose current is a function of its voltage, as a diode's: steep in that direction */
+/* a chord whose current is a stiff function of its voltage, as a diode's */
 static bool is_stiff(const System *system, const Branchlike *branch)
 {
     const Relation *relation = &branch->relation;
@@ -41,9 +43,9 @@ static bool is_stiff(const System *system, const Branchlike *branch)
                                                          system->arena, branch->which));
 }
 
-/* The edge's own variable stays unknown, with its relation as equation. Of a steep chord it is the
- * voltage, from which Newton's method finds the current, as it would not the other way round; its
- * equation is the circuit. */
+/* The edge's own variable remains unknown, with its relation as equation. For a stiff chord it is
+ * the voltage, from which Newton's method finds the current; the reverse fails. The equation of a
+ * stiff chord is its circuit. */
 static Status keep_unknown(System *system, Branchlike *branch, Diag *diag)
 {
     bool stiff_elements = is_stiff(system, branch);
@@ -85,7 +87,7 @@ Status circuit_across(System *system, Branchlike *branch, Expr *out, Diag *diag)
         Expr v;
 
         if (branch->busy && other->busy && other->unknown < 0) {
-            /* a loop: rather the chord stays unknown, as a mesh current */
+            /* a loop: then the chord remains unknown, as a mesh current */
             system->network->met_loop = true;
             CHECK(diag_set(diag, E_MISSING, "%s leads back to itself", edge->name));
         }
@@ -178,7 +180,7 @@ bool port_gives_own(System *system, const Branchlike *branch)
            scalar_branch(system, branch_owner(system, branch), 0)->branch != branch->branch;
 }
 
-/* v of a branch or i of a chord where its relation gives it; *given false where it doesn't */
+/* v of a branch or i of a chord where its relation gives it; otherwise *given is false */
 static Status by_relation(System *system, Branchlike *branch, bool *given, Expr *out, Diag *diag)
 {
     const Relation *relation = &branch->relation;
@@ -235,7 +237,7 @@ static Status own_variable(System *system, Branchlike *branch, Expr *out, Diag *
         branch->busy = false;
         if (status != OK &&
             (system->asked_early || (!branch->branch && system->network->met_loop))) {
-            /* what it reads follows from forces, and waits for those; or a loop */
+            /* it depends on forces, and waits until those are built; or there is a loop */
             system->network->met_loop = false;
             given = false;
             status = OK;
@@ -244,7 +246,7 @@ static Status own_variable(System *system, Branchlike *branch, Expr *out, Diag *
         }
         CHECK(status);
     }
-    /* it was met again on the way, or nothing gives it */
+    /* it was met again while being followed, or no relation gives it */
     if (!given)
         CHECK(keep_unknown(system, branch, diag));
     if (branch->is_stiff)

@@ -1,4 +1,5 @@
-/* network_build.c: a scalar domain's relations read, its trees chosen, its unknowns listed */
+/* network_build.c: reads the relations of a scalar domain, chooses its trees and lists its
+ * unknowns */
 #include "formulate/network/network_build.h"
 #include "formulate/network/ideal_sides.h"
 #include "formulate/network/network_impl.h"
@@ -15,7 +16,7 @@
 
 /* --- relations --- */
 
-/* a source whose value an inverse run finds: that unknown in the place of the value */
+/* a source whose value an inverse run computes: an unknown replaces the value */
 static void found_value(System *system, Instance *source)
 {
     int param = component_source(source->row);
@@ -78,7 +79,7 @@ static void read_relation(System *system, Branchlike *branch)
         ideal_set_side(system, branch);
 }
 
-/* what couplings bring to the relations of two parts */
+/* adds the terms of couplings to the relations of two parts */
 static void couple(System *system)
 {
     for (int i = 0; i < system->origin->instance_count; i++) {
@@ -95,7 +96,7 @@ static void couple(System *system)
     }
 }
 
-/* what a relation differentiates by itself may not jump */
+/* an expression that a relation differentiates must not jump */
 static Status check_smooth(System *system, Diag *diag)
 {
     Expr e;
@@ -130,8 +131,8 @@ static void find_cutsets(System *system, TreeKind kind)
     }
 }
 
-/* A start gives what elements store: in the user's tree it may not follow from accelerations, which
- * are found later. */
+/* A start sets what elements store. In the user's tree that must not depend on accelerations, which
+ * are computed later. */
 static Status check_stored(const System *system, Diag *diag)
 {
     const unsigned late = 1U << SYMBOL_ACCELERATION | 1U << SYMBOL_MULTIPLIER;
@@ -223,7 +224,7 @@ Status network_build(System *system, Diag *diag)
         find_cutsets(system, kind);
     }
     add_states(system);
-    /* chords first: their currents are the ones to stay unknown */
+    /* chords first: their currents are preferred as unknowns */
     for (int i = 0; i < system->network->branches.count; i++)
         if (!system->network->branches.at[i].branch)
             TRY(network_through(system, &system->network->branches.at[i], &value, diag));

@@ -1,4 +1,4 @@
-/* network_isomorphic.c: rows of a network that are recalled, or those of another instance */
+/* network_isomorphic.c: rows of a network that are recalled, or taken over from another instance */
 #include "formulate/network/network_isomorphic.h"
 
 #include "base/names.h"
@@ -15,19 +15,19 @@
 
 enum { MOST_SYMBOLS = MOST_KEY };
 
-/* all that a row follows from: symbols and expressions, and what kind of row it is */
+/* all that a row follows from: symbols and expressions, and the kind of row */
 typedef struct DeterminedSymbols {
     Expr at[MOST_SYMBOLS];
-    int count; /* 0: there are others, too */
+    int count; /* 0: the row follows from others as well */
     int kind;
-    int unknowns; /* so many there were before it was derived */
+    int unknowns; /* number of unknowns before it was derived */
 } DeterminedSymbols;
 
 typedef struct KnownRow { /* an unknown's */
     DeterminedSymbols determined;
-    Expr key;           /* of these */
-    int like;           /* whose row it took over; -1 */
-    Renaming *renaming; /* borrowed: from that one's names */
+    Expr key;           /* key of these */
+    int like;           /* the unknown whose row it took over; -1 */
+    Renaming *renaming; /* borrowed: from that unknown's names */
     Expr left, right, lack;
     bool has_slopes;
     NetworkSlopes slopes;
@@ -40,8 +40,8 @@ typedef struct SymbolPair { /* of instances */
 
 struct NetworkIsomorphism {
     Names *uses;    /* instances */
-    Names *local;   /* definition and name inside it, of unknowns, */
-    LIST(int) last; /* and the unknown derived last under each */
+    Names *local;   /* definition and name inside it, for each unknown, */
+    LIST(int) last; /* and the unknown derived last under each name */
     LIST(int) last_use;
     LIST(KnownRow) of; /* unknowns */
     char **prefix;     /* "leg1." */
@@ -129,7 +129,7 @@ static void find_status(DeterminedSymbols *determined, Expr e)
         determined->at[determined->count++] = e;
 }
 
-/* variables of the user's, and what they are; rates of other unknowns may be unknowns */
+/* variables of the user, and their expressions; rates of other unknowns may be unknowns */
 static void find_symbols(System *system, const Unknown *y, const Relation *relation,
                          DeterminedSymbols *determined)
 {
@@ -146,7 +146,7 @@ static void find_symbols(System *system, const Unknown *y, const Relation *relat
 
         if (kind == SYMBOL_VARIABLE) {
             if (variables_resolve(system, symbols[i], &value, NULL) != OK)
-                determined->count = 0; /* deriving it tells why */
+                determined->count = 0; /* deriving it reports the reason */
             find_status(determined, symbols[i]);
             find_status(determined, value);
         } else if (kind != SYMBOL_PARAMETER && kind != SYMBOL_TIME && symbols[i] != y->symbol &&
@@ -192,7 +192,7 @@ static Expr row_key(const System *system, const DeterminedSymbols *determined)
     return key_end(system, &key);
 }
 
-/* --- whose it may be --- */
+/* --- which instance a row belongs to --- */
 
 /* the innermost instance that the name is in, or the next one around `inside`; -1 */
 static int use_around(const System *system, const NetworkIsomorphism *alike, const char *name,
@@ -211,7 +211,7 @@ static int use_around(const System *system, const NetworkIsomorphism *alike, con
     return found;
 }
 
-/* of an unknown, inside an instance: new */
+/* name of an unknown inside an instance: new */
 static char *local_name(const System *system, const NetworkIsomorphism *alike, const char *name,
                         int use)
 {
@@ -246,7 +246,7 @@ static bool same_determined(Renaming *renaming, const DeterminedSymbols *first,
     return same;
 }
 
-/* that of the one of the same name in another instance, where it is the same in its names */
+/* takes over the row of the same name in another instance, if it is equal after renaming */
 static bool take_over(System *system, NetworkIsomorphism *alike, const Unknown *y, KnownRow *own)
 {
     const char *name = expr_name(y->symbol);
@@ -291,7 +291,7 @@ static void offer(System *system, NetworkIsomorphism *alike, int unknown, const 
 
 /* --- rows --- */
 
-typedef struct KeptRow { /* as it is remembered */
+typedef struct KeptRow { /* a row as it is stored */
     Expr left, right, lack;
 } KeptRow;
 
@@ -344,7 +344,7 @@ void network_isomorphic_keep(System *system, int unknown, const Unknown *y)
     if (alike == NULL || unknown >= alike->of.count)
         return;
     own = &alike->of.at[unknown];
-    /* whoever brings further unknowns does so for itself */
+    /* a row that adds further unknowns is always derived */
     if (own->determined.count == 0 || own->determined.unknowns != system->network->unknowns.count) {
         own->determined.count = 0;
         return;
@@ -356,7 +356,7 @@ void network_isomorphic_keep(System *system, int unknown, const Unknown *y)
     offer(system, alike, unknown, expr_name(y->symbol));
 }
 
-/* --- slopes --- */
+/* --- Jacobian entries --- */
 
 static KnownRow *determined_of(const System *system, int unknown)
 {

@@ -1,8 +1,8 @@
 /* network_isomorphic.h: rows of a network that needn't be derived
  *
- * What an earlier System derived from the same relation, v, i and variables is recalled. Else,
- * where all of these are those of another instance of the same definition in other names, so is the
- * row: it is taken over by renaming, with its slopes. */
+ * A row that an earlier System derived from the same relation, v, i and variables is recalled.
+ * Otherwise, where all of these equal those of another instance of the same definition after
+ * renaming, so does the row: it is taken over by renaming, with its Jacobian entries. */
 #ifndef COTREE_FORMULATE_NETWORK_NETWORK_ISOMORPHIC_H
 #define COTREE_FORMULATE_NETWORK_NETWORK_ISOMORPHIC_H
 
@@ -12,20 +12,20 @@ typedef struct NetworkIsomorphism NetworkIsomorphism;
 
 void network_isomorphic_free(NetworkIsomorphism *alike); /* NULL is fine */
 
-/* Before the row of an unknown is derived: *found, and its left, right and lack in *y. */
+/* Call before the row of an unknown is derived: *found, and its left, right and lack in *y. */
 MUST_USE Status network_isomorphic_find(System *system, int unknown, Unknown *y, bool *found,
                                         Diag *diag);
-/* behind that, where it wasn't found and was derived */
+/* call afterwards, for a row that was not found and so was derived */
 void network_isomorphic_keep(System *system, int unknown, const Unknown *y);
 
-/* d residual by one of the unknowns, and -residual without all of them */
+/* derivatives of the residual by its unknowns, and -residual with all of them at 0 */
 typedef struct NetworkSlopes {
     LIST(Expr) symbols;
     LIST(Expr) values;
     Expr rest;
     bool is_nonlinear;
 } NetworkSlopes;
-/* of left - right; false: they are to be derived */
+/* of left - right; false: they have to be derived */
 bool network_isomorphic_slopes(System *system, int unknown, NetworkSlopes *slopes);
 void network_isomorphic_keep_slopes(System *system, int unknown, const NetworkSlopes *slopes);
 

@@ -1,11 +1,11 @@
-/* network_node_rows.c: the equations of what long sums brought (network_nodes.c) */
+/* network_node_rows.c: the equations of the unknowns that replace long sums (network_nodes.c) */
 #include "formulate/network/network_impl.h"
 #include "formulate/network/scalar_edges.h"
 #include "formulate/system/network.h"
 #include "formulate/system/origin.h"
 #include "formulate/system/system_impl.h"
 
-/* what of a balance at a node the edge brings: what it takes away */
+/* share of an edge in the balance at a node: the through variable that it draws */
 static Status taken_by(System *system, int edge, int node, Expr *out, Diag *diag)
 {
     const Edge *e = graph_edge(system->origin->graph, edge);

@@ -1,13 +1,14 @@
-/* network_nodes.c: long sums of a network's two laws, from node to node
+/* network_nodes.c: long sums of Kirchhoff's two laws, from node to node
  *
- * Across a chord is a path of branches, through a branch a cutset of chords: in a chain of n
- * switches, as of a multiplier, n^2 terms. Where their sides are numbers of a run nobody reads the
- * equations, and both are summed on the way, with an unknown a node or a branch more,
+ * The across variable of a chord is a sum over a path of branches, the through variable of a branch
+ * a sum over a cutset of chords: n^2 terms in a cascade of n switches, as in a multiplier. Where
+ * their sides are numbers of a run nobody reads the equations. Then both are summed from node to
+ * node, with one more unknown for each node or branch,
  *
  *     p(node) = p(parent) + v of the branch between,   i of a branch = what else meets at its far
  * node
  *
- * (of one that stores the unknown is its rate), so that all rows are short and factors of them stay
+ * (of one that stores the unknown is its rate), so that all rows are short and their factors remain
  * sparse. p is the across variable against the datum up to its sign. */
 #include "formulate/network/network_impl.h"
 #include "formulate/network/scalar_edges.h"
@@ -16,7 +17,7 @@
 #include "formulate/system/rates.h"
 #include "formulate/system/system_impl.h"
 
-#define LONG 8 /* terms, up to which a sum stays one */
+#define LONG 8 /* terms; a sum of no more remains a sum */
 
 static bool is_between_resistances(const Branchlike *branch)
 {
@@ -45,7 +46,7 @@ static Branchlike *branch_to(System *system, const Tree *tree, int node)
                 .at[system->network->scalar_of_edge[tree_parent_edge(tree, node)]];
 }
 
-/* p, an unknown with its equation; all those on the way from the datum are such, too */
+/* p, an unknown with its equation; so is p of every node on the path from the datum */
 Expr network_nodes_potential(System *system, const Tree *tree, int node)
 {
     const int count = graph_node_count(system->origin->graph);

@@ -1,9 +1,10 @@
 /* network_order.c: the equations of the user's tree, brought to a form that can be solved
  *
- * Each unknown has a highest rate in the equations; they hold these linearly, and are solved for
- * them. Where their matrix L is singular throughout, elimination leaves a row without them. That
- * row tells a lower rate of one of its unknowns, and, differentiated, those above it, which are put
- * into the other rows: the unknown is then of that order. theory 8. */
+ * Each unknown has a highest rate in the equations. They are linear in these rates, with the matrix
+ * L (count x count), and are solved for them. Where L is singular throughout, elimination leaves a
+ * row without highest rates. That row determines a lower rate of one of its unknowns.
+ * Differentiated, it determines the higher rates, which are substituted in the other rows: this
+ * lowers the order of the unknown. theory 8. */
 #include "formulate/network/network_impl.h"
 #include "formulate/network/scalar_edges.h"
 #include "formulate/system/network.h"
@@ -17,20 +18,20 @@
 #include <string.h>
 
 #define ROUNDS 200
-#define ROOM   20000 /* nodes of expressions, from which on nobody would read them */
+#define ROOM   20000 /* nodes of expressions; above, nobody would read the equations */
 
 typedef struct Order {
     System *system;
     int64_t nodes; /* of the arena at the start */
     int count;
-    Expr *row; /* G, one an unknown */
+    Expr *row; /* G, one for each unknown */
     Expr *L;   /* count x count */
     double *number;
 } Order;
 
-/* --- numbers to look at instead of proofs --- */
+/* --- numeric tests instead of proofs --- */
 
-/* zero at three places is zero */
+/* an expression that is 0 at three points is 0 */
 static bool vanishes(Expr e)
 {
     for (uint32_t seed = 1; seed <= 3; seed++)
@@ -39,7 +40,7 @@ static bool vanishes(Expr e)
     return true;
 }
 
-/* rank of L at one place; O(count^3) */
+/* rank of L at one point; O(count^3) */
 static int rank_at(Order *o, uint32_t seed)
 {
     int n = o->count;
@@ -116,7 +117,7 @@ static Status form_leading(Order *o, Diag *diag)
 
 /* --- one row without highest rates --- */
 
-/* What is left of the highest rates cancels, and others may, but for rounding. */
+/* The remainders of the highest rates cancel, and others may, except for rounding. */
 static void drop_cancelled(const Order *o, Expr *row)
 {
     Arena *arena = o->system->arena;
@@ -132,7 +133,7 @@ static void drop_cancelled(const Order *o, Expr *row)
         }
 }
 
-/* Eliminate until a row has none of them left; which row, its remainder in *out. */
+/* Eliminates until a row has no highest rates: returns which row, and its remainder in *out. */
 static Status leftover(Order *o, int *found, Expr *out, Diag *diag)
 {
     Arena *arena = o->system->arena;
@@ -179,8 +180,8 @@ done:
     return status;
 }
 
-/* The unknown whose order the row lowers most gently: it holds its rate `*rate` and none nearer to
- * a highest one; -1: it holds none at all. */
+/* The unknown whose order the row lowers least: the row contains its rate `*rate` and none nearer
+ * to a highest one; -1: the row contains no unknown. */
 static int lowered_by(const Order *o, Expr row, int *rate)
 {
     int best = -1;
@@ -201,7 +202,7 @@ static int lowered_by(const Order *o, Expr row, int *rate)
     return best;
 }
 
-/* what an unknown belongs to: an edge of the graph, or a part with a state of its own */
+/* the owner of an unknown: an edge of the graph, or a part with a state of its own */
 static const char *edge_of(const Order *o, int j)
 {
     const System *system = o->system;
@@ -223,7 +224,8 @@ static Status cant_order(const Order *o, int row, Diag *diag)
     return E_MODEL;
 }
 
-/* in what hangs on the unknowns: v and i of edges, and rates that are expressions */
+/* substitutes in the expressions of the unknowns: v and i of edges, and rates that are
+ * expressions */
 static void substitute_all(System *system, const Expr *from, const Expr *to, int count)
 {
     Arena *arena = system->arena;
@@ -242,8 +244,8 @@ static void substitute_all(System *system, const Expr *from, const Expr *to, int
     }
 }
 
-/* What the rates of unknown j above order k are, as the equation `row` tells that of order k: the
- * first in value[0], and so on. */
+/* Rates of unknown j above order k, where the equation `row` determines that of order k: the first
+ * in value[0], and so on. */
 static Status rates_by(const Order *o, Expr row, int j, int k, Expr *symbol, Expr *value,
                        Diag *diag)
 {
@@ -298,7 +300,7 @@ static Status lower_order(Order *o, Diag *diag)
         }
     substitute_all(system, symbol, value, count);
     o->row[r] = rest;
-    /* they can still be told */
+    /* they can still be determined */
     for (int i = 0; i < count; i++)
         system->network->unknowns.at[j].rates[k + i] = value[i];
     system->network->unknowns.at[j].order = k;
@@ -307,9 +309,9 @@ done:
     return status;
 }
 
-/* --- the end --- */
+/* --- result --- */
 
-/* highest rates become what is solved for */
+/* the highest rates become the variables that are solved for */
 static void rename(Order *o)
 {
     System *system = o->system;

@@ -19,7 +19,7 @@ static const unsigned solved_kinds = 1U << SYMBOL_STATE_RATE | 1U << SYMBOL_ALGE
 
 /* --- one equation --- */
 
-/* terms of the left side that hold no rate go to the right, where a reader looks for them */
+/* moves terms of the left side without rates to the right, where a reader expects them */
 static void sort_sides(System *system, Unknown *y)
 {
     Arena *arena = system->arena;
@@ -47,7 +47,7 @@ static void sort_sides(System *system, Unknown *y)
     LIST_FREE(move);
 }
 
-/* a minus in front of each term */
+/* each term has a minus sign */
 static bool is_negative(Expr e)
 {
     bool all = expr_kind(e) == EXPR_SUM;
@@ -67,7 +67,7 @@ static void choose_sign(System *system, Unknown *y)
     y->right = expr_neg(system->arena, expr_open(system->arena, y->right));
 }
 
-/* the one of a port's two equations that is this edge's: v = value, or i = inverse */
+/* the one of a port's two equations that belongs to this edge: v = value, or i = inverse */
 static Status port_row(System *system, Branchlike *branch, Unknown *y, Diag *diag)
 {
     bool by_across = branch->branch == port_gives_own(system, branch);
@@ -161,7 +161,7 @@ static Status own_row(System *system, Unknown *y, Diag *diag)
 Status network_row(System *system, int unknown, Diag *diag)
 {
     Arena *arena = system->arena;
-    Unknown y = system->network->unknowns.at[unknown]; /* the list may move on the way */
+    Unknown y = system->network->unknowns.at[unknown]; /* the list may move meanwhile */
     bool is_known;
 
     if (y.has_row)
@@ -202,14 +202,14 @@ Status network_row(System *system, int unknown, Diag *diag)
 
 /* --- lists --- */
 
-/* the edge that an unknown belongs to; of a state of a part's own its first */
+/* the edge that an unknown belongs to; for a state of a part's own, the part's first edge */
 static int unknown_edge(const System *system, const Unknown *y)
 {
     return y->branchlike >= 0 ? system->network->branches.at[y->branchlike].edge
                               : system->origin->instances[y->instance].scalar_edges[0];
 }
 
-/* in the order of the edges' making */
+/* inserts in the order in which the edges were made */
 static void show_equation(System *system, NetworkEquation equation)
 {
     int at = system->network->equations.count;
@@ -254,8 +254,8 @@ void network_list(System *system)
 
 typedef struct NetworkRows {
     System *system;
-    int count;        /* of equations and unknowns */
-    LIST(int) column; /* by expr_symbol_number(): 1 + place in [x'; z]; 0: none */
+    int count;        /* number of equations, and of unknowns */
+    LIST(int) column; /* by expr_symbol_number(): 1 + index in [x'; z]; 0: none */
     LIST(Entry) entries;
     NetworkSlopes slopes; /* of a row */
 } NetworkRows;
@@ -268,7 +268,7 @@ static void place(NetworkRows *rows, Expr symbol, int column)
     rows->column.at[expr_symbol_number(symbol)] = 1 + column;
 }
 
-/* what to say of an equation that none of the unknowns can meet */
+/* reports an equation that none of the unknowns can satisfy */
 static Status cant_be_met(System *system, const Unknown *y, Diag *diag)
 {
     const Branchlike *branch =
@@ -322,7 +322,7 @@ static void find_slopes(Arena *arena, Expr residual, NetworkSlopes *slopes)
     mem_free(symbols);
 }
 
-/* `unknown`: that whose left - right it is; -1: it is another one */
+/* `unknown`: the unknown whose left - right it is; -1: it is another expression */
 static Status add_row(NetworkRows *rows, int row, Expr residual, int unknown, const Unknown *y,
                       Diag *diag)
 {
@@ -348,7 +348,8 @@ static Status add_row(NetworkRows *rows, int row, Expr residual, int unknown, co
     return OK;
 }
 
-/* rates of other states on the right go to the left: capacitors in a circuit, coupled inductors */
+/* moves rates of other states from the right to the left: capacitors in a circuit, coupled
+ * inductors */
 static void gather_rates(NetworkRows *rows, int first, Expr *left, Expr *right)
 {
     System *system = rows->system;
@@ -430,8 +431,8 @@ static void find_samples(System *system)
     }
 }
 
-/* An equation that states and sources alone have to meet, as where an op-amp holds a capacitor's
- * voltage: differentiated once it tells a rate. theory 8. */
+/* An equation of states and sources alone, as where an op-amp determines a capacitor's voltage:
+ * differentiated once it determines a rate. theory 8. */
 static Status differentiate_fixed(System *system, int unknown, Diag *diag)
 {
     const unsigned moves = 1U << SYMBOL_STATE;

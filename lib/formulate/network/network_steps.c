@@ -1,8 +1,8 @@
-/* network_steps.c: what an equation of a scalar domain was followed along: laws, circuits, cutsets
+/* network_steps.c: the derivation of an equation of a scalar domain: laws, circuits, cutsets
  *
- * The way of network.c, told instead of computed: a chord's across variable along its circuit, a
- * branch's through variable from its cutset, the others by the law of their edge, up to unknowns.
- */
+ * Lists the steps that network.c computes: a chord's across variable follows from its circuit, a
+ * branch's through variable from its cutset, the others from the law of their edge, up to
+ * unknowns. */
 #include "formulate/network/network_steps.h"
 #include "formulate/network/scalar_edges.h"
 #include "formulate/system/network.h"
@@ -11,7 +11,7 @@
 
 #include <string.h>
 
-/* the edge's law, for what is told of it where the law gives that */
+/* sets the edge's law, for a variable that the law gives */
 static void report_law(const System *system, const Branchlike *branch, bool across,
                        NetworkStep *step)
 {
@@ -60,8 +60,8 @@ static void report_law(const System *system, const Branchlike *branch, bool acro
     }
 }
 
-/* that edge's variable is to be told, if it isn't yet; the first step is the equation, which tells
- * of none */
+/* adds a step for that edge's variable, if it has none yet; the first step is the equation, and
+ * stands for no variable */
 static void ask_for(NetworkSteps *steps, int edge, bool across)
 {
     for (int i = 1; i < steps->steps.count; i++)
@@ -120,7 +120,7 @@ static void ask_for_variables(const System *system, Expr law, NetworkSteps *step
     mem_free(symbols);
 }
 
-/* minus the rest of the circuit of a chord, of the cutset of a branch */
+/* adds minus the rest of the circuit of a chord, or of the cutset of a branch */
 static void sum_up(const System *system, const Branchlike *branch, int at, NetworkSteps *steps)
 {
     const SignMatrix *cutsets = system->network->cutsets[branch_tree(system, branch)];
@@ -149,7 +149,7 @@ static void sum_up(const System *system, const Branchlike *branch, int at, Netwo
         ask_for(steps, steps->signed_edges.at[k].edge, !branch->branch);
 }
 
-/* how what is asked of an edge is told */
+/* fills in the step of an edge's variable */
 static void follow(const System *system, int at, NetworkSteps *steps)
 {
     NetworkStep *step = &steps->steps.at[at];
@@ -168,7 +168,7 @@ static void follow(const System *system, int at, NetworkSteps *steps)
     }
 }
 
-/* the unknown whose equation stands at that place of those printed */
+/* the unknown whose equation has that number among the printed ones */
 static int equation_unknown(const System *system, int equation)
 {
     const Network *network = system->network;
@@ -217,7 +217,7 @@ void system_network_steps(System *view, int equation, NetworkSteps *out)
         LIST_PUSH(out->steps, first);
     }
     if (branch != NULL && first.left == NULL && !branch->is_stiff) {
-        ask_for(out, branch->edge, true); /* a switch: of its two laws each needs both */
+        ask_for(out, branch->edge, true); /* a switch: each of its two laws needs both variables */
         ask_for(out, branch->edge, false);
     }
     if (first.left != NULL)

@@ -1,5 +1,6 @@
-/* network_tree.c: the normal tree of a scalar domain, greedily: sources of across variables first,
- * then what stores them, resistive edges, what stores through variables, their sources last */
+/* network_tree.c: the normal tree of a scalar domain, by a greedy choice of edges: first sources of
+ * across variables, then elements that store these, resistive edges, elements that store through
+ * variables, and sources of those last */
 #include "formulate/network/network_build.h"
 #include "formulate/network/scalar_edges.h"
 #include "formulate/system/kinematics.h"
@@ -11,13 +12,13 @@
 
 #include <stdlib.h>
 
-#define BEFORE_OUTPUTS 12 /* capacitors that an amplifier leaves to themselves, */
+#define BEFORE_OUTPUTS 12 /* capacitors whose voltage an amplifier leaves free, */
 #define OUTPUTS        13
 
 static int normal_order(const System *system, const Branchlike *branch)
 {
     switch (branch->relation.kind) {
-    case RELATION_ACROSS: /* closed switches stay out before sources do, */
+    case RELATION_ACROSS: /* closed switches are left out before sources are, */
         return branch->ideal < 0 ? 10 : 11;
     case RELATION_CAPACITIVE:
         return 20;
@@ -26,11 +27,11 @@ static int normal_order(const System *system, const Branchlike *branch)
     case RELATION_RESISTIVE:
     case RELATION_IMPLICIT:
         return 30;
-    case RELATION_CONDUCTIVE: /* what diodes isolate is joined before */
+    case RELATION_CONDUCTIVE: /* nodes that diodes isolate are joined before */
         return 35;
     case RELATION_INDUCTIVE:
         return 40;
-    case RELATION_THROUGH: /* and open ones come in before sources */
+    case RELATION_THROUGH: /* and open switches are added before sources */
         return branch->ideal < 0 ? 50 : 49;
     case RELATION_FREE:
         return OUTPUTS;
@@ -40,12 +41,12 @@ static int normal_order(const System *system, const Branchlike *branch)
     return graph_edge(system->origin->graph, branch->edge)->preference[0];
 }
 
-/* The order in which edges are taken into the normal tree where there are ports. */
+/* The order in which edges are added to the normal tree where there are ports. */
 typedef struct Taking {
     System *system;
     TreeKind kind;
-    Sets *nodes;     /* joined by what was taken */
-    int *preference; /* one an edge of the graph */
+    Sets *nodes;     /* joined by the edges added so far */
+    int *preference; /* one for each edge of the graph */
     int taken;
 } Taking;
 
@@ -69,8 +70,8 @@ static bool is_closed(const Taking *taking, const Branchlike *branch)
     return sets_find(taking->nodes, edge->tail) == sets_find(taking->nodes, edge->head);
 }
 
-/* The v of one side of a port gives that of the other: where other edges close one side, the other
- * side is next. */
+/* The v of one side of a port determines that of the other: where other edges close a circuit with
+ * one side, the other side is next. */
 static void take_through_ports(Taking *taking)
 {
     System *system = taking->system;
@@ -84,7 +85,7 @@ static void take_through_ports(Taking *taking)
             is_closed(taking, p) == is_closed(taking, s))
             continue;
         take(taking, is_closed(taking, p) ? s : p);
-        i = -1; /* it may have closed another one */
+        i = -1; /* it may have closed another circuit */
     }
 }
 
@@ -97,10 +98,9 @@ static void join(const System *system, Sets *nodes, const Branchlike *branch)
     (void)sets_join(nodes, edge->tail, edge->head);
 }
 
-/* A nullor's input joins its nodes as voltages see them, its output as currents do. A capacitor
- * that closes a circuit in the one or the other has no voltage of its own; the others come before
- * outputs, which then follow from them. One a branch; NULL where there is no
- * amplifier. */
+/* For voltages a nullor's input joins its nodes, for currents its output does. A capacitor that
+ * closes a circuit with either has no voltage of its own. The other capacitors come before outputs,
+ * which then follow from them. One flag for each branch; NULL where there is no amplifier. */
 static bool *find_leading(const System *system, TreeKind kind)
 {
     Sets *voltages = sets_new(graph_node_count(system->origin->graph));
@@ -139,9 +139,9 @@ static bool *find_leading(const System *system, TreeKind kind)
     return leads;
 }
 
-/* --- the order --- */
+/* --- order of edges --- */
 
-/* the user's branches before others of their kind */
+/* the user's branches come before others of their kind */
 static int rank_of(const System *system, TreeKind kind, const bool *leads, int branch)
 {
     const Branchlike *one = &system->network->branches.at[branch];
@@ -207,8 +207,9 @@ static void list_states(System *system, const Tree *tree, TreeKind kind)
     }
 }
 
-/* The user's tree, where it is a normal one; else as much of it as a normal tree may hold. In the
- * form of the user's tree that stays, and this one tells which variables rest at the start. */
+/* The user's tree where it is a normal tree; otherwise as much of it as a normal tree can contain.
+ * In the form of the user's tree that tree is kept, and the normal tree here determines which
+ * variables are 0 at the start. */
 Status network_normal_tree(System *system, TreeKind kind, Diag *diag)
 {
     int count = graph_edge_count(system->origin->graph);

@@ -1,4 +1,4 @@
-/* scalar_edges.c: the edges of scalar domains: of which part, in which tree, by which name */
+/* scalar_edges.c: the edges of scalar domains: their parts, trees and names */
 #include "formulate/network/scalar_edges.h"
 #include "formulate/system/network.h"
 #include "formulate/system/origin.h"

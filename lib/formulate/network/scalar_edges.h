@@ -1,4 +1,4 @@
-/* scalar_edges.h: edges of scalar domains, and what is across and through them */
+/* scalar_edges.h: edges of scalar domains, and their across and through variables */
 #ifndef COTREE_FORMULATE_NETWORK_SCALAR_EDGES_H
 #define COTREE_FORMULATE_NETWORK_SCALAR_EDGES_H
 
@@ -6,13 +6,13 @@
 
 const Instance *branch_owner(const System *system, const Branchlike *branch);
 Branchlike *scalar_branch(System *system, const Instance *instance, int which);
-/* its member names: "i", or of an edge with a suffix "s.i" */
+/* its member names: "i", or for an edge with a suffix "s.i" */
 const char *branch_member(const System *system, const Branchlike *branch, bool through);
 TreeKind branch_tree(const System *system, const Branchlike *branch);
-/* The status of a derivative that an edge needs; where there is none in the form of the user's
- * tree, E_MODEL with the edge. */
+/* The status of a derivative that an edge needs. Where that does not exist in the form of the
+ * user's tree, E_MODEL with the edge. */
 Status network_no_rate(const System *system, const char *edge, Status status, Diag *diag);
-/* content' + rest: i of what stores v, v of what stores i */
+/* content' + rest: i of an edge that stores v, v of an edge that stores i */
 MUST_USE Status network_stored_rate(System *system, const Branchlike *branch, Expr *out,
                                     Diag *diag);
 /* names of the edges in the circuit of a chord or the cutset of a branch; in the pool */

@@ -33,7 +33,7 @@ static bool is_law(const Branchlike *branch)
             reads_variables(branch->relation.value));
 }
 
-/* what it takes of a current changes no voltage at once */
+/* a change of its current changes no voltage at once */
 static bool joins(const Branchlike *branch)
 {
     return !is_law(branch) && branch->relation.kind != RELATION_INDUCTIVE &&
@@ -63,7 +63,7 @@ static bool has_datum(const Graph *graph, Sets *sets, int node)
     return false;
 }
 
-/* what leads out of the set of a node beside one coil */
+/* edges that lead out of the set of a node, besides one coil */
 typedef struct Leaving {
     int laws, coils, others;
     int coil, towards; /* the last coil: its edge and the node at its far end */
@@ -94,7 +94,7 @@ static Leaving find_leaving(const System *system, Sets *sets, int node, int coil
     return out;
 }
 
-/* The first such node from an end of a coil on, through coils in series; -1: there is none. */
+/* The first such node, from an end of a coil on through coils in series; -1: there is none. */
 static int find_uncharged(const System *system, Sets *sets, int node, int coil)
 {
     for (int turn = 0; turn < system->network->branches.count; turn++) {

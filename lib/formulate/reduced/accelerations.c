@@ -1,7 +1,7 @@
-/* accelerations.c: M u' = F solved in symbols, so that a run's program does it, the cheapest way
+/* accelerations.c: M u' = F solved in symbols by the cheapest method, for the program of a run
  *
- * M itself is eliminated from the last speed on, L^T D L, so that trees fill nothing in
- * (Featherstone 2005); or speeds yield along the trees (along_trees.h). */
+ * M (nu x nu) is factored as L^T D L from the last speed on: the elimination then has no fill-in
+ * along trees (Featherstone 2005). Or speeds are eliminated along the trees (along_trees.h). */
 #include "formulate/reduced/accelerations.h"
 
 #include "base/memory.h"
@@ -13,10 +13,10 @@
 #include <string.h>
 
 enum {
-    MOST_SPEEDS = 16, /* of a full M that is eliminated in symbols */
-    FEW_SPEEDS = 8,   /* so far M along the trees takes no more than body by body */
-    WORTH = 800,      /* what M has to cost before other ways are written out */
-    /* More leaves the processor's caches, and is left to loops over data. */
+    MOST_SPEEDS = 16, /* of a full M that is factored in symbols */
+    FEW_SPEEDS = 8,   /* up to here M along the trees costs no more than body by body */
+    WORTH = 800,      /* cost of M above which other methods are tried */
+    /* With more the program exceeds the processor's caches; then loops over data do it instead. */
     MOST_SPEEDS_ALONG = 2000,
     MOST_OPERATIONS = 100000
 };
@@ -75,14 +75,14 @@ static bool through_mass(System *system, const Expr *force, Expr *acceleration, 
     return found;
 }
 
-/* --- the cheapest --- */
+/* --- cheapest method --- */
 
 typedef struct AccelerationsSearch {
     System *system;
     const Groups *groups;
     const Expr *pushes;
     int n;
-    Expr *best, *tried; /* 2 n: u', then what tells their rounding */
+    Expr *best, *tried; /* 2 n: u', then a measure of their rounding */
     int64_t least;
 } AccelerationsSearch;
 
@@ -97,7 +97,8 @@ static bool offer(AccelerationsSearch *search)
     return true;
 }
 
-/* One way: writing more of them out takes longer than most runs save by the best. */
+/* One order of elimination: writing out more of them takes longer than the best saves in most
+ * runs. */
 static bool offer_along(AccelerationsSearch *search)
 {
     const EliminationOrder way = {search->n <= FEW_SPEEDS ? DELAY_ALL : DELAY_NONE, true, true};
@@ -107,7 +108,7 @@ static bool offer_along(AccelerationsSearch *search)
            offer(search);
 }
 
-/* F, pushes, u' and excess in one array */
+/* F, applied loads, u' and excess in one array */
 static EliminatedBy eliminate(System *system, Expr *all)
 {
     const int n = system_nu(system);

@@ -1,21 +1,21 @@
-/* accelerations.h: M u' = F solved in symbols, where a run's program does that */
+/* accelerations.h: M u' = F solved in symbols, for the program of a run */
 #ifndef COTREE_FORMULATE_REDUCED_ACCELERATIONS_H
 #define COTREE_FORMULATE_REDUCED_ACCELERATIONS_H
 
 #include "formulate/system/system.h"
 
 typedef enum EliminatedBy {
-    ELIMINATED_NOT,         /* a speed moves nothing that has mass, or there is too much of it */
+    ELIMINATED_NOT,         /* a speed moves no mass, or the expressions are too large */
     ELIMINATED_BY_MASS,     /* from M and F */
-    ELIMINATED_ALONG_TREES, /* along the trees: neither M nor F is needed */
-    ELIMINATED_CONSTRAINED, /* with the multipliers of rows in use (constrained.h): they aren't
-                               needed */
-    ELIMINATED_PRESCRIBED,  /* by rows of constraints (prescribed.h): neither is needed either */
+    ELIMINATED_ALONG_TREES, /* along the trees: needs neither M nor F */
+    /* with the multipliers of rows in use (constrained.h), which then aren't needed */
+    ELIMINATED_CONSTRAINED,
+    ELIMINATED_PRESCRIBED, /* by constraint rows (prescribed.h): needs neither */
 } EliminatedBy;
 
-/* u'[j] for these F, of which `pushes` is what neither inertia nor gravity makes, and excess[j]:
- * over the j-th pivot of M, what it is the rest of. That is large where a speed has next to no
- * inertia of its own. Arrays of nu. The ways there are are counted, and the cheapest is told. */
+/* u'[j] for this F, where `pushes` is the part due to neither inertia nor gravity. excess[j] is the
+ * minuend of the j-th pivot of M divided by the pivot; it is large where a speed has next to no
+ * inertia of its own. Arrays of nu. Counts the cost of all methods, and returns the cheapest. */
 EliminatedBy system_accelerations(System *view, const Expr *force, const Expr *pushes,
                                   Expr *acceleration, Expr *excess);
 #endif

@@ -1,10 +1,13 @@
-/* along_trees.c: motion outward, resistance inward, accelerations outward
+/* along_trees.c: motion outward, articulated inertia inward, accelerations outward
  *
- * A group's motion at u' = 0 comes first; then all unknowns are differences from that, so that what
- * is left are loads b. Inward, each group adds its body to what came from beyond. A turn about one
- * of the axes yields alone where its row stands by itself: the rate that the group turns with about
- * that axis is an unknown of its own, and what goes on to the parent has no row for it. A speed
- * that waits stands as an unknown beside the motion until it yields. */
+ * First comes the motion of each group at u' = 0. All unknowns are then differences from that
+ * motion, and the remaining terms are loads b. Inward, each group adds its body to what came from
+ * beyond.
+ *
+ * A turn about one of the axes is eliminated alone where its row is decoupled. The rate at which
+ * the group turns about that axis is then an unknown of its own, and what is passed on to the
+ * parent has no row for it. A speed with delayed elimination is an unknown besides the motion until
+ * it is eliminated. */
 #include "formulate/reduced/along_trees.h"
 #include "formulate/dynamics/composite_mass.h"
 #include "formulate/kinematics/frames.h"
@@ -16,16 +19,17 @@
 #include "formulate/system/origin.h"
 #include "formulate/system/system_impl.h"
 
-typedef struct GroupDynamics { /* of a group, in the axes of chain `axes` */
+typedef struct GroupDynamics { /* of a group, in the axes of orientation class `axes` */
     int axes;
-    Vec axis, way;        /* way: in the parent's axes */
-    Vec w, alpha, a;      /* at u' = 0 or those that are given, gravity taken off */
-    Expr turning[9];      /* alpha x + w x (w x */
-    bool reaches[MOTION]; /* how the parent moves the joint, in these axes */
+    Vec axis, way;   /* way: vector from the parent's origin, in the parent's axes */
+    Vec w, alpha, a; /* at u' = 0 or at given u', minus gravity */
+    Expr turning[9]; /* alpha x + w x (w x */
+    /* which components of the parent's motion move the joint, in these axes */
+    bool reaches[MOTION];
     bool moves[MOTION];
-    int own; /* component of the motion that its speed alone is along; -1: none is */
+    int own; /* the component of the motion that its speed alone moves; -1: none */
     Resistance beyond;
-    Vec x[2]; /* alpha, a less those at u' = 0 */
+    Vec x[2]; /* alpha and a, minus those at u' = 0 */
 } GroupDynamics;
 
 typedef struct TreeElimination {
@@ -37,7 +41,7 @@ typedef struct TreeElimination {
     const Expr *applied;
     GroupDynamics *work;
     LIST(Yield) yields;
-    int *at; /* the group of each yield */
+    int *at; /* the group of each elimination */
 } TreeElimination;
 
 /* --- axes --- */
@@ -47,7 +51,7 @@ static bool is_parallel(const TreeElimination *c, Vec a, Vec b)
     return vec_same(a, b) || vec_same(a, vec_neg(c->arena, b));
 }
 
-/* the turn of a group goes on with that of the chain before */
+/* the turn of a group continues that of the orientation class before */
 static bool goes_on(const TreeElimination *c, int g)
 {
     const OrientationClass *chains = c->system->kinematics->chains.at;
@@ -158,7 +162,7 @@ static void find_reach(const TreeElimination *c, const GroupDynamics *parent, Gr
                  work->reaches + i / SHIFT * SHIFT);
 }
 
-/* the only component that the speed moves, by 1 or -1 */
+/* the only component that the speed moves, by a factor of 1 or -1; -1: there is no such one */
 static int own_component(const Group *group, Vec axis)
 {
     int found = -1;
@@ -173,7 +177,7 @@ static int own_component(const Group *group, Vec axis)
     return group->slides ? SHIFT + found : found;
 }
 
-/* with these u', or NULL: at u' = 0 */
+/* with this u', or with NULL at u' = 0 */
 static void move(TreeElimination *c, int g, const Expr *acceleration)
 {
     Arena *arena = c->arena;
@@ -221,9 +225,9 @@ static void move_all(TreeElimination *c, const Expr *acceleration)
         move(c, g, acceleration);
 }
 
-/* --- resistance --- */
+/* --- articulated inertia --- */
 
-/* loads of a body that moves as at u' = 0 */
+/* loads of a body with the motion at u' = 0 */
 static void load_body(const TreeElimination *c, const GroupDynamics *work, const Group *body,
                       Resistance *r)
 {
@@ -241,7 +245,7 @@ static void load_body(const TreeElimination *c, const GroupDynamics *work, const
     }
 }
 
-/* what is left of the body in other axes stands where a resistance has it */
+/* the body's inertia in other axes, as the articulated inertia uses them */
 static Group in_axes(const TreeElimination *c, const Group *group, int axes)
 {
     Group body = *group;
@@ -286,7 +290,7 @@ static bool yield(TreeElimination *c, int g, int unknown)
     return true;
 }
 
-/* inertia that a part gives the speed itself */
+/* inertia that a part adds to the speed itself */
 static Expr share_of(const TreeElimination *c, int speed)
 {
     Expr sum = expr_int(c->arena, 0);
@@ -304,7 +308,7 @@ static bool waits(const TreeElimination *c, int g)
            (c->way->delay == DELAY_RUN && !c->groups[g].slides && goes_on(c, g));
 }
 
-/* those that wait no longer: of this group's run */
+/* eliminates the delayed speeds whose delay ends here: those of this group's coaxial group */
 static bool yield_waiting(TreeElimination *c, int g)
 {
     Resistance *r = &c->work[g].beyond;
@@ -326,7 +330,7 @@ static bool meet(TreeElimination *c, int g)
     const Vec none = vec_zero(c->arena);
 
     if (work->own >= 0 && !waits(c, g) && expr_is_zero(share)) {
-        /* along the axis itself, whichever way that points; the parent takes the reaction */
+        /* along the axis itself, whatever its sign; the parent receives the reaction */
         const Expr along = expr_mul(c->arena, work->axis.at[work->own % SHIFT], push);
 
         r->b[work->own] = expr_name_temporary(c->arena, expr_add(c->arena, r->b[work->own], along));
@@ -363,7 +367,7 @@ static bool pass_on(TreeElimination *c, int g)
 
 /* --- accelerations --- */
 
-/* x of what yielded, where the motion is known */
+/* x of an eliminated unknown, once the motion is known */
 static Expr found(const TreeElimination *c, const Yield *yield, const Vec x[2],
                   const Expr *acceleration)
 {
@@ -403,8 +407,8 @@ static void find_own(TreeElimination *c, int g, const Yield *own, Expr *accelera
     *half = vec_hold(arena, vec_add(arena, *half, vec_scale(arena, u, work->axis)));
 }
 
-/* Yields of a group in the order in which they are found, the reverse of that of yielding: its own
- * speed's came last, and holds for the motion of the joint, those before for that of the group. */
+/* Back-substitutes the eliminations of a group, in reverse order: that of its own speed came last,
+ * and uses the motion of the joint; those before use the motion of the group. */
 static void accelerate(TreeElimination *c, int g, int *next, Expr *acceleration)
 {
     const Group *group = &c->groups[g];
@@ -487,9 +491,10 @@ bool accelerations_along(const System *system, const Groups *groups, const Elimi
     return sound;
 }
 
-/* --- efforts of a motion that is known --- */
+/* --- efforts of a known motion --- */
 
-/* what the group and all beyond it take along its speed; the rest goes on to the parent */
+/* load along the group's speed that the group and all beyond it need; the rest is passed to the
+ * parent */
 static Expr take(TreeElimination *c, int g)
 {
     Arena *arena = c->arena;

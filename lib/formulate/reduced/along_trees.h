@@ -1,4 +1,5 @@
-/* along_trees.h: accelerations eliminated speed by speed along the trees, written out */
+/* along_trees.h: accelerations by elimination of one speed after the other along the trees, in
+ * symbols */
 #ifndef COTREE_FORMULATE_REDUCED_ALONG_TREES_H
 #define COTREE_FORMULATE_REDUCED_ALONG_TREES_H
 
@@ -6,25 +7,27 @@
 
 /* when a speed's own row is eliminated */
 typedef enum Delay {
-    DELAY_NONE, /* where it is met, body by body (Featherstone 1983) */
-    DELAY_RUN,  /* where turns about one axis begin */
-    DELAY_ALL,  /* at the datum, where what is left is M (Walker and Orin 1982) */
+    DELAY_NONE, /* at its joint, body by body (Featherstone 1983) */
+    DELAY_RUN,  /* where a coaxial group begins */
+    DELAY_ALL,  /* at the datum, where the remaining matrix is M (Walker and Orin 1982) */
 } Delay;
 
-/* one of the ways to the same accelerations, which differ in what they cost */
+/* one of the orders that give the same accelerations at different cost */
 typedef struct EliminationOrder {
     Delay delay;
-    bool merges;      /* what turns about one axis is resolved in the axes where that begins, */
-    bool ends_merged; /* the last body too, though none beyond turns about that axis */
+    /* turns about one axis are resolved in the axes at the start of their coaxial group, */
+    bool merges;
+    bool ends_merged; /* including the last body, though none beyond turns about that axis */
 } EliminationOrder;
 
-/* u' where `applied` is what pushes on each speed beside inertia and gravity, and what each pivot
- * of M is the rest of, over the pivot, at most. Arrays of nu. False: a speed moves nothing. */
+/* u', where `applied` is the load on each speed besides inertia and gravity, and the excess: at
+ * most the minuend of each pivot of M divided by the pivot. Arrays of nu. False: a speed moves no
+ * mass. */
 bool accelerations_along(const System *system, const Groups *groups, const EliminationOrder *way,
                          const Expr *applied, Expr *acceleration, Expr *excess);
 
-/* M u' less what inertia and gravity make of F, for u' that are given, outward and inward once
- * (Luh, Walker and Paul 1980). Of the way no delay counts. */
+/* M u' minus the inertia and gravity terms of F, for given u', by one pass outward and one inward
+ * (Luh, Walker and Paul 1980). The delay of `way` has no effect. */
 void efforts_along(const System *system, const Groups *groups, const EliminationOrder *way,
                    const Expr *acceleration, Expr *effort);
 

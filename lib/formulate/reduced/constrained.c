@@ -1,12 +1,14 @@
 /* constrained.c: L D L^T of [M G^T; G 0] in symbols, speeds before multipliers
  *
- * That order needs no exchange of rows: all pivots of M are positive, those that follow negative,
- * as long as the rows are independent. Speeds of many rows, as a platform's, wait until the rows
- * are eliminated where that is cheaper and other speeds determine all of these
- * (algebra/kkt_border.h): then each leg is eliminated for itself. In each class the order is one
- * that fills in little, found from the pattern (algebra/ldl.h), and what it costs is counted before
- * anything is written. A multiplier's pivot d is what earlier multipliers leave of p, its entry of
- * G M^-1 G^T: d / p tells how far a singular configuration is (algebra/kkt.h). */
+ * This order needs no row exchange: as long as the rows are independent, all pivots of M are
+ * positive and those that follow are negative. Speeds of many rows, as a platform's, are eliminated
+ * after the rows where that is cheaper and other speeds determine all of these rows
+ * (algebra/kkt_border.h): then each leg is eliminated by itself.
+ *
+ * In each class the order is chosen from the pattern for low fill-in (algebra/ldl.h), and its cost
+ * is counted before anything is written. A multiplier's pivot d is what earlier multipliers leave
+ * of p, its entry of G M^-1 G^T: d / p measures the distance to a singular configuration
+ * (algebra/kkt.h). */
 #include "formulate/reduced/constrained.h"
 
 #include "algebra/kkt_border.h"
@@ -22,13 +24,14 @@
 #include <math.h>
 
 enum {
-    MOST_PAIRS = 20000,      /* of speeds with an entry of M */
-    MOST_PRODUCTS = 60000,   /* of elimination, */
-    MOST_OPERATIONS = 250000 /* and of all that is told: 150000 take half the time of factors */
+    MOST_PAIRS = 20000,    /* of speeds with an entry of M */
+    MOST_PRODUCTS = 60000, /* of the elimination, */
+    /* and of the whole result: 150000 take half the time of numeric factors */
+    MOST_OPERATIONS = 250000
 };
 
-/* what something is, but for parts that are to be added: all at once, when it is read. A sum that
- * grew by one after the other would be told anew with each. */
+/* A value and the parts still to be added to it, which are summed at once when it is read. A sum
+ * that grows part by part would be formed anew with each. */
 typedef struct Sum {
     Expr value;
     int parts; /* the last of them in `parts`, plus 1 */
@@ -36,7 +39,7 @@ typedef struct Sum {
 
 typedef struct ConstrainedPart {
     Expr value;
-    int before; /* of the same sum, plus 1 */
+    int before; /* the part before, of the same sum, plus 1 */
 } ConstrainedPart;
 
 typedef struct ConstrainedTerm {
@@ -44,12 +47,13 @@ typedef struct ConstrainedTerm {
     Sum value; /* of the matrix, then of L^T */
 } ConstrainedTerm;
 
-typedef struct ConstrainedRow { /* of an unknown, as they are eliminated */
+typedef struct ConstrainedRow { /* row of an unknown, in the order of elimination */
     LIST(ConstrainedTerm) beyond;
     Sum own;
     Expr inverse;
-    Expr stiff;       /* of a speed that waits: its entry of M, and what rows before it add */
-    Sum right, asked; /* right sides: F and gamma, s; then what they are solved by */
+    /* of a speed eliminated after the rows: its entry of M, plus what rows before it add */
+    Expr stiff;
+    Sum right, asked; /* right sides: F and gamma, and s; then the solutions */
 } ConstrainedRow;
 
 typedef struct ConstrainedElimination {
@@ -59,11 +63,11 @@ typedef struct ConstrainedElimination {
     const int *rows; /* constraint rows in use */
     MassEntries entries;
     int *class;          /* of an unknown (KktClass) */
-    int *place_of;       /* of it, by classes */
-    int owns;            /* speeds that don't wait */
+    int *place_of;       /* index of an unknown, by classes */
+    int owns;            /* speeds that are eliminated before the rows */
     ConstrainedRow *row; /* by place */
     LIST(ConstrainedPart) parts;
-    LIST(Expr) terms; /* of the sum that is told */
+    LIST(Expr) terms; /* of the sum being formed */
 } ConstrainedElimination;
 
 /* --- the matrix --- */
@@ -98,7 +102,7 @@ static void list_constraints(ConstrainedElimination *e)
     }
 }
 
-/* its entry in the half that is kept, 0 at first */
+/* its entry in the stored half, 0 at first */
 static Sum *entry_at(ConstrainedElimination *e, int a, int b)
 {
     ConstrainedRow *row = &e->row[a < b ? a : b];
@@ -113,7 +117,7 @@ static Sum *entry_at(ConstrainedElimination *e, int a, int b)
     return &row->beyond.at[row->beyond.count - 1].value;
 }
 
-/* The entries by place, each once, and what stands at them. */
+/* Adds the entries by index, each once, and their values. */
 static void place_entries(ConstrainedElimination *e)
 {
     for (int i = 0; i < e->size; i++)
@@ -126,7 +130,8 @@ static void place_entries(ConstrainedElimination *e)
     }
 }
 
-/* Which speeds wait for the rows: none where that leaves a row that others don't determine. */
+/* Chooses the speeds to eliminate after the rows: none where that leaves a row that others don't
+ * determine. */
 static void find_classes(ConstrainedElimination *e, const KktPlaces *places)
 {
     bool *late = NEW_ARRAY(bool, e->m);
@@ -142,7 +147,7 @@ static void find_classes(ConstrainedElimination *e, const KktPlaces *places)
     mem_free(late);
 }
 
-/* products that elimination takes in the order that is found */
+/* products that the elimination needs in the order that is found */
 static int64_t find_order(ConstrainedElimination *e)
 {
     const int count = e->entries.count;
@@ -239,8 +244,8 @@ static Expr own_mass(const ConstrainedElimination *e, const MassEntries *entries
     return expr_name_temporary(e->arena, sum);
 }
 
-/* What masses, eliminated before, leave of the rows; what those that wait would add is told by
- * their own. */
+/* What masses, eliminated before, leave of the rows. The speeds eliminated after the rows have
+ * measures of their own. */
 static bool set_taken(ConstrainedElimination *e, const Constrained *out)
 {
     Expr *mass = NEW_ARRAY(Expr, e->nu);
@@ -370,7 +375,7 @@ static bool is_worth_it(const ConstrainedElimination *e, const Constrained *out)
            operation_cost(out->acceleration, out->places.count) <= MOST_OPERATIONS;
 }
 
-/* NULL: it can't be, or isn't worth it */
+/* NULL: it is impossible, or not worth it */
 static Constrained *solve(ConstrainedElimination *e, const Expr *force, const Expr *gamma)
 {
     Constrained *out = arrays_new(e->nu, e->m, e->m, e->nu - e->owns);
@@ -394,8 +399,8 @@ static Constrained *solve(ConstrainedElimination *e, const Expr *force, const Ex
     return NULL;
 }
 
-/* The same by rows that tell speeds; NULL: they don't, or it would take more than `most` products.
- */
+/* The same by rows that determine speeds; NULL: they don't, or it needs more than `most`
+ * products. */
 static Constrained *solve_substituting(ConstrainedElimination *e, const Expr *force,
                                        const Expr *gamma, double most)
 {
@@ -443,7 +448,8 @@ Constrained *constrained_new(System *system, const int *rows, int row_count, con
         }
     }
     if (out == NULL)
-        arena_reset(e.arena); /* what was too large, or stopped, is given up: others go on */
+        /* discards what was too large or was stopped; the caller continues without it */
+        arena_reset(e.arena);
     for (int i = 0; i < e.size; i++)
         LIST_FREE(e.row[i].beyond);
     LIST_FREE(e.entries);

@@ -1,12 +1,14 @@
-/* constrained.h: M u' + G^T lambda = F, G u' = gamma solved in symbols, where a run's program does
- * that: G are the constraint rows in use */
+/* constrained.h: M u' + G^T lambda = F, G u' = gamma solved in symbols, for the program of a run
+ *
+ * M is nu x nu; G are the constraint rows in use. */
 #ifndef COTREE_FORMULATE_REDUCED_CONSTRAINED_H
 #define COTREE_FORMULATE_REDUCED_CONSTRAINED_H
 
 #include "formulate/system/system.h"
 
-/* Where the arrays of Constrained begin in one: accelerations, then multipliers, and so on as they
- * stand there; what is from `step` on reads the symbols of multipliers, what is before doesn't. */
+/* Indices at which the arrays of Constrained start in a single array: accelerations, then
+ * multipliers, and so on in their order. Entries from `step` on read the symbols of multipliers,
+ * those before don't. */
 typedef struct ConstrainedPlaces {
     int multiplier, excess, pivot, taken, left, step;
     int count; /* all of them */
@@ -25,25 +27,24 @@ static inline ConstrainedPlaces constrained_places(int nu, int rows, int looked_
     return p;
 }
 
-/* Arrays in one, which the first begins. */
+/* Arrays in one allocation, which starts with the first. */
 typedef struct Constrained {
     Expr *acceleration; /* nu: u' */
     Expr *multiplier;   /* rows: lambda */
     Expr *excess;       /* nu: of pivots of M (accelerations.h) */
-    /* looked_at: pivot d of a multiplier, its sign reversed, and p, of which that is the rest. Of
-     * all rows; or of none, where they are independent whatever the position (substituted.h). */
+    /* looked_at: pivot d of a multiplier, its sign reversed, and p, from which d remains. For all
+     * rows; or for none, where the rows are independent in every position (substituted.h). */
     Expr *pivot, *taken;
     int looked_at;
-    Expr *left; /* of speeds that wait for the rows: what is left of their pivots */
+    Expr *left; /* of speeds eliminated after the rows: what remains of their pivots */
     int left_count;
     Expr *step; /* nu: du of M du + G^T mu = 0, G du = s, where s_k is the multiplier's symbol */
     ConstrainedPlaces places;
 } Constrained;
 
-/* With these F, and gamma of all m rows. New; constrained_free(). NULL: some M has no pivot, rows
- * are dependent whatever the numbers, elimination takes more than `most` products (INFINITY: as
- * many as it likes), or it is more than a straight line is worth; the arena is as sound as before.
- */
+/* For this F, and gamma of all m rows. New; constrained_free(). NULL: M has no pivot for some
+ * speed, rows are dependent whatever the numbers, elimination needs more than `most` products
+ * (INFINITY: no limit), or straight-line code is not worth its size. The arena remains usable. */
 Constrained *constrained_new(System *view, const int *rows, int row_count, const Expr *force,
                              const Expr *gamma, double most);
 void constrained_free(Constrained *constrained); /* NULL is fine */

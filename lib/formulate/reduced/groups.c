@@ -1,4 +1,4 @@
-/* groups.c: what a speed moves as one body, group by group outward along the trees */
+/* groups.c: the bodies that a speed moves as one, group by group outward along the trees */
 #include "formulate/reduced/groups.h"
 
 #include "formulate/system/dynamics.h"
@@ -6,14 +6,14 @@
 #include "formulate/system/origin.h"
 #include "formulate/system/system_impl.h"
 
-/* where a node stands: a group, and the way from its origin in the axes of its chain */
+/* position of a node: its group, and the vector from the group's origin in the axes of its class */
 typedef struct GroupDirection {
     int group;
     Vec way;
 } GroupDirection;
 
-/* both trees reach every node by the same edge, every speed is of a turn or of a shift, and what
- * parts add to M is of one speed each */
+/* whether both trees reach every node by the same edge, every speed is that of a turn or of a
+ * shift, and each share of parts in M belongs to one speed */
 static bool applies(const System *system)
 {
     const Kinematics *kin = system->kinematics;
@@ -50,7 +50,8 @@ static Group massless(Arena *arena, int parent, int chain)
     return group;
 }
 
-/* the chains that the branch to a node turns, outward from its parent's; beyond `at` */
+/* adds the orientation classes that the branch to a node turns, outward from its parent's; beyond
+ * `at` */
 static GroupDirection turn(const System *system, Groups *groups, int node, GroupDirection at)
 {
     const Kinematics *kin = system->kinematics;
@@ -91,7 +92,7 @@ static GroupDirection shift(const System *system, Groups *groups, int node, Grou
     return at;
 }
 
-/* m, S and J of `part`, whose origin stands `way` from that of `whole`, in the same axes */
+/* adds m, S and J of `part`, whose origin is at `way` from that of `whole`, in the same axes */
 static void carry(Arena *arena, Group *whole, const Group *part, Vec way)
 {
     const Expr m = part->mass;
@@ -130,8 +131,8 @@ static void add_masses(const System *system, Groups *groups, const GroupDirectio
     }
 }
 
-/* With |a + b|^2 <= (1 + 1/k) |a|^2 + (1 + k) |b|^2, k the groups beyond, this grows by no more
- * than their number. */
+/* By |a + b|^2 <= (1 + 1/k) |a|^2 + (1 + k) |b|^2, where k is the number of groups beyond, the
+ * bound grows by no more than that number. */
 static void bound_spreads(Arena *arena, Groups *groups)
 {
     for (int g = groups->all.count - 1; g >= 0; g--) {

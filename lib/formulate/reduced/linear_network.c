@@ -7,7 +7,7 @@ static const unsigned constant_kinds = 1U << SYMBOL_PARAMETER | 1U << SYMBOL_TIM
 
 /* --- sources as symbols --- */
 
-/* the value of a source that nothing else decides */
+/* the value of a source that depends on nothing else */
 static bool is_source(const Instance *instance, int param)
 {
     return param == instance_input(instance) &&
@@ -58,7 +58,7 @@ Expr linear_network_number(const LinearNetwork *s, Expr symbol)
     return NULL;
 }
 
-/* Terms of 0 vanish, factors of 1 too: these stay. */
+/* Terms of 0 vanish, and so do factors of 1: these remain numbers. */
 static Expr name_number(LinearNetwork *s, const Instance *instance, Expr value)
 {
     Text name = {0};
@@ -78,7 +78,8 @@ static Expr name_number(LinearNetwork *s, const Instance *instance, Expr value)
     return symbol;
 }
 
-/* u + (t - start) u' + (t - start)^2/2 u'': at `start` the value, and derivatives, of any source */
+/* u + (t - start) u' + (t - start)^2/2 u'': has the value and derivatives of any source at
+ * `start` */
 static Expr vary(void *context, const Instance *instance, int param, Expr value)
 {
     LinearNetwork *s = context;
@@ -140,7 +141,7 @@ static Status not_linear(const char *about, unsigned kinds, Diag *diag)
     return E_MODEL;
 }
 
-/* where the coefficient of a symbol stands: of x' and z, then of x, then of sources by order; -1 */
+/* column of the coefficient of a symbol: x' and z, then x, then sources by order; -1 */
 static int column_of(const LinearNetwork *s, Expr symbol)
 {
     const int nx = system_nx(s->system), n = nx + system_nz(s->system);
@@ -186,7 +187,7 @@ Status linear_network_slopes(const LinearNetwork *s, Expr e, const char *about, 
             CHECK(not_linear(about, expr_kinds(e), diag));
         rest = expr_substitute(arena, rest, &symbols[i], &zero, 1);
     }
-    /* what is left without all these must be 0 */
+    /* the remainder without all these must be 0 */
     if ((expr_kinds(rest) & ~constant_kinds) != 0 ||
         !expr_is_zero(expr_expand(arena, rest, LINEAR_TERMS)))
         CHECK(not_linear(about, expr_kinds(e), diag));
@@ -208,7 +209,7 @@ static Status read_row(LinearNetwork *s, int row, Expr *slopes, Diag *diag)
     return OK;
 }
 
-/* entries of A, each row's together: they come in an order of their own */
+/* reads the entries of A row by row; their own order differs */
 static Status read_entries(LinearNetwork *s, Diag *diag)
 {
     const EquationForm *run = system_run(s->system);

@@ -1,4 +1,4 @@
-/* prescribed.c: multipliers of drivers from the motion alone */
+/* prescribed.c: multipliers of drivers from the prescribed motion */
 #include "formulate/reduced/prescribed.h"
 
 #include "base/memory.h"
@@ -10,10 +10,10 @@
 #include <string.h>
 
 enum {
-    FEW_SPEEDS = 4 /* beyond them M u' was the dearest in each of 60 random trees */
+    FEW_SPEEDS = 4 /* above, M u' was the most expensive in each of 60 random trees */
 };
 
-/* the speed that a row alone holds, by 1 or -1; -1 */
+/* the only speed in a row, with an entry of 1 or -1; -1: none */
 static int own_speed(const System *system, int row)
 {
     const int nu = system_nu(system);
@@ -47,7 +47,7 @@ static bool find_rows(const System *system, int *row_of)
     return m == nu && m > 0;
 }
 
-/* --- M u' - F, in ways that are offered --- */
+/* --- M u' - F, by the methods that are tried --- */
 
 typedef struct Offer {
     const Expr *acceleration;

@@ -20,7 +20,7 @@ static Expr number_of(Arena *arena, const mpq_t value)
     return expr_real(arena, mpq_get_d(value));
 }
 
-/* a polynomial's coefficient of a power of s, times scale */
+/* the coefficient of a power of s in a polynomial, times scale */
 static Expr coefficient_of(const Atoms *s, const Multinomial *p, int power, const mpq_t scale)
 {
     Arena *arena = s->arena;
@@ -57,7 +57,7 @@ static Factor factor_of(const Atoms *s, const Multinomial *p, const mpq_t scale)
     return out;
 }
 
-/* a factor more: what holds no s joins the others of its kind, in front */
+/* adds a factor; a factor without s joins the others of its kind, in front */
 static void add_factor(const Atoms *s, Product *out, Factor factor)
 {
     Arena *arena = s->arena;
@@ -82,9 +82,9 @@ static void add_factor(const Atoms *s, Product *out, Factor factor)
     }
 }
 
-enum { LONG = 1000000 }; /* integers that nobody reads */
+enum { LONG = 1000000 }; /* integers longer than anybody reads */
 
-/* a factor in front of which numbers are few: its integers, where they are long, over the last */
+/* a factor with few numbers in it: its integers, where they are long, divided by the last */
 static void write_factor(const Atoms *s, const Multinomial *p, Product *out, mpq_t number)
 {
     const int count = multinomial_terms(p);
@@ -105,7 +105,7 @@ static void write_factor(const Atoms *s, const Multinomial *p, Product *out, mpq
     mpq_clear(scale);
 }
 
-/* p in factors where these are shorter; `number` is multiplied by the number among them */
+/* p in factors, where these are shorter; multiplies `number` by the number among them */
 static void write_product(const Atoms *s, const Multinomial *p, Product *out, mpq_t number)
 {
     MultinomialList factors = {0};
@@ -137,7 +137,7 @@ static void write_number(const Atoms *s, const mpz_t num, const mpz_t den, Produ
         add_factor(s, out, factor);
 }
 
-/* number over/under; a fraction of long integers stands in front as one number */
+/* number over/under; a fraction of long integers comes first, as one number */
 static void write_ratio_of(const Atoms *s, const Multinomial *over, const Multinomial *under,
                            PolynomialRatio *out)
 {

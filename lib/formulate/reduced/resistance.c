@@ -1,7 +1,7 @@
-/* resistance.c: turned, shifted, and made less by what yields
+/* resistance.c: articulated inertia, turned, shifted, and reduced by eliminated unknowns
  *
- * A turn about one of the axes takes the blocks of its plane by their difference: with d = p - q
- * and g = s d + 2 c r, [p, r; r, q] becomes [p - s g, c g - r; ., q + s g]. */
+ * A turn about one of the axes uses the difference of the blocks of its plane. With d = p - q and g
+ * = s d + 2 c r, [p, r; r, q] becomes [p - s g, c g - r; ., q + s g]. */
 #include "formulate/reduced/resistance.h"
 #include "formulate/kinematics/frames.h"
 
@@ -159,7 +159,7 @@ static void turn_pair(Arena *arena, const Kernel *turn, Expr *x, Expr *y)
         arena, expr_add(arena, expr_mul(arena, turn->s, a), expr_mul(arena, turn->c, b)));
 }
 
-/* the block of rows i, j and columns k, l that turn alike */
+/* the block of rows i, j and columns k, l that turn together */
 static void turn_block(Arena *arena, const Kernel *turn, Resistance *r, int i, int j, int k, int l)
 {
     const Expr d = expr_name_temporary(arena, expr_sub(arena, get(r, i, k), get(r, j, l)));
@@ -198,7 +198,7 @@ static void turn_about_axis(Arena *arena, const Kernel *turn, Resistance *r)
     }
 }
 
-/* rows, then columns */
+/* first the rows, then the columns */
 static void turn_any(const System *system, Resistance *r, int from, int to)
 {
     Arena *arena = system->arena;
@@ -255,7 +255,7 @@ void resistance_turn(const System *system, Resistance *r, int from, int to)
     LIST_FREE(turns);
 }
 
-/* a of now is a + alpha x way: H gains way x M, then J way x H^T + H' way^T */
+/* the current a is a + alpha x way: H increases by way x M, then J by way x H^T + H' way^T */
 void resistance_shift(Arena *arena, Resistance *r, Vec way)
 {
     Rotation before;
@@ -281,7 +281,7 @@ void resistance_shift(Arena *arena, Resistance *r, Vec way)
               vec_add(arena, right_at(r, 0), vec_cross(arena, way, right_at(r, SHIFT))));
 }
 
-/* --- what yields --- */
+/* --- elimination --- */
 
 static void give_up(Arena *arena, Resistance *r, int unknown)
 {

@@ -1,8 +1,9 @@
 /* response.c: a linear network solved in symbols, over polynomials in s
  *
- * Rows are cleared of fractions. Pivots of 1 and -1 come first, as they lengthen nothing; then each
- * step divides by the pivot before it, which leaves determinants of the network (Bareiss 1968).
- * What is no number, sum, product or whole power is a variable of the polynomials as it stands. */
+ * Rows are multiplied by their denominators. Pivots of 1 and -1 come first, as they lengthen no
+ * entry. Then each step divides by the pivot before it, which leaves determinants of the network
+ * (Bareiss 1968). An expression that is no number, sum, product or integer power is a variable of
+ * the polynomials. */
 #include "formulate/reduced/response.h"
 
 #include <math.h>
@@ -11,10 +12,10 @@
 enum {
     MOST_TERMS = 20000, /* of a polynomial: far more than anybody reads */
     DEEPEST = 60,       /* of nested sums and products that are multiplied out */
-    SAMPLES = 2         /* points at which a pivot of functions is looked at */
+    SAMPLES = 2         /* points at which a pivot with functions is evaluated */
 };
 
-#define ROUGHLY_ZERO 1e-9 /* of the sum of the sizes of its terms */
+#define ROUGHLY_ZERO 1e-9 /* relative to the sum of the sizes of its terms */
 
 typedef struct ResponseSolver {
     LinearNetwork net;
@@ -24,7 +25,7 @@ typedef struct ResponseSolver {
     LIST(Expr) atoms; /* variables of the ring; 0: s */
     bool has_functions;
     double *sample;   /* of the atoms, SAMPLES each */
-    int unknowns;     /* of the network, and behind them the output */
+    int unknowns;     /* of the network, followed by the output */
     int inputs;       /* right sides */
     int first_source; /* the first of them, or the only one */
     int columns;      /* unknowns, the output, right sides */
@@ -45,7 +46,7 @@ static void fraction_free(ResponseFraction *f)
     multinomial_free(f->under);
 }
 
-/* what is computed from operands: they are freed */
+/* result from operands, which are freed */
 static Multinomial *product_of(Multinomial *a, Multinomial *b)
 {
     Multinomial *out = multinomial_times(a, b);
@@ -55,7 +56,7 @@ static Multinomial *product_of(Multinomial *a, Multinomial *b)
     return out;
 }
 
-/* a whole power of a fraction's base, within what a ring holds; 0: it is none */
+/* the integer power of a fraction's base, within what a ring supports; 0: it is none */
 static int whole_power(Expr e)
 {
     int64_t num, den;
@@ -92,8 +93,8 @@ static void find_atoms(ResponseSolver *s, Expr e, int depth)
     }
 }
 
-/* Numbers of parts have symbols, for polynomials to be exact. A variable that is a function of such
- * symbols holds the numbers: the root of coupled coils' L1 L2. */
+/* Numbers of parts have symbols, so that polynomials are exact. A variable that is a function of
+ * such symbols contains the numbers: the root of coupled coils' L1 L2. */
 static Expr with_numbers_in_atoms(const ResponseSolver *s, Expr e, int depth)
 {
     const LinearNetwork *net = &s->net;
@@ -249,7 +250,7 @@ static void laplace_row(const ResponseSolver *s, const Expr *slopes, Expr *row)
     }
 }
 
-/* what the user wrote may hold t where nothing else tells it apart from a parameter */
+/* the user's expressions may contain t where nothing else distinguishes it from a parameter */
 static Status check_steady(const ResponseSolver *s, const Expr *row, const char *about, Diag *diag)
 {
     for (int c = 0; c < s->columns; c++)
@@ -261,7 +262,7 @@ static Status check_steady(const ResponseSolver *s, const Expr *row, const char 
     return OK;
 }
 
-/* an equation's polynomials, without fractions and common integers */
+/* an equation's polynomials, without denominators and common integer factors */
 static void clear_row(const ResponseSolver *s, int row, const Expr *from)
 {
     ResponseFraction *fractions = NEW_ARRAY(ResponseFraction, s->columns);
@@ -294,7 +295,7 @@ static void clear_row(const ResponseSolver *s, int row, const Expr *from)
     mem_free(fractions);
 }
 
-/* rows that the output doesn't hang on */
+/* leaves out rows that the output doesn't depend on */
 static void leave_out_others(ResponseSolver *s)
 {
     const int rows = s->unknowns + 1;
@@ -340,7 +341,7 @@ static Status make_matrix(ResponseSolver *s, Expr output, const char *about, Dia
     }
     CHECK(system_resolve(s->view, output, &resolved, diag));
     CHECK(linear_network_slopes(net, resolved, about, slopes, diag));
-    /* y - (what it is of w) = what it is of sources; states stand at the right of slopes */
+    /* y minus its part in w = its part in sources; coefficients of states are on the right */
     for (int k = 0; k < net->n; k++)
         slopes[k] = expr_neg(arena, slopes[k]);
     laplace_row(s, slopes, all + (ptrdiff_t)s->unknowns * s->columns);
@@ -378,7 +379,7 @@ static double sampled(const ResponseSolver *s, const Multinomial *p, int sample,
     return sum;
 }
 
-/* Functions of parameters may be tied by an identity that polynomials don't know. */
+/* Functions of parameters may satisfy an identity that polynomials don't represent. */
 static bool may_be_zero(const ResponseSolver *s, const Multinomial *p)
 {
     bool may = s->has_functions && !multinomial_is_number(p);
@@ -425,7 +426,8 @@ static int column_length(const ResponseSolver *s, int column)
     return length;
 }
 
-/* the entry that fills in least, after Markowitz (1957), times its terms; false: there is none */
+/* the entry with the least fill-in, after Markowitz (1957), times its terms; false: there is
+ * none */
 static bool choose_pivot(const ResponseSolver *s, bool units, int *row, int *column)
 {
     int *lengths = NEW_ARRAY(int, s->unknowns);
@@ -483,7 +485,8 @@ static Multinomial *crossed(const ResponseSolver *s, const Multinomial *pivot, c
     return NULL;
 }
 
-/* take an unknown out of the other rows; of those without it too where the pivot lengthens them */
+/* eliminates an unknown from the other rows; from those without it too where the pivot lengthens
+ * them */
 static void eliminate(ResponseSolver *s, int row, int column, bool by_unit)
 {
     Multinomial *const pivot = *entry_of(s, row, column);
@@ -546,7 +549,7 @@ static Status solve(ResponseSolver *s, const char *about, Diag *diag)
     return OK;
 }
 
-/* --- the answer --- */
+/* --- result --- */
 
 static Status write_response(const ResponseSolver *s, const char *about, Response *out, Diag *diag)
 {
@@ -574,7 +577,7 @@ void response_free(Response *response)
     MEM_FREE(response->source, response->ratio, response);
 }
 
-/* --- the whole --- */
+/* --- the complete response --- */
 
 static Status find_source(ResponseSolver *s, const char *name, Diag *diag)
 {
@@ -596,7 +599,7 @@ static Status find_source(ResponseSolver *s, const char *name, Diag *diag)
     return E_NAME;
 }
 
-/* s, or what no parameter is called */
+/* s, or a name that no parameter has */
 static Expr laplace_symbol(const Scene *scene)
 {
     static const char *const names[] = {"s", "p", "laplace_s"};

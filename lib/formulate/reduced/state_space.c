@@ -1,8 +1,8 @@
 /* state_space.c: state equations of a linear network, solved in symbols
  *
  * The network's equations are A w = r for w = [x'; z], linear in the states and in the sources,
- * whose values are replaced by symbols. They are solved a block of coupled ones at a time, by
- * Cramer's rule: what is written out so has no factors that cancel, but those of single terms. */
+ * whose values are replaced by symbols. Coupled equations are solved block by block, by Cramer's
+ * rule. So the results have no common factors that cancel, except single terms. */
 #include "formulate/reduced/state_space.h"
 
 #include "formulate/reduced/linear_network.h"
@@ -12,7 +12,7 @@
 
 enum {
     MOST_COUPLED = 9, /* equations that are solved together */
-    MOST_LEFT = 400,  /* equations that are no chain */
+    MOST_LEFT = 400,  /* equations outside of all chains */
     SIZE = 1 << MOST_COUPLED
 };
 
@@ -25,7 +25,7 @@ typedef struct Space {
 
 /* --- fractions --- */
 
-/* the base of a factor that divides, and how often; 0: it doesn't */
+/* the base of a factor that is a divisor, and its multiplicity; 0: it is none */
 static int64_t divisor_power(Expr factor, Expr *base)
 {
     int64_t num, den;
@@ -47,7 +47,7 @@ static Expr factor_at(Expr term, int i)
     return expr_kind(term) == EXPR_PRODUCT ? expr_arg(term, i) : term;
 }
 
-/* The least product that terms seen so far go into as divisors. */
+/* The smallest product that all divisors of the terms seen so far divide. */
 typedef struct Divisor {
     LIST(Expr) bases;
     LIST(int64_t) powers;
@@ -89,7 +89,7 @@ static void divisor_add(Divisor *divisors, Expr e)
         divisor_add_term(divisors, term_at(e, i));
 }
 
-/* the product; what the divisor holds is freed */
+/* the product; frees what the divisor owns */
 static Expr divisor_done(Arena *arena, Divisor *divisors)
 {
     Expr out = expr_int(arena, 1);
@@ -129,7 +129,7 @@ static Expr tidy(Arena *arena, Expr e)
     return expr_div(arena, expr_collect(arena, times(arena, e, under)), under);
 }
 
-/* Multiply an equation by what stands under its fractions. */
+/* Multiplies an equation by the denominators of its fractions. */
 static void clear_row(Space *s, int row)
 {
     Divisor divisors = {.bases = {0}};
@@ -176,8 +176,8 @@ static Expr entry_at(const Space *s, int row, int unknown)
     return expr_int(s->net.arena, 0);
 }
 
-/* Determinant of a block but one row and one unknown (-1: with all), by its rows from the last,
- * each set of unknowns once (Laplace). `made` holds SIZE. */
+/* Determinant of a block without one row and one unknown (-1: with all), by its rows from the last,
+ * each set of unknowns once (Laplace). `made` has room for SIZE. */
 static Expr minor_of(const Space *s, const CoupledStates *block, int but_row, int but_unknown,
                      Expr *made)
 {
@@ -198,7 +198,7 @@ static Expr minor_of(const Space *s, const CoupledStates *block, int but_row, in
             members += set >> c & 1;
         if (members > count || (but_unknown >= 0 && (set >> but_unknown & 1) != 0))
             continue;
-        /* the last of the rows that a set of this size takes */
+        /* the last of the rows that a set of this size uses */
         for (int c = 0; c < size; c++) {
             Expr factor;
 
@@ -216,7 +216,7 @@ static Expr minor_of(const Space *s, const CoupledStates *block, int but_row, in
     return made[((1 << size) - 1) & ~(but_unknown >= 0 ? 1 << but_unknown : 0)];
 }
 
-/* take what is solved to the right side */
+/* moves solved unknowns to the right side */
 static void move_solved(Space *s, int row)
 {
     for (int k = s->net.row_start[row]; k < s->net.row_start[row + 1]; k++) {
@@ -276,7 +276,7 @@ done:
     return status;
 }
 
-/* Solve row by row what has one unknown left, as long as there is any. */
+/* Solves rows with one remaining unknown, as long as there are any. */
 static Status solve_chains(Space *s, Diag *diag)
 {
     bool goes_on = true;
@@ -300,20 +300,20 @@ static Status solve_chains(Space *s, Diag *diag)
     return OK;
 }
 
-/* --- what is coupled --- */
+/* --- coupled equations --- */
 
-/* Rows that are left, an unknown for each, and what each needs. */
+/* Remaining rows, an unknown for each, and which others each needs. */
 typedef struct Rest {
     int count;
     int *rows;
-    int *row_of;     /* by unknown: place of the row that tells it, or -1 */
-    int *unknown_of; /* by place */
+    int *row_of;     /* by unknown: index of the row that determines it, or -1 */
+    int *unknown_of; /* by index */
     bool *tried;     /* by unknown */
     bool *needs;     /* count x count, transitive */
 } Rest;
 
-/* Give a row an unknown, if need be by giving others another one (Kuhn 1955). As deep as there are
- * rows, of which there are few. */
+/* Assigns an unknown to a row, and if needed other unknowns to other rows (Kuhn 1955). The
+ * recursion is as deep as there are rows, which are few. */
 static bool assign(const Space *s, Rest *rest, int place)
 {
     const int row = rest->rows[place];
@@ -377,7 +377,7 @@ static Status too_many(const Space *s, int row, Diag *diag)
     return E_MODEL;
 }
 
-/* blocks of what needs each other, those first that need least */
+/* blocks of mutually dependent equations, in order of dependence */
 static Status solve_blocks(Space *s, Rest *rest, Diag *diag)
 {
     for (int needed = 1; needed <= rest->count; needed++)
@@ -422,7 +422,7 @@ done:
     return status;
 }
 
-/* --- the result --- */
+/* --- result --- */
 
 static StateSpace *take_solution(const Space *s)
 {
@@ -464,7 +464,7 @@ void state_space_free(StateSpace *space)
     mem_free(space);
 }
 
-/* a network with states */
+/* the network must have states */
 static Status check_states(const Space *s, Diag *diag)
 {
     if (system_nx(s->net.system) > 0)

@@ -1,16 +1,16 @@
-/* substituted.c: from the leaves to the root, each speed by its row or by its mass
+/* substituted.c: elimination from the leaves to the root, each speed by its row or by its mass
  *
- * u'_s = gamma - sum c_j u'_j by row k takes both u'_s and lambda_k out: of the others A_ij loses
- * c_i A_sj + A_si c_j - A_ss c_i c_j, and b_i loses c_i b_s. A row is taken when no other row that
- * is left has its speed; a speed without a row that is left is eliminated by its mass. So a body
- * that hangs on a joint first is brought to the joint's point, then its angle is eliminated.
+ * By row k, u'_s = gamma - sum c_j u'_j eliminates both u'_s and lambda_k. For the other speeds
+ * A_ij then loses c_i A_sj + A_si c_j - A_ss c_i c_j, and b_i loses c_i b_s. A row is used when no
+ * other remaining row contains its speed. A speed in no remaining row is eliminated by its mass. So
+ * a body that hangs on a joint is first moved to the joint's point, then its angle is eliminated.
  *
- * That point is an unknown of its own, h = sum c_j u'_j of what belongs to other bodies: it is
- * substituted when one of these is to be eliminated. Else what hangs beyond a joint would be moved
- * by each of the parent's speeds before the angle is gone.
+ * That point is an unknown of its own, h = sum c_j u'_j over the speeds of other bodies. It is
+ * substituted when one of these is to be eliminated. Otherwise each of the parent's speeds would
+ * move all beyond a joint before the angle is eliminated.
  *
- * What gamma makes of accelerations is told first, with all speeds that no row tells at 0: b is F
- * less what M makes of these, and all that follows is homogeneous. */
+ * The accelerations due to gamma come first, with all speeds that no row determines at 0: b is F
+ * minus M times these, and all that follows is homogeneous. */
 #include "formulate/reduced/substituted.h"
 
 #include "base/memory.h"
@@ -29,20 +29,22 @@ typedef struct Neighbour { /* an entry of A */
 typedef struct SubstitutedUnknown {
     LIST(Neighbour) beside;
     LIST(SubstitutedShare) follows; /* how it follows from others: -sum value x */
-    LIST(int) pools;                /* unknowns that are sums which hold it */
-    LIST(SubstitutedShare) rows;    /* constraint rows that hold it, by number among those in use */
-    int row;                        /* that tells it; -1: none */
-    int last;                       /* when the last of its rows is taken */
+    LIST(int) pools;                /* unknowns that are sums which contain it */
+    /* constraint rows that contain it, by number among those in use */
+    LIST(SubstitutedShare) rows;
+    int row;  /* the row that determines it; -1: none */
+    int last; /* time at which the last of its rows is used */
     bool is_gone;
-    /* entry of A, and squares alone of what it would be if pivots had taken nothing off: that is
-     * half of it at least */
+    /* entry of A, and its value without the reductions by pivots, from squares alone: at least half
+     * of that value */
     Expr own, whole;
     Expr inverse; /* NULL: it is substituted */
     Expr right, asked;
-    Expr given, given_step; /* what gamma, and the symbols of multipliers, make of it */
+    /* its part due to gamma, and its part due to the symbols of multipliers */
+    Expr given, given_step;
 } SubstitutedUnknown;
 
-typedef struct Taken { /* a row, as they are taken */
+typedef struct Taken { /* a row, in the order of use */
     int row, speed;
     Expr sign; /* its entry */
 } Taken;
@@ -53,16 +55,16 @@ struct Substitution {
     int nu, m, count; /* of speeds, rows, and unknowns so far */
     const int *rows;
     const MassEntries *mass;
-    LIST(SubstitutedShare) * row; /* what a row holds */
+    LIST(SubstitutedShare) * row; /* entries of each row */
     Taken *taken;
     SubstitutedUnknown *unknown; /* speeds, then pools */
     LIST(Expr) entries;
     LIST(int) order;
-    bool is_counting; /* products alone: values are 1 */
+    bool is_counting; /* only counts products: values are 1 */
     int64_t products;
 };
 
-/* --- which row tells which speed, and when --- */
+/* --- which row determines which speed, and when --- */
 
 static bool is_unit(Expr e)
 {
@@ -82,7 +84,7 @@ static void read_rows(Substitution *s)
     }
 }
 
-/* a speed that the row tells, while no other row that is left has it; -1: none */
+/* a speed that the row determines, which no other remaining row contains; -1: none */
 static int determined_speed(const Substitution *s, int k, const int *left)
 {
     for (int i = 0; i < s->row[k].count; i++) {
@@ -94,7 +96,7 @@ static int determined_speed(const Substitution *s, int k, const int *left)
     return -1;
 }
 
-/* false: a row is left */
+/* false: a row remains */
 static bool take_rows(Substitution *s)
 {
     int *left = NEW_ARRAY(int, s->nu); /* rows of a speed */
@@ -131,7 +133,7 @@ static bool take_rows(Substitution *s)
     return count == s->m;
 }
 
-/* --- arithmetic, which may only be counted --- */
+/* --- arithmetic, or counting alone --- */
 
 static Expr times(Substitution *s, Expr a, Expr b)
 {
@@ -211,7 +213,7 @@ static void begin_matrix(Substitution *s)
         s->unknown[j].whole = s->unknown[j].own;
 }
 
-/* what of A stands beside an unknown and is left */
+/* the remaining unknowns with an entry of A in the row of this one */
 static void list_neighbours(Substitution *s, SubstitutedUnknown *x, int **unknown, Expr **value,
                             int *count)
 {
@@ -241,7 +243,7 @@ static void leave(Substitution *s, int i)
     hold(s, &x->asked);
 }
 
-/* among those that x follows from; -1: it isn't there */
+/* index among those that x follows from; -1: it is none of them */
 static int place_among(const SubstitutedUnknown *x, int unknown)
 {
     for (int i = 0; i < x->follows.count; i++)
@@ -258,7 +260,7 @@ static Expr value_beside(const int *beside, const Expr *value, int count, int un
     return NULL;
 }
 
-/* A of those that x follows from, and of its neighbours; value: entries beside x */
+/* A of those that x follows from, and of its neighbours; value: entries in the row of x */
 static void substitute_in_matrix(Substitution *s, SubstitutedUnknown *x, const int *beside,
                                  const Expr *value, int count)
 {
@@ -279,7 +281,7 @@ static void substitute_in_matrix(Substitution *s, SubstitutedUnknown *x, const i
     }
 }
 
-/* x is -sum follows: given that all of these are left */
+/* substitutes x = -sum follows, where all of these remain */
 static void substitute(Substitution *s, int which)
 {
     SubstitutedUnknown *x = &s->unknown[which];
@@ -302,7 +304,7 @@ static void substitute(Substitution *s, int which)
     MEM_FREE(beside, value);
 }
 
-/* sums that hold it go first */
+/* substitutes sums that contain it first */
 static void substitute_pools(Substitution *s, int speed)
 {
     for (int i = 0; i < s->unknown[speed].pools.count; i++)
@@ -341,7 +343,7 @@ static bool eliminate_by_mass(Substitution *s, int speed)
 
 /* --- rows --- */
 
-/* when an unknown goes */
+/* when an unknown is eliminated */
 static int time_of(const Substitution *s, int speed)
 {
     return s->unknown[speed].last;
@@ -352,7 +354,8 @@ static Expr share_of_row(const Substitution *s, const Taken *taken, const Substi
     return expr_is(taken->sign, 1) ? share->value : expr_neg(s->arena, share->value);
 }
 
-/* the speeds of other bodies in a row as one: those that don't go first of all */
+/* replaces the speeds of other bodies in a row by one unknown: those that aren't eliminated
+ * first */
 static void pool(Substitution *s, const Taken *taken, int first)
 {
     const int number = s->count++;
@@ -398,7 +401,7 @@ static void take_row(Substitution *s, const Taken *taken)
     substitute(s, taken->speed);
 }
 
-/* Speeds that no row tells and none holds any longer. */
+/* Eliminates speeds that no row determines and no remaining row contains. */
 static bool eliminate_freed(Substitution *s, int time)
 {
     for (int i = 0; i < (time < 0 ? s->nu : s->row[s->taken[time].row].count); i++) {
@@ -422,9 +425,9 @@ static bool eliminate(Substitution *s)
     return true;
 }
 
-/* --- what is given, and the answer --- */
+/* --- given parts, and the result --- */
 
-/* of a speed that row tells; that the others have is known */
+/* the given part of a speed that a row determines; that of the others is known */
 static void give(Substitution *s, const Taken *taken, const Expr *gamma)
 {
     SubstitutedUnknown *x = &s->unknown[taken->speed];
@@ -492,7 +495,7 @@ static void substitute_back(Substitution *s)
     }
 }
 
-/* what moves the speed that a row tells, once the rows before it are known */
+/* the load on the speed that a row determines, once the rows before it are known */
 static Expr set_one_multiplier(const Substitution *s, const Taken *taken, const Expr *forces,
                                const Expr *multiplier)
 {
@@ -507,7 +510,7 @@ static Expr set_one_multiplier(const Substitution *s, const Taken *taken, const 
     return expr_name_temporary(s->arena, expr_mul(s->arena, taken->sign, sum));
 }
 
-/* F - M u' has to be what multipliers tell */
+/* F - M u' must be the load of the multipliers */
 static void set_all_multipliers(Substitution *s, const Expr *force, const Constrained *out)
 {
     Expr *rest = NEW_ARRAY(Expr, s->nu);

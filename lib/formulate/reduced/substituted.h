@@ -1,7 +1,8 @@
 /* substituted.h: M u' + G^T lambda = F, G u' = gamma in symbols, speeds substituted by their rows
  *
- * A row in which a speed has an entry of 1 or -1 tells that speed by the others, whatever the
- * position. Where each row tells one so, one after the other, no rows have to be independent. */
+ * A row with an entry of 1 or -1 for a speed determines that speed by the others, in every
+ * position. Where each row determines one this way, in sequence, the rows needn't be tested for
+ * independence. */
 #ifndef COTREE_FORMULATE_REDUCED_SUBSTITUTED_H
 #define COTREE_FORMULATE_REDUCED_SUBSTITUTED_H
 
@@ -10,12 +11,12 @@
 
 typedef struct Substitution Substitution;
 
-/* New; substitution_free(). With these entries of one half of M, borrowed; NULL: not each of the
- * rows tells a speed. */
+/* New; substitution_free(). `mass`: entries of one half of M, borrowed; NULL: some row determines
+ * no speed. */
 Substitution *substitution_new(System *system, const MassEntries *mass, const int *rows,
                                int row_count);
 void substitution_free(Substitution *substitution); /* NULL is fine */
-/* products that elimination takes */
+/* products that the elimination needs */
 int64_t substitution_products(const Substitution *substitution);
 /* accelerations, multipliers, excess and steps; false: there is no pivot */
 bool substitution_solve(Substitution *substitution, const Expr *force, const Expr *gamma,

@@ -1,4 +1,4 @@
-/* constraints.h: what the circuits of chords ask for: constraint rows, angles of chords */
+/* constraints.h: constraint rows from the circuits of chords, and angles of chords */
 #ifndef COTREE_FORMULATE_SYSTEM_CONSTRAINTS_H
 #define COTREE_FORMULATE_SYSTEM_CONSTRAINTS_H
 
@@ -17,7 +17,7 @@ typedef enum RowKind {
     ROW_COUPLER /* coordinate - f(coordinates) */
 } RowKind;
 
-/* A coordinate that a coupler follows, and by how much. */
+/* A coordinate that a coupler follows, and its factor. */
 typedef struct Coupled {
     int owner, coordinate;
     Expr slope;
@@ -26,15 +26,16 @@ typedef struct Coupled {
 typedef struct Row {
     RowKind kind;
     int tail, head; /* nodes */
-    Vec n;     /* DATUM: ground axes; TAIL, DOT (a), ANGLE (axis): zero axes of the tail's chain */
-    Vec b;     /* DOT: zero axes of the head's chain */
-    Expr key;  /* DATUM, TAIL, DOT: what it follows from, as identity.h tells it; or NULL */
-    Expr phi;  /* to show */
+    /* DATUM: ground axes; TAIL, DOT (a), ANGLE (axis): zero axes of the tail's orientation class */
+    Vec n;
+    Vec b;     /* DOT: zero axes of the head's orientation class */
+    Expr key;  /* DATUM, TAIL, DOT: identity of what it follows from (identity.h); or NULL */
+    Expr phi;  /* for display */
     int owner; /* DRIVER, COUPLER: instance of the coordinate, and which */
     int coordinate;
     Expr pitch; /* TIE: shift per angle */
     Expr prescribed;
-    Coupled *coupled; /* COUPLER: so many of the system's pool */
+    Coupled *coupled; /* COUPLER: its entries, in the system's pool */
     int coupled_count;
     ConstraintRow reported;
 } Row;
@@ -43,19 +44,19 @@ typedef struct MultiTurnChord {
     MultiTurn reported;
     int instance;
     int coordinate;
-    Expr sine; /* both times one factor, 1 where the joint holds */
+    Expr sine; /* both have a common factor, which is 1 where the joint holds */
     Expr cosine;
 } MultiTurnChord;
 
-typedef struct CountedChord { /* whose angle is a sum */
+typedef struct CountedChord { /* a chord whose angle is a sum */
     WholeTurns reported;
     int instance, coordinate;
 } CountedChord;
 
 typedef struct Constraints {
     LIST(Row) rows;
-    Expr *multipliers; /* symbols, one a row */
-    /* rows that hold in every position: no lambda tells what they carry */
+    Expr *multipliers; /* symbols, one for each row */
+    /* rows that hold in every position: no lambda gives the load that they carry */
     LIST(Row) redundant_rows;
     LIST(const char *) dropped;
     LIST(MultiTurnChord) multi_turns;

@@ -1,4 +1,4 @@
-/* dynamics.h: masses, and what else M and F are made of */
+/* dynamics.h: masses, and the other terms of M and F */
 #ifndef COTREE_FORMULATE_SYSTEM_DYNAMICS_H
 #define COTREE_FORMULATE_SYSTEM_DYNAMICS_H
 
@@ -11,7 +11,7 @@ typedef struct Mass {
     int instance;
     int node;
     Expr mass;
-    Rotation inertia; /* zero-position axes of the node's chain */
+    Rotation inertia; /* zero-position axes of the node's orientation class */
     bool has_inertia;
 } Mass;
 
@@ -21,11 +21,11 @@ struct CompositeMass;
 typedef struct Dynamics {
     LIST(Mass) masses;
     LIST(struct Elastic) elastics;
-    bool writes_out;    /* false: entries of M and F are too long, and are shown as definitions */
-    LIST(Entry) shares; /* of parts in M, beside what the masses make it */
-    bool has_inertial_laws; /* some hold u': what is linear in it is among the shares */
-    Expr *pushes;           /* in F, of parts on coordinates, one a speed */
-    struct CompositeMass *composite_mass; /* NULL: M is run as it is written */
+    bool writes_out;    /* false: entries of M and F are too long, and are shown by definitions */
+    LIST(Entry) shares; /* of parts in M, in addition to the masses */
+    bool has_inertial_laws; /* some contain u': the shares include their linear part */
+    Expr *pushes;           /* in F, of parts on coordinates, one for each speed */
+    struct CompositeMass *composite_mass; /* NULL: M is evaluated as an expression */
 } Dynamics;
 
 #endif

@@ -1,4 +1,4 @@
-/* nonsmooth_points.c: functions that jump or bend, and where */
+/* nonsmooth_points.c: functions that jump or have a kink, and where */
 #include "formulate/system/surfaces.h"
 
 #include "base/memory.h"

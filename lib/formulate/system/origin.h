@@ -1,4 +1,4 @@
-/* origin.h: what the equations are formed from: the scene, copied, since it may change later */
+/* origin.h: what the equations are formed from: a copy of the scene, which may change later */
 #ifndef COTREE_FORMULATE_SYSTEM_ORIGIN_H
 #define COTREE_FORMULATE_SYSTEM_ORIGIN_H
 
@@ -28,7 +28,7 @@ typedef struct Origin {
 
     Instance *instances;
     int instance_count;
-    Names *instance_names;   /* numbered as the instances */
+    Names *instance_names;   /* in the order of the instances */
     Names *coordinate_names; /* of all instances, */
     LIST(CoordinateOwner) coordinate_owners;
     Graph *graph;
@@ -38,9 +38,11 @@ typedef struct Origin {
     int output_count;
     Instanced *uses;
     int use_count;
-    LIST(GivenParameter) parameters; /* as they were: the user's, then literals */
+    /* as at the time of the build: the user's, then lifted constants */
+    LIST(GivenParameter) parameters;
     int literals;
-    bool asks_literals, is_small; /* it has them where the scene is large enough */
+    /* lifted constants are wanted: a scene has them if it is large enough */
+    bool asks_literals, is_small;
 } Origin;
 
 #endif

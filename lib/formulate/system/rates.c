@@ -1,7 +1,7 @@
 /* rates.c: derivatives along the motion, and the network's unknowns, whose rates may be unknowns
  *
- * The rate of a coordinate is told by speeds, that of a speed by an acceleration; the rate of a
- * network's unknown is a symbol, or what its equation differentiated gives. */
+ * The rate of a coordinate follows from speeds, and the rate of a speed is an acceleration. The
+ * rate of a network's unknown is a symbol, or follows from its differentiated equation. */
 #include "formulate/system/rates.h"
 #include "formulate/system/kinematics.h"
 #include "formulate/system/network.h"
@@ -39,7 +39,7 @@ int network_new_unknown(System *system, Unknown unknown, const char *name, Symbo
     return system->network->unknowns.count - 1;
 }
 
-/* one that is an expression leaves the order as it is */
+/* a rate that is an expression does not change the order */
 static void push_rate(System *system, Unknown *y, Expr rate, bool is_expression)
 {
     Expr *rates = pool_alloc(system->pool, (size_t)(y->known + 1) * sizeof(Expr));
@@ -52,7 +52,7 @@ static void push_rate(System *system, Unknown *y, Expr rate, bool is_expression)
         y->order = y->known;
 }
 
-/* one rate more of an unknown, as a symbol */
+/* adds one more rate of an unknown, as a symbol */
 Expr network_add_rate(System *system, int unknown, SymbolKind kind)
 {
     Unknown *y = &system->network->unknowns.at[unknown];
@@ -64,7 +64,7 @@ Expr network_add_rate(System *system, int unknown, SymbolKind kind)
     return rate;
 }
 
-/* how often the equation of an unknown has been differentiated */
+/* how often the unknown's equation has been differentiated */
 static int derivations(const System *system, int unknown)
 {
     int count = 0;
@@ -105,7 +105,7 @@ static Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag)
     } else if (system->network->form == NETWORK_TREE) {
         *out = network_add_rate(system, k, SYMBOL_STATE);
     } else {
-        /* algebraic, or the rate of a state: its equation differentiated tells it */
+        /* algebraic, or the rate of a state: its differentiated equation determines it */
         Unknown more = {.branchlike = -1, .own = -1, .instance = y->instance, .derives = k};
         const char *name = system_retain(system, "%s'", expr_name(symbol));
         int added = network_new_unknown(system, more, name, SYMBOL_ALGEBRAIC);
@@ -116,9 +116,9 @@ static Status network_rate(System *system, Expr symbol, Expr *out, Diag *diag)
     return OK;
 }
 
-/* --- along the motion --- */
+/* --- derivatives along the motion --- */
 
-/* whether it is one of these, which stand in the order of making */
+/* whether `symbol` is one of these, which are in the order of making */
 static bool occurs(const Expr *symbols, int count, Expr symbol)
 {
     int low = 0;

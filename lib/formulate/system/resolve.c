@@ -1,7 +1,7 @@
-/* resolve.c: expressions over what a user can ask for by name, told in the system's variables
+/* resolve.c: expressions over the user's named quantities, in the system's variables
  *
- * The laws of parts read such variables, and variables are told by laws: which variable is told how
- * stands in variables.c, and is reached through the system. */
+ * The laws of parts read such quantities, and laws determine quantities: variables.c has the table
+ * of these, and is called through the system. */
 #include "formulate/system/resolve.h"
 #include "formulate/system/shown.h"
 #include "formulate/system/system_impl.h"

@@ -1,7 +1,7 @@
 /* sample.c: numbers of expressions at a random position
  *
- * What is the same at a few positions that nobody chose is the same at all of them: zeros that
- * rounding hides from symbols are told so. */
+ * An expression with the same value at a few random positions is taken to have it at all: this
+ * finds zeros that rounding hides from symbols. */
 #include "formulate/system/sample.h"
 #include "base/random.h"
 #include "formulate/system/constraints.h"

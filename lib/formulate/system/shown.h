@@ -1,5 +1,5 @@
-/* shown.h: what a view forms of a finished System when somebody asks: entries written out,
- * reactions, switches */
+/* shown.h: what a view derives from a finished System on request: expanded entries, reactions,
+ * switches */
 #ifndef COTREE_FORMULATE_SYSTEM_SHOWN_H
 #define COTREE_FORMULATE_SYSTEM_SHOWN_H
 
@@ -13,21 +13,22 @@ typedef struct Sums Sums;
 typedef struct Shown {
     Expr *entries[BLOCK_COUNT]; /* arrays; NULL, as their entries are, until formed */
     Vec *positions;             /* of nodes, ground axes; likewise */
-    Vec *datum_axes;            /* ground's x of chains, in their axes, then y, z; or NULL */
-    Recovery *recovery;         /* NULL: not looked for yet, or no row vanished */
-    Sums *actual;               /* with u', lambda: for reactions */
-    Vec *actual_a;              /* accelerations of nodes */
-    Vec *actual_alpha;          /* of chains */
-    Expr *turn_rates;           /* of angles that count turns; as entries */
-    int *full_turns;            /* of sums of angles, an entry one; NULL: none has any */
-    Expr power;                 /* that sources give and losses take */
-    Expr *eliminated;           /* u' in symbols, the last told (accelerations.c); NULL: none yet */
-    int eliminated_how;         /* how it was */
+    /* the datum's x in the axes of every orientation class, then y, then z; or NULL */
+    Vec *datum_axes;
+    Recovery *recovery; /* NULL: not searched for yet, or no row is redundant */
+    Sums *actual;       /* with u' and lambda: for reactions */
+    Vec *actual_a;      /* accelerations of nodes */
+    Vec *actual_alpha;  /* of orientation classes */
+    Expr *turn_rates;   /* of angles with full turns; as entries */
+    int *full_turns;    /* of sums of angles, one for each; NULL: none has any */
+    Expr power;         /* of sources and losses */
+    Expr *eliminated;   /* u' in symbols, the last result (accelerations.c); NULL: none yet */
+    int eliminated_how; /* method of that elimination */
     LIST(Switch) switches;
-    LIST(Expr) surfaces; /* where they jump, in the state */
+    LIST(Expr) surfaces; /* where the equations jump, in the state */
     int switches_of_time;
     bool switches_known;
-    int depth; /* of variables being resolved */
+    int depth; /* number of variables being resolved */
 } Shown;
 
 #endif

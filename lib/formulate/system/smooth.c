@@ -1,6 +1,7 @@
 /* smooth.c: whether an expression has a derivative in time where the equations need one
  *
- * Switches by other variables than time are taken for bends, as in the derivative rules. */
+ * Switches by other variables than time count as kinks without a jump, as in the derivative
+ * rules. */
 #include "formulate/system/smooth.h"
 #include "formulate/system/constraints.h"
 #include "formulate/system/kinematics.h"

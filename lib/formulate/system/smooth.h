@@ -1,4 +1,4 @@
-/* smooth.h: what is differentiated in time must not jump */
+/* smooth.h: expressions that are differentiated in time must not jump */
 #ifndef COTREE_FORMULATE_SYSTEM_SMOOTH_H
 #define COTREE_FORMULATE_SYSTEM_SMOOTH_H
 

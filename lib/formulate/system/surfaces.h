@@ -1,8 +1,8 @@
 /* surfaces.h: surfaces on which the equations jump, and the equations on a side of them or between
  *
- * f = f+ where h > 0, f- where h < 0. Where both lead to h = 0 the motion slides along it, as
- * Filippov (1988) has it, with what jumps at a value between its two: a sign is then an unknown
- * between -1 and 1 (Utkin's equivalent control), such that h stays 0. */
+ * f = f+ where h > 0, f- where h < 0. Where both lead to h = 0 the motion slides along this surface
+ * (Filippov 1988). What jumps there has a value between its two: the sign of h is an unknown
+ * between -1 and 1 (Utkin's equivalent control), such that h remains 0. */
 #ifndef COTREE_FORMULATE_SYSTEM_SURFACES_H
 #define COTREE_FORMULATE_SYSTEM_SURFACES_H
 
@@ -10,10 +10,10 @@
 #include "expr/jumps.h" /* IWYU pragma: export */
 
 typedef struct Surface {
-    Expr condition; /* h, as system_surface() has it */
-    int side;       /* of h, on which the equations stay: -1 or 1; 0: they slide along it */
+    Expr condition; /* h, as system_surface() returns it */
+    int side;       /* of h, on which the equations are: -1 or 1; 0: they slide along it */
     Expr sign;      /* of h: -1, 1 or an unknown */
-    Expr measure;   /* h, the other surfaces' signs put in */
+    Expr measure;   /* h, with the other surfaces' signs substituted */
 } Surface;
 
 /* h of a condition, whatever its scale; *way -1: with the opposite sign */
@@ -22,7 +22,7 @@ Expr surface_of(Arena *arena, Expr condition, int *way);
 bool switch_jumps(Expr e);
 /* whether anything in e jumps with symbols of these kinds (bits as of expr_kinds()); O(nodes) */
 bool switch_jumps_over(Arena *arena, Expr e, unsigned kinds);
-/* e with the signs of these surfaces in the place of what jumps on them. O(nodes). */
+/* e with the signs of these surfaces substituted for what jumps on them. O(nodes). */
 Expr surfaces_substitute(Arena *arena, Expr e, const Surface *surfaces, int count);
 
 #endif

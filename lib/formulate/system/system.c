@@ -1,4 +1,4 @@
-/* system.c: what a System is told of: sizes, variables, entries */
+/* system.c: queries of a System: sizes, variables, entries */
 #include "formulate/system/constraints.h"
 #include "formulate/system/dynamics.h"
 #include "formulate/system/kinematics.h"

@@ -15,10 +15,10 @@ typedef struct Shown Shown;
 
 struct System {
     Arena *arena;
-    Pool *pool;                  /* names and small arrays; of a view: of what is formed for it */
-    const Scene *scene;          /* while it is made; NULL afterwards */
+    Pool *pool;                  /* names and small arrays; of a view: for what it forms */
+    const Scene *scene;          /* while it is built; NULL afterwards */
     const CallMonitor *watch;    /* likewise, or set by system_set_watch() */
-    IsomorphicSubsystems *alike; /* likewise, or where no definition has instances */
+    IsomorphicSubsystems *alike; /* likewise; NULL where no definition has instances */
 
     /* parts: a view borrows them */
     Origin *origin;
@@ -26,33 +26,35 @@ struct System {
     Constraints *constraints;
     Dynamics *dynamics;
     Network *network;
-    EquationForm definitions; /* by recursion, whatever the size */
-    EquationForm run;         /* these, or the shorter equations as shown */
+    EquationForm definitions; /* recursive definitions, whatever the size */
+    EquationForm run; /* the definitions, or the expanded equations where those are shorter */
     LIST(const char *) remarks;
 
-    bool is_early;    /* while it is made: reactions aren't there yet */
-    bool asked_early; /* and were asked for */
+    bool is_early;    /* while it is built: reactions don't exist yet */
+    bool asked_early; /* and were needed */
 
-    const System *formed; /* of a view: what it is a view on; NULL: it is no view */
+    const System *formed; /* of a view: its System; NULL: it is no view */
     bool owns_formed;
-    Shown *shown;         /* of a view, or while it is made */
-    LIST(System *) modes; /* views: of those whose sides are open, made so far */
-    System *numbered;     /* all those that keep the states, by numbers for sides; NULL: not made */
-    System *sided;        /* the same whose sides are looked for; it or one of the modes */
-    System *whole;        /* that it was made for, and which owns it; NULL: none */
+    Shown *shown;         /* of a view, or while it is built */
+    LIST(System *) modes; /* views of the modes, built so far */
+    /* the hybrid system with numbers for sides, for all modes with the same states; NULL: not
+     * built */
+    System *numbered;
+    System *sided; /* the system in which sides are searched; this one or one of the modes */
+    System *whole; /* the hybrid system that owns it; NULL: none */
     /* how a name becomes an expression: system_variable(), which all that tells one stands before
      */
     Status (*variable)(System *system, const char *path, int primes, Expr *out, Diag *diag);
 };
 
-/* before a view forms something: all else is as it was made */
+/* call before a view forms something: all else is unchanged since it was built */
 static inline void system_touch(System *view)
 {
     mem_keep(view);
     mem_keep(view->shown);
 }
 
-/* texts in the pool: two joined, or as printf() does it */
+/* texts in the pool: two joined, or formatted as by printf() */
 const char *system_join(const System *system, const char *one, const char *other);
 const char *system_retain(const System *system, const char *format, ...) PRINTF(2, 3);
 

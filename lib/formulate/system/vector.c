@@ -132,7 +132,7 @@ bool rotation_is_one(const Rotation *a)
 {
     const Expr one = a->at[0], zero = a->at[1];
 
-    /* of one arena: each number is one node */
+    /* all from one arena: equal numbers are the same node */
     for (int i = 1; i < 9; i++)
         if (a->at[i] != (i % 4 == 0 ? one : zero))
             return false;

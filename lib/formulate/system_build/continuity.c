@@ -1,8 +1,8 @@
-/* continuity.c: where a function jumps and what holds it doesn't
+/* continuity.c: calls that jump inside an expression that is continuous
  *
- * Found in numbers: at points where the condition is 0, other symbols at values of no meaning.
- * Variables are of either sign there, as what meets at y may not at -y. Parameters are above 0, as
- * limits and sizes are, and so is t. */
+ * Tested numerically, at points where the condition is 0 and other symbols have arbitrary values.
+ * Variables have either sign there, as values that meet at y may not meet at -y. Parameters are
+ * above 0, as limits and sizes are, and so is t. */
 #include "formulate/system_build/continuity.h"
 
 #include "base/memory.h"
@@ -10,15 +10,16 @@
 
 #include <math.h>
 
-#define AWAY   1.0 /* of the point: how large what is 0 there is elsewhere */
+/* relative to the point: distance for the size elsewhere of an expression that is 0 there */
+#define AWAY   1.0
 #define CLOSED 1e-9
-#define NEXT   1e-14 /* of the point: a neighbour, */
-#define BESIDE 1e-6  /* whose difference is less than this part of that away from there */
+#define NEXT   1e-14 /* relative to the point: a neighbour, */
+#define BESIDE 1e-6  /* whose difference is less than this fraction of the one at AWAY */
 
 enum { SPOTS = 6 };
 
 typedef struct ContinuitySpot { /* a point at which symbols have values, one of them chosen */
-    int which;                  /* of SPOTS: at the first all are above 0, at the second below */
+    int which; /* index in SPOTS: all are above 0 at the first, below 0 at the second */
     Expr moved;
     double at;
 } ContinuitySpot;
@@ -72,7 +73,7 @@ static bool find_spot(Arena *arena, Expr condition, ContinuitySpot *spot)
     return fabs(move) <= 1e-12;
 }
 
-/* at all points that have values, and at one at least */
+/* at all points that have values, and at least at one */
 static bool holds_at_spots(Arena *arena, Expr condition, Look look, Expr e, int k)
 {
     bool found = false;
@@ -97,9 +98,9 @@ static double gap_at(Expr choice, ContinuitySpot spot, double at)
                 expr_evaluate(expr_arg(choice, 2), value_on, &spot));
 }
 
-/* Whether what an if chooses from is the same there. Beside the end of a domain, as that of
- * (h - 2)^1.5, the condition's zero in numbers may have no value; then a neighbour has, and the
- * difference is small beside that further inside: the root of 1e-14 is 1e-7. */
+/* Whether the two values of an if are the same there. At the end of a domain, as of (h - 2)^1.5,
+ * the numeric zero of the condition may have no value. Then a neighbour has one, and the difference
+ * is small compared to that further inside: the root of 1e-14 is 1e-7. */
 static Finding choice_meets(Arena *arena, Expr choice, int k, ContinuitySpot *spot)
 {
     const double yes = expr_evaluate(expr_arg(choice, 1), value_on, spot);
@@ -126,8 +127,9 @@ static Finding choice_meets(Arena *arena, Expr choice, int k, ContinuitySpot *sp
     return found ? HOLDS : NO_VALUE;
 }
 
-/* What kinks on a surface, as it is there. Rounding leaves a condition beside 0, which roots make
- * large. */
+/* Value of an expression with a kink on a surface. Rounding leaves a condition slightly off 0,
+ * which
+ * roots amplify. */
 static Expr write_nonsmooth_point(Arena *arena, Expr e, void *context)
 {
     Expr condition = switch_condition(arena, e);
@@ -139,14 +141,15 @@ static Expr write_nonsmooth_point(Arena *arena, Expr e, void *context)
     return expr_op(e) == OP_MIN || expr_op(e) == OP_MAX ? expr_arg(e, 0) : expr_int(arena, 0);
 }
 
-/* Whether the network is solved for what a condition asks of. A surface in the state alone is
- * followed as one even where nothing jumps there, as a tank is found empty in finite time. */
+/* Whether the network is solved for variables of the condition. A surface in the state alone is
+ * followed even where nothing jumps there, since a tank, for example, becomes empty in finite
+ * time. */
 static bool is_solved_for(Expr condition)
 {
     return (expr_kinds(condition) & (1U << SYMBOL_ALGEBRAIC | 1U << SYMBOL_STATE_RATE)) != 0;
 }
 
-/* the other factors of a product are 0 where the k-th jumps */
+/* whether the other factors of a product are 0 where the k-th jumps */
 static Finding factors_vanish(Arena *arena, Expr product, int k, ContinuitySpot *spot)
 {
     const int count = expr_arg_count(product);

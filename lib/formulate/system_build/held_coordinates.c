@@ -1,4 +1,4 @@
-/* held_coordinates.c: what stays where an event sets positions */
+/* held_coordinates.c: coordinates that do not change when an event sets positions */
 #include "formulate/system_build/held_coordinates.h"
 
 #include "base/text.h"
@@ -25,7 +25,8 @@ static bool is_motion(Expr value, Expr rate)
            (expr_kinds(rate) & ~(of_position | 1U << SYMBOL_SPEED)) == 0;
 }
 
-/* Nobody may ask for one; whoever needs it takes what tells the same. False: there is none. */
+/* Adds a coordinate with a name, if it exists; callers that need it use an equivalent one. False:
+ * there is none. */
 static bool add_named(System *system, const char *name, HeldCoordinate stay, HeldSearch *out)
 {
     Diag unasked = {0};
@@ -39,7 +40,8 @@ static bool add_named(System *system, const char *name, HeldCoordinate stay, Hel
     return true;
 }
 
-/* three angles of a chord have no names: Euler parameters of the head against the tail tell them */
+/* three angles of a chord have no names: the Euler parameters of the head against the tail replace
+ * them */
 static void add_attitude(System *system, const Instance *joint, HeldSearch *out)
 {
     Expr p[4];
@@ -87,7 +89,7 @@ static int root_of(int *above, int node)
     return node;
 }
 
-/* By node, whether neither joints nor arms lead from ground to it; new. */
+/* For each node, whether neither joints nor arms lead from ground to it; new. */
 static bool *find_floating(const System *system)
 {
     const Graph *graph = system_graph(system);
@@ -154,8 +156,8 @@ static int node_of(const VariableReferent *stand)
     return -1;
 }
 
-/* a function of positions and speeds; NULL: what is named is none, or there is nothing of the kind
- */
+/* derivative of a function of positions and speeds; NULL: the name is none, or there is no such
+ * rate */
 static Expr find_rate(System *system, const char *name, int primes)
 {
     const unsigned unknown = ~(1U << SYMBOL_TIME | 1U << SYMBOL_PARAMETER |

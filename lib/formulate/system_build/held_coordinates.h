@@ -1,7 +1,8 @@
-/* held_coordinates.h: what stays where an event sets positions, as far as that leaves it a choice
+/* held_coordinates.h: coordinates that do not change when an event sets positions, as far as
+ * possible
  *
- * In any tree the same: coordinates of the joints that are there and of what deforms, and where
- * chains float, joined to ground by no joint, those of their bodies and of frames that the event
+ * The same in any tree: coordinates of the existing joints and of flexible parts. Where assemblies
+ * float, without a joint to ground, also those of their bodies and of frames that the event
  * names. */
 #ifndef COTREE_FORMULATE_SYSTEM_BUILD_HELD_COORDINATES_H
 #define COTREE_FORMULATE_SYSTEM_BUILD_HELD_COORDINATES_H
@@ -9,26 +10,29 @@
 #include "formulate/system/system.h"
 
 typedef struct HeldCoordinate {
-    char *name;       /* as a user asks for it; NULL: by no name of its own */
-    const char *part; /* whose it is; borrowed */
+    char *name;       /* as a user writes it; NULL: it has no name of its own */
+    const char *part; /* the part that it belongs to; borrowed */
     Expr value, rate; /* a position, and its derivative */
-    int node;         /* of a frame of a floating chain; -1: of a joint, or a shape */
-    bool is_body;     /* that frame is a body's; else the event names it alone */
-    int attitude;     /* that it is an Euler parameter of, 0, 1 ...; -1 */
+    int node;         /* of a frame of a floating assembly; -1: of a joint, or a shape */
+    bool is_body;     /* that frame is a body's; otherwise it is only named by the event */
+    int attitude;     /* number of the attitude that has it as Euler parameter, 0, 1 ...; -1 */
 } HeldCoordinate;
 
 /* In order of making, joints first; *out is new, held_coordinates_free(). `named` (count):
- * variables that events set. Returns how many. */
+ * variables that events set. Returns their number. */
 int system_held_coordinates(System *system, const char *const *named, int count,
                             HeldCoordinate **out);
 void held_coordinates_free(HeldCoordinate *held, int count);
 
-/* of a variable that an event gives */
+/* of a variable that an event sets */
 typedef struct Named {
-    int node;     /* of the frame whose position or attitude it is; -1 */
-    int attitude; /* that it is an Euler parameter of, other numbers than of stays; -1 */
-    Expr rate;    /* of a position, where speeds tell it; NULL */
-    Expr turning; /* of the first three of an attitude: a component of its angular velocity; NULL */
+    int node; /* the frame whose position or attitude it is; -1 */
+    /* number of the attitude that has it as Euler parameter, distinct from those of held
+     * coordinates; -1 */
+    int attitude;
+    Expr rate; /* of a position, where it follows from speeds; NULL */
+    /* for the first three of an attitude: a component of its angular velocity; NULL */
+    Expr turning;
 } Named;
 void system_named(System *system, const char *name, Named *out);
 

@@ -1,4 +1,4 @@
-/* ideal.c: switches of a network, and which of its modes keep the states of the whole */
+/* ideal.c: switches of a network, and which modes have the states of the hybrid system */
 #include "formulate/system_build/ideal.h"
 #include "formulate/system/network.h"
 #include "formulate/system/origin.h"
@@ -10,15 +10,15 @@ static bool is_of_time(Expr e)
     return e == NULL || (expr_kinds(e) & ~(1U << SYMBOL_TIME | 1U << SYMBOL_PARAMETER)) == 0;
 }
 
-/* what an edge is to the states: a source of across or of through variables (or what stores as
- * such), or neither; *known: its relation tells */
+/* role of an edge for the states: a source of across or of through variables (or an element that
+ * stores these), or neither; *known: its relation determines it */
 static RelationKind state_kind(const Branchlike *branch, const bool *closed, bool *known)
 {
     const Relation *relation = &branch->relation;
 
     if (relation->switches)
         return RELATION_RESISTIVE;
-    *known = is_of_time(relation->rest); /* else it may hold what other edges carry */
+    *known = is_of_time(relation->rest); /* otherwise it may contain variables of other edges */
     switch (relation->kind) {
     case RELATION_ACROSS:
     case RELATION_THROUGH:
@@ -38,7 +38,7 @@ static RelationKind state_kind(const Branchlike *branch, const bool *closed, boo
     }
 }
 
-/* No circuit of what gives across variables, no cutset of what gives through variables. */
+/* No circuit of sources of across variables, no cutset of sources of through variables. */
 bool ideal_keeps_states(const System *system, const bool *closed)
 {
     const Network *network = system->network;
@@ -66,7 +66,7 @@ bool ideal_keeps_states(const System *system, const bool *closed)
     return keeps;
 }
 
-/* --- looking --- */
+/* --- queries --- */
 
 int system_scalar_count(const System *system)
 {

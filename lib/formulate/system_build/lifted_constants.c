@@ -1,9 +1,9 @@
 /* lifted_constants.c: which numbers become parameters, and whether a scene differs in these alone
  *
- * Not zeros, whose terms vanish, nor ones of lengths and axes, nor axes that several joints have,
- * whose turns add up. Nor lengths and axes of circuits of joints alone: which of their equations
- * say the same hangs on them. A body's own freedoms on a circuit leave none out. Nor gains, ratios
- * and voltages of a network, which may cancel. */
+ * These are not lifted: zeros, whose terms vanish; ones of lengths and axes; axes that several
+ * joints have, whose turns add up; lengths and axes of circuits of joints alone, as they determine
+ * which of their equations are redundant; gains, ratios and voltages of a network, which may
+ * cancel. A circuit through a body's own freedoms excludes nothing. */
 #include "formulate/system_build/lifted_constants.h"
 
 #include "component/equation_block.h"
@@ -17,17 +17,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* from which on it takes longer to form equations than a person notices */
+/* sizes from which forming equations takes longer than a person notices */
 enum { MANY_BODIES = 17, MANY_ELEMENTS = 100 };
 
 typedef struct LiftedConstants {
     Arena *arena;
     bool weights, geometry;  /* masses and inertias; lengths and axes */
     bool elements;           /* resistances and the like */
-    LIST(const Expr *) axes; /* of joints, alike ones together */
+    LIST(const Expr *) axes; /* of joints, equal ones next to each other */
 } LiftedConstants;
 
-/* --- which --- */
+/* --- which numbers --- */
 
 static bool moves(const Instance *instance, ParamKind kind)
 {
@@ -40,7 +40,7 @@ static bool weighs(const Instance *instance, ParamKind kind)
     return instance->row->inertia != NULL && (kind == PARAM_SCALAR || kind == PARAM_INERTIA);
 }
 
-/* a resistance, capacitance, inductance or their kin */
+/* a resistance, capacitance, inductance or similar */
 static bool conducts(const Instance *instance, const Param *param)
 {
     return instance->row->family == FAMILY_SCALAR && instance->row->param_count == 1 &&
@@ -111,7 +111,7 @@ static bool all_lifted(const Scene *scene)
     return loose;
 }
 
-/* to be ended by LIST_FREE() of its axes */
+/* its axes are freed by LIST_FREE() */
 static LiftedConstants choose(const Scene *scene)
 {
     LiftedConstants literals = {.arena = scene->arena};
@@ -129,14 +129,14 @@ static LiftedConstants choose(const Scene *scene)
     return literals;
 }
 
-/* what stands in the equations for an entry of a value: itself, or the symbol of what it is */
+/* expression in the equations for an entry of a value: itself, or the symbol that replaces it */
 static Expr literal_of(const LiftedConstants *literals, const Instance *instance, int param,
                        int entry)
 {
     const ParamKind kind = instance->row->params[param].kind;
     const Expr e = instance->values[param].at[entry];
 
-    /* a unit vector is kept exactly, with roots */
+    /* a unit vector is stored exactly, with roots */
     if (expr_kinds(e) != 0 || expr_is_zero(e))
         return e;
     if ((literals->weights && weighs(instance, kind)) ||
@@ -172,7 +172,7 @@ void lifted_constants_set(System *system, const Scene *scene)
     LIST_FREE(literals.axes);
 }
 
-/* --- whether a scene is another in these alone --- */
+/* --- whether two scenes differ in these alone --- */
 
 static bool same_text(const char *a, const char *b)
 {
@@ -303,7 +303,7 @@ static void follow(Origin *origin, const Scene *scene)
 
 bool system_follows(System *view, const Scene *scene)
 {
-    /* what is redundant was found with the lengths that were */
+    /* redundant rows were found with the old lengths */
     if (view->origin->literals == 0 || view->constraints->redundant_rows.count > 0 ||
         !same_scene(view->origin, scene))
         return false;

@@ -1,14 +1,14 @@
-/* lifted_constants.h: numbers that a part was given, as parameters of the equations
+/* lifted_constants.h: numbers given for parts, as parameters of the equations
  *
- * An edit of a large model is most often of a number: a mass, a length, an axis. Where such numbers
- * stand in the equations as symbols, these are the same equations after it, and so are the programs
- * made from them; only values are others. */
+ * An edit of a large model most often changes a number: a mass, a length, an axis. Where symbols
+ * replace such numbers, the equations remain the same after the edit, and so do the programs made
+ * from them; only values differ. */
 #ifndef COTREE_FORMULATE_SYSTEM_BUILD_LIFTED_CONSTANTS_H
 #define COTREE_FORMULATE_SYSTEM_BUILD_LIFTED_CONSTANTS_H
 
 #include "formulate/system/system.h"
 
-/* Puts them into a System that is made. */
+/* Adds them to a System that is being built. */
 void lifted_constants_set(System *system, const Scene *scene);
 
 #endif

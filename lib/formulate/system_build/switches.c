@@ -1,7 +1,9 @@
-/* switches.c: where the equations may jump or bend: what their comparisons and kinks compare
+/* switches.c: where the equations may jump or have a kink: the arguments of their comparisons and
+ * kinks
  *
- * Where they jump is a surface: the zeros of a condition, whatever its scale and sign. On either
- * side of one the functions that jump there are constants; on it they take any value between. */
+ * The equations jump on surfaces: the zeros of a condition, whatever its scale and sign. On either
+ * side of a surface the functions that jump there are constant; on it they take any value
+ * between. */
 #include "formulate/system/constraints.h"
 #include "formulate/system/kinematics.h"
 #include "formulate/system/network.h"
@@ -18,7 +20,7 @@ typedef LIST(Expr) SwitchesExprs;
 
 /* --- surfaces --- */
 
-#define SAME 1e-14 /* of a constant: what rounding makes of it */
+#define SAME 1e-14 /* relative rounding error of a constant */
 
 typedef struct Putting {
     const Surface *surfaces;
@@ -33,7 +35,7 @@ static bool holds_side(const Putting *put, Expr e)
     return false;
 }
 
-/* what stands for the sign of a condition; NULL: it is left as it is */
+/* the replacement for the sign of a condition; NULL: it is not replaced */
 static Expr sign_on(Arena *arena, const Putting *put, Expr condition)
 {
     int way;
@@ -56,8 +58,8 @@ static Expr share(Arena *arena, Expr sign, int way)
     return expr_add(arena, half, expr_mul(arena, expr_rational(arena, way, 2), sign));
 }
 
-/* floor(x) next to the whole number n = floor(x + 1/2): n - 1/2 and half the sign of x - n, which
- * is that of sin(pi x) where n is even */
+/* floor(x) near the integer n = floor(x + 1/2): n - 1/2 plus half the sign of x - n, which is the
+ * sign of sin(pi x) where n is even */
 static Expr put_floor(Arena *arena, Expr x, Expr sign)
 {
     Expr half = expr_rational(arena, 1, 2);
@@ -81,7 +83,7 @@ static Expr put_jump(Arena *arena, const Putting *put, Expr e)
     return share(arena, sign, expr_op(e) == OP_STEP ? 1 : -1);
 }
 
-/* what a choice becomes where its condition is no longer 0 or 1 */
+/* replacement for a choice whose condition is no longer 0 or 1 */
 static Expr put_choice(Arena *arena, const Putting *put, Expr e)
 {
     Expr a = expr_arg(e, 0), one = expr_int(arena, 1);
@@ -107,7 +109,7 @@ static Expr put_choice(Arena *arena, const Putting *put, Expr e)
     }
 }
 
-/* Whether e is 0 on one of the surfaces, but for the rounding of its constants. */
+/* Whether e is 0 on one of the surfaces, within the rounding of its constants. */
 static bool vanishes_on(Arena *arena, const Putting *put, Expr e)
 {
     int way;
@@ -129,8 +131,8 @@ static bool vanishes_on(Arena *arena, const Putting *put, Expr e)
     return false;
 }
 
-/* A root of what is 0 on a surface, as (h - 2)^1.5 at h = 2, has no value where errors lead past
- * it: x^a there is max(x, 0)^a. */
+/* A root of an expression that is 0 on a surface, as (h - 2)^1.5 at h = 2, has no value where
+ * errors lead past it: x^a is max(x, 0)^a there. */
 static Expr put_root(Arena *arena, const Putting *put, Expr e)
 {
     const bool is_root = expr_kind(e) == EXPR_CALL && expr_op(e) == OP_SQRT;
@@ -169,7 +171,7 @@ Expr surfaces_substitute(Arena *arena, Expr e, const Surface *surfaces, int coun
 typedef struct Gathering {
     System *system;
     SwitchesExprs stack;
-    char *seen; /* by number: 1 seen, 2 what it compares is jumped at */
+    char *seen; /* by number: 1 seen, 2 also as a condition that jumps */
     uint32_t room;
 } Gathering;
 
@@ -191,7 +193,7 @@ static inline char *mark_of(Gathering *g, Expr e)
     return &g->seen[number];
 }
 
-/* a call, whose value may be chosen or jump */
+/* a call whose value may be selected or jump */
 static void visit_call(Gathering *g, Expr e)
 {
     Expr condition = switch_condition(g->system->arena, e);
@@ -205,7 +207,7 @@ static void visit_call(Gathering *g, Expr e)
     }
 }
 
-/* what is below that hasn't been visited; most of it is no call */
+/* visits the nodes below that were not visited before; most of them are no calls */
 static void visit(Gathering *g, Expr e)
 {
     const int count = expr_arg_count(e);
@@ -247,8 +249,9 @@ static void gather(Gathering *g, const Expr *roots, int count)
     }
 }
 
-/* Those of t alone are looked for before a run, in the whole: what a mode makes one of them, as the
- * voltage of a resistor that a switch lays on a source, is followed like the others. */
+/* Conditions of t alone are located before a run, in the hybrid system. A condition that only a
+ * mode makes one of t, as the voltage of a resistor that a switch connects to a source, is
+ * monitored like the others. */
 static bool is_of_time(System *system, Expr condition)
 {
     const Switch *known;
@@ -265,7 +268,7 @@ static bool is_of_time(System *system, Expr condition)
     return false;
 }
 
-/* which surface the equations jump on: of those in the state, each once */
+/* finds the surface on which the equations jump, among those in the state, each once */
 static void find_surface(System *system, Switch *entry)
 {
     int way;
@@ -333,7 +336,7 @@ Expr system_surface(System *system, int i)
 
 /* --- for messages --- */
 
-/* push a part's values, over the system's variables */
+/* pushes a part's values, over the system's variables */
 static void push_values(System *system, const Instance *instance, SwitchesExprs *stack)
 {
     for (int k = 0; k < instance->row->param_count; k++)
@@ -346,7 +349,7 @@ static void push_values(System *system, const Instance *instance, SwitchesExprs 
         }
 }
 
-/* whether a part's values hold a condition of that surface */
+/* whether a part's values contain a condition of that surface */
 static bool part_switches_on(System *system, const Instance *instance, Expr surface)
 {
     SwitchesExprs stack = {0};

@@ -23,14 +23,14 @@
 
 #include <string.h>
 
-/* Modes with equations of their own, which are the shortest: behind so many of them a run of a
- * network goes through others by numbers for sides, as each is formed and compiled in the time of
- * many steps. */
+/* Number of modes with equations of their own, which are the shortest. After these a run of a
+ * network goes through further modes with numbers for sides, as forming and compiling a mode takes
+ * the time of many steps. */
 #ifndef FORMED
 #define FORMED 8
 #endif
 
-/* --- copies of what may change later --- */
+/* --- copies of data that may change later --- */
 
 static const char *keep_name(const System *system, const char *name)
 {
@@ -77,7 +77,7 @@ static void copy_instance(System *system, const Instance *from, Instance *to)
     to->values = values_copy(system->pool, from->values, from->row->param_count);
 }
 
-/* places of an instance's coordinates, none yet */
+/* indices of an instance's coordinates, none yet */
 static int *no_places(const System *system, int count)
 {
     int *places = pool_alloc(system->pool, (size_t)count * sizeof *places);
@@ -107,7 +107,7 @@ static void copy_instances(System *system, const Scene *scene)
     }
 }
 
-/* the first that bears a name is found by it */
+/* a name finds the first that has it */
 static void enter_names(System *system)
 {
     int coordinates = 0;
@@ -239,7 +239,8 @@ static void add_parameters(System *system, const Instance *instance, int first)
             system_retain(system, "%s.%s", instance->name, speeds[i]));
 }
 
-/* coordinates of branches, each half in the tree of its half, in order of the edges' making */
+/* coordinates of branches, each half in the tree of its half, in the order in which the edges were
+ * made */
 static void add_coordinates(System *system)
 {
     const Tree *const halves[2] = {system->origin->trees[TREE_TRANSLATION],
@@ -271,7 +272,7 @@ static void add_coordinates(System *system)
     }
 }
 
-/* of a coordinate, `count` speeds, to be told */
+/* a new rate of a coordinate, by `count` speeds, which the caller sets */
 static CoordinateRate *new_rate(System *system, int place, int count)
 {
     CoordinateRate *rate = &system->kinematics->coordinate_rates[place];
@@ -389,7 +390,7 @@ static void number_rows(System *system)
     }
 }
 
-/* --- life --- */
+/* --- making and freeing --- */
 
 static Status build(System *system, Diag *diag)
 {
@@ -433,11 +434,11 @@ done:
 typedef struct SystemBuilder {
     const Scene *scene;
     const SystemOptions *options;
-    NetworkForm taken;  /* that asked for or, where a state form doesn't exist, the other */
+    NetworkForm taken;  /* the user's form or, where a state form doesn't exist, the other */
     const bool *closed; /* sides of ideal switches; NULL: in no mode */
     int closed_count;
-    bool takes_sides; /* of other switches as numbers, */
-    bool takes_all;   /* and of ideal ones */
+    bool takes_sides; /* the sides of other switches are numbers, */
+    bool takes_all;   /* and those of ideal switches too */
 } SystemBuilder;
 
 static const bool *keep_sides(System *system, const SystemBuilder *making)
@@ -451,7 +452,7 @@ static const bool *keep_sides(System *system, const SystemBuilder *making)
     return kept;
 }
 
-/* nodes that a part's equations take, or more */
+/* expression nodes of a part's equations, at least */
 enum { NODES_OF_A_PART = 24 };
 
 static void take_scene(System *system, const SystemBuilder *making)
@@ -518,8 +519,8 @@ done:
     return status;
 }
 
-/* Controlled sources among inductors or capacitors alone leave no state form; the equations of the
- * trees as they are can still be brought to order. */
+/* Controlled sources among inductors or capacitors alone admit no state form; the equations of the
+ * trees as they are can still be brought to a solvable form. */
 static Status make(SystemBuilder making, System **out, Diag *diag)
 {
     bool has_no_states = false;
@@ -576,7 +577,7 @@ Status system_new_view(const Scene *scene, const SystemOptions *options, System 
     return status;
 }
 
-/* the equations of sides that `whole` has none of yet */
+/* builds the equations of a mode that `whole` doesn't have yet */
 static Status make_sided(System *whole, SceneSource source, const bool *closed, bool takes_all,
                          const CallMonitor *watch, System **out, Diag *diag)
 {

@@ -1,4 +1,4 @@
-/* system_end.c: views on a System, and the end of both */
+/* system_end.c: views on a System, and freeing both */
 #include "formulate/dynamics/composite_mass.h"
 #include "formulate/dynamics/shapes.h"
 #include "formulate/kinematics/section_frames.h"
@@ -112,7 +112,7 @@ static void shown_free(Shown *shown)
 static void free_view(System *view)
 {
     if (view->sided != NULL && view->sided != view && view->sided->network->closed == NULL)
-        system_free(view->sided); /* else it is one of the modes */
+        system_free(view->sided); /* otherwise it is one of the modes */
     for (int i = 0; i < view->modes.count; i++)
         system_free(view->modes.at[i]);
     system_free(view->numbered);

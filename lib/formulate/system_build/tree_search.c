@@ -1,4 +1,4 @@
-/* tree_search.c: candidates, their neighbours, and the way down */
+/* tree_search.c: candidates, their neighbours, and the local search */
 #include "formulate/system_build/tree_search.h"
 
 #include "base/text.h"
@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* that are written out from one pair of trees: a chain of 300 bodies has 100 000, of which
+/* of one pair of trees that are listed: a chain of 300 bodies has 100 000, of which
  * TREE_SEARCH_MOST are formed */
 enum { MOST_EXCHANGES = 5 * TREE_SEARCH_MOST };
 
@@ -62,7 +62,7 @@ static int coordinates_of(const TreeSearch *search, int e, int half)
     return count;
 }
 
-/* tell what it is; NULL, and it is freed, where it was seen before */
+/* computes the key of a pair; NULL, and the pair is freed, where it was seen before */
 static TreePair *enter(TreeSearch *search, TreePair *pair)
 {
     pair->key = key_of(search, pair);
@@ -110,7 +110,7 @@ bool tree_search_trees(const TreeSearch *search, const TreePair *pair, Tree *out
     return true;
 }
 
-/* a pair of trees that is refused has no price */
+/* cost of a pair of trees; a refused pair has none */
 static void price(TreeSearch *search, TreePair *pair)
 {
     const SystemOptions options = {.form = search->scene.network_form, .watch = search->watch};
@@ -138,7 +138,8 @@ static void price(TreeSearch *search, TreePair *pair)
     tree_free(trees[1]);
 }
 
-/* cheaper first; at one price fewer new joints, then fewer coordinates, then joints not bodies */
+/* cheaper first; at equal cost fewer new joints, then fewer coordinates, then joints before
+ * bodies */
 static bool is_better(const TreePair *a, const TreePair *b)
 {
     if (!a->is_priced || !b->is_priced)
@@ -162,7 +163,7 @@ static bool can_enter(const TreeSearch *search, int edge, int half)
 /* in `halves` (bits) one branch goes and one chord comes */
 typedef struct Exchange {
     int halves, goes, comes;
-    int more; /* coordinates that come with it */
+    int more; /* coordinates that it adds */
 } Exchange;
 typedef LIST(Exchange) Exchanges;
 
@@ -235,8 +236,8 @@ static int fewer_coordinates(const void *a, const void *b)
     return strcmp(x->key, y->key);
 }
 
-/* neighbours not met before, those of few coordinates first; of very many only so many of these
- * that the bound on systems is met long before their end; returns where they start */
+/* new neighbours, those of few coordinates first. Of very many only as many are listed as the limit
+ * of systems can never exhaust. Returns the index where they start. */
 static int find_neighbours(TreeSearch *search, const TreePair *pair)
 {
     const Graph *graph = search->scene.graph;
@@ -345,7 +346,7 @@ void tree_search_run(TreeSearch *search)
     const int starts = search->seen.count;
     bool *done = NEW_ARRAY(bool, starts);
 
-    /* from the cheapest start first: the bound on systems may leave the others out */
+    /* from the cheapest start first: the limit of systems may exclude the others */
     for (int round = 0; round < starts; round++) {
         int next = -1;
 

@@ -1,7 +1,7 @@
-/* variables.c: what a user can ask for by name, as expressions of the system's variables
+/* variables.c: quantities that a user can name, as expressions of the system's variables
  *
- * A name is a coordinate, an entry (lambda(1), mass(2,2)), an output, or member of a part:
- * the tables below say which members a family has and who tells them. */
+ * A name is a coordinate, an entry (lambda(1), mass(2,2)), an output, or a member of a part: the
+ * tables below list the members of each family and the function that returns them. */
 #include "component/equation_block.h"
 #include "formulate/dynamics/efforts.h"
 #include "formulate/dynamics/reactions.h"
@@ -58,7 +58,7 @@ static const FrameMember frame_members[] = {
     {"q2", PARAMETER, 2},    {"q3", PARAMETER, 3},
 };
 
-/* the angle of a frame against ground, of turns about one axis */
+/* the angle of a frame against ground, if all turns are about one axis */
 static Status frame_angle(const System *system, int node, Expr *out, Diag *diag)
 {
     Arena *arena = system->arena;
@@ -189,8 +189,8 @@ static Status tied_shift(System *system, const Instance *joint, Expr *out, Diag 
     return OK;
 }
 
-/* angular velocity of the head against the tail in the axes of the head, its constant turn undone:
- * the speeds of a joint with Euler parameters, where they are some */
+/* angular velocity of the head against the tail in the axes of the head, with the constant turn
+ * undone: for a joint with Euler parameters that is a branch these are its speeds */
 static Expr relative_rate(const System *system, const Instance *joint, int axis)
 {
     Arena *arena = system->arena;
@@ -239,7 +239,7 @@ static Status joint_variable(System *system, const Instance *joint, const char *
                           diag);
 }
 
-/* --- what pushes, and networks --- */
+/* --- efforts, and networks --- */
 
 static Status effort_variable(System *system, const Instance *instance, const char *member,
                               Expr *out, Diag *diag)
@@ -307,7 +307,7 @@ static bool own_state(const System *system, const Instance *instance, const char
     return false;
 }
 
-/* which of a scalar edge's variables a member means; "s.i": of its edge s */
+/* which variable of a scalar edge a member denotes; "s.i": of its edge s */
 static Status scalar_variable(System *system, const Instance *instance, const char *member,
                               Expr *out, Diag *diag)
 {
@@ -354,8 +354,8 @@ static Status scalar_variable(System *system, const Instance *instance, const ch
     return OK;
 }
 
-/* Who bears the longest head of a path, "leg1.T1" of "leg1.T1.s.i": a part (or NULL), a node (or
- * -1). Returns where the head ends. */
+/* The owner of the longest prefix of a path, "leg1.T1" of "leg1.T1.s.i": a part (or NULL), a node
+ * (or -1). Returns the end of the prefix. */
 static const char *path_owner(const System *system, const char *path, const Instance **instance,
                               int *node)
 {
@@ -416,7 +416,7 @@ static Status storage_rate(System *system, const char *path, Expr *out, Diag *di
     Expr zero = expr_int(arena, 0);
 
     if (branch == NULL)
-        return E_MISSING; /* what system_rate_of() said stands */
+        return E_MISSING; /* the message of system_rate_of() remains */
     instance = &system->origin->instances[branch->instance];
     own = instance_across(instance, arena, branch->which);
     other = instance_through(instance, arena, branch->which);
@@ -436,7 +436,7 @@ static Status storage_rate(System *system, const char *path, Expr *out, Diag *di
                              out, diag);
 }
 
-/* Of a terminal on which nothing stands yet: an input that a run still has to be given. */
+/* Of a terminal to which nothing is connected yet: an input that must be set before a run. */
 static Expr open_potential(System *system, int node)
 {
     const Node *terminal = graph_node(system->origin->graph, node);
@@ -468,13 +468,13 @@ static Status terminal_variable(System *system, int node, Expr *out, Diag *diag)
                            &system->network->branches
                                 .at[system->network->scalar_of_edge[tree_parent_edge(tree, node)]],
                            &v, diag));
-        /* an across variable is that of the tail against the head */
+        /* an across variable is the tail's minus the head's */
         *out = tree_is_forward(tree, node) ? expr_sub(arena, *out, v) : expr_add(arena, *out, v);
     }
     return OK;
 }
 
-/* --- the model as a whole --- */
+/* --- the whole model --- */
 
 static Expr largest_residual(const System *system)
 {
@@ -507,7 +507,7 @@ static bool model_variable(System *system, const char *path, Expr *out)
     return true;
 }
 
-/* Where there are constraints some may repeat others, which shows at a start only. */
+/* Some constraints may be redundant, which only a start can detect. */
 static Status free_speeds(const System *system, Expr *out, Diag *diag)
 {
     if (system->constraints->rows.count > 0) {
@@ -521,7 +521,7 @@ static Status free_speeds(const System *system, Expr *out, Diag *diag)
     return OK;
 }
 
-/* a row or column number; one too large for any matrix stays so */
+/* a row or column number; one that is too large remains too large */
 static int entry_number(const char *text, char **rest)
 {
     long number = strtol(text, rest, 10);
@@ -576,8 +576,8 @@ static Status entry_variable(System *system, const char *path, bool *found, Expr
 
 /* --- names --- */
 
-/* v(0.5): how far the point there has moved along y of the root; bending(0.5): what its section
- * carries; of pictures, y(0.5): where the middle is along y of ground */
+/* v(0.5): displacement of the point there along y of the root; bending(0.5): the load of its
+ * section; in pictures, y(0.5): its position along y of ground */
 static Status deflection_variable(System *system, const Instance *part, const char *member,
                                   Expr *out, Diag *diag)
 {
@@ -607,7 +607,7 @@ static Status member_variable(System *system, const char *path, Expr *out, Diag 
     const char *end = path_owner(system, path, &instance, &node);
     const char *member = *end == '.' ? end + 1 : "";
 
-    /* the model knows the name, so these equations are older */
+    /* the model knows the name, so these equations are out of date */
     if (instance == NULL && node < 0) {
         (void)diag_set(diag, E_NAME, "'%s' came after the run, which has no values of it", path);
         diag_hint(diag, "what comes later is in the next run: simulate 1");
@@ -653,7 +653,8 @@ static bool find_coordinate(const System *system, const char *path, const Instan
     return true;
 }
 
-/* the highest derivative of an unknown whose equation is given: what its edge solves for */
+/* the highest derivative of an unknown whose equation is given: the variable that its edge solves
+ * for */
 static const Instance *solved_for(const System *system, const char *path, int primes)
 {
     const int number = names_find(system->origin->instance_names, path);
@@ -695,7 +696,7 @@ Status system_variable(System *system, const char *path, int primes, Expr *out, 
         status = system_rate_of(system, *out, out, diag);
         if (k == 0 && status == E_MISSING && !system->network->is_open)
             status = storage_rate(system, path, out, diag);
-        if (status == E_MISSING) /* said of an unknown that it follows from, of any other part */
+        if (status == E_MISSING) /* reported for an unknown that it depends on, of any other part */
             (void)diag_set(diag, status,
                            "the derivative of %s%.*s is not among the network's equations", path, k,
                            "''''''''");
