@@ -19,7 +19,7 @@ check-total: all
 # Units, sessions and terminals call all there is; families, manuals and long cases call the same in
 # the same ways: check-san-all, where there is time.
 check-san: san/Makefile
-	@$(MAKE) -s -C san check-total TESTS="$(unit_and_session) $(terminal_tests)"
+	@$(MAKE) -s -C san check-total TESTS="$(unit_and_session) $(terminal_tests)" check_PROGRAMS="$(unit_and_session)"
 
 check-san-all: san/Makefile
 	@$(MAKE) -s -C san check-total
@@ -45,7 +45,7 @@ unit_and_session = run-session $(filter-out test_costs,$(UNIT_TESTS))
 
 check-faults: faults/Makefile
 	@find faults -name '*.gcda' -exec rm -f {} +
-	@$(MAKE) -s -C faults check-total TESTS="$(unit_and_session) $(terminal_tests)"
+	@$(MAKE) -s -C faults check-total TESTS="$(unit_and_session) $(terminal_tests)" check_PROGRAMS="$(unit_and_session)"
 	@$(dev)/coverage faults
 
 faults/Makefile:

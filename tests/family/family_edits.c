@@ -310,7 +310,7 @@ enum { MOST_NAMED = 512 };
 
 /* what the parameters are called: p1, p2 ... or, of some of them, as parts are */
 typedef struct Called {
-    char name[MOST_NAMED][8];
+    char name[MOST_NAMED][16];
     bool at_use; /* a parameter stands before its first use, not before all parts */
     bool is_made[MOST_NAMED];
 } Called;
