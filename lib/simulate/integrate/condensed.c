@@ -1,4 +1,4 @@
-/* condensed.c: which unknowns are told by others, and the equations of these */
+/* condensed.c: partition of the unknowns into D and R, and the Schur complement of D */
 #include "simulate/integrate/condensed.h"
 
 #include "algebra/linear.h"
@@ -8,15 +8,15 @@
 #include <string.h>
 
 struct Condensed {
-    int n, determined, left; /* unknowns; in D; in R */
+    int n, determined, left; /* number of unknowns; of those in D; of those in R */
     int *order;              /* those of D, then those of R */
     double *jacobian;        /* in that order */
     double *through;         /* J_RD J_DR (left x left) */
     double s, alpha, beta;
-    Lu *real, *pair; /* left; 2 left: for so many unknowns, */
+    Lu *real, *pair; /* of R; of twice its size: for so many unknowns, */
     int factored;    /* -1: none */
     double *right;   /* 2 left */
-    double *shared;  /* 2 told: b_D / s */
+    double *shared;  /* 2 determined: b_D / s */
 };
 
 Condensed *condensed_new(int n)
@@ -44,7 +44,7 @@ void condensed_free(Condensed *c)
 
 /* --- J --- */
 
-/* whether neither its rate holds itself or one of D, nor theirs it */
+/* whether the rate of i depends neither on i nor on an unknown of D, and no rate of D on i */
 static bool is_apart(const Condensed *c, const double *jacobian, int i)
 {
     if (jacobian[i * c->n + i] != 0)
@@ -58,7 +58,7 @@ static bool is_apart(const Condensed *c, const double *jacobian, int i)
     return true;
 }
 
-/* one after the other, as they come */
+/* Choose D greedily, in the order of the unknowns. */
 static void choose(Condensed *c, const double *jacobian)
 {
     c->determined = c->left = 0;
@@ -95,7 +95,7 @@ void condensed_set(Condensed *c, const double *jacobian)
 
 /* --- factors --- */
 
-/* those of another size are gone */
+/* Replaces factors of another size. */
 static void open_factors(Condensed *c, bool with_pair)
 {
     if (c->factored != c->left) {

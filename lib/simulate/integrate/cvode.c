@@ -6,10 +6,10 @@
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 #include <sunnonlinsol/sunnonlinsol_newton.h>
 
-#define AT_ONCE 1e-2 /* of what Newton's method may leave: a first correction that is the last */
-#define SLOWEST 0.9  /* from correction to correction: else it doesn't converge */
-#define FAILED  0.1  /* of what it was to be: a shorter step doesn't know its error */
-#define BEGIN   0.01 /* with so much of one it begins anew */
+#define AT_ONCE 1e-2 /* times the tolerance of Newton's method: a first correction that ends it */
+#define SLOWEST 0.9  /* ratio of corrections above which the iteration doesn't converge */
+#define FAILED  0.1  /* times the previous step: a shorter one has no reliable error estimate */
+#define BEGIN   0.01 /* times it: the length with which integration restarts */
 
 static const SundialsCalls calls = {
     .free = CVodeFree,
@@ -37,7 +37,7 @@ static int rate(realtype t, N_Vector y, N_Vector out, void *data)
 
 /* --- 1 - gamma J --- */
 
-/* J as the problem tells it; false: it doesn't */
+/* J from the problem; false: not available */
 static bool by_problem(Sundials *c, double t, N_Vector y)
 {
     const OdeJacobian *offered = &c->base.ode->jacobian;
@@ -48,15 +48,15 @@ static bool by_problem(Sundials *c, double t, N_Vector y)
     return offered->at(offered->context, t, N_VGetArrayPointer(y), c->jacobian);
 }
 
-/* CVODE's own differences move an unknown that is 0 by next to nothing where a first step is short,
- * and then see rounding alone. */
+/* The differences of CVODE itself perturb an unknown that is 0 by almost nothing where a first step
+ * is short, and then see rounding error alone. */
 static int by_differences(Sundials *c, double t, N_Vector y, N_Vector rate_there, N_Vector point,
                           N_Vector column)
 {
     const int n = c->base.ode->n;
 
     N_VScale(1, y, point);
-    for (int j = 0; j < n; j++) { /* nothing follows from quadratures */
+    for (int j = 0; j < n; j++) { /* nothing depends on quadratures */
         const double was = NV_Ith_S(point, j);
         double h;
 
@@ -71,8 +71,9 @@ static int by_differences(Sundials *c, double t, N_Vector y, N_Vector rate_there
     return 0;
 }
 
-/* CVODE would keep the J of a try that failed for the shorter ones that follow. One from a steep
- * part that these don't reach, as a wall, makes Newton's corrections small wherever they lead. */
+/* CVODE would reuse the J of a failed step for the shorter ones that follow. A J from a stiff
+ * region that these don't reach, as a wall, makes Newton's corrections small whatever the
+ * residual. */
 static int linear_system(realtype t, N_Vector y, N_Vector rate_there, SUNMatrix matrix,
                          booleantype may_keep, booleantype *is_new, realtype gamma, void *data,
                          N_Vector point, N_Vector column, N_Vector more)
@@ -106,7 +107,7 @@ static int factor(SUNLinearSolver solver, SUNMatrix matrix)
     return condensed_factor_real(c->condensed, 1 / c->gamma) ? 0 : SUNLS_LUFACT_FAIL;
 }
 
-/* (1 - gamma J) x = b by (1/gamma - J) x = b/gamma; quadratures follow from the others */
+/* (1 - gamma J) x = b by (1/gamma - J) x = b/gamma; quadratures follow from the other unknowns */
 static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector b, realtype finely)
 {
     const Sundials *c = solver->content;
@@ -130,8 +131,7 @@ static int free_solver(SUNLinearSolver solver)
     return SUNLS_SUCCESS;
 }
 
-/* Newton's method with J as it has been taken apart; CVODE asks for a matrix, which nobody reads.
- */
+/* Newton's method with the factors of J; CVODE requires a matrix, which nothing reads. */
 static int set_linear(Sundials *c)
 {
     int code;
@@ -149,7 +149,7 @@ static int set_linear(Sundials *c)
     return code == 0 ? CVodeSetLinSysFn(c->memory, linear_system) : code;
 }
 
-/* As CVODE takes it: by how fast corrections have become less, in earlier steps, too. */
+/* CVODE's own test: the rate at which corrections decrease, in earlier steps too. */
 static int converges_as_before(Sundials *c, double size, double tolerance, int count)
 {
     if (count > 0)
@@ -161,9 +161,9 @@ static int converges_as_before(Sundials *c, double size, double tolerance, int c
     return SUN_NLS_CONTINUE;
 }
 
-/* Whether Newton's method has come near enough. Where steep elements are, earlier steps tell
- * nothing: with the tangent of a diode that blocked, a correction is small however far it conducts
- * now. So the first has to be next to nothing, or the next one tells. */
+/* Convergence test of Newton's method. With stiff elements earlier steps are no guide: with the
+ * tangent of a diode that blocked, a correction is small however strongly it conducts now. So
+ * either the first correction is almost 0, or a second one is needed. */
 static int converges(SUNNonlinearSolver solver, N_Vector w, N_Vector correction, realtype tolerance,
                      N_Vector weights, void *data)
 {
@@ -201,7 +201,7 @@ static Stepper *create(const Method *method, const Ode *ode, const Control *cont
     Sundials *c = NEW(Sundials);
 
     sundials_init(c, &calls, method, ode, control, ode->n + ode->quadratures);
-    /* kept and freed with the stepper: NOLINTNEXTLINE(clang-analyzer-osx.cocoa.RetainCount) */
+    /* allocated and freed with the stepper: NOLINTNEXTLINE(clang-analyzer-osx.cocoa.RetainCount) */
     c->memory = MEM_GIVEN(CVodeCreate(method->is_stiff ? CV_BDF : CV_ADAMS, c->context));
     return &c->base;
 }
@@ -224,7 +224,7 @@ static Stepper *create_adams(const Ode *ode, const Control *control)
     return create(&method_adams, ode, control);
 }
 
-/* one over what an error of each unknown counts from */
+/* inverse of each unknown's error tolerance */
 static int find_weights(N_Vector y, N_Vector weights, void *data)
 {
     Sundials *c = data;
@@ -278,7 +278,7 @@ static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
     return code == 0 ? OK : solver_failure(diag, t, c->reason);
 }
 
-/* one step of CVODE's own, to `end` at most */
+/* one internal step of CVODE, at most to `end` */
 static int advance(Sundials *c, double end, double *reached)
 {
     int code = sundials_bound(c, end);
@@ -290,10 +290,11 @@ static int advance(Sundials *c, double end, double *reached)
     return code;
 }
 
-/* Whether the step to `reached`, taken after one of length `last`, knows its error. CVODE tells
- * that by how far the step ends from where the history leads, and takes it for the less, the
- * further that reaches back. Where tries that failed have left a step far shorter than those
- * before, a slope that bends in this one alone, as in a wall, seems to do so slowly. */
+/* Whether the error estimate of the step to `reached`, taken after one of length `last`, is
+ * reliable. CVODE estimates the error from the difference between the step's end and the
+ * extrapolated history, times a factor that decreases the longer the history is. Where failed steps
+ * have left a step far shorter than those before, a solution that bends in this step alone, as in a
+ * wall, appears to bend slowly. */
 static bool knows_its_error(const Sundials *c, double end, double reached, double last)
 {
     const double meant = fmin(fmin(last, c->base.next), stepper_stop(&c->base, end) - c->base.t);

@@ -1,8 +1,9 @@
 /* dop853.c: explicit Runge-Kutta of order 8 with error control and dense output of order 7
  *
- * Dormand and Prince's pair as given by Hairer, Norsett and Wanner (1993), II.5 and II.10. A
- * projection after each accepted step comes before the first stage of the next, so it costs no
- * evaluation; the dense output ends at the projected point. */
+ * Dormand and Prince's pair as given by Hairer, Norsett and Wanner (1993), II.5 and II.10. Stage i
+ * is k_i = f(t + c_i h, y + h sum_j a_ij k_j). Each accepted step is projected before the first
+ * stage of the next, so that this costs no evaluation; the dense output ends at the projected
+ * point. */
 #include "simulate/integrate/dop853_impl.h"
 
 #include "base/memory.h"
@@ -10,29 +11,29 @@
 #include <math.h>
 #include <string.h>
 
-#define FIRST_SEEN         5 /* stage with a weight in the result: those before, but 0, have none */
+#define FIRST_SEEN         5 /* first stage after stage 0 with a weight in the result */
 #define SAFETY             0.9
 #define LUCK               60.0 /* times the root of the tolerance; estimates of order 3: 1 to 60 of it */
-#define STIFF_ELEMENT_LUCK 2.0 /* the same where an element may cease to conduct in the step */
+#define STIFF_ELEMENT_LUCK 2.0 /* the same where an element may stop conducting in the step */
 #define SHRINK             (1 / 3.0)
 #define GROW               6.0
-#define PARTS_AGREE        30.0 /* errors that a step aims at, from its end to that of its parts */
+#define PARTS_AGREE        30.0 /* tolerances: most from a step's end to that of its parts */
 #define LEAP               1.2 /* times a step that failed near a singular position, to pass it, at most; */
 #define LEAP_PAST          0.93 /* and where in a step it is at the latest, between the last two stages */
 
 enum {
-    LEAPS = 4,        /* on end, before steps become shorter */
+    LEAPS = 4,        /* in succession, before steps become shorter */
     LEAP_CHOICES = 50 /* lengths that are compared */
 };
 
-/* the same on every machine, as roots are and powers are not */
+/* by square roots, which unlike powers are the same on every machine */
 static double eighth_root(double x)
 {
     return sqrt(sqrt(sqrt(x)));
 }
 
-/* A first step: the one whose explicit Euler result, compared with f there, promises an error
- * of a hundredth (Hairer, Norsett, Wanner 1993, II.4). */
+/* Initial step: its explicit Euler result, compared with f there, has an estimated error of a
+ * hundredth (Hairer, Norsett, Wanner 1993, II.4). */
 static double first_step(Dop853 *d, double t, double span)
 {
     double size, slope, bend, h, h2;
@@ -40,7 +41,7 @@ static double first_step(Dop853 *d, double t, double span)
     dop853_choose_scale(d, d->base.y, d->base.y);
     size = dop853_norm(d, d->base.y);
     slope = dop853_norm(d, d->k[0]);
-    /* what is next to nothing needn't stay so: within the tolerance it may change at once */
+    /* an almost zero y may change at once: it is within the tolerance */
     h = size < 1e-5 || slope < 1e-5 ? 1e-6 : 0.01 * fmax(size, 1) / slope;
     h = fmin(h, span);
     for (int i = 0; i < d->all; i++)
@@ -55,8 +56,8 @@ static double first_step(Dop853 *d, double t, double span)
 }
 
 /* Error of the step just tried, in units of the tolerance (their equation II.10.17). The estimate
- * of order 5 may vanish by chance where a pulse falls between the stages. Where steps resolve what
- * they cross, the estimate of order 3 falls like the root of the tolerance. */
+ * of order 5 may vanish by chance where a pulse is between the stages. Where steps resolve the
+ * solution, the estimate of order 3 is proportional to the root of the tolerance. */
 static double step_error(Dop853 *d, double h)
 {
     const double *eighth = d->sums[1]; /* of try_step() */
@@ -83,7 +84,8 @@ static double step_error(Dop853 *d, double h)
     return fmax(h * sum5 / sqrt(under * d->n) / d->rounding_error, third_order * third_order);
 }
 
-/* the new point of a step of h from d->old at base.before; `sums[1]` keeps what leads there */
+/* The new point of a step h from d->old at base.before; `sums[1]` is the weighted sum of its
+ * stages. */
 static bool try_step(Dop853 *d, double h)
 {
     stepper_begin(&d->base, d->base.before, d->old, h);
@@ -93,7 +95,7 @@ static bool try_step(Dop853 *d, double h)
     return true;
 }
 
-/* the new point at t: on the manifold, with its rate in k[ROW_END] */
+/* project the new point at t and evaluate its rate into k[ROW_END] */
 static bool settle(Dop853 *d, double t, double h)
 {
     const Ode *ode = d->base.ode;
@@ -142,7 +144,7 @@ static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
     return stepper_start(stepper, t, y, d->k[ROW_END], diag);
 }
 
-/* the step to try next, trimmed so that `end` is met and no sliver is left before it */
+/* the step to try next, limited so that `end` is met and no tiny step is left before it */
 static double trim(const Dop853 *d, double h, double end)
 {
     double left = end - d->base.before;
@@ -153,7 +155,7 @@ static double trim(const Dop853 *d, double h, double end)
     return h > 0.5 * left ? 0.5 * left : h;
 }
 
-/* back to where the last step began */
+/* return to the start of the last step */
 static void take_back(Dop853 *d)
 {
     d->base.t = d->base.before;
@@ -162,9 +164,9 @@ static void take_back(Dop853 *d)
     d->step = 0;
 }
 
-/* Whether the step just taken is what its parts are, where it is read anyway. One that passes over
- * a corner, as a wall that is met and left within it, has an estimate of its error that means
- * nothing and may be small by chance: taken in parts it ends elsewhere. */
+/* Whether the step just taken ends where its parts end; checked where output between its ends is
+ * read. When a step passes over a corner, as a wall that is met and left within it, its error
+ * estimate is meaningless and may be small by chance, but its parts end elsewhere. */
 static bool parts_agree(Dop853 *d)
 {
     const int stiff = d->stiff, calm = d->calm;
@@ -183,8 +185,8 @@ static bool parts_agree(Dop853 *d)
     return false;
 }
 
-/* Where in the step just tried, of h, a singular position lies, as stages near it tell, s behind
- * its beginning; 0: none is. */
+/* Position of a singular position in the step h just tried, by the rounding errors of the stages
+ * near it: s after the start; 0: none. */
 static double singular_place(const Dop853 *d, double h)
 {
     double sum = 0, moment = 0;
@@ -196,7 +198,7 @@ static double singular_place(const Dop853 *d, double h)
     return sum > 0 ? h * moment / sum : 0;
 }
 
-/* how far from there, s, the nearest stage of a step of h is, of those of its dense output too */
+/* distance, s, from there to the nearest stage of a step h, including those of its dense output */
 static double nearest_stage(double place, double h)
 {
     double nearest = HUGE_VAL;
@@ -206,10 +208,10 @@ static double nearest_stage(double place, double h)
     return nearest;
 }
 
-/* The step that passes a singular position `place` behind its beginning with its stages furthest
- * from it, up to `most` long; 0: none does. There y' off the constraints says little, so that
- * errors grow the nearer a stage comes; shorter steps would end before it, each nearer than the one
- * before. */
+/* The step up to `most` long that passes a singular position `place` after its start with its
+ * stages furthest from it; 0: none does. Near that position y' off the constraints is inaccurate,
+ * so that errors grow the nearer a stage comes. Shorter steps would end before it, each nearer than
+ * the last. */
 static double leap_over(double place, double most)
 {
     const double least = place / LEAP_PAST;
@@ -227,8 +229,8 @@ static double leap_over(double place, double most)
     return best;
 }
 
-/* Whether another step's stages would be at least twice as far from what this one's rounding tells
- * of. */
+/* Whether the stages of another step would be at least twice as far from the position at which this
+ * one has rounding errors. */
 static bool can_see_better(const Dop853 *d, double h)
 {
     const double place = singular_place(d, h), leap = leap_over(place, LEAP * h);
@@ -236,9 +238,9 @@ static bool can_see_better(const Dop853 *d, double h)
     return leap > 0 && nearest_stage(place, leap) > 2 * nearest_stage(place, h);
 }
 
-/* Whether a step of h, to t, is taken. `error`: in units of the tolerance; HUGE_VAL where its parts
- * end elsewhere, NAN where it has no value. Where it is at most 1 and `is_choosy`, and rounding is
- * all that another step would have less of, it isn't. */
+/* Whether a step h, to t, is accepted. `error` is in units of the tolerance: HUGE_VAL where its
+ * parts end elsewhere, NAN where it is undefined. With `is_choosy`, a step with an error of at most
+ * 1 is also rejected where another step would have less rounding error. */
 static bool take_step(Dop853 *d, double h, double t, bool is_choosy, double *error)
 {
     double estimate;
@@ -259,25 +261,25 @@ static bool take_step(Dop853 *d, double h, double t, bool is_choosy, double *err
     return *error <= 1;
 }
 
-/* the next step's length behind one of `taken` with such an error, where h was to be tried */
+/* length of the next step after one of `taken` with such an error, where h was intended */
 static double next_step(const Dop853 *d, double taken, double h, double error)
 {
     const double most = d->was_rejected ? 1 : GROW;
     const double factor = error > 0 ? SAFETY / eighth_root(error) : GROW;
-    /* a step cut to meet an end says nothing against the longer one */
+    /* a step that was cut to meet an end doesn't reduce the intended one */
     const double longer = taken < h ? fmin(h, taken * GROW) : 0;
 
     return fmax(taken * fmin(most, fmax(SHRINK, factor)), longer);
 }
 
-/* what was tried for one step */
+/* what was tried in one step */
 typedef struct Tries {
     int failures, leaps;
-    bool has_looked; /* for a step with less rounding than one that would do: */
-    double sure;     /* that one, s, until it is gone back to; 0 */
+    bool has_looked; /* for a step with less rounding error than an acceptable one: */
+    double sure;     /* the acceptable one, s, until it is tried again; 0: none */
 } Tries;
 
-/* the length to try behind one of h that wasn't taken */
+/* the length to try after a rejected h */
 static double try_next(const Dop853 *d, double h, double error, Tries *tries)
 {
     const double sure = tries->sure;
@@ -286,7 +288,7 @@ static double try_next(const Dop853 *d, double h, double error, Tries *tries)
     tries->sure = 0;
     if (sure > 0)
         return sure;
-    /* where its parts end elsewhere, the stages are those of parts */
+    /* where its parts end elsewhere, the stages are those of the last part */
     leap = isinf(error) ? 0 : leap_over(singular_place(d, h), LEAP * h);
     if (error <= 1) {
         tries->has_looked = true;
@@ -354,7 +356,7 @@ static Status shorten(Stepper *stepper, double t, Diag *diag)
         return OK;
     }
     if (d->step != 0 && d->parts == 0)
-        dop853_make_dense(d); /* while there are its stages */
+        dop853_make_dense(d); /* while its stages are available */
     if (!try_step(d, h) || !settle(d, t, h))
         return solver_failure(diag, t, "the equations have no solution at a switch");
     d->base.next = h;

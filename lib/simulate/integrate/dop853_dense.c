@@ -1,9 +1,9 @@
 /* dop853_dense.c: dense output of dop853, of order 7 (Hairer, Norsett and Wanner 1993, II.6)
  *
- * Where something decays fast, a step at the bound of stability may end well and have a dense
- * output that is far off in between; whether it is so is asked of its slope, and then it is made of
- * several shorter ones. Next to a singular position a stage alone may be off, and is told by that
- * slope. */
+ * Where a component decays fast, a step at the stability limit may have an accurate end and a dense
+ * output that is far off in between. The defect of its slope, P'(t) - f(t, P(t)), detects that, and
+ * the dense output is then composed of several shorter ones. Next to a singular position a single
+ * stage may be inaccurate, and is computed from the slope. */
 #include "simulate/integrate/dop853_impl.h"
 
 #include "algebra/linear.h"
@@ -13,10 +13,10 @@
 #include <math.h>
 #include <string.h>
 
-#define DENSE_NEAR   10.0  /* from a stage to the dense output, in errors that a step aims at, */
-#define DENSE_DEFECT 100.0 /* h times what its slope is off: its error is some 15 times less */
-#define DENSE_LOOK   0.71  /* where in a step that is */
-#define BLURRED      1e-10 /* by this and more: a stage next to a singular position */
+#define DENSE_NEAR   10.0  /* from a stage to the dense output, in tolerances of a step, */
+#define DENSE_DEFECT 100.0 /* h times the defect of its slope: its error is about 1/15 of that */
+#define DENSE_LOOK   0.71  /* position in a step where it is evaluated */
+#define BLURRED      1e-10 /* rounding error of a stage next to a singular position, at least */
 
 void dop853_reserve_room(Dop853 *d, DensePart *part)
 {
@@ -27,16 +27,16 @@ void dop853_reserve_room(Dop853 *d, DensePart *part)
         part->terms[i] = stepper_numbers(&d->base, d->room);
 }
 
-/* its stages; stage_point keeps the last one's */
+/* the stages of dense output; stage_point is the point of the last one */
 static void take_extra_stages(Dop853 *d, double h)
 {
     dop853_note_rounding(d);
     for (int stage = ROW_EXTRA; stage < STAGES; stage++)
-        (void)dop853_set_stage(d, stage, h, d->stage_point); /* NaN there shows in what is read */
+        (void)dop853_set_stage(d, stage, h, d->stage_point); /* a NaN there shows in the output */
 }
 
-/* The interpolant of a step of h from d->old, at base.before, to `new` (II.6.20 and the appendix),
- * with rates in k[0] and k[ROW_END], by stages as they are. */
+/* The interpolant of a step h from d->old, at base.before, to `new` (II.6.20 and the appendix),
+ * with rates in k[0] and k[ROW_END], from the current stages. */
 static void fill_part(Dop853 *d, double h, const double *new, DensePart *out)
 {
     out->from = d->base.before;
@@ -57,7 +57,7 @@ static void fill_part(Dop853 *d, double h, const double *new, DensePart *out)
     }
 }
 
-/* the same with three more stages */
+/* the same after computing three more stages */
 static void make_part(Dop853 *d, double h, const double *new, DensePart *out)
 {
     dop853_reserve_room(d, out);
@@ -65,7 +65,7 @@ static void make_part(Dop853 *d, double h, const double *new, DensePart *out)
     fill_part(d, h, new, out);
 }
 
-/* at this part of a part of the last step */
+/* y at position s (0 to 1) of this part of the last step */
 AS_WIDE_AS_CAN_BE static void interpolate(const DensePart *part, double s, int room, double *out)
 {
     const double left = 1 - s;
@@ -92,8 +92,8 @@ static double interpolated_slope(const double *const terms[DENSE_TERMS], double 
     return slope;
 }
 
-/* How far from y' the slope of a part is there, times its length: sums[1], and in errors that a
- * step aims at. */
+/* Defect of a part's slope from y' there, times its length: into sums[1], and returned in
+ * tolerances of a step. */
 static double slope_defect(Dop853 *d, const DensePart *part, double s)
 {
     double *y = d->sums[0], *off = d->sums[1];
@@ -107,8 +107,8 @@ static double slope_defect(Dop853 *d, const DensePart *part, double s)
     return dop853_norm(d, off);
 }
 
-/* The same of a part just made; 0 where its last stage is near it already, which costs no
- * evaluation to see. */
+/* The same for a part just computed; 0 where its last stage is close to it already, which takes no
+ * evaluation. */
 static double part_defect(Dop853 *d, const DensePart *part)
 {
     double *y = d->sums[0], *off = d->sums[1];
@@ -121,7 +121,7 @@ static double part_defect(Dop853 *d, const DensePart *part)
     return slope_defect(d, part, DENSE_LOOK);
 }
 
-/* what a rate of 1 at a stage makes of the slope there */
+/* derivative of the slope there by the rate of a stage */
 static double slope_by_stage(int stage, double s)
 {
     double weight[DENSE_TERMS] = {0};
@@ -139,11 +139,11 @@ static double slope_by_stage(int stage, double s)
     return interpolated_slope(terms, s, 0);
 }
 
-/* Rates at the last `count` stages, such that the slope is y' at as many other places; false where
- * that has no value. */
+/* Solve for the rates at the last `count` stages such that the slope is y' at as many other
+ * positions; false where y' is undefined there. */
 static bool set_stages(Dop853 *d, DensePart *part, int count)
 {
-    /* what is missed there is off by 0.15 h J times what was missed before, by 0.03 for one */
+    /* the residual there is 0.15 h J times the previous one, 0.03 for one stage */
     static const double places[STAGES - ROW_EXTRA] = {0.96, 0.57, 0.39};
     Lu *slopes = lu_new(count);
     double missed[STAGES - ROW_EXTRA] = {0};
@@ -169,11 +169,11 @@ static bool set_stages(Dop853 *d, DensePart *part, int count)
     return sound;
 }
 
-/* Where a stage of the dense output stands next to a singular position, what it is off the
- * constraints makes its rate anything: then the interpolant is off all along. That rate and those
- * of stages behind it, which follow from it, are told by the slope elsewhere, and one look more
- * tells whether it was that. Returns the defect then; where it is still too large, as it was, with
- * the part. */
+/* Where a stage of the dense output is next to a singular position, its distance from the
+ * constraints makes its rate arbitrary, and the interpolant is inaccurate throughout. That rate and
+ * those of the stages after it, which depend on it, are then computed from the slope elsewhere; one
+ * further evaluation checks the result. Returns the new defect; where that is still too large the
+ * part and its defect are restored. */
 static double mend_stages(Dop853 *d, DensePart *part, double defect)
 {
     double last = INFINITY, now = defect;
@@ -196,7 +196,8 @@ static double mend_stages(Dop853 *d, DensePart *part, double defect)
     return defect;
 }
 
-/* how far from the last step's end its last part ends, of h and with its stages as they are */
+/* distance of the end of the last part, of length h and with its current stages, from the end of
+ * the step */
 static double end_of_part(Dop853 *d, double h)
 {
     double *off = d->sums[1];
@@ -207,8 +208,8 @@ static double end_of_part(Dop853 *d, double h)
     return dop853_norm(d, off);
 }
 
-/* The last step's dense output from its beginning on, where old and k[0] tell of it, in so many
- * parts; the largest defect among them, NaN where y' has no value on the way. */
+/* The last step's dense output in so many parts, from `old` and k[0] at its start. Returns the
+ * largest defect among them, NaN where y' is undefined. */
 static double divide(Dop853 *d, int parts)
 {
     const double before = d->base.before;
@@ -241,7 +242,7 @@ static double divide(Dop853 *d, int parts)
     return worst;
 }
 
-/* The same, with all that tells of the step as it was before. */
+/* The same; the data of the step are restored. */
 static double divide_step(Dop853 *d, int parts)
 {
     const size_t size = (size_t)d->all * sizeof(double);
@@ -259,17 +260,17 @@ static double divide_step(Dop853 *d, int parts)
     return worst;
 }
 
-/* the last step's in one part, from the stages as it was taken */
+/* the last step's dense output in one part, from its own stages */
 static void take_whole(Dop853 *d)
 {
     d->parts = 1;
     d->parted = 0;
-    (void)dop853_set_stages(d, d->step); /* as they were */
+    (void)dop853_set_stages(d, d->step); /* as in the step */
     make_part(d, d->step, d->base.y, &d->dense[0]);
 }
 
-/* Shorter parts may be worse: their ends are on no constraint, and where one comes near a singular
- * position, y' there is of no use. Then it is made of as many as did best. */
+/* Shorter parts may be worse: their ends are not projected, and where one comes near a singular
+ * position, y' there is useless. Then the number of parts with the least defect is used. */
 void dop853_make_dense(Dop853 *d)
 {
     double worst, last = HUGE_VAL;
@@ -280,7 +281,7 @@ void dop853_make_dense(Dop853 *d)
     worst = part_defect(d, &d->dense[0]);
     if (worst > DENSE_DEFECT * d->rounding_error)
         worst = mend_stages(d, &d->dense[0], worst);
-    /* shorter parts are no better where rounding is what is seen */
+    /* shorter parts are no better where the defect is rounding error */
     while (worst > DENSE_DEFECT * d->rounding_error && worst < 0.5 * last &&
            d->parts < DENSE_PARTS) {
         last = worst;

@@ -1,4 +1,4 @@
-/* dop853_scale.c: what dop853 measures errors by: a part of the tolerance of each entry */
+/* dop853_scale.c: scale of errors in dop853: the tolerance of each entry */
 #include "simulate/integrate/dop853_impl.h"
 
 #include "base/four.h"
@@ -23,8 +23,8 @@ double dop853_product(const Dop853 *d, const double *v, const double *w)
     return sum;
 }
 
-/* dop853_choose_scale() for the first entries, four at a time, where units are 1 and caps are
- * there; how many */
+/* dop853_choose_scale() for the first entries, four at a time, where nominal values are 1 and there
+ * are magnitude bounds; returns how many. */
 AS_WIDE_AS_CAN_BE static int choose_many_scales(Dop853 *d, const double *a, const double *b)
 {
     const FourTruths size = {INT64_MAX, INT64_MAX, INT64_MAX, INT64_MAX}; /* all but the sign */

@@ -1,6 +1,6 @@
 /* dop853_stages.c: stages of dop853, and weighted sums of them, eight entries at a time and more
  *
- * Most of what a step costs beside the evaluations. */
+ * Most of the cost of a step besides the evaluations. */
 #include "simulate/integrate/dop853_impl.h"
 
 #include "base/four.h"
@@ -10,8 +10,9 @@
 
 enum { MOST_FOURS = 8 }; /* that are summed together, where there are so many entries */
 
-/* Of `fours` Fours from `first` on: the weighted sums of stages, in the order of their terms
- * whatever stands beside. What a term takes beside its products, all of them share. */
+/* For `fours` Fours from `first` on: the weighted sums of stages, in the order of their terms,
+ * independent of neighbouring entries. The Fours share the overhead of a term besides its
+ * products. */
 static inline __attribute__((always_inline)) void
 weigh_fours(const Dop853 *d, const TableauTerms *terms, int first, int fours, double *sums)
 {

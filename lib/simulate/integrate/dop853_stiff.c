@@ -1,9 +1,10 @@
-/* dop853_stiff.c: whether stability, not accuracy, limits the steps of dop853, and what it is
+/* dop853_stiff.c: whether stability, not accuracy, limits the steps of dop853, and by which
+ * eigenvalues
  *
- * The indicator is that of Hairer and Wanner (Solving ODE II, IV.2): h |f(a) - f(b)| / |a - b| over
- * the two points at the end of a step stays above 6.1 when stability limits the steps. Whether what
- * limits them decays or swings is asked of the Jacobian: backward differentiation is no help
- * against swinging. */
+ * The indicator is that of Hairer and Wanner (Solving ODE II, IV.2): h |f(a) - f(b)| / |a - b| for
+ * the two points at the end of a step is above 6.1 in step after step when stability limits them.
+ * Products with the Jacobian show whether the limiting component decays or oscillates: backward
+ * differentiation is no help against oscillation. */
 #include "simulate/integrate/dop853_impl.h"
 
 #include <math.h>
@@ -30,13 +31,13 @@ static bool apply_jacobian(Dop853 *d, const double *w, double *out)
     return true;
 }
 
-/* Whether the fastest part of the motion swings, rather than decays: J^(k+2) w = a J^(k+1) w + b
- * J^k w for k = 0, 1 by least squares, w what is left of a difference after two products with J.
- * The roots of x^2 = a x + b are its eigenvalues; swinging ones are further from the real axis than
- * from the imaginary one. */
+/* Whether the fastest component oscillates, rather than decays: J^(k+2) w = a J^(k+1) w + b J^k w
+ * for k = 0, 1 by least squares, w the result of two products of J with a difference. The roots of
+ * x^2 = a x + b are its eigenvalues; oscillating ones are further from the real axis than from the
+ * imaginary one. */
 static bool is_oscillatory(Dop853 *d)
 {
-    /* free until asked for */
+    /* unused until dense output is computed */
     double **terms = d->dense[0].terms, *w[] = {terms[0], terms[1], terms[2], terms[3]};
     double p[4][4], power[4] = {1};
     double rate, a, b, d11, d12, d22, r1, r2, det;
@@ -54,7 +55,7 @@ static bool is_oscillatory(Dop853 *d)
     for (int j = 0; j < 4; j++)
         for (int k = 0; k < 4; k++)
             p[j][k] = dop853_product(d, w[j], w[k]) / (power[j] * power[k]);
-    /* a trace more on the diagonal: w may be a multiple of J w */
+    /* regularised by a small multiple of the trace: w may be a multiple of J w */
     d12 = p[0][1] + p[1][2];
     d11 = (p[1][1] + p[2][2]) * (1 + 1e-6);
     d22 = (p[0][0] + p[1][1]) * (1 + 1e-6);

@@ -2,7 +2,7 @@
  *
  * Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I, 2nd edition (1993), II.5,
  * II.6 and appendix. Stage i is f at t + dop853_nodes[i] h and y + h sum weight k[stage] over its
- * terms; stage 12 is the new point, 13 to 15 serve dense output alone. Zeros are left out. */
+ * terms; stage 12 is the new point, 13 to 15 are for dense output alone. Zeros are omitted. */
 #include "simulate/integrate/dop853_impl.h"
 
 #include "base/memory.h"

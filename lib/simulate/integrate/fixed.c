@@ -1,10 +1,10 @@
-/* fixed.c: steps of a fixed length, one behind the other */
+/* fixed.c: steps of a fixed length, one after the other */
 #include "simulate/integrate/fixed.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { MOST_CUTS = 40 }; /* of steps on end */
+enum { MOST_CUTS = 40 }; /* of steps in succession */
 
 void fixed_init(FixedStepper *f, const Method *method, const Ode *ode, const Control *control)
 {
@@ -44,7 +44,7 @@ static void estimate(FixedStepper *f, double h)
     f->last = h;
 }
 
-/* where the last step began, as it was there */
+/* restore the start of the last step */
 static Status give_up(FixedStepper *f, Diag *diag)
 {
     const double h = control_asked(&f->base.control);
@@ -72,7 +72,7 @@ Status fixed_step(Stepper *stepper, double end, Diag *diag)
     f->base.before = f->base.t;
     f->reason = NULL;
     h = last ? left : h;
-    /* where a motion ends, shorter steps lead up to that: what ends it shows there */
+    /* where a motion ends, shorter steps lead up to its end and show the cause */
     for (int i = 0; !f->advance(f, h, last ? end : f->base.before + h); i++) {
         if (i == MAX_REJECTIONS || (i == 0 && ++f->cuts == MOST_CUTS))
             return give_up(f, diag);

@@ -1,17 +1,17 @@
 /* gauss.c: collocation at three Gauss points with fixed steps, order 6
  *
- * A step is the same read forwards and backwards in time, and keeps quadratic invariants (unit
- * Euler parameters): the energy of a conservative motion stays within bounds for long, where a
- * method that isn't symmetric lets it creep away. In coordinates and their rates it is symplectic
- * where the masses don't depend on coordinates, symmetric everywhere. Symmetry holds as far as the
- * stages are solved, so they are to rounding, and what rounding takes from y is carried on to the
- * next step.
+ * Y_i = y + h sum_j a_ij f(Y_j), y_new = y + h sum_i b_i f(Y_i). A step is symmetric in time and
+ * conserves quadratic invariants (unit Euler parameters): the energy of a conservative motion
+ * remains bounded for long, where it drifts with a method that isn't symmetric. In coordinates and
+ * their rates the method is symplectic where masses don't depend on coordinates, and symmetric
+ * everywhere. Symmetry requires exact stages, so they are solved to rounding, and the rounding
+ * error of y is carried to the next step (compensated summation).
  *
- * Constraints are met as Hairer (BIT 40, 2000) does, since a projection behind each step would not
- * be the same backwards: the same displacement v leads off the manifold before the step and back
- * onto it behind. Between the ends the polynomial is read whose slopes are those of both ends and
- * of the stages. Hairer, Lubich, Wanner: Geometric Numerical Integration, II.1.3, V.4.1, VIII.5, 6.
- */
+ * Constraints are satisfied by symmetric projection (Hairer, BIT 40, 2000), since a projection
+ * after each step would not be symmetric: the same displacement v leads off the manifold before the
+ * step and back onto it after. Between its ends a step is interpolated by the polynomial with the
+ * slopes at both ends and at the stages. Hairer, Lubich, Wanner: Geometric Numerical Integration,
+ * II.1.3, V.4.1, VIII.5, 6. */
 #include "simulate/integrate/fixed.h"
 
 #include "base/memory.h"
@@ -22,17 +22,17 @@
 
 enum {
     STAGES = 3,
-    SLOPES = STAGES + 2,   /* known of a step: at its start, its stages, its end */
-    MOST_SWEEPS = 60,      /* over the stages */
-    MOST_PUSHES = 12,      /* of v */
-    BEND = 2 * STAGES + 1, /* slopes that tell of the sixth derivative */
+    SLOPES = STAGES + 2,   /* known slopes of a step: at its start, its stages, its end */
+    MOST_SWEEPS = 60,      /* iterations over the stages */
+    MOST_PUSHES = 12,      /* iterations of v */
+    BEND = 2 * STAGES + 1, /* slopes from which the sixth derivative is estimated */
 };
-/* of the tolerance, by which stages may be off where their sweeps no longer improve: near singular
- * positions accelerations are noisy */
+/* times the tolerance: largest error of stages whose iteration no longer improves, as near singular
+ * positions, where accelerations are noisy */
 #define SETTLED 0.1
-#define LOOK    1e-4 /* of y, to either side: far enough for a projection to be more than rounding */
-/* The quadrature's error is h^7/2016000 of the sixth derivative of y'; 720/2016000 of the sixth
- * divided difference over points in steps. */
+#define LOOK    1e-4 /* of y, to either side: a projection exceeds rounding error */
+/* The quadrature's error is h^7/2016000 of the sixth derivative of y'; that is 720/2016000 of the
+ * sixth divided difference over points in units of steps. */
 #define BEND_PART (1.0 / 2800)
 
 #define ROOT15 3.8729833462074168852
@@ -43,21 +43,21 @@ static const double part[STAGES][STAGES] = {
     {5.0 / 36 + ROOT15 / 24, 2.0 / 9, 5.0 / 36 - ROOT15 / 24},
     {5.0 / 36 + ROOT15 / 30, 2.0 / 9 + ROOT15 / 15, 5.0 / 36},
 };
-/* where SLOPES lie in a step */
+/* positions of the SLOPES in a step */
 static const double place[SLOPES] = {0, 0.5 - ROOT15 / 10, 0.5, 0.5 + ROOT15 / 10, 1};
 
 typedef struct Gauss {
     FixedStepper fixed;
     double *k[STAGES], *before[STAGES]; /* slopes at the stages, and at those of the step before */
-    double *point, *from;               /* from: where the step begins, off the manifold by v */
+    double *point, *from;               /* from: start of the step, off the manifold by v */
     double *push;                       /* v */
     double h;                           /* of the last step, which a difference of times has not */
-    double *carry;                      /* what rounding took from y at the start of the step */
+    double *carry;                      /* rounding error of y at the start of the step */
     double bend[BEND];                  /* divided difference of before, old_rate and k */
 } Gauss;
 
-/* the integral from 0 to x of the polynomial that is 1 at place i and 0 at the others: by
- * Gauss' rule, exact for its degree */
+/* the integral from 0 to x of the Lagrange polynomial that is 1 at position i and 0 at the others:
+ * by Gauss' rule, exact for its degree */
 static double share(int i, double x)
 {
     double sum = 0;
@@ -90,7 +90,7 @@ static void bend_weights(double *out)
     }
 }
 
-/* slopes at the stages as they would be were everything going on as in the step before */
+/* initial guess of the slopes at the stages: extrapolation of the step before */
 static void guess(Gauss *g, double h)
 {
     const FixedStepper *f = &g->fixed;
@@ -99,7 +99,7 @@ static void guess(Gauss *g, double h)
     for (int s = 0; s < STAGES; s++) {
         double l[STAGES + 1], x = is_known ? h / f->last * node[s] : 0;
 
-        /* through the slopes of the last stages and of the start, in units of the step before */
+        /* through the slopes at the last stages and at the start, in units of the step before */
         for (int i = 0; is_known && i <= STAGES; i++) {
             double at = i < STAGES ? node[i] - 1 : 0;
 
@@ -118,7 +118,7 @@ static void guess(Gauss *g, double h)
     }
 }
 
-/* The new slope of stage s into g->k; by how many roundings of y it moved into *moved. */
+/* The new slope of stage s into g->k; *moved becomes its change, in rounding errors of y. */
 static bool sweep_stage(Gauss *g, int s, double h, double *moved)
 {
     FixedStepper *f = &g->fixed;
@@ -137,8 +137,8 @@ static bool sweep_stage(Gauss *g, int s, double h, double *moved)
     return true;
 }
 
-/* The stages of a step from g->from, from the slopes in g->k on; false: they don't settle, or are
- * undefined. */
+/* Solve for the stages of a step from g->from, starting with the slopes in g->k; false: they don't
+ * converge, or are undefined. */
 static bool solve_stages(Gauss *g, double h)
 {
     double before = HUGE_VAL;
@@ -150,7 +150,7 @@ static bool solve_stages(Gauss *g, double h)
             if (!sweep_stage(g, s, h, &moved))
                 return false;
         moved /= DBL_EPSILON;
-        /* the next sweep would move by `moved / before` of it */
+        /* the next iteration would change by `moved / before` of it */
         if (moved <= 1 || (i > 0 && moved * (moved / before) <= 1))
             return true;
         if (moved >= before && before * DBL_EPSILON <= SETTLED * g->fixed.base.control.rtol)
@@ -165,14 +165,14 @@ static bool solve_stages(Gauss *g, double h)
     return false;
 }
 
-/* the step's displacement of y_i, with what rounding took before */
+/* the step's displacement of y_i, with the carried rounding error */
 static double way_of(const Gauss *g, double h, int i)
 {
     return h * (weight[0] * g->k[0][i] + weight[1] * g->k[1][i] + weight[2] * g->k[2][i]) +
            g->carry[i];
 }
 
-/* how large a displacement is, in parts of y */
+/* norm of a displacement, relative to y */
 static double size_of(const Gauss *g, const double *way)
 {
     const Stepper *s = &g->fixed.base;
@@ -183,8 +183,8 @@ static double size_of(const Gauss *g, const double *way)
     return size;
 }
 
-/* Leave of v what is normal to the manifold half way between both ends of the step, which is the
- * same read backwards. */
+/* Project v onto the normal space of the manifold half way between both ends of the step, which is
+ * symmetric in time. */
 static bool make_normal(Gauss *g, double t)
 {
     FixedStepper *f = &g->fixed;
@@ -206,7 +206,7 @@ static bool make_normal(Gauss *g, double t)
     return true;
 }
 
-/* Push v until the step from old + v ends, v further on, on the manifold. */
+/* Iterate v until the step from old + v, displaced by v again at its end, ends on the manifold. */
 static bool meet_constraints(Gauss *g, double h, double end)
 {
     FixedStepper *f = &g->fixed;

@@ -1,11 +1,11 @@
-/* ida.c: SUNDIALS IDA on the implicit form that the problem offers
+/* ida.c: SUNDIALS IDA on the implicit form F(t, w, w') = 0 that the problem supplies
  *
- * With multipliers that is the stabilised index-2 form of Gear, Gupta and Leimkuhler (1985),
- * multipliers entering as derivatives of unknowns, which makes it index 1, and in no error test; in
- * the embedded form w' is the rates. A network alone is solved for its states and algebraic
- * unknowns together. Jacobians are sparse and the problem's own, in the embedded form full;
- * differences are taken where it can't tell them. IDA gets consistent values from the problem;
- * IDACalcIC isn't used. */
+ * With multipliers that is the stabilised index-2 form of Gear, Gupta and Leimkuhler (1985).
+ * Multipliers are derivatives of unknowns, which makes it index 1, and are excluded from the error
+ * test. In the embedded form w' is the rates. A network alone is solved for its states and
+ * algebraic unknowns together. The problem supplies sparse Jacobians, in the embedded form full
+ * ones; differences replace them where it can't. The problem also supplies consistent initial
+ * values; IDACalcIC isn't used. */
 #include "simulate/integrate/sundials.h"
 
 #include <ida/ida.h>
@@ -17,25 +17,25 @@
 
 #include <string.h>
 
-#define LONG_BEFORE 0.1  /* of the step before: shorter ones don't know their error; */
-#define BEGIN       0.01 /* with so much of one it begins anew */
-#define FINER       1e-2 /* of the tolerance: for what has no rate, */
-#define FINE        1e-4 /* but not finer than this where the tolerance itself isn't */
-#define AT_ONCE     1e-2 /* of what Newton's method may leave: a first correction that is the last */
-#define SLOWEST     0.9  /* from correction to correction: else it doesn't converge */
+#define LONG_BEFORE 0.1  /* of the step before: a shorter one's error isn't reliable; */
+#define BEGIN       0.01 /* times it: the length with which integration restarts */
+#define FINER       1e-2 /* times the tolerance: for unknowns without a rate, */
+#define FINE        1e-4 /* but no finer than this unless the tolerance itself is */
+#define AT_ONCE     1e-2 /* of Newton's tolerance: a first correction that ends it */
+#define SLOWEST     0.9  /* ratio of corrections above which the iteration doesn't converge */
 
 typedef struct Ida {
     Sundials s;
-    /* of a sparse Jacobian: entries as the problem has them, and where each stands by columns */
+    /* of a sparse Jacobian: entries in the problem's order, and the index of each by columns */
     int entry_count;
     const int *row;
     int *place, *start;
     double *entries;
-    double *last;     /* y, where a step begins anew */
-    double share;     /* of tolerances: by how much errors that don't count would make it less */
-    double corrected; /* by Newton's method, last, in tolerances */
-    bool jumps;       /* what has no rate may move any way in the step that is being taken */
-    bool has_jumped;  /* it did in the last one, whose history tells nothing of the next */
+    double *last;     /* y at a restart */
+    double share;     /* of tolerances: makes up for unknowns without error test in the norm */
+    double corrected; /* norm of Newton's last correction, in tolerances */
+    bool jumps;       /* unknowns without a rate may jump in the current step */
+    bool has_jumped;  /* they did in the last one, whose history is no guide to the next */
 } Ida;
 
 static const SundialsCalls calls = {
@@ -84,9 +84,9 @@ static void destroy(Stepper *stepper)
     sundials_destroy(stepper);
 }
 
-/* One over what an error of each unknown counts from. What has no rate follows from what has, and
- * is solved for more finely than a loose tolerance asks: a diode's voltage a tenth of a volt off is
- * no place to begin Newton's method from. */
+/* Inverse of each unknown's error tolerance. Unknowns without a rate depend on those with one, and
+ * are solved more finely than a loose tolerance requires: a diode's voltage with an error of a
+ * tenth of a volt is no starting point for Newton's method. */
 static int find_weights(N_Vector w, N_Vector weights, void *data)
 {
     Ida *d = data;
@@ -153,7 +153,7 @@ static int choose_sparse(Ida *d, const int *column)
 
 /* --- full Jacobians --- */
 
-/* column by column: each unknown moved alone, with its rate as the method ties it */
+/* column by column: each unknown is perturbed alone, with its rate as the method couples it */
 static bool difference(Ida *d, double t, double c, double *w, double *rate, const double *at,
                        const double *weights, double *out)
 {
@@ -214,8 +214,8 @@ static int choose_jacobian(Ida *d)
     return d->entry_count >= 0 ? choose_sparse(d, column) : choose_full(d);
 }
 
-/* The norm of errors divides by all unknowns: they are weighed so that only those count of which
- * errors do. */
+/* IDA divides the norm of errors by the number of all unknowns: the weights are scaled so that only
+ * tested ones count. */
 static int suppress(Ida *d)
 {
     const bool *is_tested = d->s.base.ode->dae.is_tested;
@@ -233,11 +233,11 @@ static int suppress(Ida *d)
     return code == 0 ? IDASetSuppressAlg(d->s.memory, SUNTRUE) : code;
 }
 
-/* Whether Newton's method has come near enough: its last correction is within the tolerance, and so
- * is what will follow. IDA takes fewer words for it, by how fast corrections have become less since
- * the first one, or in earlier steps: with the tangent of a diode that conducted then a step would
- * be believed that passes over its end, and from that of one that blocked, which leads far up the
- * exponential, the way back begins with a correction that is next to nothing beside it. */
+/* Convergence test of Newton's method: its last correction is within the tolerance, and so is the
+ * estimated rest. IDA requires less: the rate at which corrections decrease since the first one, or
+ * in earlier steps. With the tangent of a diode that conducted, it would accept a step that passes
+ * the end of conduction. With that of a diode that blocked, which leads far up the exponential, the
+ * way back begins with a correction that is almost 0 by comparison. */
 static int converges(SUNNonlinearSolver solver, N_Vector w, N_Vector correction, realtype tolerance,
                      N_Vector weights, void *data)
 {
@@ -302,7 +302,7 @@ static Status start(Stepper *stepper, double t, const double *y, Diag *diag)
     return code == 0 ? OK : solver_failure(diag, t, d->s.reason);
 }
 
-/* one step of IDA's own, to `end` at most */
+/* one internal step of IDA, at most to `end` */
 static int advance(Sundials *s, double end, double *reached)
 {
     int code = sundials_bound(s, end);
@@ -313,9 +313,10 @@ static int advance(Sundials *s, double end, double *reached)
     return code;
 }
 
-/* Whether the step to `reached`, taken after one of length `last`, knows its error. IDA tells the
- * error of a first-order step by how the slope changes over both; where the last one was far
- * longer, a slope that bends only in this one, as in a wall, seems to do so slowly. */
+/* Whether the error estimate of the step to `reached`, taken after one of length `last`, is
+ * reliable. IDA estimates the error of a first-order step from the change of slope over both steps.
+ * Where the last one was far longer, a slope that bends only in this one, as in a wall, appears to
+ * bend slowly. */
 static bool knows_its_error(const Sundials *s, double reached, double last)
 {
     int order = 0;
@@ -324,9 +325,9 @@ static bool knows_its_error(const Sundials *s, double reached, double last)
     return order > 1 || reached - s->base.t >= LONG_BEFORE * last;
 }
 
-/* One step from what the constraints leave of the last point, without a history: Newton's method
- * finds no way from that of a steep element, no step passes where the last point is off the
- * manifold by more than the tolerance, and what is off by less is no consistent start. */
+/* One step without a history from the last point, projected. Three reasons: Newton's method doesn't
+ * converge from the history of a stiff element; no step succeeds where the last point is off the
+ * manifold by more than the tolerance; a smaller distance still makes the start inconsistent. */
 static int begin_anew(Ida *d, double end, double *reached, Diag *diag)
 {
     Stepper *stepper = &d->s.base;
@@ -337,7 +338,7 @@ static int begin_anew(Ida *d, double end, double *reached, Diag *diag)
     if (ode->project != NULL) {
         memcpy(d->last, stepper->y, bytes);
         sound = ode->project(ode->context, stepper->t, stepper->y);
-        if (!sound) /* why is asked about the last point */
+        if (!sound) /* the cause is diagnosed at the last point */
             memcpy(stepper->y, d->last, bytes);
     }
     if (!sound || start(stepper, stepper->t, stepper->y, diag) != OK)
@@ -345,15 +346,16 @@ static int begin_anew(Ida *d, double end, double *reached, Diag *diag)
     return advance(&d->s, end, reached);
 }
 
-/* Whether the step just taken shows that steps get nowhere: they are shorter than time resolves. */
+/* Whether the step just taken shows that integration makes no progress: steps are shorter than the
+ * resolution of time. */
 static bool gets_nowhere(const Stepper *stepper, int code, double reached)
 {
     return code == IDA_ERR_FAIL || code == IDA_CONV_FAIL ||
            (code >= 0 && reached == stepper->t && stepper->stuck > 0);
 }
 
-/* The voltage of a diode that a coil's current leaves moves in some 1e-15 s, which no steps follow:
- * it goes to where it belongs in one, whose length the states choose. */
+/* The voltage of a diode that a coil's current leaves changes within some 1e-15 s, which no steps
+ * resolve: it changes in one step, whose length is chosen for the states. */
 static int jump(Ida *d, double end, double *reached, Diag *diag)
 {
     Stepper *stepper = &d->s.base;

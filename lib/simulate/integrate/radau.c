@@ -1,13 +1,13 @@
 /* radau.c: implicit Runge-Kutta of order 5 for stiff equations, three Radau IIA stages
  *
- * Hairer and Wanner (1996), Solving ODE II, IV.8: with stages y + z_i at c_i h,
- * z = h (A x 1) f(y + z), solved by simplified Newton with J = df/dy, kept while the iteration
- * contracts well. A^-1 = T diag(g, [a b; -b a]) T^-1 splits its linear system into a real one and a
- * complex one. Where stiff forces turn as the motion goes on, as those of a knife edge with damping
- * D, that contracts only while D turn^2 h^3 is below 1; Newton's method with J at each stage goes
- * on from there, (A^-1/h x 1 - diag(J_1, J_2, J_3)) delta = f - A^-1/h z. The error is that of
- * their embedded formula of order 3, filtered by (g/h - J)^-1 so that stiff parts don't blow it up.
- * Between the ends of a step the collocation polynomial is read, whose error the step control
+ * Hairer and Wanner (1996), Solving ODE II, IV.8: with stages y + z_i at c_i h, z = h (A x 1) f(y +
+ * z), solved by simplified Newton with J = df/dy, kept while the iteration contracts well. A^-1 = T
+ * diag(g, [a b; -b a]) T^-1 splits its linear system into a real one and a complex one. Where stiff
+ * forces change direction during the motion, as those of a knife edge with damping D, this
+ * contracts only while D turn^2 h^3 is below 1. Beyond that Newton's method uses J at each stage,
+ * (A^-1/h x 1 - diag(J_1, J_2, J_3)) delta = f - A^-1/h z. The error is that of their embedded
+ * formula of order 3, filtered by (g/h - J)^-1 so that stiff components don't dominate it. Between
+ * its ends a step is interpolated by the collocation polynomial, whose error the step control
  * bounds as well. */
 #include "simulate/integrate/shifted.h"
 
@@ -19,16 +19,16 @@
 #include <string.h>
 
 #define ITERATIONS 10
-#define FEW        40   /* unknowns, up to which all stages are solved for at once */
-#define REFRESH    1e-2 /* a contraction by Jacobians of the stages that calls for new ones */
+#define FEW        40   /* unknowns up to which all stages are solved for together */
+#define REFRESH    1e-2 /* a slower contraction needs new Jacobians of the stages */
 #define SAFETY     0.9
 #define SHRINK     0.125
 #define GROW       5.0
-#define CONTRACTS  1e-3 /* a Jacobian this good is kept */
-#define READ       30   /* tolerances: what doesn't add up may be off by more than a step */
-#define SETTLED    1e-9 /* of the run: what is over that soon may be left unresolved */
+#define CONTRACTS  1e-3 /* below this contraction a Jacobian is reused */
+#define READ       30   /* tolerances: error between steps, which doesn't add up */
+#define SETTLED    1e-9 /* of the run: shorter transients may be left unresolved */
 
-/* of s (s - c1) (s - c2) (s - 1): slopes at 0 and 1, and the most that it is between */
+/* of s (s - c1) (s - c2) (s - 1): slopes at 0 and 1, and largest value between */
 #define BEGINS  0.1
 #define ENDS    0.3
 #define BETWEEN 0.0183
@@ -42,7 +42,7 @@ static const double weights[3][3] = {
     {(296 + 169 * ROOT6) / 1800, (88 + 7 * ROOT6) / 360,     (-2 - 3 * ROOT6) / 225},
     {(16 - ROOT6) / 36,          (16 + ROOT6) / 36,          1.0 / 9},
 };
-/* of z in the error formula (IV.8.19), with the real eigenvalue g of A^-1 */
+/* factors of z in the error formula (IV.8.19), with the real eigenvalue g of A^-1 */
 static const double embedded[3] = {(-13 - 7 * ROOT6) / 3, (-13 + 7 * ROOT6) / 3, -1.0 / 3};
 static const double inverse[3][3] = { /* A^-1 */
     {(3.2247448713915890491),  (1.1678400846904054949),  (-0.25319726474218082619)},
@@ -66,23 +66,23 @@ static const double joined[3][3] = { /* T */
 
 typedef struct Radau {
     Stepper base;
-    int n, all; /* in the error test; with quadratures */
+    int n, all; /* entries in the error test; with quadratures */
     double *old, *old_rate, *rate, *scale;
     double *z, *f, *delta; /* 3 x all, 3 x all, 3 x n */
     double *point, *error, *column;
     double *part; /* 3 x n: of the split system */
     Shifted *shifted;
-    double factored; /* step that they belong to; 0: none */
-    bool fresh;      /* the Jacobian belongs to `old` */
-    bool is_linear;  /* it does as long as nothing starts anew */
+    double factored; /* step of the factors; 0: none */
+    bool fresh;      /* the Jacobian is that at `old` */
+    bool is_linear;  /* the equations are linear: it remains valid until a restart */
     double step;     /* of the last step */
-    double *slope;   /* n: that its polynomial ends with */
+    double *slope;   /* n: of its polynomial, at its end */
     double contraction;
     bool was_rejected;
-    /* of Newton's method with a Jacobian at each stage; NULL until one is needed */
+    /* for Newton's method with a Jacobian at each stage; NULL until that is needed */
     Lu *whole, *end;   /* 3n x 3n; n x n: g/h - J_3 */
     double *jacobians; /* 3 x all x n: rows of y' by n */
-    bool is_turning;   /* the simplified one failed: this one is taken first */
+    bool is_turning;   /* the simplified method failed: this one is tried first */
 } Radau;
 
 typedef enum StepOutcome { CONVERGED, DIVERGED, UNDEFINED } StepOutcome;
@@ -211,7 +211,7 @@ static void correct_stages(Radau *r, double h)
     combine(n, joined, r->part, r->delta);
 }
 
-/* where the last step's polynomial leads, as a first guess of the stages */
+/* initial guess of the stages: extrapolation of the last step's polynomial */
 static void guess_stages(Radau *r, double h, bool extrapolate)
 {
     if (!extrapolate || r->step == 0) {
@@ -236,7 +236,7 @@ static bool evaluate_stages(Radau *r, double h)
     return true;
 }
 
-/* Simplified Newton for the stages; *used tells its iterations. */
+/* Simplified Newton for the stages; *used becomes the number of iterations. */
 static StepOutcome solve_stages(Radau *r, double h, int *used)
 {
     int n = r->n, all = r->all;
@@ -257,7 +257,7 @@ static StepOutcome solve_stages(Radau *r, double h, int *used)
             for (int i = 0; i < n; i++)
                 r->z[k * all + i] += r->delta[k * n + i];
         *used = it;
-        if (r->is_linear) { /* that was all */
+        if (r->is_linear) { /* one iteration solves linear equations */
             r->contraction = 0;
             return CONVERGED;
         }
@@ -274,7 +274,7 @@ static StepOutcome solve_stages(Radau *r, double h, int *used)
     return DIVERGED;
 }
 
-/* A^-1/h x 1 - diag(J_1, J_2, J_3), factored, at the stages as they are */
+/* A^-1/h x 1 - diag(J_1, J_2, J_3), factored, at the current stages */
 static bool factor_whole(Radau *r, double h)
 {
     const int n = r->n, all = r->all, size = 3 * n;
@@ -341,7 +341,7 @@ static StepOutcome solve_stages_whole(Radau *r, double h, int *used)
     return DIVERGED;
 }
 
-/* The stages, by the cheaper way that leads there. */
+/* Solve for the stages, by the cheaper method that converges. */
 static StepOutcome find_stages(Radau *r, double h, int *used)
 {
     const bool is_small = r->n > 0 && r->n <= FEW && !r->is_linear && r->step > 0;
@@ -358,16 +358,16 @@ static StepOutcome find_stages(Radau *r, double h, int *used)
     return outcome;
 }
 
-/* A first step may begin on the very edge of a steep part, as where a contact ends. Then a Jacobian
- * from the far side makes Newton's corrections small wherever the stages are, and the error, too:
- * so the stages have to be right by the Jacobian at the step's end. */
+/* A first step may start on the very edge of a stiff region, as where a contact ends. Then a
+ * Jacobian from the other side makes Newton's corrections small whatever the residual of the
+ * stages, and the error too. So the stages have to converge with the Jacobian at the step's end. */
 static StepOutcome confirm_stages(Radau *r, double h, int *used)
 {
     const double end = r->base.before + h;
     StepOutcome outcome = CONVERGED;
 
     for (int round = 0; round < 2 && outcome == CONVERGED; round++) {
-        const double *rate = r->f + 2 * r->all; /* of the last stage, which is the end */
+        const double *rate = r->f + 2 * r->all; /* of the last stage, which is the step's end */
 
         if (!evaluate_stages(r, h))
             return UNDEFINED;
@@ -402,9 +402,9 @@ static double step_error(Radau *r, double h)
     double size;
 
     for (int pass = 0; pass < 2; pass++) {
-        /* A second look where the first says no at a start and all but no time is left: stiff parts
-         * that are not settled, or rounding. It takes whatever is stiff for what decays, which a
-         * mass in a hard wall doesn't, so longer steps are shortened instead. */
+        /* A second estimate where the first is too large at a start and the step is almost 0: fast
+         * transients that have not decayed, or rounding error. It assumes that all stiff components
+         * decay, which a mass in a hard wall doesn't, so longer steps are shortened instead. */
         const double *rate = pass == 0 ? r->old_rate : r->column;
 
         compare_embedded(r, rate, h);
@@ -422,8 +422,8 @@ static double step_error(Radau *r, double h)
     return fmax(size / stepper_rounding_error(&r->base), 1e-10);
 }
 
-/* The same by J_3: where stiff forces turn, J at the start filters out what isn't stiff at the end.
- */
+/* The same with J_3: where stiff forces change direction, J at the start filters out components
+ * that aren't stiff at the end. */
 static double error_at_end(Radau *r, double h)
 {
     const int n = r->n;
@@ -443,10 +443,10 @@ static double error_at_end(Radau *r, double h)
     return scaled_norm(r, r->error, 1) / stepper_rounding_error(&r->base);
 }
 
-/* Error of the cubic that is read within the step, in units of the tolerance. The embedded formula
- * hardly sees stiff parts, which are right at the stages whatever the step; between these the cubic
- * misses y(4)/24 s (s - c1) (s - c2) (s - 1) h^4, and y(4) is what the slopes of two cubics differ
- * by where they meet. */
+/* Error of the cubic that interpolates the step, in units of the tolerance. The embedded formula
+ * hardly detects stiff components, which are accurate at the stages for any step. Between these the
+ * error of the cubic is y(4)/24 s (s - c1) (s - c2) (s - 1) h^4, and y(4) is the difference of the
+ * slopes of two cubics where they meet. */
 static double reading_error(Radau *r, double h)
 {
     const double meet = ENDS * r->step * r->step * r->step + BEGINS * h * h * h;
@@ -459,7 +459,7 @@ static double reading_error(Radau *r, double h)
     return scaled_norm(r, r->error, 1) / stepper_rounding_error(&r->base);
 }
 
-/* the slope of the cubic at the step's end */
+/* slope of the cubic at the step's end */
 static void find_slope(Radau *r, double h)
 {
     for (int i = 0; i < r->n; i++) {
@@ -471,12 +471,12 @@ static void find_slope(Radau *r, double h)
     }
 }
 
-/* the new point at t, projected, and its rate */
+/* project the new point at t, and evaluate its rate */
 static bool settle(Radau *r, double t, double h)
 {
     const Ode *ode = r->base.ode;
 
-    /* quadratures want the rates at the stages as they have come out */
+    /* quadratures need the rates at the converged stages */
     if (r->is_linear && r->all > r->n && !evaluate_stages(r, h))
         return false;
     for (int i = 0; i < r->all; i++)
@@ -519,7 +519,7 @@ static double trim(const Radau *r, double h, double end)
     return h > 0.5 * left ? 0.5 * left : h;
 }
 
-/* One try; false: go on with the shorter step *h. */
+/* One trial step; false: continue with the shorter step *h. */
 static bool try_step(Radau *r, double *h, double end, int *failures)
 {
     double tried = trim(r, *h, end);
@@ -552,7 +552,7 @@ static bool try_step(Radau *r, double *h, double end, int *failures)
         *h = RETREAT * tried;
         return false;
     }
-    /* factors are kept where the step hardly changes */
+    /* factors are reused where the step hardly changes */
     if (factor_of > 1 && factor_of < 1.2)
         factor_of = 1;
     r->base.next = tried * factor_of;
@@ -582,7 +582,7 @@ static Status step(Stepper *stepper, double end, Diag *diag)
     while (!try_step(r, &h, end, &failures)) {
         r->base.counts.rejected++;
         r->was_rejected = true;
-        if (keep && !r->is_linear) /* it was an old Jacobian's fault, perhaps */
+        if (keep && !r->is_linear) /* perhaps the old Jacobian was the cause */
             r->fresh = keep = false;
         if (failures >= MAX_REJECTIONS)
             return solver_failure(diag, r->base.before,
@@ -617,7 +617,7 @@ static void at(Stepper *stepper, double t, double *y)
     for (int i = 0; i < r->all; i++)
         y[i] = r->old[i] + basis[0] * r->z[i] + basis[1] * r->z[r->all + i] +
                basis[2] * (r->base.y[i] - r->old[i]);
-    for (int i = r->n; i < r->all; i++) { /* quadratures have no stages: values and slopes */
+    for (int i = r->n; i < r->all; i++) { /* quadratures have no stages */
         double dy = r->base.y[i] - r->old[i], h = r->step;
 
         y[i] = r->old[i] + s * dy +
@@ -625,7 +625,7 @@ static void at(Stepper *stepper, double t, double *y)
     }
 }
 
-/* the stages of a step of length h instead of the last one, as its polynomial has them */
+/* initial guess of the stages of a step h in place of the last one, by its polynomial */
 static void guess_shorter(Radau *r, double h)
 {
     for (int k = 0; k < 3; k++)
@@ -644,7 +644,7 @@ static Status shorten(Stepper *stepper, double t, Diag *diag)
     int used;
     Status status = OK;
 
-    if (h <= 0) { /* back to where the step began */
+    if (h <= 0) { /* return to the start of the step */
         r->base.t = r->base.before;
         memcpy(r->base.y, r->old, (size_t)r->all * sizeof(double));
         memcpy(r->rate, r->old_rate, (size_t)r->all * sizeof(double));

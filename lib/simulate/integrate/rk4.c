@@ -1,7 +1,7 @@
 /* rk4.c: the classical Runge-Kutta method with fixed steps and projection
  *
- * Its use is a run in known time, and a comparison. Between the ends of a step the cubic through
- * both points and slopes is read (error of order 4, as the method's). */
+ * For runs of known cost, and for comparison. Between its ends a step is interpolated by the cubic
+ * through both points and slopes (error of order 4, as the method's). */
 #include "simulate/integrate/fixed.h"
 
 #include "base/memory.h"
@@ -15,7 +15,7 @@ typedef struct Rk4 {
     double *earlier, *half; /* rates at the start of the step before, and half way */
 } Rk4;
 
-/* leaves the new point projected and its rate */
+/* computes the new point, projected, and its rate */
 static bool advance(FixedStepper *f, double h, double end)
 {
     static const double node[4] = {0, 0.5, 0.5, 1};
@@ -39,9 +39,9 @@ static bool advance(FixedStepper *f, double h, double end)
     return stepper_rate(&f->base, end, f->base.y, f->rate);
 }
 
-/* By how much the slope of what is read between the ends of the step misses the equations half way,
- * which is of order 4, one less than the error itself; and what Simpson's rule leaves of rates that
- * follow the time, by their fourth difference over this step and the one before. */
+/* Error estimate of order 4, one less than the error itself: the defect of the interpolated slope
+ * half way; and the error of Simpson's rule for rates that depend on time, by their fourth
+ * difference over this step and the one before. */
 static double error_of(const FixedStepper *f, double h, int i)
 {
     const Rk4 *r = (const Rk4 *)f;

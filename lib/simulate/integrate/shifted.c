@@ -1,4 +1,4 @@
-/* shifted.c: (s - J) d = b, dense, in a Hessenberg form or by a network's sparse equations */
+/* shifted.c: (s - J) d = b, dense, in Hessenberg form or by a network's sparse equations */
 #include "simulate/integrate/shifted.h"
 
 #include "algebra/linear.h"
@@ -18,7 +18,7 @@ struct Shifted {
     /* dense */
     double *jacobian, *point, *column; /* rows of y' by n; y; its rate */
     Condensed *dense;
-    /* of linear equations, where there are few: kept by them, or else here */
+    /* of linear equations with few states: owned by them, or else here */
     const HessenbergForm *form;
     HessenbergForm *own_form;
     ShiftedFactors *form_real, *form_pair;
@@ -28,7 +28,7 @@ struct Shifted {
     double *still, *moving;
     double *w, *w_rate, *right, *values;
     Sparse *sparse_real, *sparse_pair;
-    Sparse *rates; /* dF by the rates of y and the rest of w, where there are few */
+    Sparse *rates; /* dF by the rates of y and the rest of w, where y has few entries */
 };
 
 static bool is_sparse(const Shifted *s)
@@ -77,7 +77,7 @@ static bool by_differences(Shifted *s, double t, const double *y, const double *
 {
     int n = s->n;
 
-    /* of straight lines a long difference is the most exact */
+    /* for linear equations a long difference is the most accurate */
     double straight = s->is_linear ? fmax(1e-3, vector_largest(y, n)) : 0;
 
     memcpy(s->point, y, (size_t)(n + s->ode->quadratures) * sizeof(double));
@@ -96,8 +96,8 @@ static bool by_differences(Shifted *s, double t, const double *y, const double *
     return true;
 }
 
-/* the pattern of s - J, and the same of a complex s in real numbers: [a b; -b a], where only dF/dw'
- * has a part in b */
+/* The pattern of s - J, and that of a complex s in real numbers: [a b; -b a], where dF/dw' alone
+ * contributes to b. */
 static void find_pattern(Shifted *s)
 {
     int n = s->ode->dae.n;
@@ -140,8 +140,8 @@ static bool by_equations(Shifted *s, double t, const double *y)
     return true;
 }
 
-/* The same, dense, without an evaluation for each state: dF/dw' y' + dF/dz z' + dF/dy = 0 column by
- * column. */
+/* The same, dense, without an evaluation for each state: dF/dw' y' + dF/dz z' + dF/dy = 0, column
+ * by column. */
 static bool by_rates(Shifted *s, double t, const double *y)
 {
     const int n = s->n, all = n + s->ode->quadratures, size = s->ode->dae.n;
@@ -164,7 +164,7 @@ static bool by_rates(Shifted *s, double t, const double *y)
     return vector_is_finite(s->jacobian, n * n);
 }
 
-/* as the problem tells it */
+/* from the problem */
 static bool by_problem(Shifted *s, double t, const double *y)
 {
     const OdeJacobian *jacobian = &s->ode->jacobian;
@@ -181,7 +181,7 @@ static bool find_dense(Shifted *s, double t, const double *y, const double *rate
            by_differences(s, t, y, rate);
 }
 
-/* J of linear equations, in its form for many shifts */
+/* J of linear equations, in Hessenberg form */
 static bool find_form(Shifted *s, double t, const double *y, const double *rate)
 {
     const Dae *dae = &s->ode->dae;
@@ -270,7 +270,7 @@ bool shifted_factor(Shifted *s, double shift, double alpha, double beta)
     return sparse_factor(s->sparse_pair, s->values);
 }
 
-/* dF/dw' b, for a part of y only */
+/* dF/dw' b, for the part of b that belongs to y */
 static void bring_right(const Shifted *s, const double *b, double *out)
 {
     memset(out, 0, (size_t)s->ode->dae.n * sizeof(double));

@@ -1,39 +1,39 @@
-/* stagnation.c: whether steps get anywhere, or are as short as rounding makes them */
+/* stagnation.c: whether steps make progress, or are as short as rounding error makes them */
 #include "simulate/integrate/stagnation.h"
 
 #include "base/memory.h"
 
 #include <math.h>
 
-#define STEPS        5000  /* so many ought to go */
-#define PART         5e-3  /* this part of the run; else it would take a million and more */
-#define NOTICED      0.01  /* of the tolerance */
-#define HOPELESS     1e-9  /* less of the run: time itself has hardly more digits */
-#define POINTS       64    /* on the way ahead, over this */
-#define AHEAD        0.06  /* of a step: the motion itself hardly bends */
+#define STEPS        5000  /* steps between checks, */
+#define PART         5e-3  /* least part of the run that they cover; else it takes a million */
+#define NOTICED      0.01  /* times the tolerance */
+#define HOPELESS     1e-9  /* of the run: shorter than this is close to the resolution of time */
+#define POINTS       64    /* of time ahead, over this */
+#define AHEAD        0.06  /* of a step: the motion itself is almost straight */
 #define ORDER        4     /* of differences, */
-#define GROWN        8     /* by which noise grows so much (root of 70) */
+#define GROWN        8     /* factor by which they amplify noise (root of 70) */
 #define ENOUGH_STEPS 1e4   /* of a run whose tolerance is attainable */
-#define FINE         1e-10 /* one that rounding allows nearly everywhere */
+#define FINE         1e-10 /* a tolerance that rounding allows almost everywhere */
 #define COARSEST     1e-7  /* a tolerance that is worth trying */
 
-/* steps: what they get over together is compared with that of those before */
+/* steps whose total length is compared with that of those before */
 #define DWINDLING 200
-#define WANING    3 /* times on end that it has become less, */
-#define LESS      0.5 /* this part of it: a transient's steps grow, those that stability bounds sway */
-#define SHORT     1e-6 /* of the run, each time */
+#define WANING    3    /* checks in succession with a decrease, */
+#define LESS      0.5  /* by this factor: steps of transients grow, at stability limits vary */
+#define SHORT     1e-6 /* of the run, at each check */
 
-/* Whether the method takes its steps by rates as a function of y alone. One that solves for a
- * network's unknowns together with its states doesn't read what rounding of a coil's current leaves
- * of a diode's voltage. */
+/* Whether the method evaluates rates as a function of y alone. One that solves for a network's
+ * unknowns together with its states isn't affected by the rounding error of a coil's current in a
+ * diode's voltage. */
 static bool goes_by_rates(const Stepper *s)
 {
     return !s->method->solves_dae || s->ode->dae.has_rate == NULL;
 }
 
-/* Largest part of its tolerance that rounding leaves of an entry's rate, times h: what is rough of
- * rates on the way ahead, by their fourth differences. (Last bits of y may leave them as they are
- * where a sum that loses most of its terms, as of masses decades apart, goes in steps.) */
+/* Largest rounding error of an entry's rate times h, in tolerances: the roughness of rates at
+ * points ahead, by their fourth differences. (Last bits of y may leave rates unchanged where a sum
+ * that loses most of its terms, as of masses decades apart, changes in steps.) */
 static double rounding(Stepper *s, double h)
 {
     const int all = stepper_length(s), length = POINTS * all;
@@ -60,7 +60,8 @@ static double rounding(Stepper *s, double h)
     return largest;
 }
 
-/* one whose steps rounding may limit less: one for stiff equations damps what it leaves of rates */
+/* a method whose steps rounding may limit less: one for stiff equations damps rounding errors of
+ * rates */
 static const Method *other_method(const Stepper *s)
 {
     const bool stiff = s->method->is_stiff;
@@ -100,8 +101,8 @@ static Status report_too_small(const Stepper *s, Diag *diag)
     return E_SOLVER;
 }
 
-/* Towards a place where the solution ends steps become ever shorter, by as much as rounding leaves
- * of the rates there: thousands of them. A tolerance below that is another matter. */
+/* Towards a singularity of the solution steps become ever shorter, down to the rounding error of
+ * the rates: thousands of them. A tolerance below rounding error is another case. */
 static bool wanes(Stepper *s)
 {
     StepShrinkage *w = &s->step_shrinkage;
@@ -132,7 +133,7 @@ Status stagnation_check(StagnationMonitor *stagnation, Stepper *s, int64_t steps
     h = way / (double)count;
     stagnation->steps = steps;
     stagnation->t = s->t;
-    /* short steps that were asked for are as they should be */
+    /* the user requested short steps */
     if (!(way < PART * s->control.span) || 2 * h > control_asked(&s->control))
         return OK;
     if (way < HOPELESS * s->control.span)

@@ -1,9 +1,9 @@
-/* stepper.c: what steppers of all methods begin and end with */
+/* stepper.c: functions that steppers of all methods share */
 #include "simulate/integrate/ode.h"
 
 #include <string.h>
 
-#define STUCK 10 /* steps on end that end where they began */
+#define STUCK 10 /* steps in succession that end where they began */
 
 void stepper_init(Stepper *s, const Method *method, const Ode *ode, const Control *control)
 {
@@ -53,7 +53,7 @@ Status stepper_arrive(Stepper *s, double reached, double h, double next, Diag *d
     s->before = before;
     if (reached > before)
         s->stuck = 0;
-    else if (next <= h) /* the short first steps of a start grow out of it */
+    else if (next <= h) /* the short first steps after a start grow */
         s->stuck++;
     if (s->stuck >= STUCK)
         return solver_failure(diag, before, "the step became too small");

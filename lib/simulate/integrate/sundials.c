@@ -1,4 +1,4 @@
-/* sundials.c: beginnings and ends of integrations by SUNDIALS */
+/* sundials.c: start and end of integrations by SUNDIALS */
 #include "simulate/integrate/sundials.h"
 
 #include <string.h>
@@ -62,7 +62,7 @@ double sundials_quadrature_error(Sundials *s, double value, double rate)
 
     if (isfinite(rate))
         s->power = fmax(s->power, fabs(rate));
-    /* what begins to act out of nothing is to be noticed by what it moves */
+    /* a pulse that starts from rest is detected by what it moves */
     if (!(s->power > control->atol) || !(control->span > 0))
         return SUNDIALS_ANY;
     return part * (control->rtol * (fabs(value) + s->power * control->span) + control->atol);
@@ -73,7 +73,7 @@ int sundials_bound(Sundials *s, double end)
     const double most = stepper_allowed(&s->base, control_largest(&s->base.control));
     int code = s->calls->set_stop_time(s->memory, stepper_stop(&s->base, end));
 
-    if (code == 0) /* growth is bounded there; a stop time cuts a step that is grown already */
+    if (code == 0) /* growth is bounded there; a stop time only cuts a grown step */
         code = s->calls->set_max_step(s->memory, most);
     if (code == 0 && s->is_new)
         code = s->calls->set_first_step(s->memory, s->base.next);
@@ -114,7 +114,7 @@ static const char *reason_of(const Sundials *s, int code)
     case 11:
     case 12:
         return "the equations have no solution just behind this instant";
-    case 22: /* h0 or a distance that time itself can't tell */
+    case 22: /* h0 or a distance below the resolution of time */
     case 27:
         return "the step became too small";
     default:
@@ -122,8 +122,8 @@ static const char *reason_of(const Sundials *s, int code)
     }
 }
 
-/* Newton's method gets no further than rounding lets it, least where multipliers are among the
- * unknowns and a position is nearly singular. */
+/* Newton's method is limited by rounding error, most where multipliers are among the unknowns and a
+ * position is nearly singular. */
 static void hint_at_way_out(Diag *diag)
 {
     diag_hint(diag, "method=%s may get further; so may a coarser rtol=",
@@ -158,7 +158,7 @@ void sundials_destroy(Stepper *stepper)
     stepper_free(stepper);
 }
 
-/* that derivative of the history's polynomial */
+/* a derivative of the history's polynomial, of this order */
 static bool read_history(Sundials *s, double t, int order, double *out)
 {
     if (s->calls->get_derivative(s->memory, t, order, s->out) != 0)

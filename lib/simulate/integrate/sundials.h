@@ -1,7 +1,7 @@
-/* sundials.h: what the multistep methods of SUNDIALS share
+/* sundials.h: shared by the multistep methods of SUNDIALS
  *
- * They run without projection: their history isn't on the manifold, and what is read from a step is
- * projected by whoever reads it. They restart at order 1 after a jump. */
+ * They run without projection: their history isn't on the manifold, and the reader of a step
+ * projects its values. They restart at order 1 after a jump. */
 #ifndef COTREE_SIMULATE_INTEGRATE_SUNDIALS_H
 #define COTREE_SIMULATE_INTEGRATE_SUNDIALS_H
 
@@ -15,10 +15,10 @@
 #include <sundials/sundials_nonlinearsolver.h>
 #include <sundials/sundials_types.h>
 
-#define SUNDIALS_ANY   1e20   /* a tolerance that nothing comes near */
-#define SUNDIALS_TRIES 100000 /* inner steps it may take for one of ours: one mode makes one */
+#define SUNDIALS_ANY   1e20   /* a tolerance that is never exceeded */
+#define SUNDIALS_TRIES 100000 /* internal steps for one of ours: one mode makes one */
 
-/* the functions of one of its solvers that are alike in all; they return 0 where all went well */
+/* functions with the same meaning in all of its solvers; they return 0 on success */
 typedef struct SundialsCalls {
     void (*free)(void **memory);
     int (*set_stop_time)(void *memory, realtype t);
@@ -36,25 +36,26 @@ typedef struct Sundials {
     Stepper base;
     const SundialsCalls *calls;
     Cleanup cleanup;
-    int all, n; /* entries of y; of what is integrated, of which y are the first */
+    int all, n; /* entries of y; of the integrated unknowns, the first of which are y */
     SUNContext context;
     void *memory; /* the solver */
     N_Vector w, out;
-    N_Vector rate; /* w', of implicit equations; else NULL */
+    N_Vector rate; /* w', of implicit equations; NULL otherwise */
     SUNMatrix matrix;
     SUNLinearSolver linear;
     SUNNonlinearSolver nonlinear;
     Counts earlier;     /* of integrations before the last restart */
-    bool is_new;        /* no step since then */
+    bool is_new;        /* no step since the last restart */
     double jacobian_at; /* s */
-    /* of explicit ones 1 - gamma J: J row by row, all x n, that of y first, and in parts; NULL:
-     * none yet */
+    /* of explicit ones 1 - gamma J: J row by row, all x n, that of y first, and its partition;
+     * NULL: none yet */
     double *jacobian;
     Condensed *condensed;
     double gamma;
-    /* by Newton's method: the last correction, in tolerances, and how fast they become less */
+    /* of Newton's method: its last correction, in tolerances, and the rate at which corrections
+     * decrease */
     double corrected, becoming;
-    double power; /* largest rate of a quadrature so far: what its errors count beside */
+    double power; /* largest rate of a quadrature so far: scale of its errors */
     char reason[200];
 } Sundials;
 
@@ -62,22 +63,22 @@ typedef struct Sundials {
  * memory next. */
 void sundials_init(Sundials *s, const SundialsCalls *calls, const Method *method, const Ode *ode,
                    const Control *control, int n);
-/* its own words belong into our message, not on the terminal */
+/* stores its message for our diag instead of printing it */
 void sundials_store_reason(int code, const char *module, const char *function, char *message,
                            void *stepper);
-/* y becomes that of a restart, w too; counts begin from those before. */
+/* Set y of a restart, and w; counts continue from those before. */
 void sundials_place(Sundials *s, double t, const double *y);
-/* What a step may be off in a quadrature that is `value` and changes by `rate` now, in its unit.
- * Where all that it follows from rests or goes straight, no error of that keeps steps short enough
- * for it: the work of a brake that holds what a spring pulls. */
+/* The error that a step may have in a quadrature that is `value` and changes by `rate` now, in its
+ * unit. Where all that it depends on is at rest or changes linearly, no error of that limits steps
+ * for it. Example: the work of a brake that holds against a spring. */
 double sundials_quadrature_error(Sundials *s, double value, double rate);
-/* How far the solver may go from here: no step beyond `end`, and none longer than allowed. */
+/* Limit the solver from here: no step beyond `end`, and none longer than allowed. */
 int sundials_bound(Sundials *s, double end);
 /* after a step: counts so far */
 void sundials_count(Sundials *s);
-/* after a step that failed, with its solver's code: E_SOLVER, in our words */
+/* after a failed step, with its solver's code: reports E_SOLVER */
 MUST_USE Status sundials_failure(Sundials *s, int code, Diag *diag);
-/* after a step that went well, to `reached` */
+/* after a successful step, to `reached` */
 MUST_USE Status sundials_arrive(Sundials *s, double reached, Diag *diag);
 
 /* of a Method's row; the matrix and solvers that it was given are freed with it */
