@@ -94,7 +94,7 @@ static Expr available(const AngleSharing *angles, Op op, Expr angle, unsigned gr
     return negative ? expr_neg(angles->arena, angles->images.at[place]) : angles->images.at[place];
 }
 
-/* sin or cos of a + b; NULL where what it takes isn't there */
+/* sin or cos of a + b; NULL where an operand is missing */
 static Expr added(const AngleSharing *angles, Op op, Expr a, Expr b, unsigned groups)
 {
     Arena *arena = angles->arena;
@@ -153,7 +153,7 @@ static void sort_calls(const AngleSharing *angles, Trig *calls)
         qsort(calls, (size_t)count, sizeof *calls, by_size);
 }
 
-/* Decide on every call; `from` and `to` get those that aren't computed as they stand. */
+/* Decide for every call; `from` and `to` receive those that are replaced. */
 static int find_images(AngleSharing *angles, Expr *from, Expr *to)
 {
     int count = angles->calls.count;

@@ -1,9 +1,9 @@
 /* arena.c: nodes, each made once
  *
- * Nodes lie in a pool and never move. An open table with linear probing finds the
- * node of given contents. Nodes are forgotten only newest first, and a growing table
- * takes them over oldest first; so the slot of a forgotten node is on nobody's way
- * and can simply be emptied. The same holds for the remembered derivatives. */
+ * Nodes are allocated in a pool and never move. An open hash table with linear probing finds the
+ * node of given contents. Nodes are removed newest first, and a growing table inserts them oldest
+ * first. So no probe sequence of a remaining node passes the slot of a removed one, and the slot
+ * can simply be emptied. The same applies to stored derivatives. */
 #include "expr/expr_impl.h"
 
 #include <assert.h>
@@ -27,8 +27,8 @@ typedef struct Slot {
     uint32_t id; /* number + 1; 0: empty */
 } Slot;
 
-/* a derivative that was found, or what else follows: `symbol` is a number
- * that tells what: 0 the node without holds, else of a tuple */
+/* a stored derivative, or another stored result; then `symbol` is a number that distinguishes them:
+ * 0 the node without holds, else a result of a tuple */
 typedef struct Memory {
     Expr e;
     Expr symbol;
@@ -53,13 +53,13 @@ struct Arena {
     LIST(Memory) memories;
     Slot *memory_slots;
     uint32_t memory_size;
-    LIST(Made) made; /* the one asked for last at the end */
+    LIST(Made) made; /* the most recently used one at the end */
     Expr zero;
     Expr one;
-    Expr whole[WHOLES];   /* whole numbers, as far as they were asked for */
+    Expr whole[WHOLES];   /* integers, as far as they have been used */
     Renamings *renamings; /* NULL: none */
     void (*release_renamings)(Renamings *renamings);
-    int touched; /* how often these were given something new */
+    int touched; /* how often these were changed */
     int64_t limit;
     Status status;
     const char *failure;
@@ -159,8 +159,7 @@ static void drop_newer(void *object)
             arena->memory_slots[i] = (Slot){0, 0};
 }
 
-/* Before anything of the arena's is changed. What a call adds and doesn't come to an end with is
- * as if it had never been there. */
+/* Call this before changing anything of the arena. What an interrupted call has added is undone. */
 static inline void arena_keep_whole(Arena *arena)
 {
     if (transaction_now == NULL || piece_of(arena)->kept == transaction_now->number)
@@ -184,7 +183,7 @@ static void table_grow(Arena *arena, uint32_t size)
 
 /* --- nodes --- */
 
-/* The slot of the node of these contents, or an empty one where it is to be put. */
+/* The slot of the node of these contents, or the empty slot for it. */
 static uint32_t slot_of(const Arena *arena, uint32_t hash, ExprKind kind, unsigned op,
                         const void *words, int count)
 {
@@ -210,8 +209,7 @@ static inline Expr at_slot(const Arena *arena, uint32_t slot)
     return arena->slots[slot].id != 0 ? arena->nodes.at[arena->slots[slot].id - 1] : NULL;
 }
 
-/* A new node, found from an empty slot on, with room for `size` bytes behind its head that hold
- * anything. */
+/* A new node, entered at an empty slot, followed by `size` uninitialised bytes. */
 static inline struct ExprNode *node_new(Arena *arena, uint32_t hash, uint32_t slot, size_t size)
 {
     struct ExprNode *node;
@@ -331,7 +329,7 @@ static uint32_t symbol_hash(const char *name, SymbolKind kind)
     return hash_words(EXPR_SYMBOL, &h, 1);
 }
 
-/* the slot of a symbol, or an empty one where it is to be put */
+/* the slot of a symbol, or the empty slot for it */
 static uint32_t symbol_slot(const Arena *arena, uint32_t hash, const char *name, SymbolKind kind)
 {
     uint32_t i = hash & (arena->size - 1);
@@ -512,7 +510,7 @@ bool expr_recall(Arena *arena, Expr tuple, int which, void *out, size_t size)
 
 enum { MOST_MADE = 16 };
 
-/* take one out of the list; the others keep their order */
+/* remove one from the list; the order of the others is unchanged */
 static Made take_made(Arena *arena, int i)
 {
     const Made taken = arena->made.at[i];
@@ -684,7 +682,7 @@ ArenaMark *arena_mark(Arena *arena)
     return mark;
 }
 
-/* Lists keep nothing of what is gone: places of before may be anybody's later. */
+/* Remove released nodes from the lists: their addresses may be reused. */
 void arena_release(Arena *arena, ArenaMark *mark)
 {
     arena_keep_whole(arena);

@@ -1,7 +1,7 @@
 /* call.c: functions: their values and exact simplifications
  *
- * v_name computes the function of a row of ops.def; what it is at certain arguments stands in
- * `exact`. */
+ * v_name computes the function of a row of ops.def; its exact values at certain arguments are
+ * listed in `exact`. */
 #include "expr/expr_impl.h"
 
 #include "algebra/elementary.h"
@@ -106,7 +106,7 @@ typedef struct Exact {
     Op inverse;
     bool commutes;
     bool picks;                                   /* compares or chooses: exact for any numbers */
-    Expr (*rule)(Arena *arena, const Expr *args); /* what else; NULL where it finds nothing */
+    Expr (*rule)(Arena *arena, const Expr *args); /* other rules; returns NULL if none applies */
 } Exact;
 
 static Expr exact_sqrt(Arena *arena, const Expr *args)
@@ -312,7 +312,7 @@ static Expr pick_exactly(Arena *arena, Op op, const Expr *args)
     return expr_real(arena, op_value(op, values));
 }
 
-/* The number that a function of numbers is, or NULL where it stays. */
+/* The value of a function of numbers, or NULL where the call remains. */
 static Expr fold_numbers(Arena *arena, Op op, const Expr *args)
 {
     double values[3] = {0};

@@ -1,14 +1,14 @@
-/* collect.c: common factors taken out of sums
+/* collect.c: factors common terms out of sums
  *
- * Of the factors that several terms share, the one whose taking out saves most
- * operations goes first, together with all else that those terms have in common. What
- * is left inside, and the new terms among each other, are collected in the same way.
+ * Of the factors that several terms share, the one that saves most operations is factored out
+ * first, together with all other common factors of those terms. The remaining sums, and the new
+ * terms, are collected in the same way.
  *
- * Which factor is best is kept in a heap; a factor whose terms went elsewhere in the
- * meantime sinks back when its turn comes. */
+ * A heap orders factors by savings. A factor whose terms were used by another one in the meantime
+ * is moved down when it reaches the top. */
 #include "expr/expr_impl.h"
 
-/* how often factors are taken out of what was inside, and out of the outcome */
+/* how often the inner sums, and the result, are collected again */
 enum { MOST_LEVELS = 40, MOST_ROUNDS = 6 };
 
 typedef struct Shared {
@@ -118,7 +118,7 @@ static Expr common_factor(Arena *arena, const Expr *terms, int count)
 
 static Expr collect_sum(Arena *arena, Expr sum, int level);
 
-/* The terms with their common factor taken out; their plain sum where that saves nothing. */
+/* The terms with their common factor factored out; their plain sum if that saves nothing. */
 static Expr take_out(Arena *arena, const Expr *terms, int count, int level)
 {
     Expr common = common_factor(arena, terms, count);
@@ -134,7 +134,7 @@ static Expr take_out(Arena *arena, const Expr *terms, int count, int level)
     return operations(taken) < operations(plain) ? taken : plain;
 }
 
-/* Take the factor out of the terms that still have it; the outcome goes to `out`. */
+/* Factor it out of the terms that still have it; the result is *out. */
 static void take_group(Collect *collect, int factor, int level, Expr *out)
 {
     const Shared *shared = &collect->shared.at[factor];
@@ -147,7 +147,7 @@ static void take_group(Collect *collect, int factor, int level, Expr *out)
     *out = take_out(collect->arena, terms.at, terms.count, level);
     LIST_FREE(terms);
     if ((*out)->kind == EXPR_SUM) {
-        *out = NULL; /* nothing saved: the terms stay for others */
+        *out = NULL; /* nothing saved: the terms remain available to other factors */
         return;
     }
     for (int i = 0; i < shared->terms.count; i++) {

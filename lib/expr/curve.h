@@ -1,7 +1,7 @@
 /* curve.h: data as a function: a natural cubic spline through points
  *
- * Between the points value, slope and curvature are continuous; outside the value stays that of the
- * end, and the slope is 0. */
+ * Between the points value, slope and curvature are continuous; outside, the value is that of the
+ * end point, and the slope is 0. */
 #ifndef COTREE_EXPR_CURVE_H
 #define COTREE_EXPR_CURVE_H
 
@@ -9,7 +9,7 @@ typedef struct Curve {
     int count;    /* of points, at least 2 */
     double *data; /* 3 x count: x, which grows, y, and y'' at the points */
     char *file;   /* as the user calls it */
-    char *column; /* its name or number; "" where none was said */
+    char *column; /* its name or number; "" if none was given */
 } Curve;
 
 enum { CURVE_ORDERS = 4 }; /* value, and derivatives that needn't be 0 */

@@ -113,7 +113,7 @@ static Expr node_rate(const Pass *pass, Expr e)
         return power_rate(pass, e);
     case EXPR_CALL:
         return call_rate(pass, e);
-    default: /* a symbol that stands still */
+    default: /* a constant symbol */
         return arena_zero(pass->arena);
     }
 }

@@ -5,7 +5,7 @@
 
 enum { NODE_WORK = 32 }; /* of a node, for transaction_worked() */
 
-/* of a node that is no symbol, given the values of its arguments */
+/* value of a node that is no symbol, from the values of its arguments */
 static double node_value(Expr e, const double *args)
 {
     double value;
@@ -32,7 +32,7 @@ static double node_value(Expr e, const double *args)
     }
 }
 
-/* the table of data is asked in the place of its symbol */
+/* the data table is evaluated in place of its symbol */
 static double symbol_value(Expr symbol, SymbolValue value, void *context)
 {
     return expr_data(symbol) != NULL ? 0 : value(context, symbol);

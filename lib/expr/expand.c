@@ -5,7 +5,7 @@
 #include <math.h>
 
 typedef struct Expand {
-    unsigned kinds; /* sums without symbols of these kinds stay as they are */
+    unsigned kinds; /* sums without symbols of these kinds are unchanged */
     int limit;      /* of terms */
     bool kept;      /* such a sum is a factor somewhere */
 } Expand;
@@ -15,7 +15,7 @@ static bool is_open(const Expand *expand, Expr e)
     return e->kind == EXPR_SUM && (e->kinds & expand->kinds) != 0;
 }
 
-/* a sum that stays, or a power of one */
+/* an unchanged sum, or a power of one */
 static bool is_kept(const Expand *expand, Expr factor)
 {
     if (factor->kind == EXPR_POWER)
@@ -32,7 +32,7 @@ static int terms_of(const Expand *expand, const Expr *e, const Expr **terms)
     return open ? (*e)->count : 1;
 }
 
-/* a*b, multiplied out; NULL where that takes too many terms */
+/* a*b, multiplied out; NULL if that gives too many terms */
 static Expr multiply_out(Arena *arena, const Expand *expand, Expr a, Expr b)
 {
     const Expr *left;

@@ -8,16 +8,16 @@
  * nested sums and products flatten. Nothing is multiplied out, and no two terms of
  * a sum are searched for a trigonometric partner: that is expr_fold(), on request.
  *
- * Builders don't return errors. The arena remembers its first failure (division by
- * zero, a size beyond all bounds) and hands out a harmless node; whoever called the
- * last builder asks arena_status() once.
+ * Builders don't return errors. The arena records its first failure (division by zero, a size
+ * beyond all bounds) and returns a valid node without meaning. After the last builder the caller
+ * checks arena_status() once.
  *
- * Terms and factors stand in a stable order: by kind, then the order in which their
- * symbols were made, then structure; never by address.
+ * The order of terms and factors is stable: by kind, then the order in which their symbols were
+ * made, then structure; never by address.
  *
- * What has several forms has one here: minus a sum is the sum of the negatives, and a sum
- * that is a factor, an argument of sin or the like has no minus sign before its first term
- * (x*(b - a) is -x*(a - b)); half powers are whole powers of a sqrt; a > b is b < a. */
+ * Equal forms have one normal form here: minus a sum is the sum of the negatives, and a sum that is
+ * a factor, an argument of sin or the like has no minus sign before its first term (x*(b - a) is
+ * -x*(a - b)); half powers are whole powers of a sqrt; a > b is b < a. */
 #ifndef COTREE_EXPR_EXPR_H
 #define COTREE_EXPR_EXPR_H
 
@@ -49,7 +49,7 @@ typedef enum Op {
     OP_COUNT
 } Op;
 
-/* What a symbol stands for decides the stage in which it is known. */
+/* The kind of a symbol determines the stage in which its value is known. */
 typedef enum SymbolKind {
     SYMBOL_PARAMETER,    /* known before a run */
     SYMBOL_TIME,         /* t */
@@ -62,10 +62,10 @@ typedef enum SymbolKind {
     SYMBOL_MULTIPLIER,   /* an entry of lambda */
     SYMBOL_EFFORT,       /* an unknown driver effort, or a source that a driver finds */
     SYMBOL_JERK,         /* an entry of u'' (inverse runs) */
-    SYMBOL_TURN,         /* what an angle of full turns lies next to: kept beside q */
+    SYMBOL_TURN,         /* reference of a multi-turn angle: stored in addition to q */
     SYMBOL_VARIABLE,     /* a name of the user's that formulation replaces: h9.fx, h8'' */
     SYMBOL_ARGUMENT,     /* an argument of a law */
-    SYMBOL_TABLE         /* data of a table; no expr_kinds() tells of it */
+    SYMBOL_TABLE         /* data of a table; not included in expr_kinds() */
 } SymbolKind;
 
 /* --- the arena --- */
@@ -81,11 +81,12 @@ int64_t arena_limit(Arena *arena, int64_t nodes);
 
 /* Scratch work: whatever was built after the mark is forgotten by the release. */
 typedef struct ArenaMark ArenaMark;
-ArenaMark *arena_mark(Arena *arena); /* new; given back to arena_release() or arena_retain() */
+ArenaMark *arena_mark(Arena *arena); /* new; freed by arena_release() or arena_retain() */
 void arena_release(Arena *arena, ArenaMark *mark);
 void arena_retain(Arena *arena, ArenaMark *mark);
-/* What somebody made of expressions, to be asked for again: the arena keeps the last few, each
- * until a release takes a node that it was made of. `newest` is the greatest number of these. */
+/* A cache of results that callers made of expressions. The arena stores the last few, each until a
+ * release removes a node that it was made of. `newest` is the greatest creation number of these
+ * nodes. */
 typedef struct Made {
     uint64_t hash;
     uint32_t newest;
@@ -99,12 +100,12 @@ void arena_end_made(Arena *arena, bool (*is)(const void *object, const void *ask
 /* one of that hash for which `is` holds, or NULL */
 void *arena_find_made(Arena *arena, uint64_t hash,
                       bool (*is)(const void *object, const void *asked), const void *asked);
-/* Several expressions as one, to tell by its pointer whether something is the same. */
+/* Several expressions as one node, so that equality is a comparison of pointers. */
 Expr expr_tuple(Arena *arena, const Expr *at, int count);
-/* What follows from a tuple and nothing else, `which` of it, kept as long as the arena keeps its
- * nodes: an array or a struct of expressions, of that size in bytes. */
+/* A result that depends on a tuple only, stored as long as its nodes live. `which` distinguishes
+ * results of one tuple. It is an array or struct of expressions, of that size in bytes. */
 void expr_remember(Arena *arena, Expr tuple, int which, const void *values, size_t size);
-/* Those remembered (out NULL: only asks); false: none are. */
+/* Get the stored result (out NULL: test only); false: there is none. */
 bool expr_recall(Arena *arena, Expr tuple, int which, void *out, size_t size);
 int64_t arena_nodes(const Arena *arena);
 /* So many nodes are to be expected in all: room for them is made at once. */
@@ -116,18 +117,18 @@ size_t arena_bytes(const Arena *arena);
 Expr expr_int(Arena *arena, int64_t value);
 Expr expr_rational(Arena *arena, int64_t num, int64_t den); /* den 0: E_DOMAIN */
 /* A double that is a multiple of 1/1024 below 2^20, or an integer below 2^53, becomes a rational;
- * others stay doubles. */
+ * others remain doubles. */
 Expr expr_real(Arena *arena, double value);
-/* pi^power, of which multiples by rationals stay exact: as one number with them in products, and in
- * sums with those of the same power */
+/* pi^power. Multiples by rationals remain exact: they are one number in products, and in sums with
+ * numbers of the same power */
 Expr expr_pi(Arena *arena, int power);
 /* The decimal literal `text` ("0.25", "2.194e-6") as an exact rational where numerator and
  * denominator fit into 63 bits, else the nearest double. One with a point or an exponent and 16 or
  * more digits is a double too: so long are those that doubles print with. */
 Expr expr_decimal(Arena *arena, const char *text);
-/* The symbol of that name and kind: found, or made. Symbols of one name and different
- * kinds are different and print alike: what a user calls h8 (SYMBOL_VARIABLE) is replaced
- * by formulation with the coordinate h8 (SYMBOL_COORDINATE) where h8 is a branch. */
+/* The symbol of that name and kind: found, or made. Symbols of one name and different kinds are
+ * different but print identically: what a user calls h8 (SYMBOL_VARIABLE) is replaced by
+ * formulation with the coordinate h8 (SYMBOL_COORDINATE) where h8 is a branch. */
 Expr expr_symbol(Arena *arena, const char *name, SymbolKind kind);
 Expr expr_find_symbol(const Arena *arena, const char *name, SymbolKind kind); /* or NULL */
 
@@ -137,7 +138,7 @@ Expr expr_add(Arena *arena, Expr a, Expr b);
 Expr expr_sub(Arena *arena, Expr a, Expr b);
 Expr expr_mul(Arena *arena, Expr a, Expr b);
 Expr expr_div(Arena *arena, Expr a, Expr b);
-Expr expr_neg(Arena *arena, Expr a); /* goes into a sum: -(a - b) is b - a */
+Expr expr_neg(Arena *arena, Expr a); /* distributes over a sum: -(a - b) is b - a */
 Expr expr_pow(Arena *arena, Expr base, Expr exponent);
 Expr expr_square(Arena *arena, Expr a);
 Expr expr_sum(Arena *arena, const Expr *terms, int count);
@@ -152,19 +153,18 @@ Expr expr_sin(Arena *arena, Expr a);
 Expr expr_cos(Arena *arena, Expr a);
 Expr expr_sqrt(Arena *arena, Expr a);
 Expr expr_if(Arena *arena, Expr condition, Expr yes, Expr no);
-/* The same value as `e`, opaque to flattening and collecting: sums and products
- * built from it keep it whole, so that programs compute it once. A number, a
- * symbol, and the negative of one, are handed back as they are; -hold(e) comes
- * out of hold(-e). Printing and counting as written look through it; a held node
- * is one shared definition in a program. */
+/* The same value as `e`, opaque to flattening and collecting: sums and products built from it
+ * contain it as one operand, so that programs compute it once. A number, a symbol, and the negative
+ * of one, are returned unchanged; hold(-e) becomes -hold(e). Printing and counting as written
+ * ignore it; a held node is one shared definition in a program. */
 Expr expr_name_temporary(Arena *arena, Expr e);
 /* `e` with every hold dissolved and rebuilt. O(nodes) nodes visited. */
 Expr expr_open(Arena *arena, Expr e);
 
 /* --- data as functions --- */
 
-/* The symbol of that data: found where the same is there, else made and kept by the arena, which
- * from then on finds it by these names. Copies. */
+/* The symbol of that data: an existing one if the data is equal, else a new one, which the arena
+ * owns and finds by these names from then on. Copies. */
 Expr arena_add_table(Arena *arena, const char *file, const char *column, const double *x,
                      const double *y, int count);
 Expr arena_find_table(Arena *arena, const char *file, const char *column); /* NULL: none */
@@ -208,27 +208,27 @@ Expr expr_diff(Arena *arena, Expr e, Expr symbol);
 Expr expr_diff_along(Arena *arena, Expr e, const Expr *symbols, const Expr *rates, int count);
 /* Replace symbols (all at once, not in one another). Values NULL: by zeros. */
 Expr expr_substitute(Arena *arena, Expr e, const Expr *symbols, const Expr *values, int count);
-/* Replace nodes wherever they stand, but not within one another, and symbols among them: from[i] by
+/* Replace nodes, symbols included, wherever they occur, but not inside a replaced node: from[i] by
  * to[i], in place in `roots`. Each node is visited once for all roots. */
 void expr_replace(Arena *arena, Expr *roots, int root_count, const Expr *from, const Expr *to,
                   int count);
-/* Symbols whose names begin with one prefix (behind a '#', if there is one) replaced by those of
- * the same kinds with another prefix, in any number of expressions: the Original walks what it
- * meets once for all renamings of it, and each of these builds what it met once. Both borrow the
- * texts, and a Renaming its Original. */
+/* Replace symbols whose names start with one prefix (after a '#', if there is one) by those of the
+ * same kinds with another prefix, in any number of expressions. The Original visits each node once
+ * for all its renamings, and each Renaming builds the image of a node once. Both borrow the texts,
+ * and a Renaming its Original. */
 typedef struct Original Original;
 typedef struct Renaming Renaming;
 Original *original_new(Arena *arena, const char *prefix);   /* new */
 void original_free(Original *original);                     /* NULL is fine */
 Renaming *renaming_new(Original *original, const char *to); /* new */
-/* The same, kept by the arena for whoever asks again: what was built is there still, but what
- * something else was put into (renaming_pair()) is open again. Borrowed until renamings_end(),
- * where those that nobody asks for any more go. */
+/* The same, stored by the arena for later calls: images built before are still there, but those
+ * that depend on renaming_pair() are undefined again. Borrowed until renamings_end(), which removes
+ * unused ones. */
 Renaming *renaming_kept(Arena *arena, const char *prefix, const char *to, bool *is_new);
-void renaming_forget(Arena *arena); /* the one that came last */
+void renaming_forget(Arena *arena); /* the last one */
 void renamings_end(Arena *arena);
-/* From now on `from`, a symbol or what is held, becomes `to`; a number becomes itself. False: they
- * can't, or something else became of it. */
+/* From now on the image of `from`, a symbol or a held expression, is `to`; that of a number is
+ * itself. False: impossible, or it already has another image. */
 bool renaming_pair(Renaming *renaming, Expr from, Expr to);
 Expr renaming_of(Renaming *renaming, Expr e);
 void renaming_free(Renaming *renaming); /* NULL is fine */
@@ -236,13 +236,13 @@ void renaming_free(Renaming *renaming); /* NULL is fine */
  * with mem_free(). */
 typedef bool (*NodeWanted)(Expr e, void *context);
 int expr_find(const Expr *roots, int count, NodeWanted wanted, void *context, Expr **out);
-/* What becomes of a node, given it over what became of its arguments. */
+/* Returns the image of a node, given the node rebuilt from the images of its arguments. */
 typedef Expr (*NodeChange)(Arena *arena, Expr e, void *context);
 /* Change every node below e, each once and upward. O(nodes) */
 Expr expr_change(Arena *arena, Expr e, NodeChange change, void *context);
 bool expr_depends(Expr e, Expr symbol);
-/* Mark, for each SymbolKind, whether a symbol of that kind occurs: bit 1 << kind. Kept in the node:
- * O(1). */
+/* Mark, for each SymbolKind, whether a symbol of that kind occurs: bit 1 << kind. Stored in the
+ * node: O(1). */
 unsigned expr_kinds(Expr e);
 /* The symbols that occur in roots, in order of making; new array, free with mem_free(). */
 int expr_symbols(const Expr *roots, int count, Expr **symbols);
@@ -256,28 +256,29 @@ Expr expr_collect(Arena *arena, Expr e);
 /* Products of sums and whole powers of sums multiplied out, at most to `limit` terms (beyond:
  * unchanged). */
 Expr expr_expand(Arena *arena, Expr e, int limit);
-/* The same for sums that hold a symbol of a kind in `kinds` (bits as of expr_kinds()); other sums
- * are factors as they stand, and *kept tells whether there are any. */
+/* The same for sums that contain a symbol of a kind in `kinds` (bits as of expr_kinds()). Other
+ * sums are unchanged as factors, and *kept becomes whether there are any. */
 Expr expr_expand_over(Arena *arena, Expr e, unsigned kinds, int limit, bool *kept);
 /* The coefficients of powers of x, an argument, that `e` is a polynomial in: how many, up to
  * `most`; 0: it isn't one, or of a higher degree. */
 int expr_powers(Arena *arena, Expr e, Expr x, Expr *out, int most);
 
-/* For the recursive form: sines and cosines of sums of angles from those of the parts, where each
- * group of roots that needs them computes these anyway: no group takes more functions. Groups (at
- * most 32) stand one after the other, counts[g] roots each. In place; O(nodes) a root. */
+/* For the recursive form: replaces sines and cosines of sums of angles by those of the parts, if
+ * each group of roots that needs them computes these anyway: no group evaluates more functions.
+ * `roots` lists the groups (at most 32) one after the other, counts[g] roots each. In place;
+ * O(nodes) for each root. */
 void expr_part_angles(Arena *arena, Expr *roots, const int *counts, int groups);
-/* For the recursive form: what several sums, or products, have in common becomes one node (held)
- * of all of them. In place; counted by expr_count_shared() the roots together never cost more.
- * O(n log n) for n operands. */
+/* For the recursive form: operands that several sums, or products, have in common become one held
+ * node. In place; counted by expr_count_shared() the roots together never cost more. O(n log n) for
+ * n operands. */
 void expr_share(Arena *arena, Expr *roots, int count);
 
 /* A symbol's value, for expr_evaluate(). */
 typedef double (*SymbolValue)(void *context, Expr symbol);
 /* The value of one expression, slowly: for tests and constants. NAN where undefined. */
 double expr_evaluate(Expr e, SymbolValue value, void *context);
-/* Those of many expressions at one place: a value is asked for once, and no node's is computed
- * again. Takes 9 bytes a node of the arena. */
+/* Evaluate many expressions at one point: each symbol's value is requested once, and each node is
+ * computed once. Uses 9 bytes for each node of the arena. */
 typedef struct Evaluation Evaluation;
 Evaluation *evaluation_new(SymbolValue value, void *context); /* new; borrows the context */
 double evaluation_of(Evaluation *evaluation, Expr e);
@@ -298,7 +299,7 @@ typedef struct OpCount {
 OpCount expr_count(const Expr *roots, int count);
 /* After common subexpressions are shared: each node once. */
 OpCount expr_count_shared(const Expr *roots, int count);
-/* the same, beside what follows from symbols of `kinds` alone (bits as of expr_kinds(); 0: all) */
+/* the same without what follows from symbols of `kinds` alone (bits as of expr_kinds(); 0: all) */
 OpCount expr_count_beside(const Expr *roots, int count, unsigned kinds);
 /* expr_count_shared() of what may be large; E_STOPPED, *out unchanged */
 MUST_USE Status expr_count_watched(const Expr *roots, int count, const CallMonitor *watch,

@@ -1,8 +1,7 @@
 /* expr_impl.h: what the files of lib/expr share
  *
- * A node is a head of 16 bytes; behind it lie its arguments, or the numbers or the
- * name of a leaf. A child is always older than its parents, so that its creation
- * number is smaller. */
+ * A node is a head of 16 bytes, followed by its arguments, or by the numbers or the name of a leaf.
+ * A child is always older than its parents, so that its creation number is smaller. */
 #ifndef COTREE_EXPR_IMPL_H
 #define COTREE_EXPR_IMPL_H
 
@@ -60,7 +59,7 @@ static inline bool is_call(Expr e, Op op)
     return e->kind == EXPR_CALL && e->op == op;
 }
 
-/* what a hold holds, else `e` itself */
+/* the operand of a hold, else `e` itself */
 static inline Expr held(Expr e)
 {
     return is_call(e, OP_HOLD) ? node_args(e)[0] : e;
@@ -94,9 +93,9 @@ typedef struct Number {
 Number number_int(int64_t value);
 Number number_of(Expr number);
 Number number_add(Number a, Number b);
-/* *sum += a, where *size starts at 0: the sum of the sizes of what was rounded, 0 where nothing
- * was. A sum of doubles within `ROUNDED` of that size is rounding of 0, and is 0. What rationals
- * are, a user's 1e-17 too, is exact and never that. */
+/* *sum += a. *size starts at 0 and becomes the sum of the sizes of rounded terms, 0 if there are
+ * none. A sum of doubles within `ROUNDED` of that size is rounding of 0, and becomes 0. Rationals,
+ * such as 1e-17 typed by a user, are exact and not affected. */
 void number_gather(Number *sum, double *size, Number a);
 Number number_mul(Number a, Number b);
 Number number_neg(Number a);
@@ -123,7 +122,7 @@ typedef struct Renamings Renamings;
 Renamings *arena_renamings(const Arena *arena); /* NULL: none */
 /* `release` ends those; what was there before is the caller's */
 void arena_add_renamings(Arena *arena, Renamings *renamings, void (*release)(Renamings *));
-/* They hold nodes from now on that weren't there: an older mark drops them. */
+/* They refer to new nodes from now on: release to an older mark removes them. */
 void arena_touch_renamings(Arena *arena);
 
 /* --- order.c --- */
@@ -139,16 +138,16 @@ Number term_coefficient(Expr term);
 int order_terms(Expr a, Expr b); /* without their coefficients; 0: like terms */
 int order_bases(Expr a, Expr b);
 int order_symbols(Expr a, Expr b);
-/* Whether kinds, numbers and the order of symbols alone say how two compare by order_terms(),
- * order_bases() or expr_compare(): so they do when other symbols stand for those, in their order.
- */
+/* Whether kinds, numbers and the order of symbols alone determine how two compare by order_terms(),
+ * order_bases() or expr_compare(). Then the comparison is the same after a renaming that preserves
+ * the order of symbols. */
 bool order_lasts(Expr a, Expr b, int (*compare)(Expr a, Expr b));
 
 /* A term of a sum, or a factor of a product, on its way into the node. */
 typedef struct Item {
     Expr key;           /* the term; the factor's base */
     Expr exponent;      /* of a factor */
-    Expr whole;         /* the factor as it came, NULL once two were merged */
+    Expr whole;         /* the original factor, NULL once two were merged */
     Number coefficient; /* of a term */
     double size;        /* of what was rounded in it (number_gather()) */
 } Item;
@@ -166,7 +165,7 @@ Expr sum_negate(Arena *arena, Expr sum);
 
 typedef struct Rank {
     int64_t saving;
-    unsigned later; /* of equal savings less of this goes first, then the lower index */
+    unsigned later; /* among equal savings the smaller value is first, then the lower index */
     int which;      /* the caller's index */
 } Rank;
 

@@ -6,10 +6,10 @@
  *   X cos A cos B -+ X sin A sin B =  X cos(A +- B)
  *   X sin A cos B +- X cos A sin B =  X sin(A +- B)
  *
- * A term has a fingerprint: the sum over its factors of exponent times a hash of the
- * base. So the fingerprint of the partner that a term needs follows by adding and
- * subtracting hashes, and the partner is looked up, not searched. Every fold takes two
- * terms and leaves one, which may fold again, or two with a square of a sine less. */
+ * A term has a fingerprint: the sum over its factors of exponent times a hash of the base. So
+ * adding and subtracting hashes gives the fingerprint of the partner that a term needs, and the
+ * partner is found in a hash table. Every fold replaces two terms by one, which may fold again, or
+ * by two with one square of a sine less. */
 #include "expr/expr_impl.h"
 
 #include <assert.h>
@@ -298,7 +298,7 @@ static bool fold_term(Fold *fold, int self)
     return false;
 }
 
-/* Whether it has a square of a sine or cosine, or two of them: what folds begins there. */
+/* Whether it has a square of a sine or cosine, or two sines or cosines: candidates for folding. */
 static bool may_fold(Expr term)
 {
     ProductFactors factors = term_factors(&term);
@@ -325,7 +325,8 @@ static Expr fold_sum(Arena *arena, Expr sum)
         i++;
     if (i == sum->count)
         return sum;
-    /* every fold lists one term more and takes two away, or two and a square of a sine */
+    /* every fold adds one term and removes two, or adds two and removes two with a square of a
+     * sine */
     while (fold.size < 8 * (uint32_t)sum->count)
         fold.size *= 2;
     fold.slots = NEW_ARRAY(int, fold.size);

@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 typedef struct Greek {
-    const char *name; /* also, behind a backslash, in LaTeX */
+    const char *name; /* also in LaTeX, after a backslash */
     const char *letter;
 } Greek;
 

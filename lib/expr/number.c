@@ -1,8 +1,8 @@
 /* number.c: exact rationals, and doubles where they no longer fit
  *
- * Sums and products of rationals run in 128 bits; a result whose numerator or
- * denominator takes more than 63 becomes the nearest double. A rational times a power of pi is
- * exact likewise: angles are. */
+ * Sums and products of rationals are computed in 128 bits. A result whose numerator or denominator
+ * needs more than 63 bits becomes the nearest double. A rational times a power of pi, such as an
+ * angle, is exact too. */
 #include "expr/expr_impl.h"
 
 #include <ctype.h>
@@ -62,7 +62,7 @@ static Number number_double(double value)
     return value == 0.0 ? (Number){0, 1, {0}} : (Number){.real = value};
 }
 
-/* powers of pi that a node holds */
+/* powers of pi that a node can store */
 enum { MOST_PI = 100 };
 
 static long double pi_power(int64_t power)
@@ -134,8 +134,8 @@ Number number_add(Number a, Number b)
                       (NumberWide)a.den * b.den);
 }
 
-/* Doubles come of functions' values and of long products, each rounded by some eps/2: entries of a
- * product of three rotations have an error of some 5 eps/2 of 1. */
+/* Doubles result from values of functions and from long products, each rounded by about eps/2:
+ * entries of a product of three rotations have an error of some 5 eps/2 relative to 1. */
 #define ROUNDED (16 * DBL_EPSILON)
 
 void number_gather(Number *sum, double *size, Number a)
@@ -157,7 +157,7 @@ void number_gather(Number *sum, double *size, Number a)
 Number number_mul(Number a, Number b)
 {
     if (a.den == 0 || b.den == 0) {
-        /* an exact zero stays exact */
+        /* an exact zero remains exact */
         if (number_is(a, 0) || number_is(b, 0))
             return number_int(0);
         return number_double(number_value(a) * number_value(b));

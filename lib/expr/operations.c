@@ -6,7 +6,7 @@
  * needs something above the line: a*b^-1 is one, 1/b too. */
 #include "expr/expr_impl.h"
 
-/* counts beyond this are no longer told apart */
+/* counts saturate here */
 #define MOST ((int64_t)1 << 62)
 
 static int64_t plus(int64_t a, int64_t b)
@@ -19,7 +19,7 @@ OpCount op_count_plus(OpCount a, OpCount b)
     return (OpCount){plus(a.add, b.add), plus(a.mul, b.mul), plus(a.fun, b.fun)};
 }
 
-/* The operations of a power beside those of its arguments, as a factor among others. */
+/* The operations of a power without those of its arguments, as a factor among others. */
 static OpCount power_own(Expr e)
 {
     int64_t k;
@@ -67,7 +67,7 @@ static OpCount node_own(Expr e)
     }
 }
 
-/* 1/x on its own, not as a factor, is a division more than its power says */
+/* 1/x on its own, not as a factor, needs one division more than its power */
 static OpCount alone(Expr e, OpCount count)
 {
     count.mul = plus(count.mul, is_below(held(e)));
@@ -141,7 +141,7 @@ static bool meet(Met *met, Expr e)
     return false;
 }
 
-/* who is asked whether to stop, and was not yet, or said no */
+/* the monitor to poll for a stop, how often it was due, and whether it requested one */
 typedef struct OperationQuery {
     const CallMonitor *watch;
     uint32_t looks;

@@ -1,10 +1,10 @@
 /* order.c: the stable order of terms and factors
  *
- * A term is looked at as its list of factors without the numeric coefficient, a
- * factor as base and exponent. Lists compare like words, bases by kind and then by
- * their own arguments; the first pair that differs decides, so that a comparison
- * follows one path down. Those of more than TALLEST levels, which nobody reads, come last, in
- * the order of a hash of their structure: what was made before changes nothing of it. */
+ * A term is compared as the list of its factors without the numeric coefficient, a factor as base
+ * and exponent. Lists compare lexicographically, bases by kind and then by their own arguments. The
+ * first pair that differs decides, so that a comparison follows one path down. Expressions of more
+ * than TALLEST levels, which nobody reads, come last, in the order of a hash of their structure,
+ * which doesn't depend on what was made before. */
 #include "expr/expr_impl.h"
 
 #include <string.h>
@@ -51,8 +51,8 @@ static int order_hashes(Expr a, Expr b, bool *by_hash)
     return a->hash != b->hash ? order(a->hash, b->hash) : order(a->number, b->number);
 }
 
-/* By kind and making. Parameters that no user wrote, named #..., come behind those of the user's,
- * by their names, which don't tell when they were first asked for. */
+/* By kind and order of creation. Generated parameters, named #..., come after the user's, ordered
+ * by name, because that doesn't depend on when they were made. */
 int order_symbols(Expr a, Expr b)
 {
     const SymbolData *one = node_symbol(a), *other = node_symbol(b);
@@ -169,7 +169,7 @@ static int bases_below(Expr a, Expr b, bool *by_hash)
     default:
         first = whole_below(inner_a, inner_b, by_hash);
     }
-    /* two bases alike but for a hold */
+    /* two bases that are equal without holds */
     return first != 0 ? first : order_hashes(a, b, by_hash);
 }
 

@@ -52,8 +52,8 @@ void write_arguments(Printer *printer, Expr e)
 
 typedef LIST(Expr) Summands;
 
-/* The terms of a sum, and of sums among them: a named sum, or one of a shorter form, isn't
- * merged into the sum that it stands in. Its sign is that of its own terms. */
+/* The terms of a sum, and of sums among them. A named sum, or one with a shorter form, isn't merged
+ * into the surrounding sum. Its sign is that of its own terms. */
 static Summands summands_of(Expr sum)
 {
     Summands waiting = {0}, terms = {0};
@@ -112,7 +112,7 @@ static void lay_sum(Printer *printer, Expr sum)
 
 /* --- products --- */
 
-/* A factor goes above, or with the opposite exponent below the line. */
+/* A factor is printed above the line, or with the opposite exponent below it. */
 static void sort_factor(Fraction *fraction, Expr factor)
 {
     Expr exponent = factor->kind == EXPR_POWER ? node_args(factor)[1] : NULL;
@@ -306,7 +306,7 @@ bool ratio_decimal(char text[64], Number number, int most)
     return true;
 }
 
-enum { LONG_INTEGER = 6, ENOUGH_SAVED = 3 }; /* digits: 100000 and 1500000 stay, 1e6 doesn't */
+enum { LONG_INTEGER = 6, ENOUGH_SAVED = 3 }; /* digits: 100000 and 1500000 in full, but 1e6 */
 
 bool integer_power(char text[64], int64_t value)
 {
@@ -330,7 +330,7 @@ void double_text(char text[64], double value)
     int64_t den;
 
     (void)decimal_print(text, value, DECIMAL_EXACT);
-    /* a short decimal would be taken for an exact one */
+    /* a short decimal would be read as an exact one */
     if (decimal_exact(text, &num, &den))
         snprintf(text, 64, "%#.17g", value);
 }
@@ -422,7 +422,7 @@ static void lay_piece(Printer *printer, const Piece *piece)
                                         : node_level(printer, e);
     bool brackets = level < piece->level;
 
-    /* what is written out at once, not as pieces, must not come before its bracket */
+    /* text that is written at once, not as pieces, must not precede its bracket */
     if (brackets)
         say(printer, printer->dialect->open);
     if (brackets)

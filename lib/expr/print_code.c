@@ -36,7 +36,7 @@ static void python_symbol(Text *out, Expr symbol)
 
 /* --- numbers --- */
 
-/* `whole` goes behind an integer, `mark` is the letter of an exponent */
+/* `whole` is appended to an integer, `mark` is the letter of an exponent */
 static Level code_number(Text *out, Number number, const char *whole, char mark)
 {
     char digits[64];
@@ -206,7 +206,7 @@ static void c_call(Printer *printer, Expr e)
     write_call(printer, e, NOTATION_C, "");
 }
 
-/* table1_, table1_d ...: functions, whose names may not begin as those of C */
+/* table1_, table1_d ...: functions, whose names must not start like those of C */
 static void matlab_symbol(Text *out, Expr symbol)
 {
     if (expr_data(symbol) != NULL)
@@ -266,7 +266,7 @@ char *op_code(Op op, Notation notation)
     return text_done(&text);
 }
 
-/* patterns stand in brackets or are functions */
+/* patterns are in brackets or are functions */
 static Level closed_level(Expr e)
 {
     (void)e;

@@ -1,8 +1,8 @@
 /* print_impl.h: the printer that all notations share
  *
- * Printing a node means to lay out its pieces: texts, and smaller nodes with the
- * level that they must bind at. The pieces wait on a stack, so that no depth of
- * nesting is too deep. A Dialect says how a notation writes what differs. */
+ * Printing a node splits it into pieces: texts, and smaller nodes with the binding level that they
+ * need. The pieces are on a stack, so that nesting may be of any depth. A Dialect defines what
+ * differs between notations. */
 #ifndef COTREE_EXPR_PRINT_IMPL_H
 #define COTREE_EXPR_PRINT_IMPL_H
 
@@ -46,7 +46,7 @@ typedef struct Printer {
     LIST(Piece) pieces;
 } Printer;
 
-/* a product taken apart: number * above / below; `plain` has no number and no division */
+/* a product split into number * above / below; `plain` has no number and no division */
 typedef struct Fraction {
     Number number; /* above 0 */
     LIST(Piece) above;
@@ -98,7 +98,7 @@ bool write_operator(Printer *printer, Expr e, const char *sign);
 bool ratio_decimal(char text[64], Number number, int most);
 /* "4.7e7" of 47000000; false where that is hardly shorter. */
 bool integer_power(char text[64], int64_t value);
-/* Digits of a double that the parser takes for that double. */
+/* Digits of a double that the parser reads as that double. */
 void double_text(char text[64], double value);
 
 void print_tree(Text *out, Expr e);

@@ -121,7 +121,7 @@ static void latex_table(Text *out, const Curve *curve)
     text_add(out, "}}");
 }
 
-/* words between dots, primes behind the last */
+/* words between dots, primes after the last */
 static void latex_name(Text *out, const char *name, size_t end)
 {
     int primes = 0;
@@ -164,7 +164,7 @@ static void latex_symbol(Text *out, Expr symbol)
 
 /* --- products, powers, calls --- */
 
-/* What stands above or below the line; alone there, it needs no brackets. */
+/* A numerator or denominator; a single factor needs no brackets. */
 static void write_part_of_fraction(Printer *printer, Number number, const Piece *pieces, int count)
 {
     bool numbered = !number_is(number, 1) || count == 0;

@@ -74,7 +74,7 @@ static void text_power(Printer *printer, Expr base, Expr exponent, Number number
         write_number(printer, number, LEVEL_ATOM);
 }
 
-/* table("file.csv", x, column), and the order of a derivative behind it */
+/* table("file.csv", x, column), followed by the order of a derivative */
 static void text_table(Printer *printer, Expr e)
 {
     const Expr *args = node_args(e);
@@ -142,7 +142,7 @@ static void unicode_symbol(Text *out, Expr symbol)
             text_add(out, greek->letter);
         else
             text_add_n(out, name, length);
-        /* the next word starts behind a dot or underscore */
+        /* the next word starts after a dot or underscore */
         name += length;
         for (length = 0; name[length] != '\0' && name[length] != '.' && name[length] != '_';)
             length++;

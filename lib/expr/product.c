@@ -1,11 +1,12 @@
 /* product.c: products and powers
  *
- * A factor is a base and an exponent; factors stand in the order of their bases,
- * those of one base are one power, the number comes first. A sum as a factor has
- * no minus sign before its first term: the sign goes to the number.
+ * A factor is a base and an exponent. Factors are ordered by their bases, those of one base are one
+ * power, and the number is first. A sum as a factor has no minus sign before its first term: the
+ * sign is moved to the number.
  *
- * Whole powers go into products and powers and fold numbers; half ones are powers
- * of a square root; what else could change the value for negative bases stays. */
+ * Integer powers distribute over products and powers, and fold numbers. Half-integer ones are
+ * powers of a square root. Other powers remain, since rewriting could change the value for negative
+ * bases. */
 #include "expr/expr_impl.h"
 
 #include <math.h>
@@ -51,7 +52,7 @@ static void push_factor(Arena *arena, GatheredFactors *gathered, Expr factor)
     gathered->items[gathered->count++] = factor_item(arena, factor);
 }
 
-/* Add the exponents of equal bases, which stand side by side. */
+/* Add the exponents of equal bases, which are adjacent. */
 static void merge_factors(Arena *arena, GatheredFactors *gathered)
 {
     Item *items = gathered->items;
@@ -188,7 +189,7 @@ static Expr product_raised(Arena *arena, Expr product, Expr exponent)
     return power;
 }
 
-/* sqrt(a)^k: a^(k/2) for even k; roots of numbers keep only one root */
+/* sqrt(a)^k: a^(k/2) for even k; at most one root of a number remains */
 static Expr root_raised(Arena *arena, Expr root, int64_t k)
 {
     Expr inside = node_args(root)[0];
@@ -227,7 +228,7 @@ static Expr raised(Arena *arena, Expr base, int64_t k)
     return node_intern(arena, EXPR_POWER, 0, (Expr[]){base, exponent}, 2);
 }
 
-/* a number to a power that isn't whole; NULL where that stays as it is */
+/* a number to a power that isn't an integer; NULL if that remains unchanged */
 static Expr numbers_raised(Arena *arena, Expr base, Expr exponent)
 {
     Number root;

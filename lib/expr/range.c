@@ -1,7 +1,7 @@
 /* range.c: interval arithmetic over a list of nodes, operands first
  *
- * Bounds are rounded as doubles are: a bound may be short of the true one by some units in the last
- * place, which nobody here asks for. */
+ * Bounds are rounded to nearest, not outward: a bound may miss the true one by some units in the
+ * last place, which doesn't matter here. */
 #include "expr/range.h"
 
 #include "expr/expr_impl.h"
@@ -128,7 +128,7 @@ static Range tangent(Range a)
     return (Range){tan(a.low), tan(a.high)};
 }
 
-/* a claim: 1 where it must hold, 0 where it can't */
+/* a condition: 1 where it must be true, 0 where it can't */
 static Range claim(bool must, bool can)
 {
     return (Range){must, can};

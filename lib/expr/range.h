@@ -1,7 +1,7 @@
-/* range.h: between which numbers expressions of one symbol stay while it goes through an interval
+/* range.h: bounds of expressions of one symbol over an interval of it
  *
- * By interval arithmetic: the true range lies within, and comes close to it as the interval gets
- * short. Of functions that have no rule (tables) some points tell. */
+ * By interval arithmetic: the bounds enclose the true range, and approach it as the interval
+ * shrinks. Functions without a rule (tables) are sampled at some points. */
 #ifndef COTREE_EXPR_RANGE_H
 #define COTREE_EXPR_RANGE_H
 
@@ -22,8 +22,8 @@ void ranges_free(Ranges *ranges); /* NULL is fine */
 const Range *ranges_over(Ranges *ranges, Range over);
 /* of one root. O(nodes of the root). */
 Range ranges_root_over(Ranges *ranges, int root, Range over);
-/* How many ranges of nodes have been found so far: each node has one an interval, however many
- * others and calls ask for it. NULL: 0. */
+/* Number of node ranges computed so far: one for each node and interval, however many nodes and
+ * calls use it. NULL: 0. */
 int64_t ranges_visits(const Ranges *ranges);
 
 #endif

@@ -1,10 +1,10 @@
 /* rename.c: symbols of one prefix replaced by those of another
  *
- * What is renamed again and again is walked once: an Original lists its nodes, each with the places
- * of its arguments, and a Renaming is a list of images by these places. Nothing is hashed on the
- * way but what is built. As long as the new symbols stand in the order of the old ones, what stood
- * in order stands so again, and its image is a node of the same kind over the images: it isn't
- * looked at, let alone simplified. */
+ * Expressions that are renamed repeatedly are visited once: an Original lists their nodes, each
+ * with the indices of its arguments, and a Renaming lists the images by these indices. Only built
+ * nodes are hashed. As long as the new symbols have the order of the old ones, sorted operands
+ * remain sorted. The image is then a node of the same kind over the images, built without
+ * inspection or simplification. */
 #include "expr/expr_impl.h"
 
 #include "base/names.h"
@@ -14,15 +14,15 @@
 
 enum {
     PLACE_WORK = 16, /* of a look at one, for transaction_worked() */
-    NUMBER = -1      /* in the place of an argument that stays as it is */
+    NUMBER = -1      /* marks an argument that is unchanged */
 };
 
 typedef struct Listed {
-    int begin;         /* where the places of the arguments begin, in `args` */
-    int before, after; /* of a symbol: those that stood next to it in order when it came; -1 */
+    int begin;         /* index in `args` of the first argument's index */
+    int before, after; /* of a symbol: its neighbours in order when it was added; -1: none */
     int root;          /* the first that was listed together with it */
-    bool lasts;        /* arguments stand in order by their symbols */
-    bool is_hole;      /* something else may come in its place */
+    bool lasts;        /* the order of arguments follows from that of their symbols */
+    bool is_hole;      /* it may be replaced by another node */
     bool has_hole;     /* it, or what is below */
 } Listed;
 
@@ -33,8 +33,8 @@ struct Original {
     LIST(Listed) places;
     LIST(int) args;
     LIST(int) symbols; /* their places, in order */
-    char *kept;        /* the prefix, of one that the arena keeps, */
-    int usual;         /* and how many nodes it had behind its first use; 0: it is in that */
+    char *kept;        /* the prefix, if the arena stores it, */
+    int usual;         /* and its number of nodes after its first use; 0 before */
 };
 
 typedef struct Image {
@@ -45,16 +45,16 @@ typedef struct Image {
 struct Renaming {
     Original *original;
     const char *to;
-    bool disorders;    /* symbols don't stand in the order of the original ones */
+    bool disorders;    /* symbols don't have the order of the original ones */
     LIST(Image) of;    /* by places */
-    LIST(int) waiting; /* places whose arguments come first */
+    LIST(int) waiting; /* indices whose arguments are built first */
     LIST(Expr) args;
-    LIST(int) filled; /* places that something else came into */
-    char *kept;       /* `to`, of one that the arena keeps, */
-    bool is_used;     /* and that was asked for since it was last looked at */
+    LIST(int) filled; /* indices whose image was replaced */
+    char *kept;       /* `to`, if the arena stores it, */
+    bool is_used;     /* and that was used since the last check */
 };
 
-struct Renamings { /* that an arena keeps */
+struct Renamings { /* stored by an arena */
     Names *names;  /* "from to" */
     LIST(Renaming *) list;
     Names *prefixes;
@@ -107,7 +107,7 @@ static bool args_last(Expr e)
     return true;
 }
 
-/* puts it where it belongs among the symbols that came before it */
+/* insert it in order among the symbols before it */
 static void enter_symbol(Original *original, int place)
 {
     const Expr symbol = original->walk.nodes[place];
@@ -198,7 +198,7 @@ void renaming_free(Renaming *renaming)
     mem_free(renaming);
 }
 
-/* where the image of an expression is, or is to be put */
+/* the slot of the image of an expression */
 static int image_place(Renaming *renaming, Expr e)
 {
     const int place = place_of(renaming->original, e), count = renaming->original->walk.count;
@@ -216,7 +216,7 @@ static bool begins_with(const char *name, const char *prefix)
     return strncmp(name, prefix, strlen(prefix)) == 0;
 }
 
-/* one that has the other prefix already may come twice then */
+/* a symbol that already has the other prefix may then occur twice */
 static Expr renamed(const Renaming *renaming, Expr symbol, bool *alike)
 {
     const char *name = expr_name(symbol);
@@ -237,8 +237,8 @@ static Expr renamed(const Renaming *renaming, Expr symbol, bool *alike)
     return symbol;
 }
 
-/* The image of a symbol for which nothing else comes. Each stands between those between which the
- * original came: so all of them stand in order. */
+/* The image of a symbol that isn't replaced. Each lies between the images of the neighbours that
+ * the original had when added, so that all are in order. */
 static void build_symbol(Renaming *renaming, int place)
 {
     const Listed *own = &renaming->original->places.at[place];
@@ -253,19 +253,19 @@ static void build_symbol(Renaming *renaming, int place)
 
         if (next < 0)
             continue;
-        /* what a hole becomes says nothing of those beyond it */
+        /* the image of a replaced symbol doesn't bound those beyond it */
         if (renaming->original->places.at[next].is_hole) {
             renaming->disorders = true;
             continue;
         }
-        build_symbol(renaming, next); /* which came before it: no deeper than symbols are many */
+        build_symbol(renaming, next); /* added earlier: depth <= number of symbols */
         order = order_symbols(of[next].e, of[place].e);
         if (side == 0 ? order >= 0 : order <= 0)
             renaming->disorders = true;
     }
 }
 
-/* whether arguments that are built as those of e stand in order, too, and none twice */
+/* whether the images of e's arguments are in order too, without duplicates */
 static bool are_ordered(Expr e, const Expr *args)
 {
     const bool is_sum = e->kind == EXPR_SUM;
@@ -289,8 +289,8 @@ static bool are_ordered(Expr e, const Expr *args)
     return true;
 }
 
-/* What is built alike needs no simplifying where its parts stand in the same order. False: an
- * argument has no image yet. */
+/* A node of the same structure needs no simplification if its operands have the same order. False:
+ * an argument has no image yet. */
 static bool rebuild(Renaming *renaming, int place)
 {
     const Original *original = renaming->original;
@@ -322,7 +322,7 @@ static bool rebuild(Renaming *renaming, int place)
     return true;
 }
 
-/* puts the arguments that have no image yet on top, the first of them last */
+/* push the arguments that have no image yet, the first of them last */
 static void wait_for_args(Renaming *renaming, int place)
 {
     const Original *original = renaming->original;
@@ -352,8 +352,8 @@ static void build(Renaming *renaming, int root)
     }
 }
 
-/* What was listed together with a place stands before it, arguments first: most of it is below.
- * What has a hole may be asked for before that is filled. */
+/* Nodes listed together with this one precede it, arguments first, so most are below. Nodes with a
+ * hole may be requested before it is filled. */
 static void build_listed(Renaming *renaming, int place)
 {
     const Listed *const places = renaming->original->places.at;
@@ -376,7 +376,7 @@ bool renaming_pair(Renaming *renaming, Expr from, Expr to)
 
     if (expr_is_number(from))
         return from == to;
-    /* a sign goes into the products and sums around it */
+    /* a sign merges into the products and sums around it */
     if (from->kind == EXPR_PRODUCT && from->count == 2 && expr_is(node_args(from)[0], -1)) {
         from = node_args(from)[1];
         to = expr_neg(renaming->original->arena, to);
@@ -388,7 +388,7 @@ bool renaming_pair(Renaming *renaming, Expr from, Expr to)
     if (image->e == NULL && from->kind == EXPR_SYMBOL && to == from &&
         renamed(renaming, from, &image->alike) == to)
         build_symbol(renaming, place);
-    /* nothing that it stands in looks into the one or the other */
+    /* no node that contains it inspects either */
     if (image->e == NULL) {
         make_hole(renaming->original, place);
         LIST_PUSH(renaming->filled, place);
@@ -409,7 +409,7 @@ Expr renaming_of(Renaming *renaming, Expr e)
     return renaming->of.at[place].e;
 }
 
-/* --- those that an arena keeps --- */
+/* --- renamings that an arena stores --- */
 
 static void renamings_free(Renamings *renamings)
 {
@@ -456,7 +456,7 @@ static void announce(Renaming *renaming)
     LIST_FREE(renaming->args);
 }
 
-/* what stands over what was filled is to be built anew */
+/* nodes above replaced ones have to be rebuilt */
 static void open_again(Renaming *renaming)
 {
     const Original *original = renaming->original;
@@ -527,8 +527,7 @@ void renaming_forget(Arena *arena)
     renaming_free(last);
 }
 
-/* What is edited over and over leaves images that nobody asks for any more: then all are built
- * anew. */
+/* Repeated edits leave unused images: then all are rebuilt. */
 void renamings_end(Arena *arena)
 {
     Renamings *renamings = arena_renamings(arena);

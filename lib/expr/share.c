@@ -1,13 +1,13 @@
-/* share.c: what several sums, or several products, have in common, made a node of its own
+/* share.c: common subexpressions of several sums, or several products, as nodes of their own
  *
- * Equal nodes are one already; here parts of nodes are. Sums and products are lists of
- * operands, powers are operands that repeat. The pair of operands that stands in most lists
- * becomes one operand of all of them, then the next, as long as one saves an operation
- * (Breuer 1969; Hosangadi, Fallah and Kastner 2006). The roots together never cost more.
+ * Equal nodes are shared already; here parts of nodes are shared too. Sums and products are lists
+ * of operands, powers are repeated operands. The pair of operands that occurs in most lists becomes
+ * one operand of all of them, then the next, as long as one saves an operation (Breuer 1969;
+ * Hosangadi, Fallah and Kastner 2006). The roots together never cost more.
  *
  * Long lists are cut into pieces and pairs are formed within a piece, so that the work grows
- * with the number of operands. How often a pair stands somewhere is kept up to date; which is
- * best is kept in a heap, in which a pair that was used up in the meantime sinks back. */
+ * linearly with the number of operands. The count of each pair is updated. A heap finds the best
+ * pair; one whose count has dropped in the meantime is moved down. */
 #include "expr/expr_impl.h"
 
 enum {
@@ -48,7 +48,7 @@ typedef struct SharedPair {
     ExprKind kind;
     bool opposite;    /* a - b */
     unsigned kinds;   /* of symbols below */
-    int uses;         /* operations that it stands for */
+    int uses;         /* operations that it replaces */
     LIST(int) pieces; /* that have or had it */
 } SharedPair;
 
@@ -256,7 +256,7 @@ static bool is_below(const SubtermSharing *share, const SharedOperand *operand)
            is_negative(node_args(e)[1]);
 }
 
-/* How many operations the pair of operands i and j of a piece takes there. */
+/* Number of operations of the pair of operands i and j in a piece. */
 static int uses_in(const SubtermSharing *share, const SharedPiece *piece, int i, int j)
 {
     const SharedOperand *x = &piece->at[i];
@@ -334,7 +334,7 @@ static int rewrite(SharedPiece *piece, bool twice, SharedOperand whole)
     return changed;
 }
 
-/* Put a pair, as the thing `whole`, in place of its operands where the piece still has them. */
+/* Replace the operands of a pair by the item `whole` if the piece still has them. */
 static void replace_in(SubtermSharing *share, int number, SharedPair pair, int whole)
 {
     SharedPiece *piece = &share->pieces.at[number];
@@ -380,8 +380,8 @@ static void take_pairs(SubtermSharing *share)
 
 static Expr image_of(SubtermSharing *share, int thing);
 
-/* An operand as it stands among others. What was a list of its own is held: it doesn't run into
- * theirs, and a sum isn't computed with either sign. */
+/* An operand as it is used among others. A list of its own is held: it isn't merged into theirs,
+ * and a sum isn't computed with both signs. */
 static Expr operand_image(SubtermSharing *share, SharedOperand operand)
 {
     Expr e = image_of(share, operand.thing);
@@ -407,8 +407,8 @@ static Expr list_image(SubtermSharing *share, const SharedOperand *operands, int
     return image;
 }
 
-/* The image of a thing, made where it isn't there: pairs are no deeper than DEEPEST, and
- * everything else has its image before it is asked for. */
+/* The image of an item, built if missing: pairs nest at most DEEPEST levels, and all other items
+ * already have their images. */
 static Expr image_of(SubtermSharing *share, int thing)
 {
     if (share->things.at[thing].image == NULL) {

@@ -1,4 +1,4 @@
-/* substitute.c: replacing symbols, dissolving holds, asking for symbols
+/* substitute.c: replacing symbols, dissolving holds, finding symbols
  *
  * As with derivatives: one pass upward, each node rebuilt from its rebuilt arguments. */
 #include "expr/expr_impl.h"
@@ -109,7 +109,7 @@ Expr expr_change(Arena *arena, Expr e, NodeChange change, void *context)
     return finish(&images, e);
 }
 
-/* a hold whose operand has become negative comes as -1 times one */
+/* a hold whose operand has become negative is -1 times a hold */
 static Expr without_hold(Arena *arena, Expr e, void *context)
 {
     (void)context;
@@ -131,7 +131,7 @@ Expr expr_open(Arena *arena, Expr e)
     return opened;
 }
 
-/* --- asking --- */
+/* --- queries --- */
 
 int expr_find(const Expr *roots, int count, NodeWanted wanted, void *context, Expr **out)
 {

@@ -1,8 +1,8 @@
 /* sum.c: sums, and the signs that they share with everything else
  *
- * The terms of a sum stand in order, the constant last; like terms, equal but for
- * their numeric coefficients, are one. A number times a sum stays a product, but
- * minus a sum is the sum of the negatives. */
+ * The terms of a sum are ordered, the constant last. Like terms, equal except for their numeric
+ * coefficients, are merged. A number times a sum remains a product, but minus a sum is the sum of
+ * the negatives. */
 #include "expr/expr_impl.h"
 
 #include <assert.h>
@@ -11,7 +11,7 @@ enum { AT_HAND = 32 };
 
 bool is_negative(Expr e)
 {
-    /* a sum takes the sign of its first term */
+    /* a sum has the sign of its first term */
     if (e->kind == EXPR_SUM)
         e = node_args(e)[0];
     if (is_number(e))
@@ -84,7 +84,7 @@ static void push_term(Item *items, int *count, Item *constant, Expr term)
     (*count)++;
 }
 
-/* Add up like terms, which stand side by side; how many stay. */
+/* Add up like terms, which are adjacent; returns the number of remaining terms. */
 static int merge_terms(Item *items, int count)
 {
     int kept = 0;

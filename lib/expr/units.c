@@ -398,9 +398,9 @@ static bool divides_by_no_time(Dimension d)
     return d.power[2] == 0;
 }
 
-/* The power of a named unit that shortens the writing most, and what is left beside it; NULL: none
- * does. One that would leave mass or current to divide by says less than base units: m/s^2 is no
- * N/kg. */
+/* The power of a named unit that shortens the text most, and the remaining dimension; NULL: none
+ * does. A unit that would leave mass or current in the denominator is less clear than base units:
+ * m/s^2 isn't printed as N/kg. */
 static const char *dimension_named(Dimension whole, int *power, Dimension *rest)
 {
     static const int powers[] = {1, 2, 3, 4, -1, -2, -3, -4};

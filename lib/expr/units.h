@@ -1,11 +1,11 @@
-/* units.h: units of the command language, held in SI */
+/* units.h: units of the command language; values are in SI */
 #ifndef COTREE_EXPR_UNITS_H
 #define COTREE_EXPR_UNITS_H
 
 #include "base/diag.h"
 #include "base/text.h"
 
-/* exponents of m, kg, s, A, K, rad (rad only keeps angle apart from number where it prints;
+/* exponents of m, kg, s, A, K, rad (rad only distinguishes angles from numbers in printing;
  * dimension_same() ignores it) */
 typedef struct Dimension {
     signed char power[6];
@@ -27,13 +27,13 @@ bool unit_find(const char *name, Unit *unit);
 /* A compound unit, the text between brackets: kN/m, m/s^2, 1/s. On failure *fault is the
  * offset of the part that isn't understood. */
 bool unit_parse(const char *text, size_t length, Unit *unit, size_t *fault);
-/* the unit that a word such as "sec" or "volts" stands for, or NULL */
+/* the unit that a word such as "sec" or "volts" means, or NULL */
 const char *unit_spelled(const char *name);
 /* what was probably meant by an unknown unit name, or NULL */
 const char *unit_suggest(const char *name);
 bool dimension_same(Dimension a, Dimension b);
 bool dimension_has_angle(Dimension d);
-/* Without the angle beside a length, mass, current or temperature: r*h' is in m/s. */
+/* Without the angle if there is a length, mass, current or temperature too: r*h' is in m/s. */
 Dimension dimension_without_angle(Dimension d);
 /* a * b^power; false, *out unchanged, where an exponent no longer fits */
 bool dimension_times(Dimension a, Dimension b, int power, Dimension *out);
@@ -42,12 +42,12 @@ bool dimension_root(Dimension a, Dimension *out);
 /* kg*m^2, with a name where that is shorter: N, V, N/m, N*m (of work and of torque), 1 for none */
 void dimension_print(Text *text, Dimension dimension);
 /* The same in the units of a list, "mm deg rpm": one of that dimension, or of lengths, times and
- * angles one for each, deg/s. What a number in SI is to be divided by. N*m is a torque's here, for
- * which Nm may stand in the list; J, kJ, Wh are of energies, which have a function of their own. */
+ * angles one for each, deg/s. A number in SI is divided by the result. N*m is a torque here (Nm in
+ * the list); J, kJ, Wh are energies, which have a function of their own. */
 double dimension_print_in(Text *text, Dimension dimension, const char *units);
 double energy_print_in(Text *text, const char *units);
-/* Whether a text is such a list, of units of different dimensions, a torque's and an energy's being
- * two: E_UNIT says why not. */
+/* Whether a text is such a list, of units of different dimensions; torque and energy count as two.
+ * E_UNIT gives the reason if not. */
 MUST_USE Status unit_list_check(const char *units, Diag *diag);
 /* every unit name without prefix, for completion: call with 0, 1, ... until NULL */
 const char *unit_name(int i);
