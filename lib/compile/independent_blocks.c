@@ -1,12 +1,12 @@
 /* independent_blocks.c: which operations of a stage may run at the same time, block by block
  *
- * An operation is of a block where what it reads is of that block or of none. What blocks are
- * joined by, as the sum over the legs of a platform, reads several: it is *mixed*. What follows
- * from it may be of one block again, as a leg's accelerations from those of the platform. So a
- * stage has five phases: what is of no block; blocks, apart from each other; what joins them;
- * blocks again; what joins these, as their power. Each reads what stands in phases before or in its
- * own part of its own phase, and that alone tells where it may stand: numbers don't depend on it.
- */
+ * An operation belongs to a block if its operands belong to that block or to none. Operations that
+ * combine blocks, as the sum over the legs of a platform, read several: they are *mixed*. Their
+ * results may be used in one block again, as a leg's accelerations follow from those of the
+ * platform. So a stage has five phases: operations of no block; independent blocks; operations that
+ * combine them; blocks again; operations that combine these, as their power. Each operation reads
+ * results of earlier phases or of its own part of its own phase. Only this dependence determines
+ * its phase; values don't depend on it. */
 #include "compile/program_impl.h"
 
 #include <string.h>
@@ -17,8 +17,8 @@ enum { NO_BLOCK = 0, MIXED = -1 };
 enum { NO_ROOT = 0, MANY_ROOTS = -1 };
 enum { ALONE, BLOCKS_APART, JOINED, BLOCKS_AGAIN, LAST }; /* phases */
 enum { MOST_ROUNDS = 16 };
-/* In sums and products: what bringing threads to work and back takes, and what a phase has to be
- * spared by it; what others take */
+/* In units of a sum or product: the cost of starting and joining threads, the least saving of a
+ * phase that pays, and the cost of other operations */
 enum { WAKING = 600, QUOTIENT = 5, FUNCTION = 15 };
 #define LEAST_GAIN 0.1 /* of a stage's work */
 
@@ -33,7 +33,7 @@ typedef struct Finder {
     int *again;        /* of mixed values that are of one block again; NO_BLOCK: they join */
     int *root;
     bool *is_last;
-    int (*work)[2]; /* of each block, in both phases apart */
+    int (*work)[2]; /* of each block, in both phases of independent blocks */
     int *part_of;   /* of each block */
     uint32_t *stack;
     IndependentBlocks *out;
@@ -75,7 +75,7 @@ static bool is_mixed(const Finder *f, uint32_t v, int stage)
     return is_of_stage(f, v, stage) && f->block[v] == MIXED;
 }
 
-/* A cosine may stand before the sine that is found with it, and users between both. */
+/* A cosine may precede the sine that is computed with it, with users between both. */
 static void find_order(Finder *f)
 {
     bool *is_there = NEW_ARRAY(bool, f->count);
@@ -194,7 +194,7 @@ static bool find_joining(Finder *f, int stage)
     return has_grown;
 }
 
-/* false: it comes to no end */
+/* false: it doesn't terminate */
 static bool find_again(Finder *f, int stage)
 {
     int rounds = 0;

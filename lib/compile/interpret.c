@@ -119,7 +119,7 @@ void program_hand_over(const Program *program, Stage from, Stage to, const doubl
         roots[program->roots[i].root] = slots[program->roots[i].slot];
 }
 
-/* --- several at once: a slot is ABREAST numbers, one behind the other --- */
+/* --- several at once: a slot is ABREAST consecutive numbers --- */
 
 typedef double Eight __attribute__((vector_size(ABREAST * sizeof(double)), aligned(8), may_alias));
 

@@ -1,4 +1,4 @@
-/* jacobian.c: which roots feel which columns, and columns in lanes */
+/* jacobian.c: which roots depend on which columns, and columns in SIMD batches */
 #include "compile/jacobian.h"
 
 #include "base/memory.h"
@@ -18,7 +18,7 @@ struct Jacobian {
     int *by_column;
     int colours;
     int *colour;        /* of each column */
-    Tangents *tangents; /* NULL: not asked for yet */
+    Tangents *tangents; /* NULL: not used yet */
 };
 
 /* --- pattern --- */
@@ -28,7 +28,7 @@ typedef struct JacobianTerms {
     LIST(int) column;
 } JacobianTerms;
 
-/* what a bit says of an input, of all that is made from it */
+/* propagate the bits of inputs to everything computed from them */
 static void reach(const Program *program, uint64_t *mask)
 {
     for (int r = 0; r < program->runs.count; r++) {
@@ -85,7 +85,7 @@ static void find_pattern(Jacobian *j, int rows, int columns)
 
 /* --- colours --- */
 
-/* Each column takes the first colour that no row of it has yet. */
+/* Each column receives the first colour that no row of it has yet. */
 static void choose_colours(Jacobian *j)
 {
     const Pattern *p = &j->pattern;
@@ -158,7 +158,7 @@ const Pattern *jacobian_pattern(const Jacobian *jacobian)
     return &jacobian->pattern;
 }
 
-/* the columns of a few colours, a lane each */
+/* the columns of a few colours, one lane for each colour */
 static void carry(Jacobian *j, int first, const double *by, double *out)
 {
     const Pattern *p = &j->pattern;

@@ -1,9 +1,9 @@
 /* lower.c: expressions to binary operations
  *
- * Sums and products become chains from left to right, whole powers become products,
- * so that each value is what expr_evaluate() finds, to the last bit. Signs are carried
- * along (a Signed is a value or its negative) until a subtraction swallows them: both
- * are exact. Equal operations are one value, whatever expression they come from. */
+ * Sums and products become binary operations from left to right, integer powers become products, so
+ * that each value equals that of expr_evaluate() to the last bit. Signs are propagated (a Signed is
+ * a value or its negative) until a subtraction absorbs them: both are exact. Equal operations are
+ * one value, whatever expression they come from. */
 #include "compile/lower_impl.h"
 #include "compile/program.h"
 
@@ -281,7 +281,7 @@ static Signed lower_symbol(Lowering *low, Expr symbol)
         LIST_PUSH(low->tables, expr_data(symbol));
         return positive(add_constant(low, low->tables.count - 1));
     }
-    /* what can't be given has none, and is missed by whoever needs it */
+    /* a symbol that can't be an input has no value; roots that need it fail */
     if (expr_symbol_kind(symbol) < SYMBOL_VARIABLE)
         input.stage = (uint8_t)stage_of_symbol(expr_symbol_kind(symbol));
     LIST_PUSH(low->symbols, symbol);

@@ -15,8 +15,8 @@ typedef enum Opcode {
 #define OPCODE(id, ...) CODE_##id,
 #include "compile/opcodes.def"
 #undef OPCODE
-    CODE_SINCOS, /* two results, one behind the other */
-    CODE_CALL,   /* and the functions of ops.def behind it */
+    CODE_SINCOS, /* two consecutive results */
+    CODE_CALL,   /* followed by the functions of ops.def */
     CODES = CODE_CALL + OP_COUNT,
     CODE_INPUT,    /* what follows is a value without an instruction; args[0]: which */
     CODE_CONSTANT, /* args[0], args[1]: the bits of the double */
@@ -33,7 +33,7 @@ typedef struct LoweredValue {
 typedef struct Lowered {
     LIST(LoweredValue) values;  /* inputs first */
     LIST(const Curve *) tables; /* borrowed; what data is as a value is its place here */
-    Expr *inputs;               /* as given, and the parameters that were found */
+    Expr *inputs;               /* the caller's, then the parameters that were found */
     int input_count;
     uint32_t *roots; /* values */
     int root_count;
@@ -48,9 +48,9 @@ double value_constant(const LoweredValue *constant);
 /* Fails as program_new() does. O(nodes) */
 MUST_USE Status lowered_make(const Expr *roots, int root_count, const Expr *inputs, int input_count,
                              Lowered *out, Diag *diag);
-/* Likewise, with the parameters that are none of the inputs put behind these, in the order in which
- * their symbols were made. What was lowered last is kept by the arena, if it is much, and what of
- * it stands in these roots isn't lowered again: O(nodes that are new, operations). */
+/* The same; parameters that aren't among the inputs are appended to these, in the order in which
+ * their symbols were made. The arena stores the last large lowering, and parts of it that occur in
+ * these roots aren't lowered again: O(new nodes + operations). */
 MUST_USE Status lowered_make_again(Arena *arena, const Expr *roots, int root_count,
                                    const Expr *inputs, int input_count, Lowered *out, Diag *diag);
 void lowered_free(Lowered *lowered);

@@ -21,7 +21,7 @@ typedef struct Lowering {
 
 /* the values of more expressions; new, mem_free() */
 uint32_t *lowering_add(Lowering *low, const Expr *roots, int count);
-/* where a value stands in the table, or is to be put */
+/* the slot of a value in the table, or the empty slot for it */
 uint32_t lowering_slot(const Lowering *low, const LoweredValue *wanted);
 
 #endif

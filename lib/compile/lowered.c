@@ -1,8 +1,8 @@
-/* lowered.c: of the values of expressions those that some roots need, for one program
+/* lowered.c: selects the values that the roots of one program need
  *
- * What was lowered for a large program the arena keeps. After an edit most of the equations are the
- * expressions that they were, so that only what is new in them is lowered. Programs number their
- * inputs, and pair sines with cosines; what is kept does neither. */
+ * The arena stores the lowering of a large program. After an edit most equations are the same
+ * expressions as before, so that only new ones are lowered. Programs number their inputs and pair
+ * sines with cosines; the stored lowering does neither. */
 #include "compile/lower_impl.h"
 #include "compile/program.h"
 
@@ -14,7 +14,7 @@ enum { WORTH_KEEPING = 8 };
 #else
 enum { WORTH_KEEPING = 2000 }; /* values */
 #endif
-enum { MOST_IDLE = 4 }; /* values that are kept for each one that the last program needed */
+enum { MOST_IDLE = 4 }; /* stored values for each one that the last program needed */
 
 /* --- the inputs of a program --- */
 
@@ -29,7 +29,7 @@ static bool has_operands(const LoweredValue *value)
     return value->code < CODES;
 }
 
-/* operands stand before their users */
+/* operands precede their users */
 static void mark_needed(Picking *picking, const uint32_t *roots, int root_count)
 {
     const Lowering *low = picking->low;
@@ -65,7 +65,7 @@ static void add_input(Picking *picking, Expr symbol)
         picking->place[(low->known[number] - 1) / 2] = (uint32_t)place + 1;
 }
 
-/* those that a root needs and that aren't given; new */
+/* those that a root needs and that aren't inputs; new */
 static Expr *find_missing(const Picking *picking, const Expr *inputs, int input_count, int *count)
 {
     const Lowering *low = picking->low;
@@ -193,7 +193,7 @@ done:
     return status;
 }
 
-/* --- what is kept --- */
+/* --- the stored lowering --- */
 
 static void lowering_end(Lowering *low)
 {
@@ -226,7 +226,7 @@ static void *copied(const void *from, size_t count, size_t size)
     return copy;
 }
 
-/* Data is numbered by the tables of a program: none is kept. */
+/* Data is numbered by the tables of a program: it isn't stored. */
 static Lowering copy_kept(const Lowering *from)
 {
     Lowering low = *from;
@@ -240,7 +240,7 @@ static Lowering copy_kept(const Lowering *from)
     return low;
 }
 
-/* in the place of what was kept; the lowering is given */
+/* replaces the stored lowering; takes ownership */
 static void keep(Arena *arena, const Lowering *low)
 {
     Lowering *kept = NEW(Lowering);
@@ -266,7 +266,7 @@ Status lowered_make(const Expr *roots, int root_count, const Expr *inputs, int i
 Status lowered_make_again(Arena *arena, const Expr *roots, int root_count, const Expr *inputs,
                           int input_count, Lowered *out, Diag *diag)
 {
-    /* as many values as roots would be worth keeping: else looking through them takes longer */
+    /* with fewer roots, searching a stored lowering of WORTH_KEEPING values takes longer */
     const bool is_much = root_count >= WORTH_KEEPING / 20;
     const Lowering *kept = is_much ? arena_find_made(arena, 0, is_any, NULL) : NULL;
     Lowering low = kept != NULL ? copy_kept(kept) : (Lowering){0};

@@ -1,4 +1,4 @@
-/* native.c: a program as instructions of the processor that runs: made, kept, run */
+/* native.c: a program as instructions of the present processor: generated, stored, run */
 #include "compile/native.h"
 
 #include "base/code_memory.h"
@@ -14,7 +14,7 @@ typedef void SectionFunction(double *slots, double *frame);
 
 struct Native {
     CodeMemory *memory;
-    SectionFunction **sections; /* NULL: nothing to do */
+    SectionFunction **sections; /* NULL: empty */
     const int *first_section;   /* of each stage; the program's */
     SectionFunction *joined;    /* where stages are one function: it */
     int width;

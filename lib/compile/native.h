@@ -1,8 +1,8 @@
-/* native.h: a program as instructions of the processor that runs
+/* native.h: a program as instructions of the present processor
  *
- * One function a stage, or a section of one, over the slots of a workspace and a frame of its own.
- * What a stage leaves for later ones stands in the slots in which the interpreter has it, so either
- * may go on where the other has been. A Native is const once made. */
+ * One function for each stage, or section of one, over the slots of a workspace and a frame of its
+ * own. Results for later stages are in the same slots as with the interpreter, so either may
+ * continue after the other. A Native is const once made. */
 #ifndef COTREE_COMPILE_NATIVE_H
 #define COTREE_COMPILE_NATIVE_H
 
@@ -18,12 +18,12 @@ typedef struct NativeTarget {
 } NativeTarget;
 
 enum { FEWEST_REGISTERS = 6, WIDEST = 8 };
-/* Along a chain each sum waits for the one before; those of positions and of speeds are next to
- * each other where their stages are one, and wait together. */
+/* Along a kinematic chain each sum depends on the one before. If positions and speeds are in one
+ * stage, their sums are adjacent and the latencies overlap. */
 #define NATIVE_JOINED     STAGE_TIME
 #define NATIVE_JOINED_END STAGE_NETWORK
 
-/* the best that there is here, for up to `width` evaluations at once; false: nothing */
+/* the best instruction set of this processor, for up to `width` evaluations at once; false: none */
 bool native_target(int width, bool fused, NativeTarget *out);
 bool native_has(Isa isa);
 
@@ -31,7 +31,7 @@ typedef struct Native Native;
 /* New; borrows the program. NULL: the system refuses memory for it. O(instructions * registers). */
 Native *native_new(const Program *program, const NativeTarget *target);
 void native_free(Native *native); /* NULL is fine */
-/* what stands beside the slots while stages run; new, one for each who runs them */
+/* memory in addition to the slots while stages run; new, one for each thread that runs them */
 typedef void NativeFrame;
 NativeFrame *native_frame_new(const Native *native);
 void native_frame_free(NativeFrame *frame);

@@ -1,7 +1,7 @@
 /* native_impl.h: what the files that make native code share
  *
- * The instructions of a stage are put into an order in which results are used soon, calls gathered
- * (native_steps.c); registers are given to them and bytes written (native_registers.c). */
+ * The instructions of a stage are ordered so that results are used soon and calls are gathered
+ * (native_steps.c). Then registers are allocated and bytes emitted (native_registers.c). */
 #ifndef COTREE_COMPILE_NATIVE_IMPL_H
 #define COTREE_COMPILE_NATIVE_IMPL_H
 
@@ -10,13 +10,15 @@
 
 #ifdef __x86_64__
 
-/* where a value stands in memory: a slot, or a place in the frame, or one of its fixed numbers */
+/* the location of a value in memory: a slot, or a place in the frame, or one of its fixed
+ * numbers */
 typedef uint32_t Home;
 #define FRAME   0x80000000U
 #define FIXED   0xC0000000U
 #define NO_HOME UINT32_MAX
 
-/* Numbers that instructions need, first in each frame; as values they come behind the slots. */
+/* Constants that instructions need, first in each frame; as values they are numbered after the
+ * slots. */
 typedef enum FixedValue { FIXED_SIGN, FIXED_SIZE, FIXED_ONE, FIXED_ZERO, FIXED_COUNT } FixedValue;
 
 typedef enum StepCode {
@@ -45,7 +47,7 @@ typedef struct NativeStep {
     uint32_t args[MOST_OPERANDS];
 } NativeStep;
 
-/* functions of one kind, whose arguments stand in memory one behind the other */
+/* functions of one kind, whose arguments are consecutive in memory */
 typedef struct StepCall {
     Opcode code; /* CODE_SINCOS, or another function */
     int count;
@@ -58,7 +60,7 @@ typedef struct SectionSteps {
     LIST(StepCall) calls;
     LIST(uint32_t) results; /* values, NO_HOME where nobody needs one */
     uint32_t value_count;   /* slots, fixed ones, what is new here */
-    uint32_t frame;         /* places taken by calls */
+    uint32_t frame;         /* places used by calls */
 } SectionSteps;
 
 typedef struct StepMaker StepMaker;
@@ -73,7 +75,7 @@ void section_steps_free(SectionSteps *steps);
 uint32_t native_emit(X86Code *code, const NativeTarget *target, const Program *program,
                      const SectionSteps *steps, uint32_t first_slot);
 
-/* where a place is, in bytes behind the slots or the frame */
+/* offset of a place in bytes from the start of the slots or the frame */
 X86Operand home_operand(int width, Home place);
 
 #endif

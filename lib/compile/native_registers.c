@@ -1,8 +1,8 @@
 /* native_registers.c: registers for the steps of a stage, and their bytes
  *
- * One pass. A register that is wanted is taken from the value whose next use is farthest (Belady
- * 1966); who stands in memory anyway counts as twice as far, for nothing is stored then. An operand
- * in memory is read by the instruction itself, except where it is used again soon. */
+ * One pass. When no register is free, the value whose next use is farthest is evicted (Belady
+ * 1966). A value that is in memory anyway counts as twice as far, because it needs no store. An
+ * operand in memory is read by the instruction itself, unless it is used again soon. */
 #include "compile/native_impl.h"
 
 #ifdef __x86_64__
@@ -23,7 +23,7 @@ typedef struct Registers {
     const SectionSteps *steps;
     int count, width;
     bool has_fused;
-    bool has_three; /* operands: the result need not stand where the first did */
+    bool has_three; /* three operands: the result need not overwrite the first */
     int32_t now;
 
     int64_t value[REGISTERS]; /* -1: free */
@@ -73,7 +73,7 @@ static void find_uses(Registers *r)
         r->next_use[v] = r->first_use[v];
 }
 
-/* step of the next use behind this one */
+/* step of the next use after this one */
 static int32_t next_use(const Registers *r, uint32_t value)
 {
     return r->next_use[value] < r->first_use[value + 1] ? r->use[r->next_use[value]] : NEVER;
@@ -150,7 +150,7 @@ static int take(Registers *r)
     return best;
 }
 
-/* a register that holds the value */
+/* a register that contains the value */
 static int bring(Registers *r, uint32_t value)
 {
     int reg = r->reg[value];
@@ -179,7 +179,7 @@ static bool dies_in_register(const Registers *r, uint32_t value)
     return r->reg[value] >= 0 && is_dead(r, value);
 }
 
-/* operands that are needed no more give their registers away, before the result takes one */
+/* registers of operands that are no longer needed are freed before the result gets one */
 static void let_go(Registers *r, const NativeStep *step)
 {
     for (int k = 0; k < step->operands; k++)
@@ -196,7 +196,8 @@ static X86Operand in_register(int reg)
     return (X86Operand){.reg = reg};
 }
 
-/* The register of the result, holding the first operand if two-operand instructions ask for it. */
+/* The register of the result; it contains the first operand if two-operand instructions require
+ * that. */
 static int result_of_first(Registers *r, const NativeStep *step, int first)
 {
     int to;
@@ -307,7 +308,8 @@ static int fused_onto_addend(Registers *r, const NativeStep *step, X86Fused kind
     return to;
 }
 
-/* `to`, which holds a factor, by the other one, with the addend; one of these in a register */
+/* multiply `to`, which contains a factor, by the other one and add the addend; one of these is in a
+ * register */
 static int fused_onto_factor(Registers *r, const NativeStep *step, X86Fused kind, uint32_t factor,
                              int to)
 {
@@ -325,8 +327,8 @@ static int fused_onto_factor(Registers *r, const NativeStep *step, X86Fused kind
     return to;
 }
 
-/* The result takes the register of an operand that dies; else one that has to be loaded is loaded
- * there; else one is copied. */
+/* The result gets the register of an operand that isn't used again; else an operand that has to be
+ * loaded is loaded there; else one is copied. */
 static int emit_fused(Registers *r, const NativeStep *step)
 {
     const X86Fused kind = (X86Fused)(step->code - STEP_MULADD);

@@ -1,7 +1,8 @@
 /* native_steps.c: the instructions of a section in the order of native code
  *
- * Functions lose all registers, so they are gathered: those that need no other function come first,
- * with what they need, then those that need these. The rest follows as it was derived. */
+ * A call of a function destroys all registers, so calls are gathered: first functions that need no
+ * other function, with their operands, then functions that need these. The rest follows in its
+ * original order. */
 #include "compile/native_impl.h"
 
 #ifdef __x86_64__
@@ -15,7 +16,7 @@ struct StepMaker {
     bool fused, joined;
     uint32_t slots;
     uint8_t *code;    /* of the instruction that makes a slot */
-    int *operands;    /* where they begin in the tape; NOT_MADE: an input or a constant */
+    int *operands;    /* index of the first in the tape; NOT_MADE: an input or a constant */
     bool *is_late;    /* another function needs the slot */
     int *root, *next; /* a root that is a slot, and the next one that is the same; -1: none */
     int *level;       /* of functions below it in its section */
@@ -311,7 +312,7 @@ typedef struct Called {
 } Called;
 typedef LIST(Called) Calleds;
 
-/* by argument, so that arguments that stand together already are found */
+/* by argument, so that arguments that are already consecutive are found */
 static int compare(const void *a, const void *b)
 {
     const Called *one = a, *other = b;
@@ -319,7 +320,7 @@ static int compare(const void *a, const void *b)
     return (one->argument > other->argument) - (one->argument < other->argument);
 }
 
-/* arguments of one operand each that are slots of before, one behind the other */
+/* arguments of one operand each that are consecutive earlier slots */
 static bool are_adjacent(const StepMaker *m, const Calleds *calls, int operands, int section)
 {
     for (int i = 0; i < calls->count; i++)

@@ -1,13 +1,13 @@
 /* program.h: expressions to straight-line programs in stages
  *
- * A Program is made once from roots and const ever after; a Workspace holds the
- * numbers of one evaluation and is what a thread owns. A stage is what depends on
- * inputs up to a kind: run again from the first stage whose inputs changed.
+ * A Program is made once from roots and const ever after. A Workspace contains the numbers of one
+ * evaluation and belongs to one thread. A stage consists of the operations that depend on inputs up
+ * to a kind: run again from the first stage whose inputs changed.
  *
- * The interpreter runs through a tape in which equal operations stand in runs, one
- * loop a run. Results have the bits of expr_evaluate(): chains from left to right, every
- * operation rounded. What isn't chosen by an if is computed and doesn't leak. Native code is made
- * for workspaces that are run often. */
+ * The interpreter executes a tape in which equal operations form runs, with one loop for each run.
+ * Results are bitwise those of expr_evaluate(): sums and products from left to right, every
+ * operation rounded. The branch of an if that isn't chosen is computed but doesn't affect the
+ * result. Native code is generated for workspaces that are run often. */
 #ifndef COTREE_COMPILE_PROGRAM_H
 #define COTREE_COMPILE_PROGRAM_H
 
@@ -33,20 +33,20 @@ typedef struct Workspace Workspace;
 
 /* Compile.
  *
- * roots   what is to be computed, borrowed from an arena that may die afterwards
- * inputs  the symbols that will be given numbers, in any order, each once
- * out     new; program_free(). Nothing that no root needs is in it.
+ * roots what is to be computed, borrowed from an arena that may die afterwards inputs the symbols
+ * that the caller sets, in any order, each once out new; program_free(). Nothing that no root needs
+ * is in it.
  *
  * Fails with E_NAME when a root holds a symbol that is no input, naming it. O(nodes) and no
  * recursion. */
 MUST_USE Status program_new(const Expr *roots, int root_count, const Expr *inputs, int input_count,
                             Program **out, Diag *diag);
-/* Which inputs belong together, as those of an instance: operations of one block wait for no other
- * block's. In stages where that pays, those of several blocks stand apart, in at most `parts`, that
- * may run at the same time; each number is computed as it would be otherwise, to the last bit. */
+/* Which inputs belong together, as those of an instance: operations of one block don't depend on
+ * those of another. In stages where that pays, blocks are separated into at most `parts` parts that
+ * may run at the same time. Each number is the same as otherwise, to the last bit. */
 typedef struct ProgramBlocks {
     const int *block; /* of each input, from 1; 0: of none. Borrowed during the call */
-    int parts;        /* 1 or less: nothing stands apart */
+    int parts;        /* 1 or less: no separate parts */
 } ProgramBlocks;
 MUST_USE Status program_new_in_blocks(const Expr *roots, int root_count, const Expr *inputs,
                                       int input_count, const ProgramBlocks *blocks, Program **out,
@@ -75,14 +75,15 @@ void workspace_free(Workspace *workspace); /* NULL is fine */
 void workspace_choose(Workspace *workspace, Evaluator evaluator);
 /* who computes what may run at the same time, borrowed; NULL: the caller alone */
 void workspace_share(Workspace *workspace, Threads *threads);
-/* So many runs of all stages are to come: where they pay for code it is made with the first. */
+/* The caller expects so many runs of all stages: if they pay for native code, it is generated in
+ * the first. */
 void workspace_foresee(Workspace *workspace, int runs);
 /* The numbers of the inputs, in the order given to program_new(): write here. */
 double *workspace_inputs(Workspace *workspace);
 /* Compute stages from..to, both included. No failure; NaN travels. */
 void workspace_run(Workspace *workspace, Stage from, Stage to);
-/* STAGE_TIME to STAGE_NETWORK in one go, which is faster than one by one. A later run begins with
- * one of these again, with STAGE_TIME, or behind them. */
+/* STAGE_TIME to STAGE_NETWORK in one call, which is faster than one by one. A later run starts with
+ * one of these again, with STAGE_TIME, or after them. */
 void workspace_run_joined(Workspace *workspace);
 /* The values of the roots, in order; a root's is current once its stage was run. Borrowed. */
 const double *workspace_roots(const Workspace *workspace);

@@ -4,9 +4,8 @@
  * (schedule.c). A workspace (workspace.c) runs through them (interpret.c), or has native code made
  * (native.h).
  *
- * Slots of a workspace: inputs, constants, then results in the order of the tape.
- * So an instruction tells its operands only; a run knows the slot of its first
- * result. */
+ * Slots of a workspace: inputs, constants, then results in the order of the tape. So an instruction
+ * stores only its operands; a run stores the slot of its first result. */
 #ifndef COTREE_COMPILE_PROGRAM_IMPL_H
 #define COTREE_COMPILE_PROGRAM_IMPL_H
 
@@ -19,12 +18,11 @@
 typedef struct OpcodeRun {
     Opcode code;
     int count;
-    int operands; /* where they begin in the tape, those of one instruction together */
+    int operands; /* index of the first in the tape, those of one instruction together */
     int result;   /* slot of the first */
 } OpcodeRun;
 
-/* What stands one behind the other in a stage: `together` of them, this one first, may run at the
- * same time. */
+/* Consecutive sections of a stage: `together` of them, this one first, may run at the same time. */
 typedef struct Section {
     int first_run;
     int first_slot;
@@ -44,7 +42,7 @@ struct Program {
     LIST(double) constants;
     LIST(Curve *) tables;
     LIST(OpcodeRun) runs;
-    LIST(Section) sections; /* one a stage, where none stand apart */
+    LIST(Section) sections; /* one for each stage that isn't separated */
     LIST(uint32_t) tape;
     LIST(uint32_t) derived;         /* slots of results in the order of the expressions */
     Handover *roots;                /* by stage */
@@ -72,7 +70,7 @@ static inline bool is_instruction(const LoweredValue *value)
 {
     return value->code < CODES;
 }
-/* the run behind a section's last */
+/* the run after a section's last */
 static inline int section_end(const Program *program, int section)
 {
     return section + 1 < program->sections.count ? program->sections.at[section + 1].first_run
@@ -81,8 +79,8 @@ static inline int section_end(const Program *program, int section)
 
 /* --- independent_blocks.c --- */
 
-/* How the values of a stage stand apart: first what is of no block, alone, then parts, then what
- * joins them, alone, and so on (independent_blocks.c). */
+/* How the values of a stage are separated: first those of no block, alone, then parts, then those
+ * that combine them, alone, and so on (independent_blocks.c). */
 enum { PHASES = 5 };
 typedef struct IndependentBlocks {
     int parts;
@@ -108,7 +106,7 @@ void program_interpret_abreast(const Program *program, Stage from, Stage to, dou
 
 /* Instructions that interpreting these stages counts as, with the call. */
 long program_interpreting(const Program *program, Stage from, Stage to);
-/* Whether so many took about as long as making native code does. */
+/* Whether so many runs took about as long as generating native code. */
 bool program_has_paid(const Program *program, long interpreted);
 
 /* --- rounding.c --- */

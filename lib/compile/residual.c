@@ -8,8 +8,8 @@
 #include <string.h>
 
 struct Residual {
-    int uses;  /* by those who asked for it, and the arena */
-    Expr *key; /* the order's roots, unknowns and inputs; NULL: it isn't kept */
+    int uses;  /* number of owners: callers, and the arena */
+    Expr *key; /* the order's roots, unknowns and inputs; NULL: not cached */
     int input_count, parts;
     Program *program;
     int row_count, unknown_count;
@@ -93,7 +93,7 @@ static Status differentiate(const ResidualOrder *order, Residual *r, ResidualRoo
     return status;
 }
 
-/* what comes behind the order's inputs */
+/* the inputs after those of the order */
 static void take_parameters(const ResidualOrder *order, Residual *r, const Lowered *lowered)
 {
     r->parameter_count = lowered->input_count - order->input_count;
@@ -105,7 +105,7 @@ static void take_parameters(const ResidualOrder *order, Residual *r, const Lower
 
 /* --- those made before --- */
 
-/* operations from which on compiling takes longer than looking whether it has been done */
+/* number of operations from which on compiling takes longer than searching the cache */
 enum { WORTH_KEEPING = 2000 };
 
 static uint64_t mix(uint64_t h, const Expr *symbols, int count, uint32_t *newest)
@@ -182,7 +182,7 @@ static void keep(Residual *r, const ResidualOrder *order, uint64_t hash, uint32_
     arena_add_made(order->arena, &made);
 }
 
-/* whether what is compiled are the roots as they stand */
+/* whether the compiled roots are the present ones */
 static bool is_plain(const ResidualOrder *order)
 {
     for (int i = 0; order->put != NULL && i < order->root_count; i++)

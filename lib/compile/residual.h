@@ -1,8 +1,9 @@
 /* residual.h: rows of expressions over unknowns, with their derivatives, compiled
  *
- * Derivatives are formed in symbols, only those that aren't 0, and computed by one Program with the
- * rows. A Residual is made once and const ever after; the numbers of one evaluation stand in a
- * Workspace of its program, of which each thread has its own. */
+ * Rows r(x, p) (m x 1) of unknowns x (n x 1) and inputs p, with the entries of dr/dx that aren't
+ * identically 0. Derivatives are formed symbolically and computed by one Program with the rows. A
+ * Residual is made once and const ever after. The numbers of one evaluation are in a Workspace of
+ * its program; each thread has its own. */
 #ifndef COTREE_COMPILE_RESIDUAL_H
 #define COTREE_COMPILE_RESIDUAL_H
 
@@ -25,7 +26,7 @@ typedef struct ResidualOrder {
     int row_count;        /* so many of them, the first, are rows: they are differentiated */
     const Expr *unknowns; /* by these symbols, each once */
     int unknown_count;
-    const Expr *inputs; /* symbols that will be given numbers, but for parameters */
+    const Expr *inputs; /* symbols that the caller sets, without parameters */
     int input_count;
     ProgramBlocks blocks;                     /* of these inputs; a parameter is of none */
     Expr (*put)(const void *context, Expr e); /* what is compiled for a root or slope; NULL: it */
@@ -40,12 +41,12 @@ void residual_free(Residual *residual); /* NULL is fine */
 
 /* Its inputs are those of the order, then the parameters; its roots likewise, then the slopes. */
 const Program *residual_program(const Residual *residual);
-/* the parameters that its roots hold, in the order of their inputs; borrowed from the arena */
+/* the parameters that its roots contain, in the order of their inputs; borrowed from the arena */
 const Expr *residual_parameters(const Residual *residual, int *count);
 /* Row by row, in a row by rising unknowns. Borrowed. */
 const Slope *residual_slopes(const Residual *residual, int *count);
 int residual_row_count(const Residual *residual);
-int residual_first_slope(const Residual *residual); /* where they begin among the roots */
+int residual_first_slope(const Residual *residual); /* index of the first among the roots */
 /* The derivatives as a full matrix (rows x unknowns), from the values of all roots. */
 void residual_jacobian(const Residual *residual, const double *roots, double *out);
 

@@ -1,9 +1,10 @@
-/* rounding.c: how far the roots of a program may be off
+/* rounding.c: error bounds of the roots of a program
  *
- * Beside each number stands a bound of its error: what its operation rounds away, and what the
- * result moves when the operands move by theirs. The rounding of a sum or a product is computed
- * (Knuth 1997, 4.2.2), so what is exact is known to be; that of a function is taken as a unit in
- * the last place. Conditions count as decided. Higham (2002), 3.3. */
+ * Each number has an error bound: the rounding error of its operation, plus the change of the
+ * result when the operands change by their bounds. The rounding error of a sum or a product is
+ * computed exactly (Knuth 1997, 4.2.2), so that exact results have the bound 0. That of a function
+ * is assumed to be one unit in the last place. Conditions are assumed to be decided correctly.
+ * Higham (2002), 3.3. */
 #include "compile/program_impl.h"
 
 #include "algebra/elementary.h"

@@ -1,4 +1,4 @@
-/* schedule.c: from values to a tape in which equal operations stand together
+/* schedule.c: orders values into a tape in which equal operations are adjacent
  *
  * A product that only one sum of its stage needs is fused with it, two roundings as
  * before. Then, stage by stage, list scheduling: of the operations whose operands are
@@ -27,7 +27,7 @@ typedef struct Plan {
     uint32_t *slot;              /* of each value */
     uint32_t *pending;           /* operands of the same stage that aren't there yet */
     uint32_t *users;             /* of the same stage, by operand */
-    uint32_t *first_user;        /* where those of each value begin; count + 1 */
+    uint32_t *first_user;        /* index of each value's first user; count + 1 */
     uint32_t *next;              /* in a queue, or of those that wait for no one in their stage */
     uint32_t ready[STAGE_COUNT]; /* the first of these */
     Queue queues[CODES];
@@ -35,7 +35,7 @@ typedef struct Plan {
     int code_count;
     int work[STAGE_COUNT]; /* instructions that aren't on the tape yet */
     IndependentBlocks apart;
-    int phase, part; /* of the section that is being put on the tape */
+    int phase, part; /* of the section that is being appended to the tape */
 } Plan;
 
 /* --- fusing --- */
@@ -220,7 +220,7 @@ static void emit_run(Plan *plan, Opcode code)
     LIST_PUSH(program->runs, run);
 }
 
-/* what waits for no one when a section begins, in order */
+/* operations that are ready at the start of a section, in order */
 static void enqueue_ready(Plan *plan, Stage stage)
 {
     if (!plan->apart.is_split[stage]) {
@@ -237,7 +237,7 @@ static void enqueue_ready(Plan *plan, Stage stage)
     }
 }
 
-/* What has begun before its section is there to be taken up when that begins. */
+/* Operations that became ready before their section are scheduled when it starts. */
 static void emit_section(Plan *plan, Stage stage, int together)
 {
     Program *program = plan->program;

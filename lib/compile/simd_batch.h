@@ -1,9 +1,9 @@
 /* simd_batch.h: a program at several inputs at once
  *
- * Native code takes as many of them together as the processor has it; the interpreter eight, and
- * fewer one by one. A stage runs again only when one of its inputs has changed. There are 1, 2, 4
- * or 8 lanes. Nothing is allocated once they are made, and a Lanes is used by one thread; the
- * Native, which several may share, is const. */
+ * Native code computes as many lanes together as the processor supports; the interpreter eight
+ * together, fewer one by one. A stage runs again only when one of its inputs has changed. A batch
+ * has 1, 2, 4 or 8 lanes. Nothing is allocated after creation. A SimdBatch is used by one thread;
+ * the Native, which several may share, is const. */
 #ifndef COTREE_COMPILE_SIMD_BATCH_H
 #define COTREE_COMPILE_SIMD_BATCH_H
 
@@ -11,8 +11,8 @@
 
 typedef struct SimdBatch SimdBatch;
 
-/* Native code for so many lanes; NULL: the interpreter is to compute, or there is none here. New;
- * borrows the program. */
+/* Native code for so many lanes; NULL: the interpreter is faster, or this processor isn't
+ * supported. New; borrows the program. */
 Native *simd_batch_native(const Program *program, int lanes, Evaluator evaluator);
 /* The same, where it is made sooner than the interpreter has run so often; NULL elsewhere. */
 Native *simd_batch_native_if_it_pays(const Program *program, int lanes, Evaluator evaluator,
@@ -22,7 +22,7 @@ Native *simd_batch_native_if_it_pays(const Program *program, int lanes, Evaluato
  */
 SimdBatch *simd_batch_new(const Program *program, const Native *native, int lanes);
 void simd_batch_free(SimdBatch *lanes); /* NULL is fine */
-/* an input of that stage: a number a lane */
+/* an input of that stage: one number for each lane */
 void simd_batch_set(SimdBatch *lanes, int input, Stage stage, const double *values);
 void simd_batch_run(SimdBatch *lanes);
 void simd_batch_get(const SimdBatch *lanes, int root, double *out); /* of every lane */

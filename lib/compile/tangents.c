@@ -1,8 +1,9 @@
-/* tangents.c: partial derivatives of instructions, and directions carried through them
+/* tangents.c: partial derivatives of instructions, and forward propagation of directions
  *
- * An instruction z = f(a, b, c) moves by f_a a' + f_b b' + f_c c'. Partial derivatives of functions
- * are those of their rules (ops.def), compiled once for each function that is met. The bound of a
- * derivative is of the same kind as that of a value (rounding.c), whose bounds it goes on from. */
+ * An instruction z = f(a, b, c) has z' = f_a a' + f_b b' + f_c c'. Partial derivatives of functions
+ * follow from their rules (ops.def), compiled once for each function that occurs. The error bound
+ * of a derivative is of the same kind as that of a value (rounding.c), and starts from the bounds
+ * of values. */
 #include "compile/tangents.h"
 
 #include "algebra/double_double.h"
@@ -25,9 +26,9 @@ struct Tangents {
     Rule rules[CODES];
     int *root;                       /* slots of roots */
     double *slots, *errors;          /* of values */
-    double *partial, *partial_error; /* as the tape tells operands */
-    double *moves, *moves_error;     /* of slots, by lanes */
-    uint8_t *moved;                  /* slots: lanes that move them, a bit each */
+    double *partial, *partial_error; /* in the order of the tape's operands */
+    double *moves, *moves_error;     /* z' of slots, by lanes */
+    uint8_t *moved;                  /* slots: lanes in which they change, one bit each */
     bool is_bounded;
 };
 
@@ -283,8 +284,9 @@ static inline void add(double partial, double partial_error, double by, double b
               partial_error * (fabs(by) + by_error);
 }
 
-/* What an operand adds to a result. A partial derivative that is certainly 0 lets nothing through,
- * as of what an if doesn't choose; one without bounds acts in lanes that move alone. */
+/* The contribution of an operand to a result. A partial derivative that is certainly 0 contributes
+ * nothing, as for the branch that an if doesn't choose. One without bounds contributes only in
+ * lanes in which the operand changes. */
 static void carry(Tangents *tangents, uint32_t from, double partial, double partial_error,
                   int result)
 {

@@ -7,11 +7,12 @@
 #include <math.h>
 #include <string.h>
 
-/* Native code is made as soon as what was interpreted took about as long as making it does: so it
- * costs twice the better of both at most, however long a run is. In instructions interpreted
- * (make bench: program.eval_*, make_native_*): one takes MAKING to make, memory for code as much
- * as MEMORY, and a call of the interpreter CALLING, which goes from opcode to opcode a dozen times.
- * None of it may depend on how many parts there are: fused code has other bits. */
+/* Native code is generated as soon as interpretation has taken about as long as generating it
+ * would: so the total cost is at most twice the better of both, however long a run is. Costs in
+ * interpreted instructions (make bench: program.eval_*, make_native_*): MAKING to generate one
+ * instruction, MEMORY to allocate memory for code, CALLING for a call of the interpreter, which
+ * changes opcode a dozen times. None of it may depend on the number of parts: results of fused code
+ * differ in the last bits. */
 #if defined COTREE_SMALL || defined COTREE_FAULTS
 enum { MAKING = 0, MEMORY = 1, CALLING = 1 };
 #else
@@ -28,9 +29,9 @@ bool program_has_paid(const Program *program, long interpreted)
     return interpreted > MEMORY + (long)MAKING * program->work[STAGE_COUNT];
 }
 
-/* Several threads are made use of where they are faster, by the clock, since numbers that go from
- * one processor to another may take longer than computing them: as often as TRIES tells by turns
- * with and without, and then what was faster, until that has been so for PATIENCE runs. */
+/* Several threads are used where they are measured to be faster, because moving numbers between
+ * processors may take longer than computing them. TRIES runs alternate between one and several
+ * threads; then the faster way is used for PATIENCE runs. */
 enum { TRIES = 16, PATIENCE = 10000 };
 #define FASTER 0.95
 
@@ -120,7 +121,7 @@ const double *workspace_roots(const Workspace *workspace)
     return workspace->slots + workspace->program->slot_count;
 }
 
-/* Where there is no native code the interpreter goes on. */
+/* Without native code the interpreter continues. */
 static void make_native(Workspace *workspace, NativePart *part)
 {
     NativeTarget target;
@@ -243,7 +244,7 @@ void workspace_run_joined(Workspace *workspace)
 
 void workspace_errors(const Workspace *workspace, const double *input_errors, double *root_errors)
 {
-    /* native code keeps but what later stages need */
+    /* native code stores only what later stages need */
     if (workspace->single.native != NULL || workspace->joined.native != NULL)
         program_interpret(workspace->program, STAGE_PARAMETER, STAGE_COUNT - 1, workspace->slots);
     program_bound(workspace->program, workspace->slots, input_errors, root_errors);

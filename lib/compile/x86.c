@@ -6,7 +6,7 @@
 /* Bases point here into their memory, so that more of it is within a byte's reach. */
 enum { BIAS = 128 };
 
-/* how an instruction is told */
+/* encoding of an instruction */
 typedef struct Form {
     uint8_t opcode;
     uint8_t map;    /* 1: 0F, 2: 0F 38, 3: 0F 3A */
@@ -30,7 +30,7 @@ static void number(X86Code *code, uint64_t value, int bytes)
         byte(code, (unsigned)(value >> 8 * i & 0xFF));
 }
 
-/* number of the register that a base stands in: rbx and rbp, or the arguments rdi and rsi */
+/* number of the register that contains a base: rbx and rbp, or the arguments rdi and rsi */
 static unsigned base_register(const X86Code *code, X86Base base)
 {
     static const unsigned kept[] = {3, 5}, arguments[] = {7, 6};
@@ -38,8 +38,8 @@ static unsigned base_register(const X86Code *code, X86Base base)
     return code->is_leaf ? arguments[base] : kept[base];
 }
 
-/* the byte that tells both operands, and how far memory is; EVEX counts a byte's reach in lengths
- */
+/* the ModRM byte for both operands, and the displacement; EVEX scales a byte displacement by the
+ * vector length */
 static void put_operands(X86Code *code, int reg, X86Operand rm, int scale)
 {
     const unsigned middle = ((unsigned)reg & 7) << 3;

@@ -1,7 +1,8 @@
 /* x86.h: instructions of x86-64 on doubles, as bytes
  *
- * Registers 0 to 15 are xmm, ymm or zmm as the width has it, up to 31 with AVX-512. Memory is a
- * number of bytes behind one of two bases. Forms and opcodes: Intel (2023), volume 2. */
+ * Registers 0 to 15 are xmm, ymm or zmm as the width has it, up to 31 with AVX-512. A memory
+ * operand is an offset in bytes from one of two bases. Forms and opcodes: Intel (2023), volume
+ * 2. */
 #ifndef COTREE_COMPILE_X86_H
 #define COTREE_COMPILE_X86_H
 
@@ -13,7 +14,7 @@ typedef struct X86Code {
     LIST(uint8_t) bytes;
     Isa isa;
     int width;    /* doubles in a register that count */
-    bool is_leaf; /* calls nothing: bases may stand in registers that a call would lose */
+    bool is_leaf; /* calls nothing: bases may be in registers that a call would destroy */
 } X86Code;
 
 typedef enum X86Base { BASE_SLOTS, BASE_FRAME } X86Base;
@@ -53,7 +54,7 @@ typedef enum X86Compare {
     IS_LESS_EQUAL = 2,
     IS_NOT_EQUAL = 4
 } X86Compare;
-/* all bits of `to`, or none; without AVX `to` is `first`. Not with AVX-512: there it is kept as
+/* all bits of `to`, or none; without AVX `to` is `first`. Not with AVX-512: there it is stored as
  * the mask that x86_choose() and x86_masked() read. */
 void x86_compare(X86Code *code, X86Compare how, int to, int first, X86Operand second);
 /* to = mask ? yes : no, with AVX and AVX-512 */
