@@ -15,7 +15,7 @@ typedef struct CallMonitor {
     void (*progress)(void *context, const char *phase, double fraction);
 } CallMonitor;
 
-/* OK, or E_STOPPED when the user asked to stop. */
+/* OK, or E_STOPPED when the user has requested a stop. */
 static inline Status monitor_poll(const CallMonitor *watch)
 {
     return watch != NULL && watch->stop != NULL && watch->stop(watch->context) ? E_STOPPED : OK;

@@ -1,10 +1,10 @@
 /* decimal.c: the shortest decimal that reads back to a number
  *
- * A number is scaled to 17 digits before the point by a power of ten of 126 bits, so that what is
- * behind the point is known to 2^-56: from that follows whether fewer digits read back, which they
- * do if they are nearer to the number than half way to the next double, and what they are rounded
- * to. Where two lie as close to each other as that, as ties do, printf() and strtod() tell. (Powers
- * as products of a coarse and a fine one: Jeon, Dragonbox, 2020.) */
+ * A number is scaled to 17 digits before the point by a power of ten of 126 bits, so that the
+ * fraction is known to 2^-56. That determines the rounded digits, and whether fewer digits read
+ * back: they do if they are nearer to the number than half way to the next double. Where the
+ * fraction is too close to a tie to decide, printf() and strtod() are used. (Powers as products of
+ * a coarse and a fine one: Jeon, Dragonbox, 2020.) */
 #include "base/decimal.h"
 
 #include <float.h>
@@ -36,7 +36,7 @@ typedef unsigned __int128 DecimalWide;
 /* digits * 10^(exponent - 16), and a rest of them */
 typedef struct Decimal {
     uint64_t digits; /* 17 */
-    uint64_t rest;   /* of the last, times 2^BEHIND */
+    uint64_t rest;   /* fraction of the last digit, times 2^BEHIND */
     uint64_t reach;  /* half way to the next double, in the same unit */
     bool is_edge;    /* a power of two: the next smaller double is but half as far */
     int exponent;    /* of the first digit */
@@ -83,7 +83,7 @@ static const uint64_t fine_powers[FINE] = {
     /* clang-format on */
 };
 
-/* The first 126 bits or more of 10^n / 2^(*binary), and 0 behind them where it has no more. */
+/* The first 126 bits or more of 10^n / 2^(*binary), followed by zeros if it has fewer. */
 static DecimalWide power_of_ten(int n, int *binary)
 {
     /* of 10^(FINE * (FIRST + i)) the first 128 bits, cut off */
@@ -166,7 +166,7 @@ static bool take_apart(double size, Decimal *out)
         int of_power;
         const DecimalWide product =
             scale(mantissa << LEADING, DECIMAL_EXACT - 1 - out->exponent, &power, &of_power);
-        /* 69 to 74 of its places are behind the point */
+        /* 69 to 74 of its bits are the fraction */
         const int behind = LEADING + DBL_MANT_DIG - 1 - binary - of_power - 64;
         const uint64_t high = (uint64_t)(product >> 64), low = (uint64_t)product;
 
@@ -218,8 +218,8 @@ static bool round_off(const Decimal *d, Rounded *r)
            !(r->over + 1 == half && d->rest + NOISE >= one);
 }
 
-/* Sixteen digits if the value reads back from them or no more are asked for, else all; there is no
- * branch, since it is as likely as not. */
+/* Sixteen digits if the value reads back from them or no more are requested, else all. Without a
+ * branch, because both cases are equally likely. */
 static int sixteen_or_all(const Decimal *d, int most, uint64_t hundreds, uint64_t over,
                           Rounded *out)
 {
@@ -317,8 +317,9 @@ static char *write_exponent(char *text, int exponent)
     return text;
 }
 
-/* As %g does for the last n of what is spelled, of which `length` are no zeros at the end: the
- * first stands for 10^exponent. Hands over the end; what is put behind it is nothing. */
+/* Format the last n of the converted digits as %g does. `length` of them remain without trailing
+ * zeros, and the first one counts 10^exponent. Returns the end of the text; no terminator is
+ * written. */
 static char *lay_out(char *text, const Spelled *s, int n, int length, int exponent)
 {
     const bool is_plain = exponent >= PLAIN && exponent < n;

@@ -7,9 +7,9 @@
 enum { DECIMAL_SIZE = 40, DECIMAL_EXACT = 17 };
 
 /* %.{n}g of the value, by the smallest n from 15 on that strtod() reads back to it, of at most
- * `most` digits (DECIMAL_EXACT always do), or of `most` where that is less. Products of whole
- * numbers tell, and printf() where two decimals lie as close: tables of results are made of nothing
- * else. Hands over the length. */
+ * `most` digits (DECIMAL_EXACT always do), or of `most` where that is less. Uses integer products,
+ * and printf() only near ties, because tables of results consist of such numbers. Returns the
+ * length. */
 size_t decimal_print(char text[DECIMAL_SIZE], double value, int most);
 
 #endif

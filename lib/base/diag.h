@@ -45,7 +45,7 @@ typedef struct Diag {
     char message[600];
     char hint[400];   /* empty where there is none */
     char inside[300]; /* the line of a definition where it arose, and a caret; empty: none */
-    char about[100];  /* the variable, key or run ("run2.") that it is about; empty: none is told */
+    char about[100];  /* the variable, key or run ("run2.") that it is about; empty: none */
 } Diag;
 
 /* Fill `diag` (which may be NULL) and return `status`, so that a function can
@@ -55,13 +55,13 @@ Status diag_set(Diag *diag, Status status, const char *format, ...) PRINTF(3, 4)
 /* the same with a place in the text */
 Status diag_at(Diag *diag, Status status, Place place, const char *format, ...) PRINTF(4, 5);
 
-/* Add the way out to what diag_set() said. */
+/* Add a hint to the message of diag_set(). */
 void diag_hint(Diag *diag, const char *format, ...) PRINTF(2, 3);
 
 /* Add what it is about, by name: whoever has the user's text finds the place of that. */
 void diag_about(Diag *diag, const char *format, ...) PRINTF(2, 3);
 
-/* the text beside a status in status.def; never NULL */
+/* the text of a status in status.def; never NULL */
 const char *status_text(Status status);
 
 #endif

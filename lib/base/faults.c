@@ -1,12 +1,12 @@
 /* faults.c: every call is tried with allocations that fail, in a build with --enable-faults
  *
- * Before a call is made as it should be, it is made some times with its n-th allocation failing.
- * What a try did is taken back, whether its allocation was reached or not, and every piece that was
- * there before has to be as it was, to the byte: what isn't was changed without mem_keep(), and
- * that ends the program. So all tests run as ever, and each of their calls is one more test.
+ * Before a call is executed normally, it is executed some times with its n-th allocation failing.
+ * Each trial is rolled back, whether its allocation was reached or not. Then every older piece of
+ * memory must be unchanged, byte by byte: a changed one was modified without mem_keep(), and that
+ * ends the program. So all tests run as usual, and each of their calls is an additional test.
  *
- * COTREE_FAULTS in the environment says how many tries: "all" for each n up to some hundreds and a
- * sample of those beyond, "none"; else two, at random. */
+ * COTREE_FAULTS in the environment sets the number of trials: "all" for each n up to some hundreds
+ * and a sample of those beyond, "none"; else two, at random. */
 #include "base/memory_impl.h"
 
 #include <stdlib.h>

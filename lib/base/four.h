@@ -8,8 +8,8 @@
 typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
 typedef int64_t FourTruths __attribute__((vector_size(32), aligned(8))); /* -1: so; 0: not so */
 
-/* Before a function that computes with them. The thread sanitizer isn't there yet when the system
- * asks which of both it is to be. */
+/* Attribute of functions that compute with them. Not with the thread sanitizer, which isn't
+ * initialised yet when the loader selects one of the two versions. */
 #if defined __x86_64__ && defined __GLIBC__ && !defined __clang__ && !defined __SANITIZE_THREAD__
 #define AS_WIDE_AS_CAN_BE __attribute__((target_clones("avx2", "default")))
 #else

@@ -19,7 +19,7 @@ enum { FIRST_ROOM = 8, FIRST_CHUNK = 65536 };
 #define MOVES_ALWAYS(memory)                                                                       \
     (FAULTS && transaction_is_trial() && (memory) != NULL && mem_is_old(memory))
 
-/* who asked for a piece, for those who look for a fault */
+/* the caller of an allocation, for debugging */
 #define CALLER __builtin_return_address(0)
 
 /* --- pieces --- */

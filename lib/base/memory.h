@@ -1,12 +1,11 @@
-/* memory.h: memory that is there, chunked pools, growing arrays
+/* memory.h: allocation that never returns NULL, chunked pools, growing arrays
  *
- * Running out of memory is not an error a caller can mend in the middle of a
- * formula: these functions hand out what was asked for, or leave the call of the
- * library that asked for it, and nothing is left of that (transaction.h). Everything
- * else in lib/ reports by Status.
+ * A caller can't repair running out of memory in the middle of a formula. So these functions return
+ * the requested memory, or leave the current call of the library and roll it back (transaction.h).
+ * Everything else in lib/ reports by Status.
  *
- * A Pool hands out pieces that never move and are freed together, or back to a
- * mark. Its pieces are borrowed from it. */
+ * A Pool allocates pieces that never move and are freed together, or back to a mark. Its pieces are
+ * borrowed from it. */
 #ifndef COTREE_BASE_MEMORY_H
 #define COTREE_BASE_MEMORY_H
 

@@ -8,7 +8,8 @@
 void *system_allocate(size_t size, bool zeroed);
 /* One of the transaction that goes on, if one does; leaves it where memory has ended. */
 MemPiece *piece_new(size_t size, bool zeroed, const void *maker);
-/* With another size; may move, and what a transaction may have to go back to stays where it is. */
+/* Change the size; the piece may move. The old piece stays allocated if a transaction may have to
+ * restore it. */
 MemPiece *piece_resize(MemPiece *piece, size_t size, const void *maker);
 /* Give a piece back: at once, or when the transaction has come to its end. */
 void piece_drop(MemPiece *piece);

@@ -9,7 +9,7 @@
 typedef struct Names Names;
 
 Names *names_new(void);       /* new; names_free() */
-Names *names_borrowing(void); /* the same of texts that stay as long as it */
+Names *names_borrowing(void); /* the same; the caller's texts must outlive it */
 /* the same names by the same numbers, borrowed from elsewhere: texts[number]; O(names) */
 Names *names_borrowing_from(const Names *from, const char *const *texts);
 void names_expect(Names *names, int more); /* room for so many is made at once */

@@ -19,8 +19,7 @@ void text_add_n(Text *text, const char *more, size_t length);
 void text_addf(Text *text, const char *format, ...) PRINTF(2, 3);
 void text_char(Text *text, char c);
 void text_fill(Text *text, char c, int count);
-/* Where so many more characters can be written to, behind the end; text_extend() tells where they
- * ended. */
+/* Room for so many more characters at the end. After writing, call text_extend() with their end. */
 char *text_room(Text *text, size_t most);
 void text_extend(Text *text, char *end);
 void text_number(Text *text, double value, int digits); /* shortest of %.{digits}g; 17 is exact */

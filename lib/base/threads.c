@@ -1,8 +1,8 @@
 /* threads.c: pieces are taken by counting down
  *
- * `left` counts pieces that nobody has taken yet: who takes one off it owns that piece, and what
- * the work is stays as it is until that piece is done. `undone` counts those that aren't. Between
- * two pieces of work `left` is 0, so that nobody looks at what is being written. */
+ * `left` counts pieces that no thread has started. A thread that decrements it owns that piece, and
+ * the work isn't replaced until the piece is done. `undone` counts unfinished pieces. Between two
+ * pieces of work `left` is 0, so that no thread reads the fields while they are written. */
 #include "base/threads.h"
 
 #include "base/clock.h"
@@ -12,8 +12,8 @@
 #include <signal.h>
 #include <stdatomic.h>
 
-/* s: how long who has nothing to do stays awake. Longer than what stands between two evaluations of
- * a model that is worth threads, less than anybody notices. */
+/* s: how long an idle thread polls before it sleeps. Longer than the time between two evaluations
+ * of a model that is large enough for threads, too short to be noticed. */
 #define AWAKE 1e-4
 enum { LOOKS = 64 }; /* between looks at the clock */
 
@@ -24,8 +24,8 @@ struct Threads {
     atomic_bool is_over;
     void (*piece)(void *context, int which);
     void *context;
-    int wanted, started; /* beside the caller's; what was refused counts as started */
-    int count;           /* of those that are there */
+    int wanted, started; /* without the caller's thread; refused ones count as started */
+    int count;           /* threads running */
     pthread_t thread[MOST_THREADS - 1];
     pthread_mutex_t lock;
     pthread_cond_t wake;
@@ -67,7 +67,7 @@ static void keep_spinning(Threads *t)
     } while (clock_now() < until);
 }
 
-/* Who has said that it sleeps looks once more, so that nobody is left asleep. */
+/* A thread that has announced its sleep checks once more, so that no wake-up is lost. */
 static void sleep_until_work(Threads *t)
 {
     (void)pthread_mutex_lock(&t->lock);

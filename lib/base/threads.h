@@ -1,11 +1,12 @@
-/* threads.h: work in pieces, on as many threads as are given
+/* threads.h: work in pieces, on a given number of threads
  *
- * Which thread takes which piece is left to chance, so pieces write to places of their own, and
- * what they make together is put together afterwards in an order of its own: then results are the
- * same for any number of threads. A piece allocates nothing, and neither polls nor fails.
+ * The assignment of pieces to threads is not deterministic. So each piece writes to memory of its
+ * own, and the caller combines the results afterwards in a fixed order: then results are the same
+ * for any number of threads. A piece allocates nothing, and neither polls nor fails.
  *
- * Threads begin with the first work and wait for the next: a moment awake, then asleep. Signals are
- * left to the thread that asks. Where the system refuses a thread, those that are there do it. */
+ * Threads start with the first work and wait for the next: they poll for a moment, then sleep.
+ * Signals are delivered to the calling thread only. If the system refuses a thread, the others do
+ * the work. */
 #ifndef COTREE_BASE_THREADS_H
 #define COTREE_BASE_THREADS_H
 

@@ -14,8 +14,8 @@
 #define ASAN_UNPOISON_MEMORY_REGION(at, size) ((void)(at), (void)(size))
 #endif
 
-/* whether pieces serve again, and end with their grain: not where somebody watches who touches what
- * is freed, or lies behind */
+/* whether pieces are reused, and sizes rounded up to the grain: not under a memory checker, which
+ * watches accesses to freed memory and beyond the end */
 #ifdef __SANITIZE_ADDRESS__
 enum { SPARES = false };
 #else

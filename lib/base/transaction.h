@@ -1,22 +1,22 @@
-/* transaction.h: what one call does to memory, all of it or nothing
+/* transaction.h: changes of one call to memory, all or nothing
  *
- * Where memory ends, a formula half built has nobody to report to. So each call of cotree.h is a
- * transaction: an allocation that fails inside takes back what the call did and leaves it at once,
- * by longjmp(). What the call allocated is freed, what it freed is there again, what it changed is
- * as it was. Three rules make that so:
+ * Code in the middle of building a formula can't handle running out of memory. So each call of
+ * cotree.h is a transaction: a failing allocation rolls back the call and leaves it at once, by
+ * longjmp(). What the call allocated is freed, what it freed is restored, what it changed has its
+ * old contents. That requires three rules:
  *
- * - a piece that was there before the call is announced with mem_keep() before it is changed in
- *   place (what the containers of base/ change of their own, they announce),
+ * - a piece that existed before the call is announced with mem_keep() before it is changed in
+ *   place (the containers of base/ announce their own changes),
  * - what owns memory of another library, or an open file, has a Cleanup,
  * - nothing else outlives a call: no global variables, no caches outside of pieces.
  *
- * A call is left the same way where its caller wants it to stop: allocations ask, so that long work
- * needn't know of it. Work whose first part is an answer of its own ends that, and polls
- * (call_monitor.h).
+ * A call is left in the same way when its caller requests a stop: allocations check for that, so
+ * that long work needs no code for it. Work whose partial result is useful switches this off and
+ * polls (call_monitor.h).
  *
  * Pieces made in the call need none of this. A build with --enable-faults tries every call with
- * allocations that fail and compares all pieces afterwards (faults.c): a change that nobody
- * announced ends the program there. */
+ * allocations that fail and compares all pieces afterwards (faults.c): an unannounced change ends
+ * the program there. */
 #ifndef COTREE_BASE_TRANSACTION_H
 #define COTREE_BASE_TRANSACTION_H
 
@@ -25,7 +25,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* the head of every piece; what is handed out lies behind it, aligned as malloc() does it */
+/* the head of every piece; the memory returned follows it, aligned as by malloc() */
 typedef struct MemPiece {
     struct MemPiece *before, *after; /* of those made, or those freed, in a transaction */
     size_t size;
@@ -34,7 +34,7 @@ typedef struct MemPiece {
     const void *maker; /* NULL: it is scratch */
 } MemPiece;
 
-/* Frees what a transaction must not leave behind; stands in what owns it. */
+/* Frees what a transaction must not leave behind; it is a field of the owner. */
 typedef struct Cleanup {
     struct Cleanup *before, *after;
     void (*close)(void *object); /* ends with cleanup_close(); copes with an object half made */
@@ -59,10 +59,10 @@ typedef struct Transaction {
     Note *later;      /* what is to be freed, last first */
     bool is_scratch;
     bool is_over;
-    bool is_stopped;             /* it was left because `stop` said so */
-    bool (*stop)(void *context); /* cheap; NULL: nobody is asked */
+    bool is_stopped;             /* it was left because `stop` returned true */
+    bool (*stop)(void *context); /* cheap; NULL: never stops */
     void *context;
-    ptrdiff_t until_asked; /* bytes that may be allocated before it is asked again */
+    ptrdiff_t until_asked; /* bytes that may be allocated before the next check */
     long trial;            /* 0, 1 ...: which try with failing allocations; -1: it counts */
 } Transaction;
 
@@ -80,12 +80,12 @@ void transaction_begin(Transaction *transaction);
 void transaction_end(Transaction *transaction);
 /* Memory has ended: leave the transaction. Outside of any it ends the program with a message. */
 _Noreturn void transaction_fail(void);
-/* From here on the transaction that goes on is left where `stop` says so. */
+/* From here on the current transaction is left when `stop` returns true. */
 void transaction_ask(bool (*stop)(void *context), void *context);
-/* From here on nobody is asked: what the transaction has done is to stay. */
+/* From here on `stop` isn't checked: the results of the transaction are to be preserved. */
 void transaction_stop_asking(void);
-/* Long work that allocates nothing tells how much it does, in bytes of allocations that would take
- * as long. */
+/* Long work that allocates nothing reports its amount, in bytes of allocations that would take as
+ * long. */
 void transaction_ask_now(void);
 static inline void transaction_worked(ptrdiff_t bytes);
 /* whether this is but a try, of a build with --enable-faults, which nobody else need notice */
