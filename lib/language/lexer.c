@@ -1,8 +1,8 @@
 /* lexer.c: characters to tokens
  *
  * A "\" at the end of a line makes the line break a blank, everywhere, so that places
- * stay those of the physical lines. Nothing else joins lines: an unclosed bracket can't
- * swallow a script. */
+ * are those of the physical lines. Nothing else joins lines: an unclosed bracket doesn't
+ * consume the rest of a script. */
 #include "language/lexer.h"
 
 #include <ctype.h>
@@ -74,7 +74,7 @@ static size_t line_break(const char *text)
     return text[0] == '\n' || text[0] == '\r' ? 1 : 0;
 }
 
-/* length of a line break behind a "\", the "\" included; 0: there is none */
+/* length of a line break after a "\", the "\" included; 0: there is none */
 static size_t joint(const char *text)
 {
     if (text[0] != '\\')
@@ -343,7 +343,7 @@ Status lexer_next(Lexer *lexer, Token *token, Diag *diag)
     if (*c == '\0' || *c == ';' || *c == '#' || line_break(c) > 0) {
         read.start = read.end = lexer->last.text != NULL ? lexer->last.end : lexer->at;
         read.place = place_at(lexer, lexer->at, lexer->at);
-        /* what is missing belongs right behind what is there */
+        /* the missing token belongs right after the last one */
         if (lexer->last.text != NULL && lexer->last.place.line == lexer->line)
             read.place.column = lexer->last.place.column + lexer->last.place.width;
     } else if (*c == '"')

@@ -48,9 +48,9 @@ Cursor cursor_at(const char *text, int line, size_t offset);
 /* Start where a text was read to. */
 Lexer lexer_start(const Cursor *cursor, Pool *pool);
 
-/* Read the next token. At the end of a statement the lexer stays before what ended it, and gives
- * TOKEN_END again. Fails with E_SYNTAX at a character that no token has, a string without an end,
- * bytes that aren't UTF-8 or a number too large for a double. */
+/* Read the next token. At the end of a statement the lexer stops before the character that ended
+ * it, and returns TOKEN_END again. Fails with E_SYNTAX at a character that no token has, a string
+ * without an end, bytes that aren't UTF-8 or a number too large for a double. */
 MUST_USE Status lexer_next(Lexer *lexer, Token *token, Diag *diag);
 
 /* Step over what ended the statement, comment included, to the next one. Fails with E_SYNTAX at

@@ -154,7 +154,7 @@ Status parse_path(Parser *parser, const char **path, int *primes, Place *place)
     return OK;
 }
 
-/* a NAME without dot, primes or a bracket behind it */
+/* a NAME that no dot, prime or bracket follows */
 Status parse_name(Parser *parser, const Token **out)
 {
     const Token *name = parser_token(parser);

@@ -1,5 +1,4 @@
-/* parser.c: the tokens of a statement, looked at and read; what is said where they stop making
- * sense */
+/* parser.c: reads the tokens of a statement, and reports syntax errors */
 #include "language/parser.h"
 #include "language/foreign_syntax.h"
 #include "language/functions.h"

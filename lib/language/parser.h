@@ -14,11 +14,11 @@ typedef struct Parser {
     int depth;                /* of brackets, signs and statements within each other */
     int brackets;             /* that are open */
     bool prints;              /* a ">" outside brackets writes to a file */
-    bool lists;               /* a "[" behind an expression outside brackets shows it in a unit */
+    bool lists;               /* a "[" after an expression outside brackets shows it in a unit */
     const char *const *stops; /* words that end an operand; NULL: none */
     const Verb *row;          /* whose operands are read; NULL: none */
     SyntaxOptions options;
-    /* how a statement behind a verb is read (`time simulate 2`); the grammar calls itself there */
+    /* reads a statement after a verb (`time simulate 2`); the grammar is recursive there */
     Status (*statement)(struct Parser *parser, Statement *statement);
     Diag *diag;
 } Parser;
@@ -28,7 +28,7 @@ MUST_USE Status parser_start(Parser *parser, Lexer *lexer);
 void parser_free(Parser *parser);
 
 const Token *parser_token(const Parser *parser);       /* to be read next */
-const Token *parser_peek(const Parser *parser, int n); /* the n-th behind it */
+const Token *parser_peek(const Parser *parser, int n); /* the n-th after it */
 const Token *parser_before(const Parser *parser);      /* read last */
 bool token_is(const Token *token, const char *symbol);
 /* "'x'", "the end of the statement" ...; may use `room` */
@@ -59,7 +59,7 @@ Syntax *syntax_new(Parser *parser, SyntaxKind kind, const char *text, Place plac
  * high. */
 MUST_USE Status syntax_accept(Parser *parser, Syntax *node, int start);
 
-/* Each reads what its line of the grammar says, and fails at the place. */
+/* Each function reads the rule in its line of the grammar, and fails at the source position. */
 MUST_USE Status parse_expression(Parser *parser, Syntax **out);
 MUST_USE Status parse_sum(Parser *parser, Syntax **out);
 MUST_USE Status parse_primary(Parser *parser, Syntax **out);

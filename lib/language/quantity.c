@@ -1,14 +1,14 @@
-/* quantity.c: units behind numbers, vectors and items
+/* quantity.c: units after numbers, vectors and items
  *
- * Which words are units the grammar can't say: a word behind a literal is its unit,
- * unless "=" stands behind it (then it is the next key) or the verb's row gives it a
- * meaning. A unit in brackets may stand behind anything that is shown. */
+ * The grammar can't determine which words are units. A word after a literal is its unit, unless "="
+ * follows the word (then it is the next key) or the verb's row gives it a meaning. A unit in
+ * brackets may follow anything that is shown. */
 #include "language/foreign_syntax.h"
 #include "language/parser.h"
 
 #include <string.h>
 
-/* A unit's name behind a literal would make a product or quotient of it: 2 kg*m, 5 mm^2. */
+/* Fails if a unit's name after a literal would make a product or quotient of it: 2 kg*m, 5 mm^2. */
 static Status check_compound(Parser *parser, const Syntax *literal, const Token *name)
 {
     int n = 0;

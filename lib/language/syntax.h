@@ -15,7 +15,7 @@
 enum { SYNTAX_HEIGHT = 1000 };
 
 typedef enum SyntaxKind {
-    SYNTAX_NUMBER,   /* text: the literal as written; unit where one stands behind it */
+    SYNTAX_NUMBER,   /* text: the literal as written; unit if one follows it */
     SYNTAX_STRING,   /* text: without the quotes */
     SYNTAX_VARIABLE, /* text: the path; primes */
     SYNTAX_CALL,     /* text: the path; args; primes */
@@ -40,11 +40,11 @@ typedef struct Syntax {
     Place op_place;
 } Syntax;
 
-/* Behind a number or a vector a unit says what it is in; behind anything else, which only an item
- * of a list may have (plot, table, print ...), what to show it in. */
+/* After a number or a vector, its unit. After any other expression, which only items of a list may
+ * have (plot, table, print ...), the unit to show it in. */
 
 typedef struct Operand {
-    int sign;      /* '+' or '-' in `tree + a - b`, '|' behind a bar, else 0 */
+    int sign;      /* '+' or '-' in `tree + a - b`, '|' after a bar, else 0 */
     Syntax *value; /* a name, place or word is a SYNTAX_VARIABLE; `0` a SYNTAX_NUMBER */
     Place place;
 } Operand;
@@ -76,7 +76,7 @@ typedef enum VerbChanges {
     CHANGES_MODEL
 } VerbChanges;
 
-/* where completion finds what may stand behind a verb or a key, beside values */
+/* where completion finds words that may follow a verb or a key, in addition to values */
 typedef enum Offers {
     OFFERS_VALUES, /* nothing of its own */
     OFFERS_TOPICS,
@@ -196,8 +196,8 @@ typedef struct SyntaxOptions {
     bool whole;     /* a subsystem goes up to its end; else its lines are statements of their own */
 } SyntaxOptions;
 
-/* Read the next statement of a text; at its end the cursor stands at strlen(text). *out is as
- * for statement_parse(), and so are the failures, at which the cursor stays. */
+/* Read the next statement of a text; at its end the cursor is strlen(text). *out and the failures
+ * are those of statement_parse(); a failure leaves the cursor unchanged. */
 MUST_USE Status statement_read(Cursor *cursor, SyntaxOptions options, Statement **out, Diag *diag);
 
 /* Read one statement after the other of a short text, since each counts lines from its beginning.
@@ -226,8 +226,8 @@ void statement_print(Text *text, const Statement *statement);
 bool verb_find(const char *name, Verb *verb); /* exact */
 bool verb_at(int i, Verb *verb); /* 0, 1, ... in the order of the manual; false at the end */
 const char *verb_key(const Verb *verb, int i); /* 0, 1, ...; NULL at the end */
-/* the word that goes on behind operands where a pattern has that letter: vs, at, as, within; NULL
- */
+/* the word that continues a statement after operands if a pattern has that letter: vs, at, as,
+ * within; NULL: none */
 const char *pattern_word(char letter);
 void verb_usage(Text *text, const Verb *verb);          /* one line */
 bool word_is_reserved(const char *word, size_t length); /* energy of energy.total ... */

@@ -170,7 +170,7 @@ static Status read_values_maybe(Parser *parser, Statement *statement)
     return OK;
 }
 
-/* another expression behind a blank, as in a list of items; a sign there makes it one with the
+/* another expression after a blank, as in a list of items; with a sign there it continues the
  * expression before */
 static bool sees_another(const Parser *parser)
 {
@@ -213,7 +213,7 @@ static Status read_items_maybe(Parser *parser, Statement *statement)
     return OK;
 }
 
-/* i: an item behind a bar has the bar for its sign */
+/* i: the sign of an item after a bar is the bar */
 static Status read_items(Parser *parser, Statement *statement)
 {
     do {
@@ -226,7 +226,7 @@ static Status read_items(Parser *parser, Statement *statement)
     return OK;
 }
 
-/* x: here a word behind a number is no unit */
+/* x: here a word after a number is no unit */
 static Status read_mixed(Parser *parser, Statement *statement)
 {
     while (!operands_end(parser)) {
@@ -432,7 +432,7 @@ static Status parse_pair(Parser *parser, Statement *statement)
     return OK;
 }
 
-/* What stands behind a pair and starts no other. */
+/* Tokens after a pair that don't start another one. */
 static Status after_pair(const Parser *parser, const Statement *statement)
 {
     const Pair *last = &statement->pairs.at[statement->pairs.count - 1];

@@ -1,4 +1,4 @@
-/* verbs.h: the table behind verb_find(), whose rows are in verbs.def */
+/* verbs.h: the table of verb_find(), with the rows of verbs.def */
 #ifndef COTREE_LANGUAGE_VERBS_H
 #define COTREE_LANGUAGE_VERBS_H
 
