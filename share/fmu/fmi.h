@@ -1,8 +1,8 @@
-/* fmi.h: what the interface's two versions have alike
+/* fmi.h: common part of the interface's two versions
  *
- * A version (fmi2.c, fmi3.c) declares its types, tells them here as FmiInstance and so on, and its
- * names by FMI(), FMI_STATE() and FMI_...; it has how messages are handed out (fmu_log), what makes
- * an instance, and what is its own. */
+ * A version (fmi2.c, fmi3.c) declares its types and defines FmiInstance and so on as names for
+ * them, and FMI(), FMI_STATE() and FMI_... for its function names. It implements the output of
+ * messages (fmu_log), the creation of an instance, and functions that only it has. */
 #ifndef FMI_H
 #define FMI_H
 

@@ -5,10 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { ROUNDS = 100 }; /* in which one event may set off others */
-#define INSTANT 1e-12  /* of time, in units of 1 + |t|: instants that can't be distinguished */
-#define LATE    10.0 /* times what an importer found an event late: so much can't be determined, too \
-                      */
+enum { ROUNDS = 100 };  /* in which one event may set off others */
+#define INSTANT   1e-12 /* of time, in units of 1 + |t|: instants that can't be distinguished */
+#define LATE      10.0  /* times the delay with which an importer detected an event: uncertain */
 #define LATEST    1e-3  /* s: later than that nothing was found there */
 #define SAME      1e-9  /* of a period: sampling instants that can't be distinguished */
 #define DRIFT     10.0  /* of the tolerance: how far a state may leave the constraints */
@@ -234,7 +233,7 @@ FmuStatus fmu_indicators(Fmu *fmu, double *out)
 
         if (at >= FMU_SIDES)
             v += fmu->now.side[at] * fmu->now.error_floor[at - FMU_SIDES];
-        /* exactly on one it is on the side where it stays */
+        /* exactly at a zero the sign is that of the side where the indicator remains */
         out[i] = v > 0 || v < 0 ? v : fmu->now.side[at] * 1e-300;
     }
     return status;
@@ -474,7 +473,7 @@ static void find_rates(Fmu *fmu, double *rates)
         model_tangent_indicators(now->p, now->t, now->y, now->s, rates);
 }
 
-/* The sides behind this instant. *late: how late what has changed was found. */
+/* The signs after this instant. *late: the delay with which a change was detected. */
 static FmuStatus find_sides(Fmu *fmu, double *late, int *changes)
 {
     FmuNumbers *now = &fmu->now;
@@ -598,7 +597,7 @@ static int switch_goes_over(Fmu *fmu)
     return any;
 }
 
-/* Which are closed from here on, and states as these ask. */
+/* Determine which switches are closed from here on, and make states consistent with these. */
 static FmuStatus exchange(Fmu *fmu, int *changes, int *moved)
 {
     FmuNumbers *now = &fmu->now;

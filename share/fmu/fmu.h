@@ -27,7 +27,7 @@ typedef enum FmuMode {
 enum {                                           /* numbers in each array */
        FMU_STATES = MODEL_Q + MODEL_U + MODEL_X, /* with inputs, whose rates are 0 */
        FMU_CONTINUOUS_STATES = FMU_STATES - FMU_INPUTS,
-       FMU_SEEDS = 1 + MODEL_Y + MODEL_S + FMU_PARAMETERS, /* (dt, dy, ds, dp), behind s */
+       FMU_SEEDS = 1 + MODEL_Y + MODEL_S + FMU_PARAMETERS, /* (dt, dy, ds, dp), after s */
        FMU_MEASURES = FMU_SIDES + FMU_SWITCHES, /* of what is jumped at, then margins of diodes */
        FMU_INDICATORS = FMU_MEASURES - FMU_TIMED,
        /* value references: time, then */
@@ -54,9 +54,9 @@ typedef struct FmuNumbers {
     double p[MODEL_P + 1];
     double y[MODEL_Y + 1];
     double s[MODEL_S + FMU_SEEDS + 1];
-    int side[FMU_MEASURES + 1];      /* of what is jumped at: -1 or 1; open or closed */
-    double error_floor[FMU_SWITCHES + 1];  /* a margin that has ended and all the same changes nothing */
-    int holds[FMU_EVENTS_COUNT + 1]; /* which events' conditions do */
+    int side[FMU_MEASURES + 1];           /* of what is jumped at: -1 or 1; open or closed */
+    double error_floor[FMU_SWITCHES + 1]; /* of a margin that has ended without effect */
+    int holds[FMU_EVENTS_COUNT + 1];      /* which events' conditions do */
 } FmuNumbers;
 
 typedef struct Fmu {
@@ -85,9 +85,9 @@ FmuStatus fmu_initialise(Fmu *fmu);
 
 /* --- variables --- */
 
-/* What has been set between two steps of co-simulation may be an event, which happens when the next
- * step begins: until fmu_look_back() all is as it will be behind that. *looks: whether it is; not
- * where that fails. */
+/* Values set between two steps of co-simulation may cause an event, which occurs at the start of
+ * the next step. From this call until fmu_look_back() all values are those after that event.
+ * *looks: whether this is so; false if the event fails. */
 FmuStatus fmu_look_behind(Fmu *fmu, int *looks);
 void fmu_look_back(Fmu *fmu, int looks);
 FmuStatus fmu_get(Fmu *fmu, unsigned reference, double *value);
@@ -100,30 +100,30 @@ void fmu_set_continuous(Fmu *fmu, const double *x);
 void fmu_continuous(const Fmu *fmu, double *x);
 FmuStatus fmu_continuous_rates(Fmu *fmu, double *rates);
 FmuStatus fmu_indicators(Fmu *fmu, double *out);
-/* s along a direction in time and states, behind s */
+/* derivative of s along a direction in time and states, stored after s */
 FmuStatus fmu_direction(Fmu *fmu, double dt, const double *dy);
 /* of unknowns by knowns, times the seed of each of these */
 FmuStatus fmu_derivatives(Fmu *fmu, const unsigned *unknowns, size_t unknown_count,
                           const unsigned *knowns, size_t known_count, const double *seed,
                           double *out);
 
-/* What the equations leave open is shared by a rule: where that is least, or alike. Outputs that
- * move with it have no derivatives: NAN in `outputs`, by their numbers, and a warning (fmu_open.c).
- */
+/* Directions that the equations don't determine are shared out by a rule, to the least or to equal
+ * values. Outputs that depend on them have no derivatives: NAN in `outputs`, by their numbers, and
+ * a warning (fmu_open.c). */
 FmuStatus fmu_mark_open(Fmu *fmu, const unsigned *unknowns, size_t count, double *outputs);
 
 /* --- events --- */
 
 /* Lets happen what happens here; *moved: states have changed. Sets the time of the next event. */
 FmuStatus fmu_events(Fmu *fmu, int *moved);
-/* New values, of targets that are chosen, positions first, which ask speeds to meet the
- * constraints, too. Fails where they aren't met, and where they leave others open (fmu_values.c).
- */
+/* Set new values of the chosen targets, positions first; after these the speeds have to meet the
+ * constraints too. Fails if the constraints aren't met or leave other values undetermined
+ * (fmu_values.c). */
 FmuStatus fmu_set_values(Fmu *fmu, const int *chosen, const double *values);
 /* angles in the turn that is nearest to where they were */
 void fmu_set_references(Fmu *fmu);
 double fmu_larger(double a, double b);
-/* Behind a step of the importer's: whether states have left the constraints by more than the
+/* After a step of the importer: whether states violate the constraints by more than the
  * tolerance. */
 int fmu_has_drifted(Fmu *fmu);
 /* states onto the constraints */

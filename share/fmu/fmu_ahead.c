@@ -18,7 +18,7 @@ static int indicators_ahead(Fmu *fmu, double t, double ahead, double *out)
     return FMU_INDICATORS > 0 && fmu_indicators(fmu, out) == FMU_OK;
 }
 
-/* whether steps of that length show how indicators bend: fourth differences tell */
+/* whether steps of that length resolve the curvature of indicators, by fourth differences */
 static int is_shown(Fmu *fmu, double t, double step)
 {
     static const double weight[] = {1, -4, 6, -4, 1};
@@ -74,7 +74,7 @@ void fmu_look_ahead(Fmu *fmu, int is_new)
          k++)
         step *= 2;
     now->rhythm = step;
-    if (step < shortest) /* nothing is to be told of it */
+    if (step < shortest) /* too short to decide */
         goto done;
     now->next = now->next < t + 4 * step ? now->next : t + 4 * step;
     for (i = 1; i <= PIECES; i++) {

@@ -9,8 +9,8 @@
 
 #define OPEN 1e-7 /* of what an output moves by: less of it follows what nothing determines */
 
-/* What the equations leave open is shared by a rule: where that is least, or alike. Outputs that
- * move with it have no derivatives: NAN, and a warning. */
+/* Directions that the equations don't determine are shared out by a rule, to the least or to equal
+ * values. Outputs that depend on them have no derivatives: NAN, and a warning. */
 FmuStatus fmu_mark_open(Fmu *fmu, const unsigned *unknowns, size_t count, double *outputs)
 {
     FmuNumbers *now = &fmu->now;
@@ -29,7 +29,7 @@ FmuStatus fmu_mark_open(Fmu *fmu, const unsigned *unknowns, size_t count, double
         return fmu_fail(fmu, FMU_DISCARD, "the equations are singular", now->y[0]);
     model_tangent_outputs(now->p, now->t, now->y, now->s, along);
     for (k = 0; k < MODEL_S; k++)
-        ds[k] *= 1 + fmod(k * 0.6180339887498949, 1); /* no two alike: nothing cancels */
+        ds[k] *= 1 + fmod(k * 0.6180339887498949, 1); /* all different: nothing cancels */
     model_tangent_outputs(now->p, now->t, now->y, now->s, uneven);
     for (i = 0; i < count; i++) {
         char line[160];

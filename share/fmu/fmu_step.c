@@ -404,7 +404,7 @@ FmuStatus fmu_do_step(Fmu *fmu, double from, double step)
     return fmu->now.is_stopped ? FMU_OK : fmu_advance(fmu, from + step);
 }
 
-/* --- behind what is set between steps --- */
+/* --- values after an event of what is set between steps --- */
 
 FmuStatus fmu_look_behind(Fmu *fmu, int *looks)
 {
@@ -416,7 +416,7 @@ FmuStatus fmu_look_behind(Fmu *fmu, int *looks)
     if (!*looks)
         return FMU_OK;
     fmu->kept = fmu->now;
-    fmu->is_logging = 0; /* the step tells it */
+    fmu->is_logging = 0; /* the step reports it */
     status = fmu_events(fmu, &moved);
     fmu->is_logging = is_logging;
     if (status == FMU_OK)

@@ -1,7 +1,8 @@
 /* fmu_values.c: new values of events, then the constraints again, as in a run
  *
- * Joints stay that what is given doesn't need (row_closure.h), and rates of what stays and was
- * given, the same in any coordinates; speeds change as by a blow along those that are given. */
+ * Joint coordinates that the given values don't affect are constant (row_closure.h), and so are the
+ * rates of constant and given ones, whatever the coordinates. Speeds change as by an impulse along
+ * the given ones. */
 #define FMU_TABLES
 #include "fmu.h"
 #include "row_closure.h"
@@ -226,19 +227,19 @@ static int put_level(Fmu *fmu, int level, int by_mass, const int *chosen, const 
     return find_lacks(fmu, level, target, values, count, lack) <= MET;
 }
 
-/* --- what stays --- */
+/* --- held coordinates --- */
 
 enum { OF_JOINTS = ROW_CLASS_FIRST, OF_NAMED, OF_BODIES, ROWS_MOST = MODEL_M + FMU_TARGETS + 1 };
 
 typedef struct Decision {
-    int keeps[FMU_TARGETS + 1];   /* it is given and tells something, or stays */
+    int keeps[FMU_TARGETS + 1];   /* it is given and not redundant, or held */
     double size[FMU_TARGETS + 1]; /* how much unknowns move it */
     int is_near[MODEL_U + 1];     /* unknowns that may move */
     int rank, open;
     char names[200]; /* of what is open */
 } Decision;
 
-typedef struct Gathered { /* rows of constraints, and of targets that are asked */
+typedef struct Gathered { /* rows of constraints, and of the selected targets */
     int count, target[ROWS_MOST], of[ROWS_MOST], fate[ROWS_MOST], place[ROWS_MOST], set[ROWS_MOST];
 } Gathered;
 
@@ -337,7 +338,8 @@ static void find_classes(const int *chosen, int *of)
     }
 }
 
-/* Where three Euler parameters stay the fourth does, which follows from them but for its sign. */
+/* If three Euler parameters are held, so is the fourth: it follows from them except for its
+ * sign. */
 static void keep_attitudes(const int *of, int *keeps)
 {
     int i, k;
@@ -353,7 +355,7 @@ static void keep_attitudes(const int *of, int *keeps)
     }
 }
 
-/* What stays, by the motions that constraints allow here, and what is open. */
+/* Held and undetermined coordinates, by the motions that constraints allow here. */
 static void decide(Fmu *fmu, const int *chosen, Decision *out)
 {
     int of[FMU_TARGETS + 1], r;
@@ -392,8 +394,8 @@ static int rate_of(const int *chosen, int k)
     return count == 4 ? fmu_turning[k] : fmu_rate[k];
 }
 
-/* Rates as they were of what was given and has stayed, as far as they don't follow from each other
- * here; 0: they don't tell all. */
+/* The former rates of given and held coordinates, as far as they are independent here; 0: they
+ * don't determine all speeds. */
 static int keep_rates(Fmu *fmu, const Decision *decision, const int *chosen, const double *values,
                       const double *before)
 {
@@ -483,7 +485,7 @@ static int go_by_stages(Fmu *fmu, const int *chosen, const double *from, const d
     return met;
 }
 
-/* a message, told with what is open */
+/* a message, extended by the undetermined coordinates */
 static FmuStatus refuse(Fmu *fmu, const char *text, const char *names, const char *rest)
 {
     char line[280];
