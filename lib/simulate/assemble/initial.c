@@ -1,4 +1,7 @@
-/* initial.c: assembly: positions, speeds, independent constraints */
+/* initial.c: assembly: consistent positions and speeds, and independent constraints
+ *
+ * Phi(q, 0) = 0 (m), then Phi_u u = nu (m) in u (nu), each with the given values, by
+ * Levenberg-Marquardt; then the rank of Phi_u (m x nu). */
 #include "simulate/assemble/initial_impl.h"
 
 #include "algebra/linear.h"
@@ -11,15 +14,15 @@
 #include <string.h>
 
 #define TOLERANCE  1e-12 /* of scaled residuals */
-#define TRIES      24    /* other starts, when the first leads nowhere */
-#define FAR        2.0   /* rad or m: a dependent coordinate that moved further is spoken of */
+#define TRIES      24    /* further initial guesses, when the first doesn't converge */
+#define FAR        2.0   /* rad or m: larger moves of dependent coordinates are reported */
 #define RANK_RATIO 1e-9
-#define CRITICAL   1e-12 /* of the sine that rates of three angles are divided by */
+#define CRITICAL   1e-12 /* least sine by which the rates of three angles are divided */
 
 /* --- position --- */
 
-/* Guesses of what says nothing of frames alone weigh as much as equations first: a branch on which
- * they are far off is no place to end. */
+/* Include guesses with the weight of equations first, where a guess isn't of frames alone:
+ * otherwise the search may end on a branch on which such guesses are far off. */
 static Status pull(Assembly *a, Diag *diag)
 {
     Problem p = {0};
@@ -56,7 +59,8 @@ static void remark_moved(Assembly *a, const double *begun)
                                                .to = a->y[furthest]});
 }
 
-/* other starts about the first one; the nearest solution wins at the smallest disturbance */
+/* Further initial guesses about the first one, at increasing distance; of those at the smallest
+ * distance that converge the nearest solution is used. */
 static bool try_around(Problem *p, const Rows *rows, const bool *held, const double *begun)
 {
     Assembly *a = p->a;
@@ -76,7 +80,7 @@ static bool try_around(Problem *p, const Rows *rows, const bool *held, const dou
     return false;
 }
 
-/* E_ASSEMBLE: all equations hold, but a joint stands the wrong way round */
+/* E_ASSEMBLE: all equations are satisfied, but a joint is assembled with a reversed direction. */
 static Status refuse_reversed(const Assembly *a, const Reversal *reversal, Diag *diag)
 {
     Text text = {0};
@@ -90,7 +94,8 @@ static Status refuse_reversed(const Assembly *a, const Reversal *reversal, Diag 
     return E_ASSEMBLE;
 }
 
-/* Coordinates that have no expression are where they were given, also once positions moved. */
+/* Check coordinates without an expression: they still have their given values after positions
+ * moved. */
 static Status check_given_values(Assembly *a, Diag *diag)
 {
     Status status = OK;
@@ -117,8 +122,8 @@ static Status check_given_values(Assembly *a, Diag *diag)
     return status;
 }
 
-/* Shapes stay as they are told or guessed, or straight, where joints can close the loops; false:
- * they can't, and nothing has moved. */
+/* Solve with shapes held, as given or guessed or else undeformed, where joints can close the loops.
+ * False: they can't, and nothing has moved. */
 static bool meet_with_shapes_held(const Rows *rows, Assembly *a, const bool *held)
 {
     const int n = a->l->n, nu = a->l->nu;
@@ -139,8 +144,8 @@ static bool meet_with_shapes_held(const Rows *rows, Assembly *a, const bool *hel
     return met;
 }
 
-/* Meet what the placing left: given values that aren't of frames, or loops that it couldn't close.
- */
+/* Solve what placing the frames left: given values that aren't of frames, or loops that it couldn't
+ * close. */
 static Status correct(Problem *p, const bool *held, const double *begun, bool closed, Diag *diag)
 {
     Assembly *a = p->a;
@@ -170,7 +175,7 @@ done:
     return status;
 }
 
-/* Three angles have no rates where the first and the last axis lie on one line. */
+/* The rates of three angles are undefined where the first and the last axis are parallel. */
 static Status check_angles(const Assembly *a, Diag *diag)
 {
     const RowValues row = row_of_state(a->l, 0, a->y);
@@ -196,7 +201,7 @@ static Status check_angles(const Assembly *a, Diag *diag)
     return status;
 }
 
-/* Coordinates that are told or guessed and place no frame begin there. */
+/* Set coordinates that are given or guessed and place no frame. */
 static void begin_others(Assembly *a)
 {
     for (int i = 0; i < a->given_count; i++) {
@@ -270,7 +275,7 @@ done:
 
 /* --- rank --- */
 
-/* Phi_u at a position nearby that meets the constraints; false when none was found */
+/* Phi_u at a nearby position that satisfies the constraints; false when none was found */
 static bool nearby(Assembly *a, LevelRows *level, uint64_t *seed, double *q, double *residual)
 {
     const Rows rows = level_rows(level, a->setting->watch);
@@ -284,14 +289,14 @@ static bool nearby(Assembly *a, LevelRows *level, uint64_t *seed, double *q, dou
     return met;
 }
 
-/* of the rows where the equations stand */
+/* rank of the rows at the current position */
 static Status rank_here(const Assembly *a, double threshold, int *rank, int *order)
 {
     return rank_columns(a->eq->rows, a->eq->phi_u, threshold, a->setting->watch, rank, order);
 }
 
-/* Independent rows, from the assembled position and two near it: a rank that falls at one place
- * only is a singularity, not a redundancy. */
+/* Independent rows, from the assembled position and two near it: a rank that is lower at one
+ * position only is a singularity, not a redundancy. */
 static Status find_rank(Assembly *a, Diag *diag)
 {
     const VariableIndex *l = a->l;
@@ -327,7 +332,7 @@ static Status find_rank(Assembly *a, Diag *diag)
     if (best < l->m) {
         double *phi_u;
 
-        /* at a singular start, what was found nearby tells more */
+        /* at a singular initial position, the rank nearby counts */
         if (here == best)
             a->eq->position(a->eq->context, 0, a->y);
         phi_u = pattern_spread(a->eq->rows, a->eq->phi_u);
@@ -369,7 +374,7 @@ Status initial_find(const VariableIndex *layout, Parameters *parameters, Compile
     CHECK(find_velocity(&a, diag));
     CHECK(initial_find_network(&a, diag));
 done:
-    /* what was stopped has found nothing, and says so in many ways */
+    /* a search that was cancelled fails with various errors */
     if (monitor_poll(setting->watch) != OK)
         status = diag_set(diag, E_STOPPED, "stopped while the start was looked for");
     kinematic_tree_free(a.kinematic_tree);

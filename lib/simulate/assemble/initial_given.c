@@ -1,4 +1,5 @@
-/* initial_given.c: what was given or guessed, and what it is of */
+/* initial_given.c: reads values that were given or guessed, and the variables that they belong
+ * to */
 #include "simulate/assemble/initial_impl.h"
 #include "simulate/equations/probe.h"
 #include "simulate/equations/rows.h"
@@ -6,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#define ROUNDED 1e-2 /* of the length of four Euler parameters: more is no rounding */
+#define ROUNDED 1e-2 /* of the length of four Euler parameters: more isn't rounding */
 #define FEWER   1e-5 /* of fewer: the others may be small, but not as small as that */
 
 static int place_of(const Assembly *a, Expr e, StateLevel level)
@@ -21,7 +22,8 @@ static int place_of(const Assembly *a, Expr e, StateLevel level)
     return -1;
 }
 
-/* positions are corrected in speeds: that of a coordinate which has one of its own */
+/* The column of a coordinate that is held: positions are corrected in speeds, so it is that of the
+ * coordinate's own speed; -1: it has none. */
 static int column_of(const Assembly *a, int place, StateLevel level)
 {
     Expr rate;
@@ -59,7 +61,7 @@ Status initial_classify(Assembly *a, GivenValue *given, Diag *diag)
     return OK;
 }
 
-/* whether it is one of three angles that tell an attitude */
+/* whether it is one of three angles of an attitude */
 static bool is_of_three_angles(const VariableReferent *referent)
 {
     int angles = 0;
@@ -72,7 +74,7 @@ static bool is_of_three_angles(const VariableReferent *referent)
     return angles == 3;
 }
 
-/* the middle one of three angles: its coordinate */
+/* coordinate number of the middle one of three angles */
 static int middle_angle(const Instance *instance)
 {
     int first = 0;
@@ -82,8 +84,8 @@ static int middle_angle(const Instance *instance)
     return first + 1;
 }
 
-/* Whether the middle angle is given beyond what a chord's expression tells of it: within a quarter
- * turn of 0, or from 0 to half a turn where the first axis returns. */
+/* Whether the given middle angle is outside the range of a chord's expression: -90 to 90 degrees,
+ * or 0 to 180 degrees where first and last axis are the same. */
 static bool is_other_set(const Assembly *a, const Instance *instance)
 {
     const StartValues *start = a->setting->start;
@@ -96,9 +98,9 @@ static bool is_other_set(const Assembly *a, const Instance *instance)
     return false;
 }
 
-/* Three angles of a chord tell where frames are placed, which needs no expressions. These know one
- * of the two sets of angles that an attitude has: in the other the middle angle falls where it
- * rises here. */
+/* The three given angles of a chord place frames without an expression. An expression yields one of
+ * the two angle sequences of an attitude: in the other one the middle angle decreases where this
+ * one increases. */
 static void read_three_angles(const Assembly *a, const VariableReferent *referent,
                               GivenValue *given)
 {
@@ -127,7 +129,7 @@ done:
     return status;
 }
 
-/* what the system itself wants to be 0 */
+/* initial values of the system itself, which are 0 */
 static void add_own(Assembly *a, StartValue value, GivenValue given)
 {
     StartValue *own = &a->own[a->given_count];
@@ -139,8 +141,8 @@ static void add_own(Assembly *a, StartValue value, GivenValue given)
     a->given[a->given_count++] = given;
 }
 
-/* Parts that deform do so at no speed, unless something makes them: what a joint's speed leaves
- * open is for joints to take up, whatever polynomials the shapes are. */
+/* Flexible parts deform at speed 0, unless something requires another one: joints, not shapes,
+ * absorb what a given joint speed leaves open, whatever the polynomials of the shapes are. */
 static void rest_shapes(Assembly *a)
 {
     const VariableIndex *l = a->l;
@@ -164,7 +166,7 @@ static int shapes_of(const VariableIndex *l)
     return count;
 }
 
-/* whether the user tells or guesses the speed itself */
+/* whether the user gives or guesses the speed itself */
 static bool is_said(const Assembly *a, int own)
 {
     for (int i = 0; i < a->given_count; i++)
@@ -218,7 +220,7 @@ void initial_unit(double p[4])
         p[i] /= length;
 }
 
-/* which of the four it is; -1: none */
+/* which of the four it is, 0 to 3; -1: none */
 static int parameter_of(const VariableReferent *referent)
 {
     const Instance *owner = referent->instance;
@@ -234,7 +236,7 @@ static int parameter_of(const VariableReferent *referent)
     return referent->which - first;
 }
 
-/* of two Euler parameters */
+/* whether two Euler parameters belong to one attitude */
 static bool is_one_attitude(const VariableReferent *a, const VariableReferent *b)
 {
     return a->kind == b->kind && a->instance == b->instance && a->node == b->node;
@@ -245,7 +247,7 @@ static bool are_together(const GivenValue *a, const GivenValue *b)
     return is_one_attitude(&a->referent, &b->referent) && a->value->is_guess == b->value->is_guess;
 }
 
-/* All four of a group to unit length; likewise fewer that leave nothing to the others. */
+/* Scale a group of all four to unit length; likewise fewer whose length leaves 0 for the others. */
 static void finish_group(Assembly *a, int group)
 {
     GivenValue *members[4] = {NULL};
@@ -262,7 +264,7 @@ static void finish_group(Assembly *a, int group)
             count++;
         }
     if (!(fabs(length - 1) < (count == 4 ? ROUNDED : FEWER)))
-        return; /* what is wrong is told as it was given */
+        return; /* errors are reported with the values as given */
     initial_unit(p);
     for (int i = 0; i < 4; i++)
         if (members[i] != NULL)
@@ -309,7 +311,7 @@ void initial_align(Problem *p)
     MEM_FREE(along, residual);
 }
 
-/* sum of q_i p_i: q at y, p as given (or as guessed) for the attitude of which that is a rate */
+/* sum of q_i p_i: q at y, p as given (or guessed) for the attitude that the rate belongs to */
 static Status find_sense(const Assembly *a, const VariableReferent *rate_of, bool guesses,
                          double *out, Diag *diag)
 {

@@ -1,12 +1,12 @@
 /* initial_guesses.c: the assembly that is nearest to the guesses
  *
- * Distance of an assembly c to the guesses g: d(c)^2 = sum_i w_i^2 (c_i - g_i)^2. w_i is 1 for an
+ * Distance of an assembly c from the guesses g: d(c)^2 = sum_i w_i^2 (c_i - g_i)^2. w_i is 1 for an
  * angle (rad, to the nearest whole turn) and for an Euler parameter, 1 / L for a length, where L is
- * the distance (m) of the furthest frame from the datum at the first start.
+ * the distance (m) of the furthest frame from the datum at the first initial point.
  *
- * Each start goes to a local minimum of loops and guesses together, then to where loops close. The
- * first start has what isn't guessed at 0; the others have it anywhere. Their number is bounded,
- * and they follow from the model alone. */
+ * From each initial point a search finds a local minimum of loops and guesses together; then loops
+ * are closed from there. The first initial point has 0 where there is no guess; the others have
+ * random values there. Their number is bounded, and they depend on the model alone. */
 #include "simulate/assemble/initial_place_impl.h"
 
 #include "base/random.h"
@@ -14,18 +14,18 @@
 #include <math.h>
 #include <string.h>
 
-#define NARROWER    0.1  /* weights of guesses against loops, each after the one before: */
-#define NARROW      1e-3 /* the square of the last is the relative error of the least distance */
+#define NARROWER    0.1  /* factor from one weight of guesses against loops to the next: */
+#define NARROW      1e-3 /* the last; its square is the relative error of the least distance */
 #define MET         1e-9 /* distance: all guesses are met */
 #define NEARER      1e-6 /* another assembly has to be nearer by this */
-#define FAR         0.5  /* distance of one guess that is spoken of */
-#define NEAR_GUESS  0.1  /* rad, or of L: others that are guessed begin so near to their guesses */
-#define NOT_FAR     0.3  /* or so near */
-#define PROBED      0.3  /* rad, or of L: away from places where a slope is 0 by chance */
-#define FEWEST      16   /* starts; */
-#define PER_UNKNOWN 16   /* more for each that isn't guessed, */
-#define MOST        64   /* so many at most, */
-#define WORK        4e6  /* and as many as cost this: unknowns cubed */
+#define FAR         0.5  /* distance of a guess that a remark reports */
+#define NEAR_GUESS  0.1  /* rad, or of L: random distance of guessed columns from guesses */
+#define NOT_FAR     0.3  /* or this */
+#define PROBED      0.3  /* rad, or of L: to leave points where a derivative is 0 by chance */
+#define FEWEST      16   /* initial points; */
+#define PER_UNKNOWN 16   /* more for each unknown without a guess, */
+#define MOST        64   /* at most, */
+#define WORK        4e6  /* and this limit of their cost: unknowns cubed */
 
 /* a search for the nearest assembly */
 typedef struct Nearest {
@@ -33,10 +33,10 @@ typedef struct Nearest {
     double size;          /* L, m */
     double *scale;        /* rows */
     double *residual;     /* rows */
-    bool *is_guessed;     /* columns: given a guess, and begin there */
-    bool *is_concerned;   /* columns: guesses decide on them, through loops too */
-    double *begun, *best; /* places of coordinates */
-    double distance;      /* of the best; infinite: there is none */
+    bool *is_guessed;     /* columns with a guess, which start there */
+    bool *is_concerned;   /* columns that guesses determine, through loops too */
+    double *begun, *best; /* coordinates at the first start; of the best assembly */
+    double distance;      /* of the best assembly; infinite: there is none */
 } Nearest;
 
 static bool is_column_guessed(const Placing *p, const PlaceColumn *column)
@@ -55,7 +55,7 @@ static bool is_guess_row(const PlaceSearch *s, int row)
     return row >= s->rows.rows - s->p->guess_count;
 }
 
-/* minimise |loops|^2 + weight^2 d^2 from where it stands */
+/* minimise |loops|^2 + weight^2 d^2 from the current point */
 static void minimise(Nearest *n, double weight, const bool *held)
 {
     place_row_scales(&n->s, n->size, weight, n->scale);
@@ -72,7 +72,7 @@ static bool are_met(Nearest *n, const Rows *rows)
     return met;
 }
 
-/* Close the loops from where it stands, with no regard to guesses; false: they don't. */
+/* Close the loops from the current point, without guesses; false: they don't close. */
 static bool close_loops(Nearest *n)
 {
     Placing *p = n->s.p;
@@ -86,7 +86,7 @@ static bool close_loops(Nearest *n)
     return met;
 }
 
-/* d there; infinite: loops don't close */
+/* d at the current point; infinite: loops don't close */
 static double find_distance(Nearest *n)
 {
     double sum = 0;
@@ -109,7 +109,7 @@ static void keep_nearer(Nearest *n, double distance)
     memcpy(n->best, n->s.p->c, (size_t)n->s.rows.length * sizeof(double));
 }
 
-/* Columns that guesses decide on: those that move a guess, or a loop that such a column moves. */
+/* Columns that guesses determine: those that move a guess, or a loop that such a column moves. */
 static void find_concerned(Nearest *n, double *step)
 {
     const Rows *rows = &n->s.rows;
@@ -133,7 +133,7 @@ static void find_concerned(Nearest *n, double *step)
     MEM_FREE(jacobian, row);
 }
 
-/* What isn't guessed anywhere, what is near its guess. */
+/* A random initial point: anywhere without a guess, close to it with one. */
 static void begin_anywhere(Nearest *n, double off, uint64_t *seed, double *step)
 {
     const Placing *p = n->s.p;
@@ -159,7 +159,7 @@ static int count_starts(const Nearest *n)
     return (int)fmax(1, fmin(fmin(count, MOST), WORK / (columns * columns * columns)));
 }
 
-/* From the first start, then from the others. */
+/* Search from the first initial point, then from the others. */
 static void search_starts(Nearest *n)
 {
     const size_t bytes = (size_t)n->s.rows.length * sizeof(double);
@@ -174,9 +174,9 @@ static void search_starts(Nearest *n)
     count = count_starts(n);
     for (int k = 1; k < count && n->distance > MET && monitor_poll(n->s.rows.watch) == OK; k++) {
         begin_anywhere(n, k % 4 < 2 ? NEAR_GUESS : NOT_FAR, &seed, step);
-        /* what isn't guessed goes to where guesses want it first */
+        /* move columns without a guess first, towards the guesses */
         minimise(n, 1, n->is_guessed);
-        /* where loops and guesses agree best may be no way to where loops close */
+        /* from the minimum of loops and guesses together it may be impossible to close the loops */
         if (k % 2 == 0)
             minimise(n, 1, NULL);
         keep_nearer(n, find_distance(n));
@@ -184,7 +184,7 @@ static void search_starts(Nearest *n)
     mem_free(step);
 }
 
-/* From the best to the least distance about it: loops weigh ever more. */
+/* From the best assembly to the least distance near it: the weight of loops increases. */
 static void descend_along_loops(Nearest *n)
 {
     const size_t bytes = (size_t)n->s.rows.length * sizeof(double);
@@ -196,7 +196,7 @@ static void descend_along_loops(Nearest *n)
         weight *= NARROWER;
         minimise(n, weight, NULL);
     }
-    /* a minimum of the sum may have left the loops */
+    /* at a minimum of the sum the loops may be open */
     if (!(find_distance(n) <= n->distance))
         memcpy(n->s.p->c, n->best, bytes);
 }
@@ -223,7 +223,7 @@ static void close_nearest(Nearest *n)
     MEM_FREE(n->scale, n->residual, n->is_guessed, n->is_concerned, n->begun, n->best);
 }
 
-/* all rows hold, or do so from the first start */
+/* whether all rows hold, or are satisfied from the first initial point */
 static bool meet_all(Nearest *n)
 {
     const Rows *rows = &n->s.rows;

@@ -1,4 +1,4 @@
-/* initial_known.c: what is known of where frames stand, before any is placed */
+/* initial_known.c: what is known of the poses of frames, before any is placed */
 #include "simulate/assemble/initial_place_impl.h"
 
 #include "algebra/matrix3.h"
@@ -29,7 +29,7 @@ static void add_guess(Placing *p, const VariableReferent *referent, double value
     LIST_PUSH(p->guess_list, initial_guess);
 }
 
-/* signs of Euler parameters are told by all that belong together */
+/* all Euler parameters of an attitude together determine its sign */
 static void gather_groups(Placing *p)
 {
     p->groups = NEW_ARRAY(double, p->a->group_count *POSE_COORDS);
@@ -39,7 +39,7 @@ static void gather_groups(Placing *p)
                 p->guess_list.at[i].value;
 }
 
-/* a plane has no parameters of its frames in these */
+/* a frame in a plane has no Euler parameters */
 static bool is_known_referent(const Placing *p, const VariableReferent *referent)
 {
     return referent->kind != REFERENT_NONE &&
@@ -75,9 +75,9 @@ Status place_read_guesses(Placing *p, Diag *diag)
     return OK;
 }
 
-/* Four Euler parameters of which some are known (NAN: not): the others are 0 where nothing is left
- * to them. A last one has one of two signs, `sign` or else that of attitudes nearest to none. What
- * that makes of all four: they are not known, guessed, or as well known as those that are. */
+/* Complete four Euler parameters of which some are known (NAN: not). The others are 0 where the
+ * known ones have unit length. A last one has one of two signs, that of `sign`. Returns how well
+ * all four are known then: not, guessed, or as well as the known ones. */
 static Knowledge complete_four(double q[4], double sign)
 {
     double left = 1;
@@ -105,7 +105,7 @@ static Knowledge lesser(Knowledge a, Knowledge b)
     return a < b ? a : b;
 }
 
-/* from those that are known at least so well */
+/* complete from the parameters that are known at least so well */
 static void complete_attitude(Placing *p, int link, Knowledge least)
 {
     const int first = place_at(link, p->s->links[link].first_parameter);
@@ -134,7 +134,7 @@ static void complete_parameters(Placing *p)
         }
 }
 
-/* the link by which each frame is made: a body's own edge, or an arm; -1 */
+/* for each frame the link that defines it: a body's own edge, or an arm; -1 */
 static int *makers_of(const KinematicTree *s)
 {
     int *maker = NEW_ARRAY(int, s->node_count);
@@ -150,7 +150,7 @@ static int *makers_of(const KinematicTree *s)
     return maker;
 }
 
-/* the body of a frame, and where the frame stands in it; -1: it is one of ground */
+/* the body of a frame, and the pose of the frame in it; -1: a frame of ground */
 static int body_of(const Placing *p, const int *maker, int node, Pose *in_body)
 {
     const double none[POSE_COORDS] = {0};
@@ -194,8 +194,8 @@ static void know_half(Placing *p, int link, bool rotation, const double *c, Know
         }
 }
 
-/* A frame of which all is told says where its body stands: its attitude, and with that its place.
- */
+/* A frame whose pose is completely known determines the attitude of its body, and with that its
+ * position. */
 static void place_body(Placing *p, const int *maker, int node, const double *wanted,
                        Knowledge known)
 {
@@ -222,14 +222,14 @@ static void place_body(Placing *p, const int *maker, int node, const double *wan
     }
     memset(c, 0, sizeof c);
     if (!p->s->frame.has_parameters)
-        c[shifts] = wanted[shifts]; /* of a plane: with its turns */
+        c[shifts] = wanted[shifts]; /* in a plane: with its turns */
     link_read(&p->s->links[body], &referents, c);
     know_half(p, body, true, c, known);
     if (whole && !is_half_determined(p, body, false))
         know_half(p, body, false, c, known);
 }
 
-/* frames that were told as a whole */
+/* place bodies by frames whose pose is completely known */
 static void place_bodies(Placing *p, bool guesses)
 {
     double *wanted = NEW_ARRAY(double, p->s->node_count *POSE_COORDS);
@@ -244,7 +244,7 @@ static void place_bodies(Placing *p, bool guesses)
             continue;
         if (initial_guess->link < 0)
             wanted[place_at(initial_guess->head, initial_guess->k)] = initial_guess->value;
-        /* places of bodies in Cartesian coordinates are named as their coordinates are */
+        /* positions of bodies in Cartesian coordinates have the names of their coordinates */
         else if (p->s->links[initial_guess->link].instance->row->family == FAMILY_BODY &&
                  initial_guess->k < p->s->frame.shift_count)
             wanted[place_at(p->s->links[initial_guess->link].head, initial_guess->k)] =
@@ -279,7 +279,7 @@ int place_ignorance(const Placing *p, int link, TreeKind kind)
     int sum = 0, parameters = 0;
 
     if (l->is_tied && kind == TREE_TRANSLATION && tree_has(p->trees[TREE_ROTATION], l->edge))
-        return 0; /* its turn tells */
+        return 0; /* its turn determines its shift */
     for (int k = 0; kind == TREE_TRANSLATION && k < l->shift_count; k++) {
         Knowledge known = p->known[place_at(link, l->shift[k].coordinate)];
 

@@ -1,4 +1,5 @@
-/* initial_network.c: assembly: states of the network, and what solves its equations with them */
+/* initial_network.c: assembly: states of the network, and the initial guess of the other unknowns
+ * of its equations */
 #include "simulate/assemble/initial_impl.h"
 
 #include "simulate/equations/netsolve.h"
@@ -30,7 +31,7 @@ Status initial_solve(const VariableIndex *l, const CompiledEquations *numbers, c
     Status status = OK;
 
     if (l->nx + l->nz == 0 || eq->network_reads != NULL)
-        return OK; /* or once the motion is known */
+        return OK; /* the network is then solved later, once the motion is known */
     solve = netsolve_new(eq);
     if (guess != NULL)
         memcpy(netsolve_values(solve), guess, (size_t)(l->nx + l->nz) * sizeof(double));
@@ -62,7 +63,7 @@ done:
     return status;
 }
 
-/* v at rest: what are states in state form is 0 */
+/* v at rest: states of the state form are 0 */
 static Status rest_network(Assembly *a, double *v, Diag *diag)
 {
     const VariableIndex *l = a->l;
@@ -93,7 +94,7 @@ done:
     return status;
 }
 
-/* where in z a guess of the user belongs; -1: it is of something else */
+/* index in z of a user's guess; -1: it belongs to another variable */
 static int guessed_place(const VariableIndex *l, const GivenValue *given)
 {
     for (int i = 0; i < l->nz && given->value->is_guess; i++)
@@ -110,7 +111,7 @@ Status initial_find_network(Assembly *a, Diag *diag)
     double *residual = NULL;
     bool *held = NEW_ARRAY(bool, 2 * l->nx + l->nz);
     bool needed = system_invariant(l->system, 0) != NULL; /* states have to be solved for, */
-    bool solves = false;                                  /* and what follows from them too */
+    bool solves = false;                                  /* and whether algebraic unknowns too */
     Rows rows;
     Status status = OK;
 
@@ -129,7 +130,7 @@ Status initial_find_network(Assembly *a, Diag *diag)
             continue;
         if (guessed >= 0)
             a->out->guess[guessed] = v[2 * l->nx + guessed] = given->value->value;
-        /* one state under two names, and not of one value */
+        /* two names of one state have different values */
         needed = needed || (given->column >= 0 && held[given->column] && !given->value->is_guess &&
                             v[given->column] != given->value->value);
         if (given->column >= 0 && (!held[given->column] || !given->value->is_guess)) {
@@ -150,7 +151,7 @@ Status initial_find_network(Assembly *a, Diag *diag)
     }
     memcpy(a->y + l->n + l->nu, v, (size_t)l->nx * sizeof(double));
     memcpy(a->out->network, v + l->nx, (size_t)(l->nx + l->nz) * sizeof(double));
-    /* with switches on both sides there may be none */
+    /* until the switch states are determined there may be no solution */
     if (!a->has_modes)
         CHECK(initial_solve(l, a->numbers, a->y, a->out->network, a->out->network, diag));
 done:

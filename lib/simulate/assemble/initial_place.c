@@ -1,11 +1,11 @@
-/* initial_place.c: assembly begins along the joints
+/* initial_place.c: assembly starts with frames placed along the joints
  *
- * Frames are placed along trees of its own making, chosen by what is known: edges whose coordinates
- * are given, then those that are guessed, then joints before bodies. What isn't given starts at its
- * guess, or at 0. Loops and given values elsewhere are closed by
- * Levenberg-Marquardt in the coordinates of these trees. So where the frames stand follows from the
- * model and from what was said about it, and from no tree of the user's. New values in the middle
- * of a run go the same way. */
+ * Frames are placed along trees that assembly chooses by what is known: first edges whose
+ * coordinates are given, then those that are guessed, then joints before bodies. A coordinate
+ * without a given value starts at its guess, or at 0. Loops and given values of other coordinates
+ * are solved for by Levenberg-Marquardt in the coordinates of these trees. So the poses of frames
+ * depend on the model and on the given values, and not on the user's trees. A new assembly in the
+ * middle of a run works in the same way. */
 #include "simulate/assemble/initial_place_impl.h"
 
 #include "algebra/matrix3.h"
@@ -14,13 +14,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define FAR 2.0 /* rad or m: a coordinate that moved further is spoken of */
+#define FAR 2.0 /* rad or m: a remark reports a coordinate that moved further */
 
-enum { MOST_COLUMNS = 300 }; /* of bodies' coordinates: a try costs their number cubed */
+enum { MOST_COLUMNS = 300 }; /* of bodies' coordinates: the cost is their number cubed */
 
-/* --- where it begins --- */
+/* --- initial point --- */
 
-/* where the coordinates of a half of a link start that nobody told */
+/* initial values of the coordinates of a half of a link that are neither given nor guessed */
 static void begin_half(Placing *p, int link, bool rotation)
 {
     const Link *l = &p->s->links[link];
@@ -36,7 +36,7 @@ static void begin_half(Placing *p, int link, bool rotation)
 static void begin(Placing *p)
 {
     for (int i = 0; i < p->s->link_count; i++) {
-        /* a screw's shift is told by its turn */
+        /* a screw's turn determines its shift */
         if (place_turns(p, i) || (p->s->links[i].is_tied && place_shifts(p, i)))
             begin_half(p, i, true);
         if (place_shifts(p, i))
@@ -46,9 +46,9 @@ static void begin(Placing *p)
     }
 }
 
-/* --- what came out --- */
+/* --- results --- */
 
-/* A body that joints place has no coordinates whose turns would be looked up. */
+/* A body that joints place has no coordinates of its own whose turns matter. */
 static bool is_asked(const Placing *p, const Instance *instance)
 {
     if (instance->row->family != FAMILY_BODY)
@@ -59,8 +59,8 @@ static bool is_asked(const Placing *p, const Instance *instance)
     return false;
 }
 
-/* Whether coordinate k has its whole turns from no statement and no run that goes on: the search
- * may have gone around. Those of a screw are a way. */
+/* Whether the whole turns of coordinate k come from no given value and from no run that continues:
+ * the search may have added turns. Those of a screw are a displacement. */
 static bool is_within_half_a_turn(const Placing *p, int link, int k)
 {
     const Link *l = &p->s->links[link];
@@ -69,8 +69,8 @@ static bool is_within_half_a_turn(const Placing *p, int link, int k)
            l->instance->coord_kind[k] == COORDINATE_ANGLE && !p->goes_on;
 }
 
-/* Coordinates of a link where its frames stand now: angles within half a turn of what they were
- * given or guessed as, or of 0. What places frames and was given stays as it is. */
+/* Coordinates of a link at the current poses of its frames: angles within half a turn of their
+ * given or guessed value, or of 0. A given value that places frames is unchanged. */
 static void read_link(Placing *p, int link)
 {
     const Link *l = &p->s->links[link];
@@ -95,7 +95,7 @@ static void read_link(Placing *p, int link)
                                       : read[k];
 }
 
-/* a place for the value of a coordinate among what a start hands out */
+/* where the value of a coordinate is stored after assembly */
 typedef struct Outlet {
     int link, k;
     double *to;
@@ -103,7 +103,7 @@ typedef struct Outlet {
 
 typedef LIST(Outlet) Outlets;
 
-/* the angle of a chord that has that name goes to the outlet's place */
+/* the angle of the chord with that name is stored at the outlet */
 static void push_named(const Placing *p, const char *name, Outlet outlet, Outlets *outlets)
 {
     const VariableReferent referent = system_referent(p->s->system, name);
@@ -146,7 +146,7 @@ static void fill_outlets(Placing *p, const Outlets *outlets)
     }
 }
 
-/* those, and the angles that are sums */
+/* store those, and the angles that are sums */
 static Status hand_out(Placing *p, Diag *diag)
 {
     const System *system = p->a->l->system;
@@ -167,7 +167,7 @@ static Status hand_out(Placing *p, Diag *diag)
     return status;
 }
 
-/* --- another way --- */
+/* --- second attempt --- */
 
 static Status choose_bodies(Placing *p, TreeKind kind, Diag *diag)
 {
@@ -185,8 +185,8 @@ static Status choose_bodies(Placing *p, TreeKind kind, Diag *diag)
     return status;
 }
 
-/* Loops that don't close in coordinates of joints may do so in those of bodies, where frames go
- * straight to each other. It begins where the frames stood, which becomes `from`. */
+/* Loops that can't be closed in coordinates of joints may close in those of bodies, where frames
+ * move straight to each other. The search starts from the current poses, which become `from`. */
 static Status close_by_bodies(Placing *p, double *from, bool *closed, Diag *diag)
 {
     const size_t bytes = (size_t)(p->s->link_count * POSE_COORDS) * sizeof(double);
@@ -231,7 +231,7 @@ done:
     return status;
 }
 
-/* what nobody gave and that moved far */
+/* reports coordinates without a given value that moved far */
 static void remark_moved(Placing *p, const double *from)
 {
     int link = -1, which = 0;
@@ -285,7 +285,7 @@ static void open_placing(Placing *p)
         p->begun[i] = NAN;
 }
 
-/* what isn't given begins where it is at y */
+/* coordinates without a given value start from y */
 static void begin_as_it_stands(Placing *p, const Outlets *outlets)
 {
     Pose *poses = kinematic_tree_poses_at(p->s, p->a->y);
@@ -313,7 +313,7 @@ static void begin_as_it_stands(Placing *p, const Outlets *outlets)
 
 Status initial_place_again(const NewPlaces *places, double *y, Diag *diag)
 {
-    static const StartValue given; /* no guess */
+    static const StartValue given; /* without a guess */
     const SimulationInput setting = {0};
     Assembled out = {0};
     Assembly a = {.l = places->layout,
@@ -357,7 +357,7 @@ done:
 Status initial_place(Assembly *a, bool *closed, Diag *diag)
 {
     Placing p = {.a = a, .s = a->kinematic_tree};
-    double *from = NULL; /* where the search began that guesses have no part in */
+    double *from = NULL; /* initial point of the search without guesses */
     int size;
     Status status = OK;
 

@@ -1,4 +1,4 @@
-/* initial_place_impl.h: what the files that place frames share */
+/* initial_place_impl.h: declarations shared by the files that place frames */
 #ifndef COTREE_SIMULATE_ASSEMBLE_INITIAL_PLACE_IMPL_H
 #define COTREE_SIMULATE_ASSEMBLE_INITIAL_PLACE_IMPL_H
 
@@ -6,14 +6,14 @@
 
 typedef enum Knowledge { KNOWN_NOT, KNOWN_GUESSED, KNOWN_GIVEN } Knowledge;
 
-/* a value that was told, of a coordinate or of a frame against the datum */
+/* a given or guessed value of a coordinate, or of a frame relative to the datum */
 typedef struct InitialGuess {
     int link; /* number; -1: of a frame, */
     int head; /* this node */
     int k;    /* coordinate of the link */
     double value;
     bool is_guess;
-    int group;        /* of Euler parameters told together; -1 */
+    int group;        /* of Euler parameters given together; -1 */
     const char *name; /* of a guess, borrowed; NULL of others */
 } InitialGuess;
 
@@ -29,7 +29,7 @@ typedef enum QueryKind { QUERY_SHIFT, QUERY_TURN, QUERY_TIE, QUERY_GUESS } Query
 
 typedef struct Query { /* rows of the search */
     QueryKind kind;
-    int link; /* or wish */
+    int link; /* or guess */
 } Query;
 
 typedef struct Placing {
@@ -37,46 +37,48 @@ typedef struct Placing {
     const KinematicTree *s;
     Tree *trees[2];   /* translation, rotation */
     double *c;        /* links x POSE_COORDS */
-    double *begun;    /* likewise: where what isn't given starts, NAN: not asked yet */
+    double *begun;    /* likewise: initial values; NAN: not known yet */
     Knowledge *known; /* likewise */
     Pose *poses;
     LIST(InitialGuess) guess_list;
-    double *groups; /* x POSE_COORDS: what was told of each, the rest 0 */
+    double *groups; /* x POSE_COORDS: given values of each group, 0 elsewhere */
     LIST(PlaceColumn) columns;
     LIST(Query) asks;
-    int row_count, guess_count; /* the last ones are of guesses, one each */
-    double *turned, *shifted;   /* nodes x 3: what a unit of a column does to them */
-    bool goes_on;               /* whole turns of angles are those of before */
+    int row_count, guess_count; /* the last rows belong to guesses, one each */
+    double *turned, *shifted;   /* nodes x 3: turn and shift by a unit of a column */
+    bool goes_on;               /* whole turns of angles are those before */
 } Placing;
 
-/* the place of coordinate k of a link in what is kept by link and coordinate */
+/* index of coordinate k of a link in arrays by link and coordinate */
 static inline int place_at(int link, int k)
 {
     return link * POSE_COORDS + k;
 }
 
-/* Guesses, drivers, given values: what comes later has the last word (initial_known.c). */
+/* Read guesses, drivers and given values: later ones override earlier ones (initial_known.c). */
 MUST_USE Status place_read_guesses(Placing *p, Diag *diag);
 void place_mark_known(Placing *p);
-/* How little is known of a half of a link: OPEN for each freedom that is, 1 for a guessed one. */
+/* How little is known of a half of a link: OPEN for each unknown coordinate, 1 for a guessed
+ * one. */
 enum { OPEN = 16 }; /* above the number of coordinates of a link */
 int place_ignorance(const Placing *p, int link, TreeKind kind);
 
 /* The trees that place frames, by what is known; fails as tree_complete() does. */
 MUST_USE Status place_choose_trees(Placing *p, Diag *diag);
-void placing_free(Placing *p); /* what it holds */
+void placing_free(Placing *p); /* frees its contents */
 
-/* Whether a link is a branch of the trees that place frames, and a coordinate is one of such. */
+/* Whether a link is a branch of the trees that place frames; whether a coordinate belongs to such a
+ * branch. */
 bool place_turns(const Placing *p, int link);
 bool place_shifts(const Placing *p, int link);
 bool place_has(const Placing *p, int link, int k);
 void place_poses(Placing *p, const double *c);
 
 void place_columns(Placing *p); /* list the unknowns (initial_search.c) */
-/* Close what the trees leave open; false: nothing was found that does. */
+/* Solve for the coordinates that the trees leave open; false: no solution was found. */
 bool place_search(Placing *p, bool guesses);
 
-/* the rows of a search and what they are of (initial_search.c) */
+/* the rows of a search and what each belongs to (initial_search.c) */
 typedef struct PlaceSearch {
     Placing *p;
     Rows rows;
@@ -85,20 +87,20 @@ typedef struct PlaceSearch {
 } PlaceSearch;
 
 void place_open_search(PlaceSearch *search, Placing *p, bool guesses);
-void place_close_search(PlaceSearch *search); /* what it holds */
-/* where the frame that is furthest from the datum stands, m; 1 where all stand there */
+void place_close_search(PlaceSearch *search); /* frees its contents */
+/* distance of the furthest frame from the datum, m; 1 where all are at the datum */
 double place_size(const Placing *p);
-/* What a residual is multiplied by: lengths over `size` (m), angles as they are (rad), guesses
- * `guesses` times that. After an evaluation. */
+/* Scale of each residual: 1/`size` for lengths (m), 1 for angles (rad), `guesses` times that for
+ * guesses. After an evaluation. */
 void place_row_scales(const PlaceSearch *search, double size, double guesses, double *scale);
-/* what wish `number` is where frames stand, less its value; whether that is a length (m) */
+/* the residual of guess `number` at the current poses; whether it is a length (m) */
 double place_missed(Placing *p, int number, bool *is_length);
 
-#define PLACE_APPROACHED 1e-12 /* scaled: guesses are met if they can be */
+#define PLACE_APPROACHED 1e-12 /* scaled: guesses count as met */
 
-/* An assembly that meets all guesses, or the one with the least distance to them. Where no loop
- * closes from any start, where the first one comes nearest to guesses and loops. Without guesses
- * nothing moves (initial_guesses.c). */
+/* The assembly that meets all guesses, or the one with the least distance from them. Where no loop
+ * closes from any initial point, the point where the first search ends. Without guesses nothing
+ * moves (initial_guesses.c). */
 void place_by_guesses(Placing *p);
 /* A remark for each guess that the assembly is far from. */
 void place_remark_guesses(Placing *p);

@@ -1,6 +1,5 @@
-/* initial_problem.c: the equations of one level of assembly: those of the system, then what was
- * given
- */
+/* initial_problem.c: the equations of one level of assembly: those of the system, then given
+ * values */
 #include "simulate/assemble/initial_impl.h"
 
 #include "algebra/levenberg_marquardt.h"
@@ -10,8 +9,8 @@
 #include <string.h>
 
 #define TOLERANCE      1e-12 /* of scaled residuals */
-#define CLOSED         1e-13 /* m, rad: what rounding leaves of residuals */
-#define LEAST_REPORTED 1e-9  /* m, rad: less isn't worth a word beside what is missed by more */
+#define CLOSED         1e-13 /* m, rad: rounding error of residuals */
+#define LEAST_REPORTED 1e-9  /* m, rad: a smaller residual isn't reported next to larger ones */
 
 bool initial_is_of_states(const GivenValue *given)
 {
@@ -25,7 +24,7 @@ static bool is_of_level(const GivenValue *given, StateLevel level)
     return level == LEVEL_STATES ? initial_is_of_states(given) : given->level == level;
 }
 
-/* what states have to satisfy by themselves */
+/* number of equations between states alone */
 static int invariants_of(const VariableIndex *l)
 {
     int count = 0;
@@ -109,7 +108,7 @@ static void name_row(Text *text, const VariableIndex *l, int k)
     text_addf(text, "%s (%s)", system_instance_name(l->system, row->instance), row->direction);
 }
 
-/* Of what is missed by little all that comes near the most is told. */
+/* least residual that is reported: where all are small, those of about the largest */
 static double least_reported(const double *residual, int count)
 {
     double most = 0;

@@ -1,7 +1,7 @@
 /* initial_search.c: Levenberg-Marquardt in the coordinates of the trees that place frames
  *
- * Rows are what joints ask that are no branches of these trees, and values that were given of
- * others than their coordinates. A column moves everything beyond its branch. */
+ * The rows are the conditions of joints that are no branches of these trees, and given values that
+ * aren't of the trees' own coordinates. A column moves everything beyond its branch. */
 #include "simulate/assemble/initial_place_impl.h"
 
 #include "algebra/matrix3.h"
@@ -10,10 +10,10 @@
 #include <math.h>
 #include <string.h>
 
-#define AT_ONCE    8    /* other starts at a distance, when the first leads nowhere: near ones, */
-#define TRIES      24   /* then further ones, so many in all; */
-#define MOST_TRIES 56   /* of few unknowns, which cost little, */
-#define WORK       1680 /* as many as together have so many unknowns */
+#define AT_ONCE    8    /* further initial guesses at a distance: near ones, */
+#define TRIES      24   /* then more distant ones, so many in all; */
+#define MOST_TRIES 56   /* of few unknowns, which are cheap, */
+#define WORK       1680 /* as many as give this product with the number of unknowns */
 
 /* --- unknowns --- */
 
@@ -51,8 +51,8 @@ void place_columns(Placing *p)
     }
 }
 
-/* axis of its turn and direction of its shift per unit, ground axes: of the head against the tail
- */
+/* axis of its turn and direction of its shift per unit, in axes of the datum: of the head relative
+ * to the tail */
 static void column_motion(const Placing *p, const double *c, const PlaceColumn *column,
                           double turn[3], double shift[3])
 {
@@ -83,8 +83,8 @@ static bool is_nothing(const double v[3])
     return v[0] == 0 && v[1] == 0 && v[2] == 0;
 }
 
-/* What a unit of a column does to every node: turns along the rotation tree; along the other one
- * each step turns with the tail of its edge. */
+/* Effect of a unit of a column on each node: turns along the rotation tree; along the translation
+ * tree each shift turns with the tail of its edge. */
 static void move_nodes(Placing *p, const double *c, const PlaceColumn *column)
 {
     const Tree *rotation = p->trees[TREE_ROTATION], *translation = p->trees[TREE_TRANSLATION];
@@ -155,7 +155,7 @@ static void ask(Placing *p, QueryKind kind, int link)
                                          : 1;
 }
 
-/* whether coordinates of the trees hold a value by themselves */
+/* whether coordinates of the trees have this given value themselves */
 static bool is_held(const Placing *p, const InitialGuess *wanted)
 {
     return !wanted->is_guess && wanted->link >= 0 && place_has(p, wanted->link, wanted->k) &&
@@ -163,7 +163,7 @@ static bool is_held(const Placing *p, const InitialGuess *wanted)
             place_ignorance(p, wanted->link, TREE_ROTATION) == 0);
 }
 
-/* joints, given values, guesses */
+/* list the rows: of joints, given values, guesses */
 static void list_asks(Placing *p, bool guesses)
 {
     p->asks.count = p->row_count = p->guess_count = 0;
@@ -220,8 +220,8 @@ static int ask_rows(const Placing *p, const Query *asked, LinkRow *rows, int *ta
     return 0;
 }
 
-/* whether the column that nodes were moved by leaves this one where it is, as most of another leg's
- * do */
+/* Whether the column that moved the nodes has no effect on this one, as is true of most nodes of
+ * other limbs. */
 static bool referents(const Placing *p, int node)
 {
     return is_nothing(p->turned + (ptrdiff_t)3 * node) &&
@@ -311,7 +311,7 @@ void place_close_search(PlaceSearch *s)
     MEM_FREE(s->link_rows, s->tails, s->heads);
 }
 
-/* Columns that no row which is missed feels stay where they are. */
+/* Hold columns that have no effect on a violated row. */
 static void keep_unconcerned(const Placing *p, const Rows *rows, const bool *missed, double *step)
 {
     double *residual = NEW_ARRAY(double, rows->rows);
@@ -333,8 +333,8 @@ static double size_of_try(int k)
     return k < AT_ONCE ? 0.1 : k < 2 * AT_ONCE ? 0.5 : k < TRIES || k % 2 == 0 ? 1.5 : 3;
 }
 
-/* Other starts about the first one; the nearest solution wins at the smallest disturbance. Rows
- * that are missed say what takes part. */
+/* Further initial guesses about the first one; of those at the smallest distance that converge the
+ * nearest solution is used. The violated rows determine which columns take part. */
 static bool try_around(Placing *p, const Rows *rows, const double *from, const bool *missed)
 {
     const size_t bytes = (size_t)rows->length * sizeof(double);
@@ -363,7 +363,7 @@ static bool try_around(Placing *p, const Rows *rows, const double *from, const b
     return met;
 }
 
-/* From the start, then from others around it. */
+/* From the initial point, then from others around it. */
 static bool solve(Placing *p, const Rows *rows, double *residual)
 {
     const size_t bytes = (size_t)rows->length * sizeof(double);
@@ -413,7 +413,7 @@ void place_row_scales(const PlaceSearch *s, double size, double guesses, double 
     }
 }
 
-/* To what comes nearest to all guesses and to loops that close, all alike. */
+/* To the least sum of squares of all guesses and loops, with equal weights. */
 static void approach(PlaceSearch *s)
 {
     double *scale = NEW_ARRAY(double, s->rows.rows);

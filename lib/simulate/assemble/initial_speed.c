@@ -1,13 +1,13 @@
-/* initial_speed.c: speeds begin along the joints
+/* initial_speed.c: initial guess of speeds, along the joints
  *
- * Speeds that neither constraints nor given values determine are those of the least rates, summed
- * by squares, of the joints along which frames are placed: edges whose rates are given, then joints
- * before bodies (initial_place.c), and of what shapes move. So the same bodies move the same in any
- * trees of the user's.
+ * Speeds that neither constraints nor given values determine are those with the least sum of
+ * squares of rates: rates of the joints along which frames are placed, that is of edges whose rates
+ * are given, then joints before bodies (initial_place.c); and rates of shapes. So equal bodies get
+ * equal motions with any trees of the user's.
  *
- * The rates are A u. Among all u with C u = d, which are Phi_u u = nu and what was given, the least
- * |A u| is wanted. Let L L^T = A^T A + P^T P with P the rows of Phi_u, each of length 1: |P u| is
- * the same for all of them, and it is the least |L^T u|. */
+ * The rates are A u. Among all u (nu) with C u = d, which are Phi_u u = nu and the given values,
+ * the one with the least |A u| is wanted. Let L L^T = A^T A + P^T P with P the rows of Phi_u scaled
+ * to length 1: |P u| is the same for all of them, so that it is the one with the least |L^T u|. */
 #include "simulate/assemble/initial_place_impl.h"
 #include "simulate/assemble/perturbed_points.h"
 
@@ -20,13 +20,13 @@
 #include <string.h>
 
 #define STEP       1e-5    /* m, rad: the error of a central difference is about its square */
-#define GRID       0x1p-30 /* of rates, above the error of differences: 0 and 1 are exact */
+#define GRID       0x1p-30 /* of rates, above the error of differences; 0 and 1 are exact */
 #define TOLERANCE  1e-11
 #define RANK_RATIO 1e-9
 
 enum {
     MANY = 64,
-    SWEEPS = 3 /* rows, from which on sparse factors are tried first, and so often */
+    SWEEPS = 3 /* rows from which on sparse factors are tried first; refinements */
 };
 
 /* --- what is known --- */
@@ -39,7 +39,7 @@ static void know(Placing *p, int link, int k, bool is_guess)
     *known = now > *known ? now : *known;
 }
 
-/* The link whose speeds are told under that name: a joint or a body; -1. */
+/* The link with that name, a joint or a body, whose speeds are given; -1. */
 static int link_named(const Placing *p, const char *name, size_t length)
 {
     for (int i = 0; i < p->s->link_count; i++) {
@@ -95,7 +95,7 @@ static void mark_rates(Placing *p)
     mem_free(wanted);
 }
 
-/* --- rates of joints by speeds --- */
+/* --- rates of joints from speeds --- */
 
 static void read_at(const Link *link, const Pose *poses, double *c, Pose *relative)
 {
@@ -103,8 +103,8 @@ static void read_at(const Link *link, const Pose *poses, double *c, Pose *relati
     link_read(link, relative, c);
 }
 
-/* How fast a column goes: a turn in any direction by its components in axes of the head, which all
- * have the same length. */
+/* The rate of a column: of a free rotation by its components in axes of the head, which all have
+ * the same scale. */
 static double column_rate(const Placing *p, const PlaceColumn *column, const Pose *low,
                           const Pose *high)
 {
@@ -126,7 +126,7 @@ static double column_rate(const Placing *p, const PlaceColumn *column, const Pos
     return turn[column->k] / (2 * STEP);
 }
 
-/* terms of a matrix, of which several may share a place */
+/* terms of a matrix, several of which may have one position */
 typedef struct InitialSpeedTerms {
     LIST(int) row, column;
     LIST(double) value;
@@ -139,7 +139,7 @@ static void push_term(InitialSpeedTerms *terms, int row, int column, double valu
     LIST_PUSH(terms->value, value);
 }
 
-/* their sums, new, by places of *pattern, which is new too; the terms are used up */
+/* Their sums, new, in the order of *pattern, which is new too. The terms are freed. */
 static double *sum_terms(InitialSpeedTerms *terms, int rows, int columns, Pattern *pattern)
 {
     const int count = terms->value.count;
@@ -157,7 +157,7 @@ static double *sum_terms(InitialSpeedTerms *terms, int rows, int columns, Patter
     return out;
 }
 
-/* A: rows of rates, a column each of *pattern; new */
+/* A (rates x nu), by rows, each a column of *pattern; new */
 static double *find_rates(const Placing *p, Pattern *pattern)
 {
     const int nu = p->a->eq->nu;
@@ -183,12 +183,12 @@ static double *find_rates(const Placing *p, Pattern *pattern)
     return sum_terms(&terms, nu, p->columns.count, pattern);
 }
 
-/* --- the least of them --- */
+/* --- the least rates --- */
 
-typedef struct Weighed { /* rows in w = L^T u */
+typedef struct Weighed { /* rows as functions of w = L^T u */
     Rows rows;
     const double *factor; /* L, in its lower half */
-    double *jacobian;     /* of the rows, which are linear; NULL: not asked for yet */
+    double *jacobian;     /* of the rows, which are linear; NULL: not computed yet */
 } Weighed;
 
 /* += scale row^T row */
@@ -200,7 +200,7 @@ static void add_square(InitialSpeedTerms *sum, const Pattern *rows, const double
             push_term(sum, rows->row[i], rows->row[j], scale * values[i] * values[j]);
 }
 
-/* L L^T, new, by places of *square, which is new too */
+/* L L^T, new, in the order of *square, which is new too */
 static double *weigh(const Assembly *a, const Pattern *rates, const double *values, Pattern *square)
 {
     const Equations *eq = a->eq;
@@ -225,7 +225,7 @@ static double *weigh(const Assembly *a, const Pattern *rates, const double *valu
     return sum_terms(&sum, eq->nu, eq->nu, square);
 }
 
-/* L; NULL: these speeds leave some motion without a rate, which trees don't */
+/* L; NULL: some motion has no rate, which can't happen with trees */
 static double *factor_of(const Pattern *square, const double *weight)
 {
     double *factor = pattern_spread(square, weight);
@@ -283,7 +283,7 @@ static Status solve(Assembly *a, const double *factor, bool guesses, Diag *diag)
     rows.pattern = NULL;
     rows.evaluate = evaluate;
     rows.move = move;
-    /* what can't be met is told by who looks at it next */
+    /* equations that can't be satisfied are reported later */
     (void)levenberg_marquardt_solve(&rows, NULL, NULL, TOLERANCE, a->y + a->l->n, NULL);
 done:
     initial_close_problem(&p);
@@ -291,7 +291,7 @@ done:
     return status;
 }
 
-/* no row is missed by more than a part of its size */
+/* whether no residual is more than a fraction of its row's size */
 static bool are_met(const Pattern *rows, const double *values, const double *residual)
 {
     for (int i = 0; i < rows->columns; i++)
@@ -300,9 +300,8 @@ static bool are_met(const Pattern *rows, const double *values, const double *res
     return true;
 }
 
-/* What solve() does where values that were given don't contradict each other, by sparse factors:
- * [L L^T C^T; C 0] with rows that are independent. False, and speeds as they were, where it isn't
- * so or these don't carry. */
+/* The same as solve() by sparse factors, where given values are consistent: [L L^T C^T; C 0] with
+ * independent rows. False, with speeds unchanged, where they aren't or the factors fail. */
 static Status solve_sparse(Assembly *a, const Pattern *square, const double *weight, bool *solved,
                            Diag *diag)
 {
@@ -351,7 +350,7 @@ done:
     return status;
 }
 
-/* shapes that rest but for what iterations left */
+/* set speeds of shapes to 0 that are 0 within the error of iterations */
 static void rest(Assembly *a)
 {
     for (int i = 0; i < a->given_count; i++) {
@@ -363,7 +362,8 @@ static void rest(Assembly *a)
     }
 }
 
-/* as told by `weight`: guesses first, where there are any, then what was given */
+/* with the weights of `weight`: first with guesses, if there are any, then with given values
+ * alone */
 static Status solve_all(Assembly *a, const Pattern *square, const double *weight, bool guesses,
                         Diag *diag)
 {
@@ -389,7 +389,7 @@ done:
     return status;
 }
 
-/* --- whether it matters --- */
+/* --- whether speeds are open --- */
 
 static bool any_guess(const Assembly *a, bool own)
 {
@@ -400,7 +400,7 @@ static bool any_guess(const Assembly *a, bool own)
     return false;
 }
 
-/* Anything moves at all, and constraints and given values leave speeds open. */
+/* Whether there is mechanics, and constraints and given values leave speeds undetermined. */
 static Status is_open(Assembly *a, bool *open, Diag *diag)
 {
     Problem p = {0};

@@ -1,13 +1,13 @@
 /* initial_trees.c: the trees along which assembly places frames
  *
- * They are of its own making, chosen by what is known: edges whose coordinates are given, then
- * those that are guessed, then joints before bodies; from no tree of the user's. */
+ * Assembly chooses them by what is known: first edges whose coordinates are given, then those that
+ * are guessed, then joints before bodies. The user's trees have no effect. */
 #include "simulate/assemble/initial_place_impl.h"
 
 #include <stdlib.h>
 
-/* A virtual joint's claim is no constraint. It places frames where the user's trees take it at its
- * word, or where it leaves every freedom, and all of it is known. */
+/* A virtual joint is no constraint. It places frames if all of its coordinates are known, and
+ * either the user's trees contain it or it leaves every freedom. */
 static bool may_place(const Placing *p, int link, TreeKind kind)
 {
     const Link *l = &p->s->links[link];
@@ -24,7 +24,7 @@ typedef struct Candidate { /* for a branch */
     int ignorance, preference;
 } Candidate;
 
-/* what is known best, then as completion prefers, then in order of making */
+/* best known first, then in the order of completion, then of definition */
 static int by_preference(const void *left, const void *right)
 {
     const Candidate *a = left, *b = right;
@@ -43,7 +43,7 @@ static int root_of(int *above, int node)
     return node;
 }
 
-/* Kruskal (1956), virtual joints among the rest, which completion puts behind all others */
+/* Kruskal (1956), with virtual joints included, which completion orders last */
 static Status choose_tree(Placing *p, TreeKind kind, Diag *diag)
 {
     const Graph *graph = system_graph(p->s->system);

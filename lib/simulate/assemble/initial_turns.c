@@ -1,5 +1,4 @@
-/* initial_turns.c: where drivers have coordinates at the start, and whole turns of sums of angles
- */
+/* initial_turns.c: initial values of driven coordinates, and whole turns of sums of angles */
 #include "simulate/assemble/initial_impl.h"
 
 #include <math.h>

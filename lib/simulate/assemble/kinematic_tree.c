@@ -1,4 +1,4 @@
-/* kinematic_tree.c: links in numbers, and frames along trees of them */
+/* kinematic_tree.c: links as numbers, and poses of frames along trees of them */
 #include "simulate/assemble/kinematic_tree.h"
 
 #include "algebra/matrix3.h"
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-/* --- making --- */
+/* --- construction --- */
 
 static void number_vector(Parameters *parameters, const Expr e[3], double *out)
 {
@@ -50,7 +50,7 @@ static void make_link(const System *system, Parameters *parameters, const Instan
         out->R0[i] = parameters_evaluate(parameters, steps.rotation[i]);
 }
 
-/* a frame against the datum, as a body has it */
+/* a frame relative to the datum, with the coordinates of a free body */
 static Link free_link(bool planar, int datum)
 {
     const int shifts = planar ? 2 : 3;
@@ -77,7 +77,7 @@ static int datum_of(const Graph *graph)
     return node;
 }
 
-/* Frames that stand on what deforms without a length, and what hangs on them. */
+/* Find frames on flexible bodies without a length, and the frames beyond them. */
 static void find_moved(KinematicTree *s)
 {
     int count;
@@ -211,7 +211,7 @@ void link_turn_axis(const Link *link, const double *c, const double *R_tail, int
 
 /* --- from poses to coordinates --- */
 
-/* R less the constant turn behind the joint's own */
+/* E: R without the constant rotation after the joint's own */
 static void undo_constant(const Link *link, const double R[9], double E[9])
 {
     double back[9];
@@ -225,7 +225,7 @@ static double nearest_turn(double angle, double near)
     return angle + 2 * M_PI * round((near - angle) / (2 * M_PI));
 }
 
-/* angle of the turn about u that comes nearest to E */
+/* angle of the rotation about u that is nearest to E */
 static double turn_about(const double *u, const double E[9])
 {
     const double twice[3] = {E[7] - E[5], E[2] - E[6], E[3] - E[1]};
@@ -235,7 +235,7 @@ static double turn_about(const double *u, const double E[9])
     return atan2(vector3_dot(u, twice), E[0] + E[4] + E[8] - vector3_dot(u, far));
 }
 
-/* of T(u1, a1) T(u2, a2), u1 and u2 square (theory 2, coordinate of a chord) */
+/* of T(u1, a1) T(u2, a2), u1 and u2 perpendicular (theory 2, coordinate of a chord) */
 static void read_two(const Link *link, const double E[9], double angle[3])
 {
     const double *u1 = link->turn[0].axis, *u2 = link->turn[1].axis;
@@ -249,9 +249,9 @@ static void read_two(const Link *link, const double E[9], double angle[3])
     angle[1] = atan2(-vector3_dot(far1, side), vector3_dot(far1, u1));
 }
 
-/* The two sets of T(u1, a1) T(u2, a2) T(u3, a3), neighbours square: from where the third axis
- * goes, and what is left. Where first and last fall together the first angle is the one that was.
- */
+/* The two angle sequences of T(u1, a1) T(u2, a2) T(u3, a3), neighbours perpendicular: from the
+ * direction of the third axis, and the remaining rotation. Where first and last axis are parallel
+ * the first angle is the previous one. */
 static void read_three(const Link *link, const double E[9], double near, double sets[2][3])
 {
     const double singular = 1e-9;
@@ -329,7 +329,7 @@ static void read_attitude(const Link *link, const double E[9], double *c)
     for (int i = 0; i < 4; i++)
         sum += old[i] * p[i];
     for (int i = 0; i < 4 && sum < 0; i++)
-        p[i] = 0 - p[i]; /* no -0 */
+        p[i] = 0 - p[i]; /* avoids -0 */
 }
 
 void link_read(const Link *link, const Pose *relative, double *c)
@@ -340,7 +340,7 @@ void link_read(const Link *link, const Pose *relative, double *c)
     for (int i = 0; i < 3; i++)
         d[i] = relative->p[i] - link->constant[i];
     read_attitude(link, E, c);
-    /* a screw's coordinate is told by its shift, over any number of turns */
+    /* the shift determines a screw's coordinate, over any number of turns */
     for (int k = 0; k < link->shift_count; k++)
         c[link->shift[k].coordinate] = vector3_dot(link->shift[k].axis, d) / link->shift[k].scale;
 }

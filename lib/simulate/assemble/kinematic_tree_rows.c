@@ -1,8 +1,9 @@
-/* kinematic_tree_rows.c: what joints ask of the poses of their frames, directions with their sense
+/* kinematic_tree_rows.c: conditions of joints on the poses of their frames, with the sense of
+ * directions
  *
- * Residuals of directions are turns: the vector, along the axis and of the size of the angle, that
- * would bring the head where it belongs, backwards. It is 0 for the sense asked for alone, and
- * grows up to half a turn away from it. */
+ * Residuals of directions are rotation vectors, along the axis and with the size of the angle:
+ * minus the one that would bring the head to the required direction. They are 0 for the required
+ * sense only, and increase up to half a turn away from it. */
 #include "simulate/assemble/kinematic_tree.h"
 
 #include "algebra/elementary.h"
@@ -12,7 +13,7 @@
 #include <math.h>
 #include <string.h>
 
-#define REVERSED 1.0 /* rad: further off than assembly ever leaves a joint that holds */
+#define REVERSED 1.0 /* rad: more than the error of any assembled joint */
 
 static void undo_constant(const Link *link, const double R[9], double E[9])
 {
@@ -24,7 +25,7 @@ static void undo_constant(const Link *link, const double R[9], double E[9])
 
 /* --- positions --- */
 
-/* directions of the tail that no slide takes; how many */
+/* directions of the tail without a slide along them; returns how many */
 static int held_directions(const Link *link, double n[3][3])
 {
     memset(n, 0, 9 * sizeof(double));
@@ -86,10 +87,11 @@ static int weld_rows(const double E[9], LinkRow *rows)
     return 3;
 }
 
-/* the shortest turn from the axis to where the head has it: two components, across the axis */
+/* rotation vector from the axis to its direction in the head: two components, perpendicular to the
+ * axis */
 static int axis_rows(const double *u, const double E[9], LinkRow *rows)
 {
-    const double least = 0.1; /* of the sine that a slope is divided by, near half a turn */
+    const double least = 0.1; /* of the sine in the denominator of a derivative, near half a turn */
     double n[2][3], far[3], w[3], side[3], across[3], sine, angle;
 
     vector3_across(u, n[0]);
@@ -115,7 +117,7 @@ static int axis_rows(const double *u, const double E[9], LinkRow *rows)
     return 2;
 }
 
-/* the second axis of a cross stays square to the first */
+/* the second axis of a universal joint is perpendicular to the first */
 static int cross_rows(const Link *link, const double E[9], LinkRow *rows)
 {
     const double *u1 = link->turn[0].axis;
@@ -151,7 +153,7 @@ static double value_off(const Link *link, const Pose *relative, const double *ne
     return c[k] - value;
 }
 
-/* a pose whose head is turned and shifted a little, in the axes of the tail */
+/* the pose with its head turned or shifted a little, in the axes of the tail */
 static Pose displaced(const Pose *pose, int direction, double by)
 {
     Pose moved = *pose;
@@ -188,7 +190,7 @@ void link_value_row(const Link *link, const Pose *relative, const double *near, 
 {
     double here[POSE_COORDS];
 
-    /* differences stay on this side of a half turn, and of the sign of Euler parameters */
+    /* for differences on the same side of a half turn, with the same sign of Euler parameters */
     memcpy(here, near, sizeof here);
     link_read(link, relative, here);
     difference_row(link, relative, here, k, value, row);
@@ -200,7 +202,7 @@ void link_tie_row(const Link *link, const Pose *relative, LinkRow *row)
     Link loose = *link;
     double c[POSE_COORDS] = {0};
 
-    /* as a sleeve: the turn nearest to that of the shift */
+    /* as a cylindrical joint: the turn nearest to the one that belongs to the shift */
     loose.shift[0].scale = 1;
     loose.shift[0].coordinate = 1;
     loose.turn[0].coordinate = 0;
@@ -230,7 +232,7 @@ static Reversal find_reversal(const KinematicTree *s, const Pose *poses)
         count = link_turn_rows(link, &relative, rows);
         for (int k = 0; k < count; k++) {
             size = hypot(size, rows[k].value);
-            found.about[k] = rows[k].value; /* of a joint that lets it turn in no way */
+            found.about[k] = rows[k].value; /* of a joint without any rotation */
         }
         if (size > REVERSED)
             return found;
@@ -274,7 +276,7 @@ Reversal kinematic_tree_reversal(const KinematicTree *s, const double *q)
     return found;
 }
 
-/* of the two senses of a half turn the one whose largest component is positive */
+/* of the two senses of a half turn choose the one whose largest component is positive */
 static void choose_sense(double u[3])
 {
     double largest = 0;

@@ -1,4 +1,4 @@
-/* level_rows.c: rows of the system, then of expressions, and how unknowns move */
+/* level_rows.c: rows of the system, then of expressions, and the motion of unknowns */
 #include "simulate/assemble/level_rows.h"
 
 #include "base/memory.h"
@@ -35,7 +35,7 @@ static Expr *unknowns_of(const VariableIndex *l, StateLevel level)
     return out;
 }
 
-/* whether a direction of motion moves a coordinate */
+/* whether a speed moves a coordinate */
 static bool maps(const LevelRows *rows, int coordinate, int speed)
 {
     return !expr_is(system_n_entry(rows->l->system, coordinate, speed), 0);
@@ -124,7 +124,7 @@ static void evaluate_system(const LevelRows *rows, double *residual, double *jac
         memcpy(jacobian, eq->phi_u, (size_t)eq->rows->count * sizeof(double));
 }
 
-/* by places of the pattern */
+/* in the order of the pattern */
 static void put_slopes(const LevelRows *rows, const double *slopes, double *jacobian)
 {
     const Equations *eq = rows->eq;
@@ -187,7 +187,7 @@ static void move_position(void *context, double *v, const double *step)
     equations_normalise(eq, v);
 }
 
-/* Rows of the system first, whose places are those of Phi_u, so that its entries are copied. */
+/* Rows of the system come first, with the pattern of Phi_u, so that its entries are copied. */
 static void find_pattern(LevelRows *rows, int count)
 {
     const Pattern *system = rows->system_rows > 0 ? rows->eq->rows : NULL;
@@ -221,7 +221,7 @@ static void find_pattern(LevelRows *rows, int count)
     MEM_FREE(row, number);
 }
 
-/* whether the pattern is that of the targets as they are */
+/* whether the pattern is that of the current targets */
 static bool has_pattern(const LevelRows *rows)
 {
     bool same = rows->pattern.start != NULL;

@@ -1,11 +1,11 @@
-/* level_rows.h: what one level of a state has to satisfy, for least squares
+/* level_rows.h: the equations of one level of a state, for least squares
  *
- *     position   Phi(q) = 0            in q, which moves along speeds: dq = N ds
- *     velocity   Phi_u u - nu = 0      in u
- *     states                           in x
+ *     position   Phi(q) = 0            (m)  in q (n), which moves along speeds: dq = N ds
+ *     velocity   Phi_u u - nu = 0      (m)  in u (nu)
+ *     states                           in x (nx)
  *     network                          in (x, x', z)
  *
- * and on each of them expressions that are to have values. What a level builds on is known. */
+ * and on each level expressions with given values. Earlier levels are known. */
 #ifndef COTREE_SIMULATE_ASSEMBLE_LEVEL_ROWS_H
 #define COTREE_SIMULATE_ASSEMBLE_LEVEL_ROWS_H
 
@@ -20,7 +20,7 @@ typedef enum StateLevel {
     LEVEL_COUNT
 } StateLevel;
 
-/* of its unknowns: the place of the first in (q, u, x), and how many */
+/* of its unknowns: index of the first in (q, u, x), and number */
 int level_first(const VariableIndex *layout, StateLevel level);
 int level_count(const VariableIndex *layout, StateLevel level);
 
@@ -28,28 +28,29 @@ typedef struct LevelRows {
     const VariableIndex *l;
     const Equations *eq;
     StateLevel level;
-    int system_rows; /* of the system, first: m, or none */
+    int system_rows; /* rows of the system, which come first: m, or none */
     int count;       /* expressions */
-    double *target;  /* of each; write here. NAN: it may have any value, and is no row */
+    double *target;  /* of each; write here. NAN: any value, and no row */
     double t;
-    const double *y; /* what the level builds on, with references behind; set before use */
+    const double *y; /* values of earlier levels, followed by references; set before use */
     Probe *probe;
-    /* slopes of expressions as entries: a coordinate's by each speed that its rate reads, by N */
+    /* derivatives of expressions as entries: those by a coordinate count for each speed in its
+     * rate, by N */
     int entries;
-    int *slope, *by, *speed; /* of an entry: its slope; coordinate, or -1; column */
-    Pattern pattern;         /* of the Jacobian with the targets as they were then; */
-    bool *is_row;            /* expressions that were rows; */
-    int *at;                 /* of an entry: its place, -1: of no row */
+    int *slope, *by, *speed; /* of an entry: its derivative; coordinate, or -1; column */
+    Pattern pattern;         /* of the Jacobian with the targets at the time; */
+    bool *is_row;            /* expressions that were rows then; */
+    int *at;                 /* of an entry: its index, -1: in no row */
     double *place;           /* (q, u, x, x', z) of the last evaluation */
 } LevelRows;
 
-/* New; level_rows_free(). Borrows all but the expressions; `equations` may be used by others
+/* New; level_rows_free(). Borrows all but the expressions; `equations` may be used elsewhere
  * between calls. Fails as probe_new() does. */
 MUST_USE Status level_rows_new(StateLevel level, const VariableIndex *layout,
                                const Equations *equations, Parameters *parameters,
                                const Expr *wanted, int count, LevelRows **out, Diag *diag);
 void level_rows_free(LevelRows *rows); /* NULL is fine */
-/* With the targets as they are now. On velocity the equations are at the position. */
+/* With the current targets. On the velocity level the equations are at the position. */
 Rows level_rows(LevelRows *rows, const CallMonitor *watch);
 
 #endif

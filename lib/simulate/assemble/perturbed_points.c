@@ -1,4 +1,4 @@
-/* perturbed_points.c: poses to both sides of a position, from what a speed moves on */
+/* perturbed_points.c: poses on both sides of a position, recomputed from what a speed moves */
 #include "simulate/assemble/perturbed_points.h"
 
 #include "algebra/matrix3.h"
@@ -6,12 +6,12 @@
 
 #include <string.h>
 
-/* what moves by a speed is found anew from its links on, and the rest is as it is */
+/* Poses of one side. Only what the speed moves is recomputed, from its links on. */
 typedef struct Side {
     double *c;       /* links x POSE_COORDS */
     Pose *steps;     /* of links */
     Pose *poses;     /* of nodes */
-    bool *is_turned; /* nodes: otherwise than without the speed, */
+    bool *is_turned; /* per node: the speed changes its rotation, */
     bool *is_moved;
 } Side;
 
@@ -19,12 +19,12 @@ struct PerturbedPoints {
     const KinematicTree *s;
     const Equations *eq;
     double step;
-    int *place;       /* of a coordinate of the system among c; -1: no link's */
-    Side here;        /* without the speed */
-    Side low, high;   /* and to both sides of it */
-    int *changed;     /* links whose coordinates it moves, so many; */
-    int count;        /* and whether it is one */
-    bool *is_changed; /* links */
+    int *place;       /* index of each coordinate of the system in c; -1: of no link */
+    Side here;        /* at the position */
+    Side low, high;   /* and on both sides of it */
+    int *changed;     /* links whose coordinates the speed moves, `count` of them */
+    int count;        /* number of these links */
+    bool *is_changed; /* per link: whether it is one of them */
 };
 
 static Side side_new(const KinematicTree *s)
@@ -117,7 +117,7 @@ static void choose_changed(PerturbedPoints *sides, int j)
     }
 }
 
-/* coordinates of these links, `by` along the speed */
+/* set coordinates of these links, `by` along the speed */
 static void step_links(const PerturbedPoints *sides, Side *side, int j, double by)
 {
     const Equations *eq = sides->eq;
@@ -139,7 +139,7 @@ static void step_links(const PerturbedPoints *sides, Side *side, int j, double b
     }
 }
 
-/* as kinematic_tree_poses() finds them, where a link or what a node stands on is another */
+/* poses as from kinematic_tree_poses(), where a link or the node before has changed */
 static void turn_nodes(const PerturbedPoints *sides, Side *side)
 {
     const KinematicTree *s = sides->s;
@@ -193,7 +193,7 @@ static void shift_nodes(const PerturbedPoints *sides, Side *side)
     }
 }
 
-/* as they are without the speed that was looked at */
+/* restore everything to the position, after a speed */
 static void put_back(const PerturbedPoints *sides, Side *side)
 {
     for (int k = 0; k < sides->count; k++) {

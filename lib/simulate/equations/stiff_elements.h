@@ -40,7 +40,7 @@ const Range *stiff_elements_sources_close(StiffElements *stiff_elements, Range o
 /* The same of one source, at the cost of its own expression. */
 Range stiff_elements_source_over(StiffElements *stiff_elements, int source, Range over);
 Range stiff_elements_source_close(StiffElements *stiff_elements, int source, Range over);
-/* Number of expression nodes visited for ranges so far. */
+/* Number of ranges of expressions computed so far. */
 int64_t stiff_elements_visits(const StiffElements *stiff_elements);
 
 /* A run goes from..to, s: from here on the sizes of sources are their ranges in it. */

@@ -129,7 +129,7 @@ static inline double control_largest(const Control *control)
 
 typedef struct Counts {
     int64_t steps, rejected, evaluations, jacobians;
-    int64_t visits; /* expression nodes visited for ranges in the look-ahead (onset.h) */
+    int64_t visits; /* ranges of expressions computed in the look-ahead (onset.h) */
 } Counts;
 
 typedef struct Stepper Stepper;
