@@ -1,4 +1,4 @@
-/* session.c: life of a session, statements that build, and what was said */
+/* session.c: creating and freeing a session, statements that change the model, and messages */
 #include "session/session_impl.h"
 
 #include "algebra/dense.h"
@@ -129,7 +129,7 @@ void session_enter(const ct_session *handle)
         session->watch = (CallMonitor){.context = session, .stop = stop_trial};
 }
 
-/* who waits is told now and then what for, also where the work itself says so but once */
+/* repeats the progress message at intervals, also when the work itself reports it only once */
 static bool work_stops(void *context)
 {
     const ct_session *session = context;
@@ -190,7 +190,7 @@ static void add_counts(Text *line, OpCount count)
     layout_count(line, (int)count.fun, "function", "functions");
 }
 
-/* what is looked at without being asked for: so many edges */
+/* up to this number of edges, checks are made without a request */
 enum { GLANCE = 40 };
 
 /* the trees that the model has, counted where that takes no time; -1: none are whole */
@@ -218,8 +218,8 @@ static bool costs_differ(const TreeCost *a, const TreeCost *b)
            a->written.fun != b->written.fun;
 }
 
-/* What the trees just chosen make of the model, next to what they were before: said only where the
- * model is whole. */
+/* The effect of the trees just chosen, compared with those before: reported only if the model is
+ * complete. */
 static void remark_trees(ct_session *session)
 {
     const int before = session->cost_now < session->costs.count ? session->cost_now : -1;
@@ -266,8 +266,8 @@ static Status take_back(ct_session *session)
     return OK;
 }
 
-/* Trees that take freedoms away are refused at once where the present values can be assembled, and
- * what was before stays. */
+/* Trees that remove freedoms are refused at once if the present values can be assembled; the
+ * previous trees remain. */
 static Status try_trees(ct_session *session, const Statement *s, Diag *diag)
 {
     Status status = OK;

@@ -21,7 +21,7 @@ static const double CLOSE =
 static const double UNDAMPED =
     1e-3; /* of a root: as close as points come where it has no damping */
 
-/* what was asked for */
+/* the request */
 typedef struct Bode {
     const Linear *linear; /* borrowed */
     double from, to;      /* Hz; 0: as the roots suggest */

@@ -1,14 +1,14 @@
-/* session_bounds.c: runs end where the law of a part does
+/* session_bounds.c: runs end at the limit of a part's constitutive law
  *
- * What must not come to 0, a gap below a capacitance, is watched as an event of the run that
- * belongs to nobody's model: past the gap the law would go on with its sign turned, and say
- * nonsense. */
+ * A quantity that must not reach 0, such as the gap of a capacitance, is monitored as an event of
+ * the run that isn't part of the model. Beyond 0 the law would continue with the wrong sign and
+ * give meaningless results. */
 #include "session/session_impl.h"
 
 #include <math.h>
 #include <string.h>
 
-/* of what a measure is at the start: the law is of no more use, and what is told still a number */
+/* relative to the measure's initial value: the law ends there, and the results are still finite */
 #define AT_BOUND 1e-6
 
 void watch_free(BoundWatch *watch)

@@ -8,7 +8,7 @@ void session_note_change(ct_session *session, uint64_t revision, bool trees_only
     session->start_is_later = true;
     session->reporter = NULL;
     run_free(&session->start);
-    /* figures of another graph say nothing about this one */
+    /* the figures of another graph don't apply to this one */
     if (model_revision(session->model) != revision && !trees_only)
         tree_costs_free(&session->costs);
     session_sweep(session);

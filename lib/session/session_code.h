@@ -1,6 +1,4 @@
-/* session_code.h: what a model's functions are formed from: items that were asked for, and the
- * start
- */
+/* session_code.h: the input of a model's functions: requested items, and the initial state */
 #ifndef COTREE_SESSION_SESSION_CODE_H
 #define COTREE_SESSION_SESSION_CODE_H
 

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* --- what the statement asks for --- */
+/* --- options of the statement --- */
 
 static const char *operand_word(const Statement *s, int i)
 {
@@ -26,7 +26,7 @@ static const Pair *find_key(const Statement *s, const char *name)
     return NULL;
 }
 
-/* which of some words a key has; `out` stays where it isn't given */
+/* which of some words is the key's value; `out` is unchanged without the key */
 static Status read_choice(const Statement *s, const char *name, const char *const *words, int *out,
                           Diag *diag)
 {
@@ -194,8 +194,7 @@ done:
     return status;
 }
 
-/* `collapsed` or `open` behind all else, which says how instances of subsystems stand; open where
- * nothing is said */
+/* `collapsed` or `open` at the end: how instances of subsystems are drawn; default: open */
 static int last_of_graph(const Statement *s, bool *collapsed)
 {
     const int last = s->operands.count - 1;

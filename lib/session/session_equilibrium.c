@@ -31,8 +31,9 @@ static void list_unknowns(const System *system, Unknowns *out)
         add_unknown(out, system_z(system, i)->name, system_z(system, i)->symbol);
 }
 
-/* Statements that make it the start, to all digits. What has no value in the mode at rest, as the
- * current of a switch that is solved for apart, is left to the start. */
+/* Statements that set the equilibrium as initial state, to all digits. A variable without a value
+ * in the mode at rest, as the current of a switch that is solved for separately, is omitted; the
+ * next assembly determines it. */
 static Status write_starts(const Run *equilibrium, Text *out, Diag *diag)
 {
     Unknowns unknowns = {0};

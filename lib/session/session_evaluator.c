@@ -1,8 +1,9 @@
-/* session_evaluator.c: functions of a model in numbers, in lanes
+/* session_evaluator.c: numeric functions of a model, in SIMD batches
  *
- * What is solved for is solved lane by lane: rows and columns brought to like size, then Gauss, or,
- * where constraints repeat each other, least squares of least norm. Newton's method goes on in all
- * lanes at once, each with a step of its own. Nothing is allocated once an evaluator is made. */
+ * Solves R(y, s) = 0 for s, group by group of the equations. The linear systems are solved lane by
+ * lane: rows and columns are scaled to equal size, then Gaussian elimination, or least squares of
+ * least norm where constraints are redundant. Newton's method iterates in all lanes at once, each
+ * with a step of its own. Nothing is allocated once an evaluator is made. */
 #include "session/session_model.h"
 
 #include "algebra/dense.h"
@@ -36,8 +37,8 @@ struct ct_evaluator {
     SimdBatch *(*slopes)[DIFFERENTIABLE];
     SessionEvaluatorSolver groups[2], all,
         nearest;     /* of groups of unknowns, of the residual, of projection */
-    double *numbers; /* of what a function gives, in all lanes */
-    double *old, *step, *weight, *lack, *trial; /* of Newton's method: as many, or one a lane */
+    double *numbers; /* results of a function, in all lanes */
+    double *old, *step, *weight, *lack, *trial; /* of Newton's method */
     int *near;
     double *slope_of_s; /* of one lane, by entries of a part */
 };
@@ -209,7 +210,7 @@ static bool solve_linear(ct_evaluator *e, const CodeGroup *group, SessionEvaluat
     return all;
 }
 
-/* how far the rows of a lane are from 0, each over its weight */
+/* norm of the residuals of a lane, each divided by its weight */
 static double lack_of(const ct_evaluator *e, const CodeGroup *group, int lane)
 {
     const int n = group->count;
@@ -221,7 +222,7 @@ static double lack_of(const ct_evaluator *e, const CodeGroup *group, int lane)
     return sum;
 }
 
-/* the way that a lane is to go; false: there is none */
+/* the search direction of a lane; false: there is none */
 static bool find_step(ct_evaluator *e, const CodeGroup *group, SessionEvaluatorSolver *solver,
                       const double *s, int lane)
 {
@@ -250,7 +251,7 @@ static void go(const ct_evaluator *e, const CodeGroup *group, double *s, int lan
             e->old[i * lanes + lane] + part * e->step[i * lanes + lane];
 }
 
-/* Steps are halved in all lanes that they lead away in. */
+/* Steps are halved in all lanes in which they increase the residual. */
 static void search(ct_evaluator *e, const CodeGroup *group, const double *p, const double *t,
                    const double *y, double *s)
 {
@@ -365,8 +366,8 @@ static void normalise(const ct_model *model, double *y)
         }
 }
 
-/* the least correction of u or du that takes `off` away, of a lane, in e->trial; the Jacobian is
- * current */
+/* the least correction of u or du in a lane that cancels the residual `off`, in e->trial; the
+ * Jacobian is current */
 static bool find_nearest(ct_evaluator *e, int jacobian, const double *off, int lane)
 {
     const ct_model *model = e->model;
@@ -491,15 +492,15 @@ ct_status ct_partial_derivatives(ct_evaluator *e, int function, ct_part by, cons
     return CT_OK;
 }
 
-/* A direction, in e->step, in which s may move and the residual stays, of constraints that repeat
- * each other: what the least solution takes off one at random. */
+/* A direction, in e->step, in which s may change without changing the residual, for redundant
+ * constraints: a random direction minus its least solution. */
 static bool find_open_direction(ct_evaluator *e, const double *a)
 {
     const int n = e->model->ns, w = n + 1;
     double *open = e->step, *held = e->old;
 
     for (int i = 0; i < n; i++)
-        open[i] = 1 + fmod(i * 0.6180339887498949, 1); /* no two alike */
+        open[i] = 1 + fmod(i * 0.6180339887498949, 1); /* all different */
     for (int i = 0; i < n; i++) {
         held[i] = 0;
         for (int j = 0; j < n; j++)
@@ -512,8 +513,8 @@ static bool find_open_direction(ct_evaluator *e, const double *a)
     return true;
 }
 
-/* ds of a lane, entries of s by those of the part, in e->slope_of_s: R_s ds = -R_x. Where
- * constraints repeat each other it is the least one. */
+/* ds of a lane, entries of s by those of the part, in e->slope_of_s: R_s ds = -R_x. With redundant
+ * constraints it is the least one. */
 static bool find_solution_slopes(ct_evaluator *e, ct_part by, int lane)
 {
     const ct_model *model = e->model;

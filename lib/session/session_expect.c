@@ -36,7 +36,7 @@ static double shown_unit(const ct_session *session, const Syntax *left, const Sy
     return size;
 }
 
-/* a reference that was wrapped, as an arctangent is, beside an angle that was counted on */
+/* a hint for a reference that was wrapped, as by an arctangent, compared with a multi-turn angle */
 static void hint_turns(double off, double tolerance, const Text *unit, Diag *diag)
 {
     const double pi = acos(-1), turns = round(off / (2 * pi));

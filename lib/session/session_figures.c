@@ -33,7 +33,7 @@ enum {
 #define NOISY  0.25  /* what is rough in so much of it, in short pieces, is rounding of what is 0 */
 #define POLAR  2     /* times as large in each pass: a pole */
 #define APART  1e-6  /* of its neighbour's: so short an interval spans a corner */
-#define EVEN   0.1   /* crossings that are further from even tell no period */
+#define EVEN   0.1   /* crossings that are less regular determine no period */
 
 static const double nodes[POINTS] = {
     -0.9491079123427585, -0.7415311855993945, -0.4058451513773972, 0,
@@ -178,7 +178,7 @@ static Status refuse_pole(const FigureCourse *course, const SessionFiguresPieces
     return E_VALUE;
 }
 
-/* the mean of a power; pieces are halved where halves tell another integral */
+/* the mean of a power; pieces are halved where the halves give a different integral */
 static Status mean_of(const FigureCourse *course, int power, double *out, Diag *diag)
 {
     const double span = course->ends.at[course->ends.count - 1] - course->ends.at[0];

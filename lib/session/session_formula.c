@@ -18,8 +18,9 @@ void formula_free(Formula *formula)
 
 /* --- numbers that the session knows --- */
 
-/* Freedoms as 'check' tells them: by what the constraints leave free at the start. Where there is
- * none that could be assembled, by their number, and that is said. */
+/* Freedoms as reported by 'check': the number of motions that the constraints allow at the initial
+ * state. If that can't be assembled, they are counted from the numbers of equations, with a
+ * remark. */
 static Status model_freedoms(ct_session *session, System *system, double *out, Diag *diag)
 {
     const int difference = system_nu(system) - system_m(system);
@@ -191,7 +192,7 @@ static Expr push_leaf(Cut *cut, Leaf leaf)
     return leaf.symbol;
 }
 
-/* sizes that outputs ask for, as numbers */
+/* replace the symbols of sizes in an expression by their numbers */
 static Status put_sizes(ct_session *session, Expr *e, Diag *diag)
 {
     Arena *arena = model_arena(session->model);
@@ -466,7 +467,7 @@ Status formula_new(ct_session *session, const Syntax *syntax, Formula *out, Diag
     Syntax bare = *syntax;
     Status status;
 
-    /* behind a literal a unit is what it is in, behind anything else what to show it in */
+    /* after a literal it is the literal's unit, after anything else the unit to show it in */
     if (syntax->has_unit && syntax->kind != SYNTAX_NUMBER && syntax->kind != SYNTAX_VECTOR) {
         formula.scale = 1 / syntax->unit.factor;
         bare.has_unit = false;

@@ -1,7 +1,7 @@
-/* session_impl.h: what a session holds, for the files of lib/session*.c
+/* session_impl.h: the parts of a session, for the files of lib/session*.c
  *
- * A model, the equations made of it, its runs, and what was said last. Systems are
- * made when needed and kept while they are those of the model or a run names them. */
+ * A session owns a model, the equations made of it, its runs, and the last messages. Systems are
+ * made when needed and live while they belong to the present model or a run refers to them. */
 #ifndef COTREE_SESSION_SESSION_IMPL_H
 #define COTREE_SESSION_SESSION_IMPL_H
 
@@ -32,7 +32,7 @@ typedef struct Run {
     Host *host; /* what its inputs were set to; NULL: nobody set any */
 } Run;
 
-/* tells what a verb found */
+/* reports the result of a verb */
 typedef void Report(const ct_session *session, Text *out);
 
 struct ct_session {
@@ -42,26 +42,26 @@ struct ct_session {
     const char *phase; /* that was reported last in this call; NULL: none */
     double fraction;   /* of it */
     Model *model;
-    LIST(System *) systems; /* of the runs and, last, of the model as it was when asked last */
+    LIST(System *) systems; /* of the runs and, last, of the model at the latest request */
     LIST(Run) runs;         /* run1 is the first */
     Run start;              /* assembled from the model as it is, or its equilibrium; result NULL:
                                not yet. No run depends on it */
     Linear *linear;         /* the last linearisation; NULL */
     bool linear_is_old;     /* the model has changed since */
     Modes *modes;           /* and modes */
-    Report *reporter;       /* what ct_report() tells; NULL: as runs have it */
+    Report *reporter;       /* for ct_report(); NULL: as in runs */
     bool start_is_later;    /* a bare name means the start, not the end of the last run */
     bool changed;           /* since the last run */
     uint64_t covered;       /* revision whose virtual branches lose no freedom, and 1 */
     uint64_t freed;         /* revision whose freedoms are known, and 1 */
     int freedoms;
-    Threads *threads; /* that runs and what asks of them compute with, as many as are set */
+    Threads *threads; /* for runs and queries of them, as many as are set */
     TreeCosts costs;
     int cost_now; /* of the trees chosen last, a place in `costs` */
     Text remarks; /* of the last call; at NULL: none */
 };
 
-/* hands the statement behind the public name; never NULL for NULL-free input */
+/* returns the statement of the public handle; never NULL for input that isn't NULL */
 static inline const Statement *statement_of(const ct_statement *statement)
 {
     return (const Statement *)(const void *)statement;
@@ -91,8 +91,8 @@ ct_status session_report(Status status, const Diag *diag, ct_error *error);
     TRANSACTION(failure);                                                                          \
     session_enter(session)
 void session_enter(const ct_session *handle);
-/* The same for work that may take long: it is also left, and the session as it was, where the stop
- * hook asks for that. */
+/* The same for work that may take long: when the stop hook requests it, the work is left and the
+ * session unchanged. */
 #define SESSION_WORK(session, error)                                                               \
     TRANSACTION(session_left(session, transaction.is_stopped, error));                             \
     session_work(session)
@@ -102,7 +102,7 @@ ct_status session_left(ct_session *session, bool is_stopped, ct_error *error);
 /* before anything that may remark */
 void session_begin(ct_session *session);
 void session_remark(ct_session *session, const char *lines);
-/* what a result has to say, less the end at a bound, which is an error and said as one */
+/* the remarks of a result, without the end at a bound, which is reported as an error */
 void session_remark_result(ct_session *session, const Result *result);
 
 /* (session_import.c) The whole of a file that a statement names. */
@@ -126,8 +126,9 @@ MUST_USE Status session_running(ct_session *session, System **out, Diag *diag);
 MUST_USE Status session_shown(ct_session *session, System **out, Diag *diag);
 /* the equations that something needs which is to be shown */
 MUST_USE Status session_prepare(ct_session *session, Need need, View *view, Diag *diag);
-/* The same for what is written as formulas. Where these read full turns of angles the start is
- * assembled, which chooses them; where there is no start a remark says that they are left out. */
+/* The same for output as formulas. If these contain full turns of angles, the initial state is
+ * assembled, which chooses the turns. Without an initial state a remark reports that they are
+ * omitted. */
 MUST_USE Status session_prepare_formulas(ct_session *session, Need need, View *view, Diag *diag);
 void session_end_formulas(const View *view); /* once they are written */
 /* free systems that neither the model nor a run needs any more */
@@ -151,7 +152,7 @@ MUST_USE Status session_check_freedoms(ct_session *session, System *system,
                                        const SimulationInput *setting, Diag *diag);
 /* The same for trees just chosen, quietly: E_BRANCH, or OK, also where nothing can be assembled. */
 MUST_USE Status session_try_trees(ct_session *session, Diag *diag);
-/* what an assembly of the model as it is told of its freedoms; -1: there was none */
+/* freedoms that the last assembly of the present model found; -1: there was none */
 void session_note_freedoms(ct_session *session, const Result *result);
 int session_freedoms(const ct_session *session);
 /* warn of virtual free joints among the branches */
@@ -170,7 +171,7 @@ typedef struct BoundWatch {
     Pool *pool;
 } BoundWatch;
 
-/* What a run is told, made from the model as it is. */
+/* The input of a run, made from the present model. */
 typedef struct RunInput {
     ParameterValues *parameters;
     StartValues start;
@@ -212,7 +213,7 @@ typedef MUST_USE Status Analysis(ct_session *session, const Statement *statement
 #define SESSION_VERB(word, ...) Analysis session_##word;
 #include "language/verbs.def"
 
-/* says so where the last linearisation is of another model, or of an instant of a motion */
+/* adds a remark if the last linearisation is of another model, or of an instant of a motion */
 void session_remark_linear(ct_session *session);
 /* entries of what these found (linear.A, modes.omega): a number for the name; -1: none */
 int session_entry(const char *name);
@@ -272,13 +273,13 @@ MUST_USE Status formula_rows(ct_session *session, const Formula *formulas, int c
 
 /* functions of a whole run (session_figures.c): max(h8), first(h8 > 1), settling(h8, 0.1) */
 bool figure_is_called(const Syntax *syntax);
-/* of the last run, which there is; `band` is a second argument. E_VALUE where the run tells no such
- * number */
+/* of the last run, which there is; `band` is a second argument. E_VALUE if the run doesn't
+ * determine such a number */
 MUST_USE Status figure_value(ct_session *session, const Syntax *call, const Formula *argument,
                              double band, double *out, Diag *diag);
 
-/* Spectra (session_spectrum.c): spectrum(h8) beside other spectra alone, in a table whose first
- * column is the frequency, Hz. A formula here is that of the argument; `values` is new. */
+/* Spectra (session_spectrum.c): spectrum(h8) only together with other spectra, in a table whose
+ * first column is the frequency, Hz. A formula here is that of the argument; `values` is new. */
 static inline bool spectrum_is_called(const Syntax *syntax)
 {
     return syntax->kind == SYNTAX_CALL && strcmp(syntax->text, "spectrum") == 0;
@@ -287,7 +288,8 @@ MUST_USE Status spectrum_formula(ct_session *session, const Syntax *item, Formul
 MUST_USE Status spectrum_rows(ct_session *session, const Formula *formulas, int columns, Run *grid,
                               Run *source, double **values, int *rows, Diag *diag);
 
-/* what `print` would tell, at an instant of the last run or (NULL) at its end or the start */
+/* the value that `print` shows, at an instant of the last run or (NULL) at its end or the initial
+ * state */
 MUST_USE Status session_value_at(ct_session *session, const Syntax *syntax, const double *at,
                                  double *out, Diag *diag);
 
@@ -300,7 +302,8 @@ double session_shown_unit(const ct_session *session, const Syntax *syntax, const
 MUST_USE Status session_number(ct_session *session, const Syntax *syntax, double *out, Diag *diag);
 MUST_USE Status session_instant(ct_session *session, const Syntax *at, double *out, Diag *diag);
 
-/* Give a message without a place that of the variable it names, among items that were asked for. */
+/* If a message has no source position, set that of the variable that it names, among the requested
+ * items. */
 void session_place_item(const Syntax *const *items, int count, Diag *diag);
 
 #endif

@@ -1,4 +1,4 @@
-/* session_input.c: what a run is told, made from the model as it is */
+/* session_input.c: the input of a run, made from the present model */
 #include "session/session_impl.h"
 
 /* --- parameters --- */
@@ -63,7 +63,7 @@ void run_free(Run *run)
     *run = (Run){0};
 }
 
-/* --- what a run is told --- */
+/* --- the input of a run --- */
 
 void run_input_free(RunInput *input)
 {

@@ -17,7 +17,7 @@ static const Syntax *value_of_key(const Statement *s, const char *key)
     return NULL;
 }
 
-/* a time that is told as a number, or made of parameters */
+/* a time given as a number, or as an expression of parameters */
 static Status read_instant(const ct_session *session, const Syntax *at, double *out, Diag *diag)
 {
     Expr e;
@@ -65,7 +65,7 @@ Status session_op(ct_session *session, const Statement *s, Diag *diag)
     return session_equilibrium(session, s, diag);
 }
 
-/* --- what a linearisation is told --- */
+/* --- the input of a linearisation --- */
 
 typedef struct LinearQuery {
     LinearOrder order;
@@ -83,7 +83,7 @@ static void asked_free(LinearQuery *asked)
     LIST_FREE(asked->output_names);
 }
 
-/* [a, b, c], or one alone: item i, NULL behind the last */
+/* [a, b, c], or one alone: item i, NULL after the last */
 static const Syntax *item_of(const Syntax *list, int i)
 {
     if (list == NULL)

@@ -1,5 +1,5 @@
-/* session_plot.c: what a plot is told by its keys, the events of a run that it marks, measured data
- * that it shows, and a plot as text */
+/* session_plot.c: the keys of a plot, the events of a run that it marks, measured data, and a plot
+ * as text */
 #include "session/session_impl.h"
 
 #include "expr/curve.h"

@@ -53,7 +53,7 @@ static Status read_options(ct_session *session, const Statement *s, RunOptions *
     RunOptions options = {0};
     const struct {
         const char *key;
-        const char *unit; /* atol is of lengths, voltages ... alike, each in SI */
+        const char *unit; /* atol applies to lengths, voltages ... equally, each in SI */
         double *value;
     } numbers[] = {{"every", "s", &options.every},
                    {"rtol", "1", &options.rtol},
@@ -124,7 +124,7 @@ static void remark_critical(ct_session *session, ResultReader *reader)
     mem_free(values);
 }
 
-/* The run is the last one now, and what it was like is said. */
+/* Make it the last run, and report its summary. */
 static void keep_run(ct_session *session, RunInput *input, Result *result, ResultReader *reader)
 {
     Text line = {0};
@@ -174,7 +174,7 @@ done:
     return status;
 }
 
-/* what isn't said again is as in the run that goes on */
+/* options that aren't repeated are those of the continued run */
 static RunOptions options_from(const Result *old, const RunOptions *said)
 {
     const RunReport *monitor_report = result_report(old);
@@ -308,7 +308,7 @@ ct_status ct_run(ct_session *session, const ct_statement *statement, ct_error *e
     return session_report(status, &diag, error);
 }
 
-/* what a program asks for */
+/* the options that an embedding program set */
 static RunOptions options_of(const ct_run_options *given)
 {
     return (RunOptions){.duration = given->duration,

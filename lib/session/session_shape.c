@@ -18,7 +18,7 @@ void shape_free(ModeShape *shape)
     MEM_FREE(shape->cosine, shape->sine);
 }
 
-/* the items that are places; 0 stands for the others, of loads, which stay */
+/* the items that are places; 0 marks the others, of loads, which are unchanged */
 static Expr *place_items(ct_session *session, const Mechanism *mechanism)
 {
     Expr *out = NEW_ARRAY(Expr, mechanism->items.count);

@@ -1,10 +1,10 @@
 /* session_spectrum.c: spectrum(h8) over the last run, of `plot`, `table` and `export csv`
  *
- * The course of the argument is sampled evenly from the dense output, whatever rows were asked for.
- * Its mean stands at 0 Hz; the rest goes through the window of Hann, of mean 1, so that a tone of
- * whole periods shows its amplitude. Tones above half the rate of samples would fold down among the
- * others: samples of two numbers without a common factor fold them to different places, so numbers
- * are raised until two spectra agree. An amplitude that rounding alone may have made is 0. */
+ * The argument is sampled uniformly from the dense output, whatever the output points of the run.
+ * Its mean is the value at 0 Hz. The rest is multiplied by the Hann window, scaled to mean 1, so
+ * that a tone of whole periods shows its amplitude. Tones above half the sampling rate are aliased.
+ * Two sample counts without a common factor alias them to different frequencies, so the counts are
+ * raised until two spectra agree. An amplitude that may be due to rounding alone is 0. */
 #include "session/session_impl.h"
 
 #include <gsl/gsl_fft_real.h>
@@ -44,7 +44,7 @@ static Status transform(double *samples, int count, double *amplitudes, Diag *di
                         "it isn't a number all through the run, and has no spectrum");
     for (int i = 0; i < count; i++)
         samples[i] = (samples[i] - mean) * (1 - cos(2 * M_PI * i / count));
-    /* GSL's own room is held while nothing is asked of memory.h */
+    /* no call of memory.h while GSL's workspace is allocated */
     table = gsl_fft_real_wavetable_alloc((size_t)count);
     room = gsl_fft_real_workspace_alloc((size_t)count);
     sound = table != NULL && room != NULL &&
@@ -105,8 +105,8 @@ static double difference(const double *coarse, const double *fine, int bins, int
     return worst;
 }
 
-/* 0 in the place of a column's amplitudes that are no larger than rounding leaves the samples open:
- * by how much is asked at some instants, at distances that no tone of whole periods has */
+/* Set amplitudes of a column to 0 that are no larger than the rounding errors of the samples. These
+ * are computed at some instants, at distances that no tone of whole periods has */
 static Status round_amplitudes(ct_session *session, const Formula *formula, Run *grid, Run *source,
                                double *column, int bins, int stride, Diag *diag)
 {

@@ -1,7 +1,7 @@
-/* session_start.c: the start that is asked for, and the run that values are taken from
+/* session_start.c: the requested initial state, and the run that values are read from
  *
- * A run starts from the initial values and guesses of the model, and from 0 else. What was
- * assembled before is no part of it. */
+ * A run starts from the initial values and guesses of the model, and from 0 else. Earlier
+ * assemblies have no influence. */
 #include "session/session_impl.h"
 
 Status session_start(ct_session *session, Run **out, Diag *diag)

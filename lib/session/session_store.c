@@ -1,7 +1,7 @@
 /* session_store.c: definitions of subsystems in files of their own
  *
- * A stored file is text: a first line that tells the version and a number that follows from the
- * rest, then definitions and nothing else. What isn't so is refused before the model sees it. */
+ * A stored file is text: a first line with the version and a checksum of the rest, then definitions
+ * only. Any other file is refused before the model is changed. */
 #include "session/session_impl.h"
 
 #include "language/verbs.h"
@@ -78,7 +78,7 @@ typedef struct SessionStoreLoad {
     Text remarks;
 } SessionStoreLoad;
 
-/* what a file's first line tells */
+/* the contents of a file's first line */
 typedef struct Head {
     long version;
     char scene[8];
@@ -117,7 +117,7 @@ static bool read_head(const char *text, Head *head)
     return *end == '\n';
 }
 
-/* the first line tells what follows; its own `rest` */
+/* the checksum in the first line is of the rest; `rest` is that of the text */
 static Status check_head(const SessionStoreLoad *load, const char **rest, Diag *diag)
 {
     const char *name = load->file->text;

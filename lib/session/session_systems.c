@@ -23,7 +23,7 @@ ct_status session_report(Status status, const Diag *diag, ct_error *error)
     error->line = diag->place.line;
     error->column = diag->place.column;
     error->width = diag->place.width;
-    /* a function that stopped needn't have said so */
+    /* a function that was stopped may have set no message */
     (void)snprintf(error->message, sizeof error->message, "%s",
                    diag->status == status && diag->message[0] != '\0' ? diag->message
                                                                       : status_text(status));
@@ -95,8 +95,8 @@ void session_sweep(ct_session *session)
     for (int i = 0; i < session->systems.count; i++) {
         System *system = session->systems.at[i];
 
-        /* numbers may be all that has changed since the last one was made for a run, and what has
-         * changed besides may be undone */
+        /* perhaps only numbers have changed since the last one was made for a run, or other changes
+         * have been undone */
         if (is_current(session, system) || is_named(session, system) || system == last ||
             system == before)
             session->systems.at[kept++] = system;

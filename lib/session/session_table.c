@@ -170,7 +170,7 @@ static void sheet_free(TableSheet *sheet)
     LIST_FREE(sheet->names);
 }
 
-/* the item as written; the unit that it is shown in stands behind it in brackets */
+/* the item as written, followed by its display unit in brackets */
 static char *column_name(const Syntax *item)
 {
     Syntax bare = *item;
@@ -459,7 +459,7 @@ static bool is_modes(const Statement *s)
     return s->operands.count == 2 && begins_with(s, "modes");
 }
 
-/* `t` that was asked for is the first column, which stands there anyway. */
+/* A requested `t` is the first column, which is always there. */
 static void drop_times(TableSheet *sheet)
 {
     for (int c = sheet->columns - 1; c > 0 && !sheet->is_spectral; c--) {
@@ -479,8 +479,8 @@ static void drop_times(TableSheet *sheet)
     }
 }
 
-/* numbers of the last run or, with the word `start`, of the start; or the modes; units beside the
- * names, or in them */
+/* numbers of the last run or, with the word `start`, of the start; or the modes; units in a
+ * separate row, or with the names */
 static Status read_numbers(ct_session *session, const Statement *s, bool splits_units,
                            TableSheet *sheet, Exported *what, Diag *diag)
 {
@@ -576,7 +576,7 @@ static Status prepare(ct_session *session, const Statement *s, const Format *for
     return session_prepare_formulas(session, need, &what->view, diag);
 }
 
-/* what only FMUs are told */
+/* options of FMUs only */
 static Status read_form(ct_session *session, const Statement *s, const Format *format,
                         Exported *what, Diag *diag)
 {

@@ -1,8 +1,8 @@
 /* session_trees.c: `tree best`, the search for the trees of cheapest equations
  *
- * The search itself is formulation's (tree_search.h). Here virtual joints are proposed to it, which
- * stand among the edges of a fork of the model, between frames that turn about one axis; and what
- * it found is told, and put into the model as statements. */
+ * The search itself is in formulate (tree_search.h). This file proposes virtual joints, as edges of
+ * a fork of the model, between frames that rotate about one axis. It reports the result and adds it
+ * to the model as statements. */
 #include "session/session_impl.h"
 
 #include "base/clock.h"
@@ -344,7 +344,7 @@ Status session_best_trees(ct_session *session, Diag *diag)
     run_search(&search);
     best = search.pairs.seen.count > 0 ? search.pairs.seen.at[0] : NULL;
     if (best == NULL || !best->is_priced) {
-        /* why not is what the trees as they are have to say */
+        /* the reason is the error of the present trees */
         close_search(&search);
         status = search.is_stopped
                      ? diag_set(diag, E_STOPPED, "stopped before any trees were compared")

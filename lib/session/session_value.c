@@ -90,7 +90,7 @@ static Status refuse_instant(const Leaf *leaf, const Result *result, double at, 
     return E_VALUE;
 }
 
-/* Where a formula takes the ends of several runs, they are of different instants: say so. */
+/* If a formula uses the ends of several runs at different instants, add a remark. */
 static void remark_ends(ct_session *session, const Formula *formula, Run *source)
 {
     const Run *first = NULL;
