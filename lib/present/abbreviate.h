@@ -12,7 +12,7 @@
 typedef struct Naming {
     const char *prefix; /* of the names: w gives w1, w2 ... */
     int64_t least;      /* operations that an expression occurring more than once has to be named */
-    int64_t most;       /* operations that stay unnamed; 0: any number */
+    int64_t most;       /* operations of a root without names; 0: any number */
 } Naming;
 
 typedef struct Abbreviated {

@@ -26,7 +26,7 @@ Domain black_boxes_domain(const BlackBoxes *boxes, int edge)
 
 /* --- the graph --- */
 
-/* Edges between nodes of all domains are alike here. */
+/* Edges of all domains are treated equally here. */
 static void add_edge(BlackBoxes *boxes, const char *name, int tail, int head, int of)
 {
     const Edge edge = {.name = name, .tail = tail, .head = head, .component = -1};
@@ -204,7 +204,8 @@ static Point place_of_way(const BlackBox *box, double way)
     return (Point){way - 2 * free.y - free.x, -box->half.y};
 }
 
-/* in the order of their ways, neighbours at least `apart`, around the whole border */
+/* in the order of their directions, neighbours at least `apart` from each other, around the whole
+ * border */
 static void spread(LabelSide *stands, int count, double round, double apart)
 {
     enum { SWEEPS = 60 };
@@ -263,7 +264,7 @@ Point black_boxes_pin(const BlackBoxes *boxes, int edge, Point at)
 
 /* --- on paper --- */
 
-/* inside, beside its pin */
+/* inside, next to its pin */
 static void draw_port(const BlackBox *box, const char *name, Point at, Point pin, Picture *out)
 {
     const Ink ink = {.stroke = "#222222", .fill = "#222222", .width = 1};

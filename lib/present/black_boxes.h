@@ -32,7 +32,7 @@ Domain black_boxes_domain(const BlackBoxes *boxes, int edge);
 /* Fills what is zeroed of a view with a terminal graph; black_boxes_free(). */
 void black_boxes_make(const View *view, BlackBoxes *boxes);
 void black_boxes_free(BlackBoxes *boxes);
-/* Draws places apart, all by one factor, until no box covers another or a node. */
+/* Scale distances between places by one factor, until no box covers another or a node. */
 void black_boxes_part(const BlackBoxes *boxes, Point *places, Point *size);
 /* Ports stand where the border faces what they attach to, each with room for its name.
  * `places` are those of the nodes. */

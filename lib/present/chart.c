@@ -26,7 +26,7 @@ typedef struct ChartSheet {
     bool unicode;
     int across, down; /* dots of a cell */
     int columns, rows;
-    int left, right, top, bottom; /* of the area of curves: first and behind the last */
+    int left, right, top, bottom; /* of the area of curves: first, and one after the last */
     Axis x, y[2];
 } ChartSheet;
 
@@ -318,7 +318,7 @@ static void draw_curve(const ChartSheet *sheet, int number)
     const Chart *chart = sheet->chart;
     const ChartCurve *curve = &chart->curves[number];
     const Axis *axis = &sheet->y[curve->is_right];
-    /* a letter some six times along the width, those of the curves beside one another */
+    /* the letter of each curve about six times along the width, those of different curves offset */
     const double spacing = (sheet->right - sheet->left) * sheet->across / 6.0;
     double travelled = spacing * (number + 0.5) / chart->count;
     Point last = {NAN, NAN};

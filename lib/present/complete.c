@@ -1,7 +1,7 @@
-/* complete.c: what could stand at a place of a half-typed line
+/* complete.c: completions at a position in an unfinished line
  *
- * The verb's row says how its operands are read; the words before the cursor say how far
- * the line has come. What is offered comes from the tables and from the model's names. */
+ * The verb's row defines its operands; the words before the cursor determine which is next.
+ * Completions are taken from the tables and from the model's names. */
 #include "present/complete_impl.h"
 
 #include <ctype.h>
@@ -23,7 +23,7 @@ static void offer_row_words(TypedLine *line, const Verb *verb)
         offer(line, verb->words[i]);
 }
 
-/* a component has values behind its places only where a param may stand there */
+/* values follow a component's places only if it has such parameters */
 static bool takes_value(const Verb *verb)
 {
     bool takes = verb->component == NULL;
@@ -93,7 +93,7 @@ static bool has_pair(const TypedLine *line)
     return false;
 }
 
-/* behind something that could be a whole value, and no comma or operator */
+/* after a possibly complete value, without comma or operator */
 static bool ends_value(const TypedLine *line)
 {
     size_t end = line->word;
@@ -104,7 +104,7 @@ static bool ends_value(const TypedLine *line)
            (is_word_letter(line->text[end - 1]) || strchr(")]'\"", line->text[end - 1]) != NULL);
 }
 
-/* the words that go on behind operands, each once */
+/* the words that may follow operands, each once */
 static void offer_trailing(TypedLine *line, const char *pattern)
 {
     for (; *pattern != '\0'; pattern++) {
@@ -186,8 +186,8 @@ static void split(TypedLine *line)
     }
 }
 
-/* The key of the pair whose value the cursor stands in, with its primes, or behind which it stands
- * (*is_whole: the value may be whole). False: it does neither. */
+/* The key, with its primes, of the pair whose value the cursor is in, or directly follows
+ * (*is_whole: the value may be complete). False: there is none. */
 static bool find_key(const TypedLine *line, char *key, size_t size, bool *is_whole)
 {
     size_t equals = 0, from;

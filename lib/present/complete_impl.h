@@ -8,8 +8,8 @@ typedef struct TypedLine {
     const KnownName *known;
     const char *text;    /* of the statement, to the cursor */
     size_t word;         /* where the word to be completed starts */
-    bool is_of_run;      /* behind `run1.`: the word begins there */
-    bool is_glued;       /* behind a number: 10k */
+    bool is_of_run;      /* after `run1.`: the word starts there */
+    bool is_glued;       /* directly after a number: 10k */
     char prefix[128];    /* that word */
     LIST(char *) before; /* words before it */
     Words *out;
@@ -36,19 +36,19 @@ void offer_help_words(TypedLine *line);
 void offer_notations(TypedLine *line);
 /* what a setting of that name may be set to; false: there is none */
 bool offer_setting(TypedLine *line, const char *name);
-/* what a row or a key finds its words in, beside values; false: nothing of its own */
+/* where a row or a key finds its words, in addition to values; false: nothing of its own */
 bool offer_source(TypedLine *line, Offers offers);
-bool source_is_alone(Offers offers); /* instead of the row's words, not beside them */
-bool source_is_once(Offers offers);  /* behind the verb itself, not behind more */
+bool source_is_alone(Offers offers); /* instead of the row's words, not in addition */
+bool source_is_once(Offers offers);  /* only directly after the verb */
 
-/* --- complete_members.c: behind dots and keys --- */
+/* --- complete_members.c: after dots and keys --- */
 
 void offer_members(TypedLine *line, const Verb *verb); /* NULL: of no verb */
 void offer_key_value(TypedLine *line, const Verb *verb, const char *key);
 
 /* --- complete_units.c --- */
 
-/* the row's param that a key stands for: behind `set` that of a part, "m1.euler"; NULL: none */
+/* the row's parameter of a key: after `set` that of a part, "m1.euler"; NULL: none */
 const Param *key_param(const TypedLine *line, const Verb *verb, const char *key);
 void offer_any_unit(TypedLine *line);
 /* Units, where one may stand: those of the dimension that is wanted, as far as it is known. True:

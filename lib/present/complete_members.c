@@ -1,4 +1,4 @@
-/* complete_members.c: what completion offers behind dots and keys */
+/* complete_members.c: completions after dots and keys */
 #include "present/complete_impl.h"
 #include "present/count.h"
 

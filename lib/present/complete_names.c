@@ -99,7 +99,7 @@ static void offer_removable(TypedLine *line)
             offer(line, name);
 }
 
-/* behind `use`: what there is; then what it is given */
+/* after `use`: the definitions; then the keys of one */
 static void offer_subsystems(TypedLine *line)
 {
     const Model *model = line->known->model;
@@ -113,7 +113,7 @@ static void offer_subsystems(TypedLine *line)
         offer_key(line, key);
 }
 
-/* behind a format: which of its rows, or which code, besides the items */
+/* after a format: its rows or kinds of code, in addition to the items */
 static void offer_exported(TypedLine *line)
 {
     static const struct {
@@ -147,14 +147,15 @@ void offer_names(TypedLine *line)
     offer_coordinates(line);
 }
 
-/* what there is something to tell about */
+/* names and words with a text to show */
 static void offer_showable(TypedLine *line)
 {
     offer_names(line);
     offer_events(line);
 }
 
-/* behind `event`: one that is there can be given another condition; then what may get new values */
+/* after `event`: existing ones, whose condition can be changed; then variables that may get new
+ * values */
 static void offer_event(TypedLine *line)
 {
     if (line->before.count == 1)
@@ -198,7 +199,7 @@ void offer_variables(TypedLine *line)
 void offer_values(TypedLine *line)
 {
     offer_variables(line);
-    /* functions and the rest only once a letter says that one is meant */
+    /* functions and other words only after a first letter */
     if (line->prefix[0] == '\0')
         return;
     offer(line, "t");
@@ -207,7 +208,7 @@ void offer_values(TypedLine *line)
     offer_functions(line);
 }
 
-/* what initial values are given to: beside coordinates what a part has a rate of */
+/* variables with initial values: coordinates, and variables whose rates a part has */
 static void offer_starts(TypedLine *line)
 {
     const Model *model = line->known->model;
@@ -381,8 +382,8 @@ void offer_notations(TypedLine *line)
 /* words that stand in other tables than the row, or are names of one kind */
 static const struct {
     void (*offer)(TypedLine *line);
-    bool alone; /* instead of the row's words, not besides them */
-    bool once;  /* behind the verb itself, not behind more */
+    bool alone; /* instead of the row's words, not in addition */
+    bool once;  /* only directly after the verb */
 } sources[] = {
     [OFFERS_TOPICS] = {offer_show, true},
     [OFFERS_HELP] = {offer_help_words, true},

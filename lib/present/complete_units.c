@@ -1,7 +1,7 @@
-/* complete_units.c: the units that completion offers behind a number, and in brackets
+/* complete_units.c: completion of units after a number, and in brackets
  *
- * Those of the dimension that is wanted there: by the row of the key, by the variable that is given
- * a value, or by what is shown. */
+ * Units of the dimension that is expected there: by the row of the key, by the variable that is
+ * set, or by the expression that is shown. */
 #include "present/complete_impl.h"
 
 #include <ctype.h>
@@ -64,7 +64,7 @@ static const char *positional_unit(const Component *row)
     return NULL;
 }
 
-/* behind a number: by its key, or by the value that the verb takes without one */
+/* after a number: by its key, or by the verb's value without a key */
 static void want_number(UnitQuery *wanted, const TypedLine *line, const Verb *verb, const char *key)
 {
     const Param *param = key != NULL && verb != NULL ? key_param(line, verb, key) : NULL;
@@ -84,8 +84,8 @@ static size_t skip_back(const char *text, size_t end)
     return end;
 }
 
-/* where the item begins that ends there: behind a blank or comma outside brackets; of expressions
- * behind a comma */
+/* start of the item that ends there: after a blank or comma outside brackets; of expressions after
+ * a comma */
 static size_t item_start(const TypedLine *line, size_t end, bool is_expression)
 {
     size_t verb = strcspn(line->text, " \t");

@@ -92,7 +92,7 @@ Status count_block(System *system, Form form, const char *name, bool shared, OpC
 
 /* --- the table of blocks --- */
 
-/* a count that nobody would wait for is told by its size alone */
+/* of a count that would take too long, only the size is reported */
 static void count_cell(Table *table, int64_t count)
 {
     const int64_t exact = 1000000000;

@@ -300,7 +300,7 @@ done:
     return status;
 }
 
-/* whether the row's circuit was told with the row before */
+/* whether the row's circuit was written with the row before */
 bool derive_goes_on(const View *view, int k)
 {
     const ConstraintRow *row = system_constraint(view->system, k);
@@ -329,7 +329,7 @@ void derive_dropped(Narrative *story, const char *of)
 
 /* --- motion --- */
 
-/* what of a cutset does no work on the motion of its branch, by the law that says so */
+/* the reason why an edge of a cutset does no work on the motion of its branch, by its law */
 static const char *why_no_work(const View *view, int edge, int branch)
 {
     const Instance *owner = model_edge_owner(view->model, edge);

@@ -1,6 +1,6 @@
-/* derive.h: how one row or entry came about: circuits, cutsets, projections, terms
+/* derive.h: derivation of one row or entry: circuits, cutsets, projections, terms
  *
- * Each fails as the equations do that it tells of; rows and columns count from 0. */
+ * Each function fails with the errors of its equations. Rows and columns count from 0. */
 #ifndef COTREE_PRESENT_DERIVE_H
 #define COTREE_PRESENT_DERIVE_H
 

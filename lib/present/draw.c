@@ -108,8 +108,8 @@ Status draw_text(const View *view, Text *out, Diag *diag)
 
 /* --- dot --- */
 
-/* branches are drawn solid, chords dashed; an edge that is a branch of one mechanical tree
- * only is bold and says which */
+/* branches are drawn solid, chords dashed; an edge that is a branch of only one mechanical tree is
+ * bold, with the name of that tree */
 static void dot_edge(const View *view, const Tree *const trees[TREE_KINDS], int edge, Text *out)
 {
     const Graph *graph = view_graph(view);

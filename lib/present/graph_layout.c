@@ -1,8 +1,8 @@
 /* graph_layout.c: stress majorization (Gansner, Koren, North 2004)
  *
- * Every pair of nodes wants to be as far apart as the shortest path between them is long; near
- * pairs count more, by the square of that. Each sweep puts each node where its pairs, one by one,
- * would have it, on the average. */
+ * Minimises sum w_ij (|p_i - p_j| - d_ij)^2 over pairs of nodes, where d_ij is the length of the
+ * shortest path between them and w_ij = 1/d_ij^2. Each sweep moves each node to the weighted mean
+ * of the positions that its pairs, one by one, would give it. */
 #include "present/graph_layout.h"
 
 #include <math.h>

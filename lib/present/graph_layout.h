@@ -8,9 +8,9 @@
 
 enum { LAYOUT_MOST = 1500 }; /* nodes: more would be no picture */
 
-/* Places, px, of `nodes` in an array of one a node of the graph: as far apart as the graph's
- * paths are long. `size` holds all of them. Fails with E_STOPPED, and with E_VALUE beyond
- * LAYOUT_MOST. O(nodes^2). */
+/* Positions, px, of `nodes`, in an array with one entry for each node of the graph; distances are
+ * about proportional to the lengths of paths. `size` holds all of them. Fails with E_STOPPED, and
+ * with E_VALUE beyond LAYOUT_MOST. O(nodes^2). */
 MUST_USE Status graph_layout(const Graph *graph, const int *nodes, int count,
                              const CallMonitor *watch, Point *places, Point *size, Diag *diag);
 

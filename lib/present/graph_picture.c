@@ -150,7 +150,7 @@ static Status add_panels(GraphPicture *picture, Diag *diag)
                                                                   : tree_kind_name((TreeKind)k)};
         panel->nodes = tree_nodes(trees[k], &panel->node_count);
         if (k == TREE_ROTATION && picture->count > 0 && panel[-1].kind == TREE_TRANSLATION &&
-            panel[-1].tree != NULL) { /* nodes stand where they do beside */
+            panel[-1].tree != NULL) { /* nodes have the positions of the panel before */
             panel->places = panel[-1].places;
             panel->size = panel[-1].size;
         } else {
@@ -206,7 +206,7 @@ static Point node_at(const Panel *panel, int node)
                    panel->corner.y + panel->places[node].y};
 }
 
-/* the curve between two points whose middle is `bend` px beside the straight line */
+/* the curve between two points whose middle is `bend` px off the straight line */
 static void make_curve(Point a, Point b, double bend, Point out[BEND + 1])
 {
     const double length = fmax(hypot(b.x - a.x, b.y - a.y), 1e-6);

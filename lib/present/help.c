@@ -1,4 +1,4 @@
-/* help.c: what the tables say about a word */
+/* help.c: help on a word, from the tables */
 #include "present/help.h"
 
 #include "language/functions.h"
@@ -24,7 +24,7 @@ bool component_key(const Component *row, int i, KeyText *out)
     return true;
 }
 
-/* "parameters|zxz|zyz": the first word is what holds, behind the meaning stand all */
+/* "parameters|zxz|zyz": the first word is the default; all are listed after the meaning */
 static void add_choice(Table *table, const KeyText *key)
 {
     const size_t first = strcspn(key->fallback, "|");
@@ -113,7 +113,7 @@ static size_t second_column(const char *line)
     return gap != NULL ? (size_t)(gap - line) + strspn(gap, " ") : first;
 }
 
-/* lines that begin with a blank are rows, and stay so where they fit */
+/* lines that start with a blank are rows, and are unchanged if they fit */
 static void add_paragraphs(Text *out, const char *lines)
 {
     while (*lines != '\0') {
@@ -223,7 +223,7 @@ static bool add_unit(Text *out, const char *word)
     return true;
 }
 
-/* "every - stands behind simulate, resume ...": a key, or a word that goes on behind operands */
+/* "every - stands behind simulate, resume ...": a key, or a word that may follow operands */
 static bool add_key(Text *out, const char *word)
 {
     Text verbs = {0};

@@ -12,7 +12,7 @@
 typedef struct HelpTopic {
     const char *name;
     const char *brief;
-    void (*write)(Text *out); /* the text behind the brief line */
+    void (*write)(Text *out); /* the text after the brief line */
     const char *page;         /* verb on whose page it stands too; NULL */
 } HelpTopic;
 
@@ -48,7 +48,7 @@ typedef struct KeyText {
 /* the i-th key of a component, as text */
 bool component_key(const Component *row, int i, KeyText *out);
 
-/* where completion finds names and words, beside the tables */
+/* where completion finds names and words, in addition to the tables */
 typedef struct KnownName {
     const Model *model;
     const Linear *linear; /* the last linearisation; NULL */

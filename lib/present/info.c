@@ -43,7 +43,7 @@ static void add_standing(Table *table, const View *view, int edge, bool several)
     const Tree *trees[TREE_KINDS] = {NULL};
     Diag ignored;
 
-    /* an unfinished tree is no reason not to tell the rest */
+    /* the rest is reported even if a tree is incomplete */
     if (edge < 0 || model_trees(view->model, trees, &ignored) != OK)
         return;
     for (int k = 0; k < TREE_KINDS; k++) {
@@ -140,7 +140,7 @@ static void add_values(Table *table, const View *view, const Instance *instance)
         char *unit = param_unit(param, instance_takes_angle(instance, param));
         Text text = {0};
 
-        /* long defaults tell nothing: no turn, no further moments */
+        /* long default values are not shown: no rotation, no further moments */
         if (value->word != NULL || (value->count > 0 && (value->given || value->count <= 3))) {
             add_value(&text, view, value, unit);
             table_cell(table, param->name);
@@ -559,7 +559,7 @@ static void add_unused(const View *view, Text *out)
     text_free(&parameters);
 }
 
-/* what the start has to say */
+/* remarks on the initial state */
 static void add_remarks(const View *view, const Result *start, Text *out)
 {
     Text lines = {0};

@@ -8,11 +8,11 @@
  * of a parameter; the edges at a node. Fails with E_NAME, with a suggestion. */
 MUST_USE Status info_print(const View *view, const char *name, Place place, Text *out, Diag *diag);
 
-/* Freedoms, what vanished, unused names, and what the assembled start says (NULL: not assembled,
- * `why` tells the reason). */
+/* Degrees of freedom, redundant constraints, unused names, and remarks on the assembled initial
+ * state (NULL: not assembled, for the reason `why`). */
 void check_print(const View *view, const Result *start, const char *why, Text *out);
 
-/* the linear graph: as text, branches indented below their parents, chords behind; as dot */
+/* the linear graph: as text, branches indented below their parents, then chords; as dot */
 MUST_USE Status draw_text(const View *view, Text *out, Diag *diag);
 void draw_dot(const View *view, Text *out);
 

@@ -34,7 +34,7 @@ static double command_width(const char **at)
     /* letters stand upright, and take about their own width */
     static const char *const words[] = {"sin",  "cos",  "tan", "arcsin", "arccos", "arctan", "sinh",
                                         "cosh", "tanh", "exp", "ln",     "log",    "min",    "max"};
-    /* what stands behind them is counted */
+    /* commands without width of their own; their argument is counted */
     static const char *const silent[] = {"left",  "right", "mathrm", "text",
                                          "begin", "end",   "dot",    "ddot"};
     const char *name = *at + 1;
@@ -115,7 +115,7 @@ double latex_width(const char *formula)
 
 /* --- fractions --- */
 
-/* behind the group that begins at `at` */
+/* the position after the group that starts at `at` */
 static const char *group_end(const char *at)
 {
     int depth = 0;

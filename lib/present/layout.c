@@ -34,16 +34,16 @@ static Brackets bracket(Brackets open, const char *s, size_t i)
     return open;
 }
 
-/* a sum's next term, or the other side of an equation, begins behind this blank */
+/* a sum's next term, or the other side of an equation, starts after this blank */
 static bool may_break(const char *at)
 {
     return at[0] == ' ' && strchr("+-=<>", at[1]) != NULL && at[1] != '\0' &&
            (at[2] == ' ' || (at[2] == '=' && at[3] == ' '));
 }
 
-/* Where to end a line that starts at `s`: the blank that is far to the right and not deep
- * in brackets. Without any such blank the first product sign or comma behind which the rest starts
- * anew; else the whole. */
+/* Where to end a line that starts at `s`: the blank that is far to the right and not deep in
+ * brackets. Without such a blank, the first product sign or comma after which the rest can start a
+ * line; else the whole. */
 static size_t line_end(const char *s, int width, Brackets open)
 {
     size_t best = 0, emergency = 0;
@@ -295,7 +295,7 @@ void table_print(Text *out, const Table *table, int indent)
     table_blocks(out, table, indent, 0);
 }
 
-/* behind the columns from `from` on that fit beside the first one, at least one */
+/* the end of the columns from `from` on that fit next to the first one, at least one */
 static int block_end(const Table *table, const int *width, int from, int room)
 {
     int to = from;

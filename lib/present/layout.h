@@ -1,7 +1,7 @@
 /* layout.h: formulas, paragraphs and tables as lines of text
  *
- * A Page says how wide and in which notation; everything is appended to a Text that
- * the caller owns. Widths are columns on a terminal, not bytes. */
+ * A Page sets width and notation; everything is appended to a Text that the caller owns. Widths are
+ * columns on a terminal, not bytes. */
 #ifndef COTREE_PRESENT_LAYOUT_H
 #define COTREE_PRESENT_LAYOUT_H
 
@@ -33,7 +33,7 @@ void layout_item(Text *out, const char *item); /* with a comma where `out` isn't
 /* "1 constraint", "2 constraints" */
 void layout_count(Text *out, int count, const char *one, const char *many);
 
-/* A table of short cells: columns as wide as their widest cell, two blanks apart. */
+/* A table of short cells: columns as wide as their widest cell, separated by two blanks. */
 typedef struct Table {
     int columns;
     const char *align; /* one letter a column: l or r */
@@ -48,8 +48,8 @@ int table_widest_cell(const Table *table);
 void table_print(Text *out, const Table *table, int indent);
 /* The same in blocks of columns no wider than the page, the first column in front of each. */
 void table_blocks(Text *out, const Table *table, int indent, int columns);
-/* As table_print(), the words of the last column wrapped: beside the others, where the page leaves
- * too little room below them. */
+/* As table_print(), with the words of the last column wrapped: next to the other columns, or below
+ * them if the page is too narrow. */
 void table_wrap(Text *out, const Table *table, int indent, int columns);
 void table_free(Table *table);
 

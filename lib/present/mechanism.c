@@ -12,7 +12,7 @@
 #define FOOTER       40.0  /* px: below all that moves */
 #define LONGEST      80.0  /* px: of the largest arrow */
 #define LETTER       8.0   /* px: of the title */
-#define HEAD         180.0 /* px: what stands beside the title */
+#define HEAD         180.0 /* px: reserved next to the title */
 
 enum { PER_NODE = 7, PER_LOAD = 6 }; /* items */
 

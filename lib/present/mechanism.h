@@ -1,7 +1,8 @@
-/* mechanism.h: bodies, joints, springs and forces as they stand at an instant
+/* mechanism.h: bodies, joints, springs and forces at an instant
  *
- * A Mechanism tells which variables it is drawn from; whoever has a run hands their values back, a
- * row an instant, and gets a picture of each. All pictures of a film are to one scale. */
+ * A Mechanism lists the variables that it is drawn from. The owner of a run passes their values,
+ * one row for each instant, and gets a picture of each. All pictures of an animation have one
+ * scale. */
 #ifndef COTREE_PRESENT_MECHANISM_H
 #define COTREE_PRESENT_MECHANISM_H
 
@@ -25,7 +26,7 @@ typedef struct Load {
     int first;     /* of its items: three of the force, three of the moment */
 } Load;
 
-/* A beam: points of its axis, as spots behind the nodes. */
+/* A beam: points of its axis, as spots after those of the nodes. */
 typedef struct Bent {
     const Instance *part;
     int first; /* of its spots */
@@ -33,8 +34,8 @@ typedef struct Bent {
 
 enum { BENT_SPOTS = 13 };
 
-/* What a part is called, beside the end of a load's arrow or a node: in all pictures of a film at
- * the same side. */
+/* The name of a part, next to the end of a load's arrow or a node: at the same side in all pictures
+ * of an animation. */
 typedef struct Name {
     const Instance *part;
     int load; /* which; -1: none */

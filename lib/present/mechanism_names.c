@@ -1,8 +1,8 @@
-/* mechanism_names.c: the names of parts, where they cover as little as can be
+/* mechanism_names.c: placement of the names of parts with the least overlap
  *
- * A name stands at one of some sides of its point, and stays there through a film, or it would
- * flicker. One after the other takes the side where, over all instants, it covers the fewest names
- * that chose before it, points of parts, lines, and edges of the sheet. */
+ * A name is placed at one of several sides of its point, the same throughout an animation, or it
+ * would flicker. Names are placed one after the other, at the side where, over all instants, they
+ * cover the fewest names already placed, points of parts, lines, and edges of the sheet. */
 #include "present/mechanism_impl.h"
 
 #include <math.h>
@@ -21,7 +21,7 @@ enum {
 #define OTHER_TEXT 12.0
 #define LETTER     0.58 /* a letter's width, of its size */
 
-/* of the left top corner, in the text's widths and heights, and px besides */
+/* offset of the left top corner, in widths and heights of the text, plus px */
 static const double sides[][4] = {
     {0, -1, 9, -8},   {0, 0, 9, 8},       {-1, -1, -9, -8},   {-1, 0, -9, 8},  {-0.5, -1, 0, -13},
     {-0.5, 0, 0, 13}, {0, -1, 16, -20},   {-1, 0, -16, 22},   {0, 0, 16, 24},  {-1, -1, -16, -24},

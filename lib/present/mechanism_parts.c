@@ -301,7 +301,7 @@ void sheet_link(Sheet *sheet, const Instance *link)
         draw_spiral(sheet->picture, ink, b);
         return;
     }
-    if (link->joint >= 0) { /* beside the rail */
+    if (link->joint >= 0) { /* next to the rail */
         const Point n = across(unit((Point){b.x - a.x, b.y - a.y}, (Point){1, 0}));
 
         a = plus(a, link->row->potential != NULL ? 18 : -18, n);

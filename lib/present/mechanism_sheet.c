@@ -60,7 +60,7 @@ static void draw_centre(Sheet *sheet, Point at, const char *color)
     picture_circle(sheet->picture, (Ink){.fill = color}, at, 1.5);
 }
 
-/* what is beside a beam's axis: arms that don't end on it */
+/* links off a beam's axis: arms that don't end on it */
 static void draw_brackets(Sheet *sheet, const Instance *beam, Ink ink)
 {
     const Model *model = sheet->mechanism->view->model;
@@ -83,7 +83,7 @@ enum { SMOOTH = 4, AXIS_POINTS = (BENT_SPOTS - 1) * SMOOTH + 1 }; /* lines betwe
  */
 static void smooth_axis(Sheet *sheet, const Bent *bent, Point *axis)
 {
-    Point spots[BENT_SPOTS + 2]; /* one before and one behind, in line with the curve's end */
+    Point spots[BENT_SPOTS + 2]; /* one before and one after, in line with the curve's end */
     Point *const at = spots + 1;
 
     for (int k = 0; k < BENT_SPOTS; k++)

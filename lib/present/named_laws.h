@@ -1,7 +1,7 @@
-/* named_laws.h: laws of parts that equations call by name, told once beneath them
+/* named_laws.h: laws of parts that equations call by name, written once below them
  *
- * A diode's current takes a line of its own; equations say D1.law(D1.v), and what that is stands
- * below: D1.law(v) = ... */
+ * A diode's current needs a line of its own. Equations contain D1.law(D1.v), and the definition
+ * follows below: D1.law(v) = ... */
 #ifndef COTREE_PRESENT_NAMED_LAWS_H
 #define COTREE_PRESENT_NAMED_LAWS_H
 

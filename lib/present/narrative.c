@@ -71,7 +71,7 @@ void narrative_add_sign(Text *out, int sign, bool first)
         text_add(out, sign < 0 ? " - " : " + ");
 }
 
-/* a step: its word, then what it says */
+/* a step: its word, then its text */
 void narrative_add(Text *out, const View *view, const char *label, const char *words)
 {
     char lead[LABEL + 1];

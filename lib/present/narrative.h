@@ -1,7 +1,7 @@
 /* narrative.h: words and steps of a derivation, in text and in LaTeX
  *
- * A step is a line behind a word. A Story borrows its view and writes to `out`; what it gathers it
- * frees when that is said. Words that come from the model go through the notation. */
+ * A step is a word followed by a line. A Story borrows its view and writes to `out`; it frees
+ * collected equations after writing them. Words from the model are printed in the notation. */
 #ifndef COTREE_PRESENT_NARRATIVE_H
 #define COTREE_PRESENT_NARRATIVE_H
 
@@ -17,7 +17,7 @@ typedef struct Narrative {
     const View *view;
     Text *out;
     LIST(Reason) reasons;   /* of what vanishes */
-    EquationList equations; /* to be said */
+    EquationList equations; /* not yet written */
 } Narrative;
 
 bool narrative_is_typeset(const View *view);
@@ -33,7 +33,7 @@ void narrative_add_variable(Text *out, const View *view, const char *letter, boo
 typedef struct SumOrder {
     int first, step, count;
 } SumOrder;
-/* of signs that stand `stride` bytes apart */
+/* of signs at distances of `stride` bytes */
 SumOrder narrative_order(const int *sign, int count, size_t stride);
 static inline int narrative_at(const SumOrder *order, int k)
 {
@@ -49,7 +49,7 @@ void narrative_add_direction(Text *out, const View *view, const NarrativeVector 
 
 /* what the steps are of; frees the title */
 void narrative_title(Narrative *story, Text *title);
-/* a step: its word, then what it says */
+/* a step: its word, then its text */
 void narrative_add(Text *out, const View *view, const char *label, const char *words);
 /* the same where there are words, which it frees */
 void narrative_add_done(Text *out, const View *view, const char *label, Text *words);

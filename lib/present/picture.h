@@ -60,7 +60,8 @@ void picture_text(Picture *picture, const char *color, Point at, double size, An
 void picture_arrow(Picture *picture, Ink ink, Point from, Point to);
 /* the far ones first */
 void picture_sort(Picture *picture);
-/* Colours that stay apart for all eyes (Okabe and Ito 2008); their light kin, to fill with. */
+/* Colours that can be distinguished with colour blindness too (Okabe and Ito 2008); lighter ones,
+ * for filling. */
 const char *picture_color(int i);
 const char *picture_tint(int i);
 

@@ -1,8 +1,8 @@
 /* picture_characters.c: a picture on a screen of characters
  *
- * A cell has dots, two beside and four above one another where it can be braille (Unicode 2800),
- * else one beside and two above one another. What is filled light is wiped, so that what lies
- * behind stays hidden; texts stand over the dots. */
+ * A cell has 2 x 4 dots (columns x rows) with braille characters (Unicode 2800), else 1 x 2.
+ * Lightly filled areas are erased, so that they hide what is behind them; texts are drawn over the
+ * dots. */
 #include "present/picture.h"
 
 #include <math.h>

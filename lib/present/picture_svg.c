@@ -77,7 +77,7 @@ static void write_shape(Text *out, const Picture *picture, const Shape *shape)
     }
 }
 
-/* The shapes of one part in a row are a group, which tells its name where a mouse rests on it. */
+/* Consecutive shapes of one part form a group, which shows the part's name as a tooltip. */
 static void write_shapes(Text *out, const Picture *picture)
 {
     const char *open = NULL;

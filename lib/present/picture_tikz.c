@@ -9,7 +9,7 @@
 #define LARGEST 0.75 /* pt per px: as a screen has it */
 #define FONT    10.0 /* pt: of the text around the picture */
 
-/* a colour is called as it is mixed, behind a word of ours */
+/* the name of a colour is a prefix and its components */
 static void write_colors(Text *out, const Picture *picture)
 {
     LIST(const char *) known = {0};

@@ -23,7 +23,7 @@ static void add_texinfo_example(Text *out, const char *lines)
     text_add(out, "@end example\n");
 }
 
-/* lines that begin with a blank stay as they are */
+/* lines that start with a blank are unchanged */
 static void add_texinfo_paragraphs(Text *out, const char *lines)
 {
     bool kept = false;

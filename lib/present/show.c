@@ -1,4 +1,4 @@
-/* show.c: the topics of `show`, and what stands behind them */
+/* show.c: the topics of `show`, and their arguments */
 #include "present/show.h"
 
 #include "present/fortran_lines.h"
@@ -93,8 +93,8 @@ static bool was_linearized(const Linear *linear, const Statement *statement)
     return has[0] && has[1];
 }
 
-/* Whether a transfer function is asked for in the network's own symbols: by the word behind it, or
- * as that of two names which the last linearisation doesn't tell. */
+/* Whether a transfer function is requested in the network's own symbols: by the word after it, or
+ * because the last linearisation doesn't have its two names. */
 static bool in_symbols(const Linear *linear, const Statement *statement)
 {
     if (is_symbolic(statement))
@@ -133,7 +133,7 @@ static bool has_formula(const Model *model, const Statement *statement)
     return false;
 }
 
-/* that behind `as`, one of the topic's; without `as` it stays */
+/* the word after `as`, one of the topic's; unchanged without `as` */
 static Status read_notation(const Statement *statement, const Topic *topic, Notation *out,
                             Diag *diag)
 {
@@ -247,7 +247,7 @@ done:
     return status;
 }
 
-/* one of two; the word `symbolic` behind them has chosen the topic */
+/* one of two; the word `symbolic` after them has selected the topic */
 static Status take_item(const Topic *topic, const Statement *statement, int operand,
                         Selection *selection, Diag *diag)
 {
@@ -297,7 +297,7 @@ static Status take_name(const View *view, const Topic *topic, const Operand *ope
     return OK;
 }
 
-/* `derivation mass 2 3` asks for what `derivation mass(2,3)` does: the numbers become arguments */
+/* `derivation mass 2 3` means `derivation mass(2,3)`: the numbers become arguments */
 static bool take_argument(const Operand *operand, Syntax *entry)
 {
     if (operand->value->kind != SYNTAX_NUMBER || entry->args == NULL || entry->primes > 0 ||

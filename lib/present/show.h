@@ -1,7 +1,6 @@
 /* show.h: the topics of `show`
  *
- * A topic is a row: its name, what it needs, what may stand behind it, and the function
- * that writes it. */
+ * A topic is a row: its name, its requirements, its arguments, and the function that writes it. */
 #ifndef COTREE_PRESENT_SHOW_H
 #define COTREE_PRESENT_SHOW_H
 
@@ -16,7 +15,7 @@ typedef enum Need {
     NEED_LINEAR   /* the last linearisation */
 } Need;
 
-typedef enum Behind { /* what may stand behind a topic */
+typedef enum Behind { /* arguments of a topic */
                       BEHIND_NOTHING,
                       BEHIND_NUMBERS, /* a row, a row and a column */
                       BEHIND_EDGES,   /* names of edges */
@@ -63,9 +62,9 @@ const char *topic_notation(const Topic *topic, int i);
 /* What the statement `show ...` needs; a variable (`show h9.fx`) needs equations, the name of a
  * part (`show R1`) only the model. */
 MUST_USE Status show_need(const View *view, const Statement *statement, Need *need, Diag *diag);
-/* Write what the statement asks for; of a name that no formula stands behind, what `info` tells.
- * Fails with E_NAME for an unknown topic or edge, E_VALUE for an entry beyond the last, the
- * errors of equations. */
+/* Write what the statement requests; for a name without a formula, the text of `info`. Fails with
+ * E_NAME for an unknown topic or edge, E_VALUE for an entry beyond the last, the errors of
+ * equations. */
 MUST_USE Status show(const View *view, const Statement *statement, Text *out, Diag *diag);
 /* --- the functions of topics --- */
 typedef MUST_USE Status ShowFunction(const View *view, const Selection *selection, Text *out,
@@ -78,7 +77,7 @@ ShowFunction show_coordinates, show_constraints, show_jacobian, show_mass, show_
 ShowFunction show_derivation;
 ShowFunction show_outputs, show_params, show_init, show_run, show_runs, show_settings, show_program;
 
-/* --- equations one by one, each behind its edge's name --- */
+/* --- equations one by one, each after its edge's name --- */
 
 /* row i of M u' + Phi_u^T lambda = F */
 MUST_USE Status equations_add_motion(const View *view, EquationList *equations, int i,
@@ -112,8 +111,8 @@ void modes_print(const View *view, const Modes *modes, Text *out);
 void event_print(Text *out, const Event *event);
 
 /* One variable or expression of the user's: `left = its expression`. Programming languages get a
- * left side that they can assign to: what is no variable is `value`, with its number behind (0: it
- * is the only one). */
+ * left side that they can assign to: an expression is `value`, followed by its number (0: it is the
+ * only one). */
 MUST_USE Status show_expression(const View *view, const Syntax *syntax, int number, Text *out,
                                 Diag *diag);
 

@@ -1,8 +1,9 @@
-/* show_derivation.c: `show derivation`: which rows and entries are asked for
+/* show_derivation.c: `show derivation`: which rows and entries are requested
  *
- * A constraint: the circuit of its chord in edges, the branches' vectors, what they are projected
- * on. A row of motion: the cutset of its branch, what a unit of its speed moves, and for each entry
- * the terms. A row of a network: the laws, circuits and cutsets that were followed. */
+ * A constraint: the circuit of its chord in edges, the branches' vectors, the directions of
+ * projection. A row of the equations of motion: the cutset of its branch, the motion per unit of
+ * its speed, and the terms of each entry. A row of a network: the laws, circuits and cutsets
+ * used. */
 #include "present/derive.h"
 
 #include <stdlib.h>
@@ -139,7 +140,7 @@ static Status report_equations_of(Narrative *story, const char *name, bool *any,
     return OK;
 }
 
-/* an edge that no equation is of, or whose variable was asked for: what it does in the graph */
+/* an edge without an equation of its own, or whose variable was requested: its role in the graph */
 static void report_edge(Narrative *story, int edge)
 {
     const View *view = story->view;

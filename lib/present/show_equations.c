@@ -166,8 +166,8 @@ static void write_equations(Text *out, const View *view, EquationList *equations
     view_close(out, view);
 }
 
-/* Entries of a block under their names; of a symmetric one those on and above the diagonal,
- * unless a row was asked for. Zeros are left out where many entries are written. */
+/* Entries of a block under their names; of a symmetric one those on and above the diagonal, unless
+ * a row was requested. Zeros are left out where many entries are written. */
 static Status add_entries(Text *out, const View *view, Block block, const char *letter,
                           const Selection *selection, Diag *diag)
 {

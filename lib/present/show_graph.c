@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* what the statement of an edge says it is: "revolute", "virtual revolute" */
+/* the type of an edge by its statement: "revolute", "virtual revolute" */
 static void edge_type(char *out, size_t size, const Model *model, int edge)
 {
     const Instance *owner = model_edge_owner(model, edge);
@@ -20,7 +20,7 @@ static const char *standing(const Tree *tree, const Graph *graph, int edge, Tree
     return !tree_has(tree, edge) ? "cotree" : tree_was_completed(tree, edge) ? "tree *" : "tree";
 }
 
-/* a table keeps a row where nothing or one of `names` was asked for */
+/* a table contains all rows, or those of the requested `names` */
 static bool is_selected(const Selection *selection, const char *name)
 {
     for (int i = 0; i < selection->name_count; i++)
@@ -214,7 +214,7 @@ static void add_sign_table(Text *out, const SignTable *signs, const char *const 
     mem_free(align);
 }
 
-/* the row as signed names: "h9 + r5 - r6 = 0" says more than a wide matrix */
+/* the row as signed names: "h9 + r5 - r6 = 0" is clearer than a wide matrix */
 static void add_sign_lists(Text *out, const View *view, const SignTable *signs,
                            const char *const *rows, const bool *chosen)
 {

@@ -199,7 +199,7 @@ Status show_linear(const View *view, const Selection *selection, Text *out, Diag
 
 /* --- modes --- */
 
-/* the largest part that isn't told yet, the first of equals; -1: the rest hardly move */
+/* the largest part that isn't listed yet, the first of equals; -1: the rest hardly move */
 static int next_part(const Mode *mode, int parts, const bool *is_reported)
 {
     int best = -1;
@@ -284,8 +284,8 @@ static void add_doubts(const Modes *modes, Text *out)
                   largest);
 }
 
-/* Rows of figures with what moves: behind them where the page has room for every part, else on
- * lines of its own below. */
+/* Rows of figures with the moving parts: in the same line if the page has room for all parts, else
+ * on lines of their own below. */
 static void print_shapes(const Table *figures, char *const *shapes, int columns, Text *out)
 {
     const int rows = figures->cells.count / figures->columns;

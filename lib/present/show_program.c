@@ -8,7 +8,7 @@
 typedef struct ProgramListing {
     int hoisted;                    /* of parameters alone */
     int position, velocity, solved; /* with t and q; u and x; what is solved for */
-    int asked;                      /* of M and F, where they are asked for alone */
+    int asked;                      /* of M and F, if they are requested separately */
     int rates;                      /* of rates alone, which then take the place of the others */
 } ProgramListing;
 

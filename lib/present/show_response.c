@@ -352,7 +352,8 @@ done:
     return status;
 }
 
-/* What no tree can hold, or no equation tell: the other equivalent is there. */
+/* A source that fits no tree, or that the equations don't determine: the other equivalent
+ * exists. */
 static Status no_equivalent(const TestPort *port, Status status, Diag *diag)
 {
     if (status != E_SINGULAR && strstr(diag->message, TEST_SOURCE) == NULL)

@@ -129,14 +129,14 @@ static void add_work(Table *table, const RunReport *monitor_report)
     }
 }
 
-/* whether there is a drift to tell, as against what moved: both are numbers */
+/* whether a relative energy drift can be shown: drift and scale are both known */
 static bool reports_energy(const RunReport *monitor_report)
 {
     return monitor_report->energy_scale > 0 && isfinite(monitor_report->energy_scale) &&
            !isnan(monitor_report->energy_drift);
 }
 
-/* of check=on, where that was asked for; else empty */
+/* of check=on, if requested; else empty */
 static void write_error(Text *out, const RunReport *monitor_report)
 {
     if (!isnan(monitor_report->global_error))
@@ -166,7 +166,7 @@ static void add_quality(Table *table, const RunReport *monitor_report)
     text_free(&error);
 }
 
-/* what the user asked of steps */
+/* the user's settings of steps */
 static void add_step(Table *table, const RunReport *monitor_report)
 {
     if (monitor_report->step > 0) {

@@ -105,7 +105,7 @@ static void list_entries(Text *out, const View *view, const Matrix *m)
 enum {
     MOST_COLUMNS = 40, /* of a table */
     USUAL_WIDTH = 100, /* where the page has none */
-    SHORT = 12         /* an entry of which several stand beside each other on any page */
+    SHORT = 12         /* width of an entry of which several fit in a line of any page */
 };
 
 /* As a table where that is no wider than the page, in blocks of columns where it has short entries

@@ -265,7 +265,7 @@ static void add_border(const ShowStructurePattern *p, Stripe stripe, Text *out)
     text_char(out, '\n');
 }
 
-/* behind the columns from `from` on that the page has room for, at least one; page 0: all */
+/* the end of the columns from `from` on that the page has room for, at least one; page 0: all */
 static int stripe_end(const ShowStructurePattern *p, int from, int width, int page)
 {
     int to = from + 1, room = page - width - 4;
@@ -276,8 +276,8 @@ static int stripe_end(const ShowStructurePattern *p, int from, int width, int pa
     return to;
 }
 
-/* As many columns beside each other as the page has room for, the others below, with the numbers
- * that they have. */
+/* As many columns side by side as the page has room for, the others below, with their own
+ * numbers. */
 static void add_stripes(const ShowStructurePattern *p, int width, int page, Text *out)
 {
     Stripe stripe = {.width = width};

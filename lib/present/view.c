@@ -86,8 +86,8 @@ char *view_name(const Syntax *syntax)
     return text_done(&name);
 }
 
-/* In digits: a left side that is wider stands alone, and what an article has behind one. All lines
- * of a block begin behind its widest left side. */
+/* In digits: the width from which on a left side has a line of its own, and the room of an article
+ * after one. All lines of a block start after its widest left side. */
 enum { LATEX_LEFT = 10, LATEX_LINE = 55 };
 
 /* a long left side has its lines to itself, and the relation begins one of its own */
@@ -115,7 +115,7 @@ static void add_latex(Text *out, const char *left, const char *relation, const c
 
 enum { SHORT_LEFT = 24 }; /* columns */
 
-/* `left relation right` as a line of the notation, behind `lead` in text. Latex gets an alignment
+/* `left relation right` as a line of the notation, after `lead` in text. LaTeX gets an alignment
  * mark before the relation. */
 static void add_line(Text *out, const View *view, const char *lead, const char *left,
                      const char *relation, const char *right)
@@ -234,7 +234,7 @@ static char *write_term(const View *view, const ViewTerm *term)
     return text_done(&text);
 }
 
-/* terms one behind the other; a term's own sign becomes the sum's */
+/* consecutive terms; a term's own sign becomes the sum's */
 static char *write_sum(const View *view, const ViewTerm *terms, int count)
 {
     Text text = {0};

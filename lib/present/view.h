@@ -21,7 +21,7 @@ typedef struct View {
     int run_count;
     const Linear *linear;          /* the last linearisation; NULL */
     const TerminalGraph *terminal; /* the graph with instances as their ports; NULL: as it is */
-    int freedoms;                  /* degrees of freedom where an assembly told them; -1 */
+    int freedoms;                  /* degrees of freedom found by an assembly; -1: none yet */
     Page page;
     const CallMonitor *watch;
 } View;
@@ -34,7 +34,7 @@ static inline NotationKind view_kind(const View *view)
 /* the graph that is looked at, and its trees as model_trees() has them */
 const Graph *view_graph(const View *view);
 MUST_USE Status view_trees(const View *view, const Tree *trees[TREE_KINDS], Diag *diag);
-/* what the statement of an edge says that it is: "revolute"; of a port its subsystem's name */
+/* the type of an edge by its statement: "revolute"; of a port its subsystem's name */
 const char *view_edge_type(const View *view, int edge);
 
 /* whether the model has mechanical parts at all: a circuit has no coordinates to speak of */
@@ -53,7 +53,7 @@ char *view_name(const Syntax *syntax);
 char *view_expression(const View *view, Expr e);
 
 /* An equation between sums, or a name and its value: terms are written in their order, each a
- * coefficient and behind it a symbol (or NULL). */
+ * coefficient followed by a symbol (or NULL). */
 typedef struct ViewTerm {
     Expr coefficient;
     Expr symbol;
@@ -67,9 +67,9 @@ typedef struct ShownEquation {
 } ShownEquation;
 typedef LIST(ShownEquation) EquationList;
 
-/* Print the equations and free the list. An equation of more than VIEW_BUDGET operations makes
- * all of them be written over named subexpressions, listed behind as `where`. Programming languages
- * know no equations: they get `residual = left - right`. */
+/* Print the equations and free the list. If an equation has more than VIEW_BUDGET operations, all
+ * are written with named subexpressions, listed afterwards as `where`. Programming languages have
+ * no equations: they get `residual = left - right`. */
 enum { VIEW_BUDGET = 2000 };
 void view_equations(Text *out, const View *view, EquationList *equations);
 void equations_free(EquationList *equations); /* an empty list is fine */
