@@ -1,4 +1,4 @@
-/* graph.c: nodes and edges in arrays; each node keeps the list of its edges */
+/* graph.c: nodes and edges in arrays; each node has the list of its edges */
 #include "graph/graph.h"
 
 #include "base/memory.h"
@@ -12,14 +12,14 @@ typedef struct Incident {
     LIST(int) edges;
 } Incident;
 
-typedef struct Register { /* of nodes, or of edges, by name */
+typedef struct Register { /* nodes or edges by name */
     Names *names;
-    LIST(int) first; /* by number of the name: the first that bears it */
+    LIST(int) first; /* by number of the name: the first one with it */
 } Register;
 
 struct Graph {
     LIST(Node) nodes;
-    LIST(Incident) at; /* one a node */
+    LIST(Incident) at; /* one for each node */
     LIST(Edge) edges;
     Register node_names, edge_names;
     Pool *texts;
@@ -66,7 +66,7 @@ static void enter(Register *out, const char *name, int bearer)
         LIST_PUSH(out->first, bearer);
 }
 
-/* the first of that name, or -1 */
+/* the first one with that name, or -1 */
 static int look_up(const Register *in, const char *name)
 {
     const int number = names_find(in->names, name);
@@ -74,8 +74,8 @@ static int look_up(const Register *in, const char *name)
     return number < 0 ? -1 : in->first.at[number];
 }
 
-/* Forget bearers from that one on. A name is found by its first: it goes with its last, or stays.
- */
+/* Removes all entries from that one on. A name finds its first entry, so the name goes with its
+ * last entry or not at all. */
 static void forget(Register *out, int bearers)
 {
     while (out->first.count > 0 && out->first.at[out->first.count - 1] >= bearers)
@@ -83,7 +83,7 @@ static void forget(Register *out, int bearers)
     names_trim(out->names, out->first.count);
 }
 
-/* the same names, as texts of the copy's own bearers */
+/* the same names, as the strings of the copy's own nodes or edges */
 static void copy_register(const Register *from, const Graph *graph,
                           const char *(*name_of)(const Graph *graph, int bearer), Register *out)
 {
@@ -136,7 +136,7 @@ static const char *copied_text(Graph *graph, const char *text)
     return pool_text(graph->texts, text, strlen(text));
 }
 
-/* before the edges at a node change */
+/* call before the edges at a node change */
 static void keep_incident(Graph *graph, int node)
 {
     mem_keep_part(graph->at.at, &graph->at.at[node], sizeof *graph->at.at);
@@ -307,7 +307,7 @@ int graph_edges_at(const Graph *graph, int node, const int **edges)
 int graph_parts(const Graph *graph, Domain domain, int *part)
 {
     int nodes = graph->nodes.count;
-    int *number = NEW_ARRAY(int, nodes); /* of a set's part, plus 1 */
+    int *number = NEW_ARRAY(int, nodes); /* of a set's connected part, plus 1 */
     Sets *sets = sets_new(nodes);
     int parts = 0;
 

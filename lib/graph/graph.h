@@ -1,16 +1,15 @@
 /* graph.h: the linear graph: nodes, edges, domains
  *
- * A node is a frame (mechanical) or a terminal (scalar domains); an edge is one
- * physical effect between two nodes, directed from tail to head. Both are numbers,
- * 0, 1, 2 ... in the order of making. The graph is owned by whoever made it; names
- * are copied. */
+ * A node is a frame (mechanical) or a terminal (scalar domains); an edge is one physical effect
+ * between two nodes, directed from tail to head. Both are numbers, 0, 1, 2 ... in the order of
+ * making. The graph is owned by its creator; names are copied. */
 #ifndef COTREE_GRAPH_GRAPH_H
 #define COTREE_GRAPH_GRAPH_H
 
 #include "base/diag.h"
 #include "base/memory.h"
 
-/* one row a domain: id, name, across variable, through variable, unit of each */
+/* one row for each domain: id, name, across variable, through variable, unit of each */
 #define DOMAINS(X)                                                                                 \
     X(MECHANICAL, "mechanical", "motion", "force", "m", "N")                                       \
     X(ELECTRICAL, "electrical", "voltage", "current", "V", "A")                                    \
@@ -42,10 +41,10 @@ const char *domain_name(Domain domain);
 const char *tree_kind_name(TreeKind kind); /* "translation", "rotation", "electrical" ... */
 Domain tree_kind_domain(TreeKind kind);
 
-/* In a tree of each kind an edge stands so: */
+/* Role of an edge in a tree of a kind: */
 typedef enum Branching {
     BRANCH_NEVER,    /* no across relation: forces, springs, motors in the mechanical domain */
-    BRANCH_UNCHOSEN, /* only when the user says so: virtual joints without that freedom */
+    BRANCH_UNCHOSEN, /* only when the user chooses it: virtual joints without that freedom */
     BRANCH_MAY,
     BRANCH_ALWAYS /* rigid arms */
 } Branching;
@@ -61,21 +60,22 @@ typedef struct Edge {
     int tail;
     int head;
     Domain domain;
-    int component; /* the model's number of what it belongs to; graph code only hands it on */
+    int component;          /* the model's number of the owner; graph code only stores it */
     Branching branching[2]; /* mechanical: [0] translation, [1] rotation; scalar: [0] */
-    int preference[2];      /* for completion: lower first, edges of one preference near the datum
-                               (scalar domains), then in order of making */
+    /* for completion: lower first; at equal preference first edges near the datum (scalar domains),
+     * then in order of making */
+    int preference[2];
 } Edge;
 
 typedef struct Graph Graph;
 
 Graph *graph_new(void);
-Graph *graph_copy(const Graph *from); /* new, of the same numbers */
+Graph *graph_copy(const Graph *from); /* new, with the same numbers */
 void graph_free(Graph *graph);        /* NULL is fine */
 int graph_add_node(Graph *graph, const char *name, Domain domain, bool datum);
-/* `edge` is copied, its name too; tail and head must be nodes of the edge's domain (assert). */
+/* Copies `edge`, including its name; tail and head must be nodes of the edge's domain (assert). */
 int graph_add_edge(Graph *graph, const Edge *edge);
-/* Back to a graph that this one grew from: nodes and edges made since then go. */
+/* State to return to: removes the nodes and edges made since then. */
 typedef struct GraphMark {
     int nodes, edges;
     PoolMark texts;
@@ -87,15 +87,15 @@ int graph_edge_count(const Graph *graph);
 const Node *graph_node(const Graph *graph, int node); /* borrowed until the graph grows */
 const Edge *graph_edge(const Graph *graph, int edge);
 int graph_find_node(const Graph *graph, const char *name); /* -1: none */
-int graph_find_edge(const Graph *graph, const char *name); /* the first of that name; -1: none */
+int graph_find_edge(const Graph *graph, const char *name); /* the first with that name; -1: none */
 Branching graph_branching(const Graph *graph, int edge, TreeKind kind); /* NEVER in other domains */
 /* the edge belongs to the graph that `kind` spans */
 bool graph_edge_in(const Graph *graph, int edge, TreeKind kind);
 /* every edge at a node, in order of making: count, and *edges borrowed until the graph grows */
 int graph_edges_at(const Graph *graph, int node, const int **edges);
 
-/* Parts of a domain that hang together: part[node] = 0, 1, ... for its nodes, -1 for
- * others; returns how many parts. `part` has one place a node. O(V + E). */
+/* Connected parts of a domain: part[node] = 0, 1, ... for its nodes, -1 for others; returns the
+ * number of parts. `part` has one entry for each node. O(V + E). */
 int graph_parts(const Graph *graph, Domain domain, int *part);
 
 #endif

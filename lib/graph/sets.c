@@ -1,4 +1,5 @@
-/* sets.c: disjoint sets; a root holds minus the size of its set, others their parent */
+/* sets.c: disjoint sets; a root stores minus the size of its set, other members store their
+ * parent */
 #include "graph/sets.h"
 
 #include "base/memory.h"

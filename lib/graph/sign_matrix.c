@@ -1,7 +1,8 @@
 /* sign_matrix.c: incidence, circuit and cutset matrices, by rows
  *
- * A = [A_T A_C] with +1 at the tail; column c of D is the tree path from tail to head of
- * chord c; B = [-D^T 1], Q = [1 D], so that A B^T = 0 and Q B^T = 0. */
+ * Incidence A = [A_T A_C] (nodes x edges) with +1 at the tail. Column c of D is the tree path from
+ * tail to head of chord c. Circuits B = [-D^T 1] (chords x edges), cutsets Q = [1 D] (branches x
+ * edges), so that A B^T = 0 and Q B^T = 0. */
 #include "graph/tree.h"
 
 #include <string.h>
@@ -16,7 +17,7 @@ static SignMatrix *matrix_new(int rows, int columns)
     return matrix;
 }
 
-/* once start[r + 1] holds the number of entries of row r */
+/* allocates the entries, once start[r + 1] is the number of entries of row r */
 static void lay_out(SignMatrix *matrix)
 {
     for (int r = 0; r < matrix->rows; r++)
@@ -53,7 +54,7 @@ SignMatrix *graph_incidence(const Graph *graph, Domain domain, bool reduced)
     }
     lay_out(matrix);
 
-    /* an edge that ends where it begins leaves its node as often as it comes: 0, no entry */
+    /* an edge with equal ends leaves its node as often as it enters it: 0, no entry */
     int count = 0;
     for (int r = 0; r < rows; r++) {
         const int *edges;
@@ -73,7 +74,7 @@ SignMatrix *graph_incidence(const Graph *graph, Domain domain, bool reduced)
     return matrix;
 }
 
-/* one entry more in a row, while start[row] counts up to where the row ends */
+/* adds an entry to a row; start[row] advances to the end of the row */
 static void put(SignMatrix *matrix, int row, int column, int sign)
 {
     int at = matrix->start[row]++;
@@ -82,14 +83,14 @@ static void put(SignMatrix *matrix, int row, int column, int sign)
     matrix->entry[at] = (signed char)sign;
 }
 
-/* when every row is full: start[row] is where it begins again */
+/* once all rows are full: sets start[row] to the beginning again */
 static void wind_back(SignMatrix *matrix)
 {
     memmove(matrix->start + 1, matrix->start, (size_t)matrix->rows * sizeof *matrix->start);
     matrix->start[0] = 0;
 }
 
-/* rows and columns change places; each row comes out ascending. O(entries). */
+/* transposes the matrix; the entries of each row are ascending. O(entries). */
 static SignMatrix *transpose(const SignMatrix *matrix)
 {
     SignMatrix *turned = matrix_new(matrix->columns, matrix->rows);
@@ -134,7 +135,7 @@ SignMatrix *tree_circuits(const Tree *tree)
     matrix->column = columns.at;
     matrix->entry = entries.at;
 
-    /* turned over twice, each circuit is in order */
+    /* after two transpositions each circuit is in order */
     SignMatrix *turned = transpose(matrix);
     sign_matrix_free(matrix);
     matrix = transpose(turned);
@@ -156,7 +157,7 @@ SignMatrix *tree_cutsets(const Tree *tree)
     for (int r = 0; r < circuits->rows; r++)
         chord[tree_chords(tree)[r]] = r + 1;
 
-    /* Q = [1 D]: D is the circuits' part of branches, turned over */
+    /* Q = [1 D]: D is the branch columns of the circuits, transposed and negated */
     for (int r = 0; r < matrix->rows; r++)
         matrix->start[r + 1] = 1;
     for (int i = 0; i < circuits->start[circuits->rows]; i++) {

@@ -1,7 +1,7 @@
 /* tree.c: a finished tree, numbered in depth-first order
  *
- * place[node] counts the nodes before it; those that hang beyond a node follow it
- * at once, up to and without beyond[node]. So "beyond" is two comparisons. */
+ * place[node] is the number of nodes before it. The nodes beyond a node follow it immediately, and
+ * end before beyond[node]. So "beyond" is two comparisons. */
 #include "graph/tree.h"
 
 #include "graph/tree_draft.h"
@@ -13,7 +13,7 @@ struct Tree {
     const Graph *graph;
     TreeKind kind;
     unsigned char *standing; /* a Standing for each edge of the graph */
-    int node_count;          /* all below: one a node of the graph, or one an edge */
+    int node_count;          /* all arrays below have an entry for each node or for each edge */
     int chord_count;
     int *nodes;
     int *branches;
@@ -58,7 +58,7 @@ void tree_free(Tree *tree)
              tree->parent_edge, tree->depth, tree->place, tree->beyond, tree->far, tree);
 }
 
-/* number a node and stack what hangs at it, the first made on top */
+/* numbers a node and pushes the edges at it, the first made on top */
 static int visit(Tree *tree, int node, int *stack, int top)
 {
     const int *edges;
@@ -95,7 +95,7 @@ static void grow(Tree *tree, int datum)
     }
     mem_free(stack);
 
-    /* children stand behind their parents: their ends are known first */
+    /* children come after their parents, so the ends of children are known first */
     for (int i = 0; i < tree->node_count; i++)
         tree->beyond[tree->nodes[i]] = i + 1;
     for (int i = tree->node_count - 1; i > 0; i--) {
@@ -258,7 +258,7 @@ int tree_far_node(const Tree *tree, int branch)
 int tree_path(const Tree *tree, int from, int to, int *edges, int *signs)
 {
     int count = 0;
-    int back = 0; /* the way up from `to`, put down in reverse from the end of the room */
+    int back = 0; /* length of the path up from `to`, stored in reverse from the end of the array */
     int end = tree->depth[from] + tree->depth[to];
 
     while (from != to) {

@@ -1,4 +1,5 @@
-/* tree_candidates.c: edges that could be branches, in the order in which a tree takes them */
+/* tree_candidates.c: edges that could be branches, in the order in which they are added to a
+ * tree */
 #include "graph/tree_draft.h"
 
 #include <stdlib.h>
@@ -6,7 +7,7 @@
 typedef struct Ranked {
     int edge;
     int preference;
-    bool unchosen; /* BRANCH_UNCHOSEN: behind all others */
+    bool unchosen; /* BRANCH_UNCHOSEN: after all others */
     int distance;  /* from the datum, of both ends; mechanical trees: 0 */
 } Ranked;
 
@@ -43,8 +44,8 @@ static bool is_candidate(const Draft *draft, int edge, bool open)
            (draft->choice->excluded == NULL || !draft->choice->excluded[edge]);
 }
 
-/* Edges between the datum and each node of its domain, new array. Branches near it keep the
- * circuits of large networks short. */
+/* Number of edges between the datum and each node of its domain, new array. Branches near the datum
+ * make the circuits of large networks short. */
 static int *distances(const Draft *draft)
 {
     int nodes = graph_node_count(draft->graph);

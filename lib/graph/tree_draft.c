@@ -1,7 +1,7 @@
-/* tree_draft.c: Kruskal's rule (1956) behind what arms and the user have settled */
+/* tree_draft.c: Kruskal's rule (1956), after arms and the user's choice */
 #include "graph/tree_draft.h"
 
-/* make an edge a branch, unless its ends hang together already */
+/* makes an edge a branch, unless its ends are connected already */
 static bool join(Draft *draft, int edge, Standing standing)
 {
     const Edge *e = graph_edge(draft->graph, edge);
@@ -42,7 +42,8 @@ static Status join_chosen(Draft *draft, Diag *diag)
     return OK;
 }
 
-/* whether all nodes of the domain hang together, terminals on which nothing stands, too */
+/* whether all nodes of the domain are connected, including terminals to which nothing is connected
+ * yet */
 static bool is_whole(const Draft *draft)
 {
     const Domain domain = tree_kind_domain(draft->kind);
@@ -72,7 +73,7 @@ static Status check_reach(const Draft *draft, Diag *diag)
     for (int i = 0; i < graph_node_count(draft->graph); i++) {
         const int *edges;
 
-        /* a terminal that is but spoken of, on which nothing stands yet, is no matter of trees */
+        /* trees ignore a terminal that is only mentioned and to which nothing is connected yet */
         if (graph_node(draft->graph, i)->domain != domain ||
             (domain != DOMAIN_MECHANICAL && graph_edges_at(draft->graph, i, &edges) == 0))
             continue;
@@ -99,7 +100,7 @@ Status draft_make(Draft *draft, bool exact, Diag *diag)
     draft->standing = NEW_ARRAY(unsigned char, graph_edge_count(draft->graph));
     draft->sets = sets_new(graph_node_count(draft->graph));
 
-    /* what the user chose comes first, whatever it weighs */
+    /* the user's choice comes first, whatever its preference */
     TRY(join_arms(draft, diag));
     TRY(join_chosen(draft, diag));
     if (!exact)

@@ -1,11 +1,11 @@
-/* tree_fault.c: what is wrong with a tree, in terms of the user's edges and nodes */
+/* tree_fault.c: reports why a tree fails, in terms of the user's edges and nodes */
 #include "graph/tree_draft.h"
 
 #include "base/text.h"
 
 #include <string.h>
 
-/* names that fit into one message: so many, and not longer than that in all */
+/* limits of the names in one message: their number, and their total length */
 enum { SHOWN_NAMES = 8, SHOWN_BYTES = 160 };
 
 typedef LIST(int) FaultEdges;
@@ -82,8 +82,8 @@ static int other_end(const Graph *graph, int edge, int node)
     return e->tail == node ? e->head : e->tail;
 }
 
-/* For each node that branches connect to `from`, the branch that leads there on the way from it;
- * -1 for others and itself. New array. */
+/* For each node that branches connect to `from`, the last branch on the path to it; -1 for others
+ * and for `from`. New array. */
 static int *search_ways(const Draft *draft, int from)
 {
     const Graph *graph = draft->graph;
@@ -130,8 +130,8 @@ static FaultEdges find_circuit(const Draft *draft, int closing)
     return circuit;
 }
 
-/* Which edge to drop: the one that completion would take last. What else would do goes to
- * `others`. -1: there are only arms. */
+/* Which edge to drop: the last one by preference. Alternatives are added to `others`. -1: there are
+ * only arms. */
 static int find_drop(const Draft *draft, const FaultEdges *circuit, FaultEdges *others)
 {
     int drop = -1;
@@ -182,7 +182,7 @@ Status draft_fault_circuit(const Draft *draft, int closing, Diag *diag)
     return E_CIRCUIT;
 }
 
-/* nodes of the domain that `sets` doesn't unite with the datum */
+/* nodes of the domain that `sets` doesn't connect to the datum */
 static FaultEdges find_unreached(const Draft *draft, Sets *sets)
 {
     Domain domain = tree_kind_domain(draft->kind);
@@ -196,8 +196,8 @@ static FaultEdges find_unreached(const Draft *draft, Sets *sets)
     return nodes;
 }
 
-/* Edges that would connect what hangs apart: every one that could where one is enough, else
- * as many as it takes. `sets` is united by them. */
+/* Edges that would connect the separate parts: all possible ones where one is enough, otherwise as
+ * many as are needed. Unites the sets in `sets`. */
 static FaultEdges find_bridges(const Draft *draft, Sets *sets, bool *one_is_enough)
 {
     const Graph *graph = draft->graph;
