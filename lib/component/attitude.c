@@ -1,8 +1,8 @@
-/* attitude.c: rotation that nothing restrains: Euler parameters, or a sequence of turns
+/* attitude.c: unrestrained rotation: Euler parameters, or a sequence of turns
  *
- * Bodies, free and spherical joints have it. A sequence names the axes of three turns,
- * each about an axis of the frame that the turns before it made: zxz turns about z, about
- * the new x, about the newest z. Neighbours differ, which leaves twelve. */
+ * Bodies, free and spherical joints have it. A sequence names the axes of three turns, each about
+ * an axis of the frame after the turns before it: zxz turns about z, about the new x, about the
+ * newest z. Neighbouring axes differ, which leaves twelve sequences. */
 #include "component/component_rows.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* beam.c: elastic beams: the row, and what it refuses
+/* beam.c: elastic beams: the row of the table, and the values it refuses
  *
  * A beam is an edge from ground to its root frame, like a body; its shapes have coordinates of
  * their own. */
@@ -54,9 +54,9 @@ static CoordinateRow shape_coordinate(const Instance *instance, bool planar, int
                            family == SHAPE_PHI ? COORDINATE_TWIST : COORDINATE_LENGTH, false};
 }
 
-/* --- what no beam has --- */
+/* --- checks --- */
 
-/* `key`: whose value it is about */
+/* `key`: the parameter that the message is about */
 static Status refuse(const Instance *instance, const char *key, Diag *diag, const char *what,
                      const char *hint)
 {
@@ -95,8 +95,8 @@ static Status check_modes(const Instance *instance, bool planar, Diag *diag)
     return OK;
 }
 
-/* Where it is numbers alone: a density or a stiffness is negative nowhere, and that of mass zero at
- * single places at most. */
+/* For values that are numbers: a density or a stiffness is nowhere negative, and a density is 0 at
+ * single points at most. */
 static Status check_sign(const Instance *instance, const char *key, const Powers *p, Arena *arena,
                          Diag *diag)
 {
@@ -126,7 +126,7 @@ static Status check_sign(const Instance *instance, const char *key, const Powers
     return E_VALUE;
 }
 
-/* what varies along the beam is a polynomial of the place */
+/* values that vary along the beam must be polynomials of x */
 static Status check_along(const Instance *instance, Arena *arena, Diag *diag)
 {
     for (int i = 0; i < COUNT(params); i++) {
@@ -213,7 +213,7 @@ static Status check(const Instance *instance, Arena *arena, bool planar, Diag *d
     return check_damping(instance, diag);
 }
 
-/* monomials of many terms are all but parallel */
+/* a monomial basis of many terms is nearly linearly dependent */
 static void doubt(const Instance *instance, bool planar, Text *out)
 {
     enum { MOST = 8 };

@@ -1,6 +1,6 @@
 /* beam.h: shapes of a beam, and integrals over its length; theory 9
  *
- * A shape is a polynomial in xi = x/L, exact. */
+ * A shape is an exact polynomial in xi = x/L (no unit, 0 to 1). */
 #ifndef COTREE_COMPONENT_BEAM_H
 #define COTREE_COMPONENT_BEAM_H
 
@@ -11,7 +11,7 @@ typedef enum ShapeFamily { SHAPE_U, SHAPE_V, SHAPE_W, SHAPE_PHI, SHAPE_FAMILIES 
 
 enum { MOST_SHAPES = 16 }; /* of a family */
 
-/* of the place along a beam: a key may vary as a polynomial of x, up to that degree */
+/* a value may vary along the beam as a polynomial of x, with that number of powers */
 enum { MOST_POWERS = 13 };
 
 typedef struct Powers {
@@ -28,7 +28,9 @@ typedef struct Beam {
     const Instance *instance;
     Arena *arena;
     bool planar, shortens;
-    int limit; /* order of T and work in shapes and their rates together; LIMITLESS */
+    /* order of T and work in shapes and their rates together, above which terms are dropped;
+     * LIMITLESS */
+    int limit;
     int count;
     BeamShape *shapes;
     Expr length;
@@ -36,15 +38,15 @@ typedef struct Beam {
 
 enum { LIMITLESS = 8 };
 
-/* Exact numbers are made between the two alone (base/exact_memory.h). */
+/* Exact numbers may only be made between beam_open() and beam_close() (base/exact_memory.h). */
 Beam beam_open(const Instance *instance, Arena *arena, bool planar);
 void beam_close(Beam *beam);
-/* how many shapes of each family */
+/* number of shapes of each family */
 void beam_modes(const Instance *instance, bool planar, int modes[SHAPE_FAMILIES]);
 
-/* of a value in which x is the place; no powers: it is no such polynomial */
+/* powers of x in a value; count 0: it is no such polynomial */
 Powers beam_powers(const Instance *instance, Arena *arena, Expr value);
-/* of one of its keys */
+/* powers of one of the beam's keys */
 Powers beam_key(const Beam *beam, const char *key);
 Expr powers_at(Arena *arena, const Powers *p, Expr xi);
 int beam_load_powers(const Instance *instance, Arena *arena);
@@ -52,7 +54,7 @@ int beam_load_powers(const Instance *instance, Arena *arena);
 /* P_k over 0..1 */
 Polynomial beam_legendre(int k);
 Expr beam_number(Arena *arena, const mpq_t value);
-/* of the slopes of two shapes of one family, from 0 to xi, by xi */
+/* for two shapes of one family: integral of the product of their slopes, from 0 to xi */
 Polynomial beam_shortening(const BeamShape *a, const BeamShape *b);
 bool beam_bends(const BeamShape *shape);
 

@@ -1,13 +1,13 @@
 /* beam_axis.c: translation of a beam's axis, by d'Alembert
  *
- * p(x) = (x + u - s, v, w), with s' = (v'^2 + w'^2)/2 (theory 9). All of it is in coefficients of
- * Legendre's polynomials over the beam: those are orthogonal, so that integrals of products are
- * sums over them, and s is formed once, by derivatives that M needs anyway. */
+ * p(x) = (x + u - s, v, w), with s' = (v'^2 + w'^2)/2 (theory 9). All fields are coefficients of
+ * Legendre polynomials over the beam. These are orthogonal, so integrals of products are sums over
+ * coefficients. s is formed once, by derivatives that M needs anyway. */
 #include "component/beam_graded.h"
 
 typedef struct Fields {
-    Graded p[3], rate[3], left[3]; /* where, p', what is left of p'' at q'' = 0 */
-    Graded (*move)[3];             /* d p/d q, of each shape */
+    Graded p[3], rate[3], left[3]; /* position p, rate p', and p'' at q'' = 0 */
+    Graded (*move)[3];             /* dp/dq, for each shape */
 } Fields;
 
 static void add_shape(const GradedShapes *along, Fields *f, int i)
@@ -23,7 +23,7 @@ static void add_shape(const GradedShapes *along, Fields *f, int i)
     parts_add(along, &f->rate[s].at[1], f->move[i][s].at[0], along->state->rate[i]);
 }
 
-/* int_0^x N_i' N_j', of shapes of one family: into -d s/d q of both, and what is left of -s'' */
+/* int_0^x N_i' N_j', for shapes of one family: adds to -ds/dq of both, and to -s'' at q'' = 0 */
 static void shorten_pair(const GradedShapes *along, Fields *f, int i, int j)
 {
     Arena *arena = along->arena;
@@ -63,7 +63,7 @@ static void shorten(const GradedShapes *along, Fields *f)
     parts_add(along, &f->p[0].at[2], way, expr_rational(along->arena, 1, 2));
 }
 
-/* where no order is cut, there need be but one */
+/* merges the orders where none is dropped */
 static Graded merged(const GradedShapes *along, Graded g)
 {
     Graded sum = {{NULL}};
@@ -93,7 +93,7 @@ static Fields fields_of(const GradedShapes *along)
     return f;
 }
 
-/* w x a, of the root's angular velocity */
+/* w x a, with the root's angular velocity w */
 static void spun(const GradedShapes *along, const Graded a[3], Graded out[3])
 {
     const Expr *w = along->state->w;
@@ -106,7 +106,8 @@ static void spun(const GradedShapes *along, const Graded a[3], Graded out[3])
     }
 }
 
-/* R^T(p'' of a point) where root and shapes don't accelerate: w x (w x p) + 2 w x p' + left */
+/* R^T(p'' of a point) where root and shapes don't accelerate: w x (w x p) + 2 w x p' + p'' at q'' =
+ * 0 */
 static void bias_of(const GradedShapes *along, const Fields *f, Graded out[3])
 {
     const Expr two = expr_int(along->arena, 2);
@@ -138,7 +139,7 @@ static Expr cross(const GradedShapes *along, const Graded weighed[3], const Grad
                     graded_inner(along, weighed[k], b[j], 0, most));
 }
 
-/* the first polynomial, which is 1, with all that a density that varies leaves beside it */
+/* integral of g: of the first polynomial, which is 1, times a density that may vary */
 static Expr whole(const GradedShapes *along, const Weights *weights, Graded g, int most)
 {
     Expr sum = expr_int(along->arena, 0);
@@ -194,7 +195,7 @@ static void add_shapes(const GradedShapes *along, const Fields *f, const Graded 
     }
 }
 
-/* what a load of xi^power does by 1 per length */
+/* generalised forces of a load xi^power with 1 per length */
 static void add_load(const GradedShapes *along, const Fields *f, int power, ShapeInertia *out)
 {
     const int count = along->beam->count;

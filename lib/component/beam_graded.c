@@ -1,11 +1,11 @@
-/* beam_graded.c: sums and products of what varies along a beam */
+/* beam_graded.c: sums and products of quantities that vary along a beam */
 #include "component/beam_graded.h"
 
 #include "base/memory.h"
 
 #include <gsl/gsl_integration.h>
 
-/* the points of a Gauss rule and their weights, from where integrals begin to the end */
+/* the points of a Gauss rule and their weights, from the lower limit of integrals to the end */
 static void take_points(GradedShapes *along)
 {
     const size_t count = (size_t)along->point_count;
@@ -228,7 +228,7 @@ static Expr between(const GradedShapes *along, const Polynomial *m, const Polyno
     return sum;
 }
 
-/* int P_m P_(m + b) density from where integrals begin */
+/* int P_m P_(m + b) density from the lower limit of integrals */
 static void weigh_beyond(const GradedShapes *along, const Powers *density, Weights *out)
 {
     Arena *arena = along->arena;
@@ -267,7 +267,7 @@ static void weigh_legendre(const GradedShapes *along, const Powers *density, Wei
     mem_free(legendre);
 }
 
-/* of the part k: int xi^k density, or its value at a point */
+/* for the part k: int xi^k density, or the density at a point */
 static Expr weight_of(const GradedShapes *along, const Powers *density, int k)
 {
     Arena *arena = along->arena;
@@ -289,7 +289,7 @@ Weights weights_of(const GradedShapes *along, const Powers *density)
     Weights out = {.factor = varies ? one : density->at[0], .band = density->count - 1};
     const bool is_beyond = along->basis == BASIS_LEGENDRE && along->legendre != NULL;
 
-    if (is_beyond) /* they are orthogonal over the whole alone */
+    if (is_beyond) /* they are orthogonal over the whole length only */
         out.band = along->length - 1;
     out.at =
         pool_alloc(along->pool, (size_t)along->length * (size_t)(out.band + 1) * sizeof *out.at);

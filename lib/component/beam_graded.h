@@ -1,18 +1,18 @@
-/* beam_graded.h: what varies along a beam
+/* beam_graded.h: quantities that vary along a beam
  *
- * A Graded holds parts of rising order in shapes and their rates, each as numbers along the beam:
- * coefficients of Legendre's polynomials, of powers of xi, or values at the points of a Gauss rule.
- */
+ * A Graded has parts of ascending order in shapes and their rates. Each part is an array of numbers
+ * along the beam: coefficients of Legendre polynomials, of powers of xi, or values at the points of
+ * a Gauss rule. */
 #ifndef COTREE_COMPONENT_BEAM_GRADED_H
 #define COTREE_COMPONENT_BEAM_GRADED_H
 
 #include "base/memory.h"
 #include "component/beam.h"
 
-enum { ORDERS = 5 }; /* 0..4: products of two that go up to the second */
+enum { ORDERS = 5 }; /* 0..4: products of two quantities up to the second order */
 
 typedef struct Graded {
-    Expr *at[ORDERS]; /* NULL: nothing of that order */
+    Expr *at[ORDERS]; /* NULL: this order is 0 */
 } Graded;
 
 typedef enum Basis { BASIS_LEGENDRE, BASIS_POWERS, BASIS_POINTS } Basis;
@@ -24,16 +24,18 @@ typedef struct GradedShapes {
     Basis basis;
     int length; /* coefficients or points */
     int degree;
-    Expr from;              /* where integrals begin, over 0..1 */
-    Expr *points, *weights; /* of a Gauss rule, NULL where integrals are written out, */
+    Expr from;              /* lower limit of integrals, in 0..1 */
+    Expr *points, *weights; /* of a Gauss rule, NULL where integrals are exact, */
     int point_count;
-    Expr *legendre; /* and values of Legendre's polynomials there, of which sums are stable */
+    /* and values of Legendre polynomials there, whose sums are numerically stable */
+    Expr *legendre;
     const ShapeState *state;
-    int limit[3]; /* orders of what the root feels, of its coupling with shapes, of shapes */
+    /* orders of the loads on the root, of its coupling with shapes, and of the loads on shapes */
+    int limit[3];
 } GradedShapes;
 
-/* Of quantities of that degree at most, with densities of that of `varies`; its arrays are the
- * pool's. */
+/* For quantities of at most that degree, with densities of the degree of `varies`; its arrays are
+ * in the pool. */
 GradedShapes along_of(const Beam *beam, Expr from, const ShapeState *state, Pool *pool, Basis basis,
                       int degree, int varies);
 
@@ -48,31 +50,31 @@ Graded graded_constant(const GradedShapes *along, int value);
 /* not in BASIS_LEGENDRE */
 Graded graded_times(const GradedShapes *along, Graded a, Graded b);
 
-/* What integrals over the beam are weighed with: a density. One that is constant is a factor
- * outside of them. */
+/* The weight of integrals over the beam: a density. A constant one is a factor outside of the
+ * integral. */
 typedef struct Weights {
     Expr factor;
     int band; /* in BASIS_LEGENDRE: of a symmetric matrix, (m, m + b) at m (band + 1) + b */
-    Expr *at; /* of each part else; over xi */
+    Expr *at; /* otherwise of each part; over xi */
 } Weights;
 
 Weights weights_of(const GradedShapes *along, const Powers *density);
-/* Over x from 0 to L, of orders from..most. The factor is left to beam_add(). */
+/* Over x from 0 to L, of orders from..most. beam_add() applies the factor. */
 Expr graded_integral(const GradedShapes *along, const Weights *weights, Graded g, int from,
                      int most);
-/* The same of a product, in BASIS_LEGENDRE, whose polynomials are orthogonal: one of the two comes
- * from graded_weighed(). */
+/* The same for a product, in BASIS_LEGENDRE, whose polynomials are orthogonal: one of the two
+ * factors comes from graded_weighed(). */
 Graded graded_weighed(const GradedShapes *along, const Weights *weights, Graded g);
 Expr graded_inner(const GradedShapes *along, Graded weighed, Graded g, int from, int most);
 
 /* to += factor what */
 void beam_add(const GradedShapes *along, Expr *to, Expr factor, Expr what);
-/* of which angle (x, y, z) is a shape; -1: of none */
+/* the axis of the angle (0 x, 1 y, 2 z) that the shape is; -1: none */
 int beam_angle(const BeamShape *shape);
 
 /* d'Alembert's forces of the axis, of mass_per_length= */
 void beam_add_axis(const GradedShapes *along, const Powers *density, ShapeInertia *out);
-/* of the sections' turning, of inertia_per_length= */
+/* rotary inertia of the sections, of inertia_per_length= */
 void beam_add_rotary(const GradedShapes *along, const Powers J[3], ShapeInertia *out);
 
 #endif

@@ -1,12 +1,13 @@
-/* beam_inertia.c: what a beam hands over to the equations of motion
+/* beam_inertia.c: a beam's contributions to the equations of motion
  *
- * Translation follows d'Alembert with the field of the axis (beam_axis.c), rotary inertia
- * Lagrange's equations in quasi-velocities of the root (beam_rotary.c); what the user wants linear
- * is cut by order (theory 9). What is constant is exact whatever the number of shapes. */
+ * Translation follows from d'Alembert's principle with the field of the axis (beam_axis.c). Rotary
+ * inertia follows from Lagrange's equations in quasi-velocities of the root (beam_rotary.c). What
+ * the user wants linear is truncated by order (theory 9). Constant terms are exact for any number
+ * of shapes. */
 #include "base/memory.h"
 #include "component/beam_graded.h"
 
-enum { MOST_EXACT = 3 }; /* degree of sections' angles with which integrals are written out */
+enum { MOST_EXACT = 3 }; /* degree of sections' angles up to which integrals are exact */
 
 /* int density a b over xi, times a power of the length */
 static Expr gram(const GradedShapes *along, const Powers *density, const Polynomial *a,
@@ -85,7 +86,7 @@ static void add_constants(const GradedShapes *along, const Powers *density, cons
         }
 }
 
-/* what is above its diagonal */
+/* copies the part above the diagonal */
 static void finish_block(const GradedShapes *along, ShapeInertia *out)
 {
     const int count = along->beam->count;
@@ -95,7 +96,7 @@ static void finish_block(const GradedShapes *along, ShapeInertia *out)
             out->block[i * count + j] = out->block[j * count + i];
 }
 
-/* --- all --- */
+/* --- complete block --- */
 
 static void clear(const GradedShapes *along, Expr *at, int count)
 {
@@ -113,7 +114,7 @@ static void clear_all(const GradedShapes *along, ShapeInertia *out)
     clear(along, &out->stored, 1);
 }
 
-/* degrees of where the axis is, and of the angles of sections */
+/* degrees of the axis' position, and of the angles of sections */
 static void find_degrees(const Beam *beam, int *axis, int *angles)
 {
     *axis = *angles = 1;
@@ -130,7 +131,7 @@ static void find_degrees(const Beam *beam, int *axis, int *angles)
     }
 }
 
-/* what each power of a load is, by the components of the load */
+/* integrals of each power of a load, by the components of the load */
 static void spread_load(const Beam *beam, ShapeInertia *out)
 {
     const Value *load = instance_value(beam->instance, "load");
@@ -167,7 +168,7 @@ void beam_inertia(const Instance *instance, Arena *arena, bool planar, Expr from
     }
     spread_load(&beam, out);
     beam_add_axis(&along, &density, out);
-    if (is_whole) /* a part of it has no equations of shapes of its own */
+    if (is_whole) /* a part of the beam has no equations for shapes of its own */
         add_constants(&along, &density, J, out);
     if (rotary->count > 0) { /* products of up to four angles */
         const Basis basis = is_whole && turned <= MOST_EXACT ? BASIS_POWERS : BASIS_POINTS;

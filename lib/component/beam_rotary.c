@@ -46,11 +46,11 @@ static BeamRotaryAngles angles_of(const GradedShapes *along)
 typedef struct Spin {
     Graded A[3][3], C[3][3]; /* omega = A w + C theta', theta = (c, b, a) */
     Graded A_rate[3][3];
-    Graded omega[3], rest[3]; /* and its rate where nothing accelerates */
+    Graded omega[3], rest[3]; /* and its rate at zero accelerations */
     Graded left[3][3];        /* d/dt C - d omega/d theta, of each angle */
 } Spin;
 
-/* d A/d theta_k, or its rate along `by`, from the entries of A = 1 - S(theta) + B */
+/* dA/dtheta_k, or its rate along `by`, from the entries of A = 1 - S(theta) + B */
 static Graded slope_A(const GradedShapes *along, const Graded theta[3], int r, int s, int k)
 {
     Graded out = {{NULL}};
@@ -72,7 +72,7 @@ static void spin_of(const GradedShapes *along, const BeamRotaryAngles *f, Spin *
 {
     const Graded *theta = f->angle, *rate = f->turning;
     const Expr half = expr_rational(along->arena, 1, 2);
-    Graded own[3] = {{{NULL}}}; /* what is left of C theta' */
+    Graded own[3] = {{{NULL}}}; /* the rate of C theta' at theta'' = 0 */
 
     for (int r = 0; r < 3; r++)
         for (int s = 0; s < 3; s++) {
@@ -115,7 +115,7 @@ static void spin_of(const GradedShapes *along, const BeamRotaryAngles *f, Spin *
         spin->omega[r] = graded_hold(along, spin->omega[r]);
         spin->rest[r] = graded_hold(along, spin->rest[r]);
     }
-    /* C' less the derivatives of C theta', then of A w */
+    /* C' minus the derivatives of C theta', then of A w */
     spin->left[0][1] = rate[2];
     spin->left[1][0] = graded_scaled(along, expr_int(along->arena, -1), rate[2]);
     spin->left[2][0] = rate[1];
@@ -131,7 +131,7 @@ static void spin_of(const GradedShapes *along, const BeamRotaryAngles *f, Spin *
         }
 }
 
-/* of the section's component r, whose inertia per length is J */
+/* adds the section's component r, whose inertia per length is J */
 static void add_rotary(const GradedShapes *along, const BeamRotaryAngles *f, const Spin *spin,
                        int r, const Weights *weights, ShapeInertia *out)
 {

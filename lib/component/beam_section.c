@@ -1,4 +1,4 @@
-/* beam_section.c: names of forces and moments in a section: what the part beyond it exerts on the
+/* beam_section.c: names of forces and moments in a section: the load of the part beyond it on the
  * part before it, along the axes of the section */
 #include "component/beam.h"
 

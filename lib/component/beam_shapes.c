@@ -31,7 +31,7 @@ bool beam_bends(const BeamShape *shape)
     return shape->family == SHAPE_V || shape->family == SHAPE_W;
 }
 
-/* --- what varies along the beam --- */
+/* --- quantities that vary along the beam --- */
 
 Powers beam_powers(const Instance *instance, Arena *arena, Expr value)
 {
@@ -74,8 +74,8 @@ int beam_load_powers(const Instance *instance, Arena *arena)
 
 /* --- families --- */
 
-/* The k-th of orthogonal polynomials over 0..1 by their recurrence in z = 2 xi - 1, from 1 and z:
- * next = (a z this - b before)/c. */
+/* Orthogonal polynomial k over 0..1 by the recurrence in z = 2 xi - 1, from 1 and z: next = (a z
+ * this - b before)/c. */
 static Polynomial orthogonal(int k, bool legendre)
 {
     Polynomial before = polynomial_power(0), now = polynomial_new(2), z;
@@ -215,7 +215,7 @@ Polynomial beam_shortening(const BeamShape *a, const BeamShape *b)
     return primitive;
 }
 
-/* --- stations --- */
+/* --- section frames --- */
 
 static Expr value_at(Arena *arena, const Polynomial *p, Expr xi)
 {
@@ -228,7 +228,7 @@ static Expr value_at(Arena *arena, const Polynomial *p, Expr xi)
     return sum;
 }
 
-/* s = q S q/(2 L), its derivatives -(S q)/L, and what is left of its second rate, q' S q'/L */
+/* s = q S q/(2 L), its derivatives -(S q)/L, and its second rate at q'' = 0, q' S q'/L */
 static void shorten(const Beam *beam, Expr xi, const ShapeState *state, SectionFrame *out)
 {
     Arena *arena = beam->arena;

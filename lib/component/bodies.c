@@ -1,13 +1,14 @@
-/* bodies.c: what has mass, and the frames fixed in it
+/* bodies.c: parts with mass, and the frames fixed in them
  *
- * A body is an edge from ground to its mass centre; an arm leads from a frame to
- * another one of the same body. */
+ * A body is an edge from ground to its mass centre. An arm is an edge from a frame to another frame
+ * of the same body. */
 #include "component/component_rows.h"
 
 #include <math.h>
 
-#define ROUNDING 1e-12 /* of the largest entry of a tensor: what its arithmetic may have left */
-#define CARELESS 1e-6  /* of half the trace: entries typed with six digits are not spoken of */
+/* relative to the largest entry of a tensor: rounding error of its arithmetic */
+#define ROUNDING 1e-12
+#define CARELESS 1e-6 /* relative to half the trace: entries with six digits give no message */
 
 /* clang-format off */
 static const Param body_params[] = {
@@ -39,7 +40,7 @@ static void body_inertia(const Instance *instance, Arena *arena, bool planar, Ex
 }
 
 /* Whether a + rounding*1 of a symmetric 3 x 3 matrix is positive definite: by the pivots of its
- * Cholesky factor. Entries as body_inertia() has them. */
+ * Cholesky factor. Entries in the order of body_inertia(). */
 static bool is_positive(const double a[6], double rounding)
 {
     const double d0 = a[0] + rounding, l1 = a[3] / d0, l2 = a[4] / d0;
@@ -49,7 +50,7 @@ static bool is_positive(const double a[6], double rounding)
     return d0 > 0 && d1 > 0 && a[2] + rounding - l2 * a[4] - m * m / d1 > 0;
 }
 
-/* the tensor as numbers, and what rounding may leave of an entry; false where it isn't told */
+/* the tensor as numbers, and the rounding error of an entry; false where it has no values yet */
 static bool read_tensor(const Instance *instance, double out[6], double *rounding)
 {
     const Value *inertia = instance_value(instance, "inertia");
@@ -106,9 +107,9 @@ static Status body_check(const Instance *instance, Arena *arena, bool planar, Di
     return refuse_inertia(instance, planar, diag);
 }
 
-/* Ixx = int y^2+z^2 dm and so on: int x^2 dm is half the trace less Ixx, and no sum of squares is
- * negative about any axis. A model may mean such a tensor all the same (what turns with a body and
- * isn't of it), and the equations can do with it. */
+/* Ixx = int y^2+z^2 dm and so on. So int x^2 dm is half the trace minus Ixx, and about no axis is
+ * it negative for a body. A model may contain such a tensor on purpose (for mass that turns with a
+ * body but isn't part of it), and the equations can be solved with it. */
 static void body_doubt(const Instance *instance, bool planar, Text *out)
 {
     double a[6], rounding, half;

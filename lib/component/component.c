@@ -1,4 +1,4 @@
-/* component.c: finding rows, values and members; helpers for steps */
+/* component.c: finds rows, values and members; helpers for joint primitives */
 #include "component/component_rows.h"
 
 #include <assert.h>
@@ -158,7 +158,7 @@ Expr instance_literal(const Instance *instance, Arena *arena, int param, int ent
     char *at = name;
     Expr symbol;
 
-    assert(entry < 100); /* no value has so many entries */
+    assert(entry < 100); /* no value has as many entries */
     *at++ = '#';
     at = stpcpy(at, part);
     *at++ = '.';
@@ -255,7 +255,7 @@ static Expr variable(Arena *arena, const char *owner, const char *member, int pr
     Text name = {0};
     Expr symbol;
 
-    /* a mode asks for each of a network's names: put together without a format */
+    /* for each name of a network; a mode needs them all, so it is joined without a format */
     text_add(&name, owner);
     if (member[0] != '\0') {
         text_char(&name, '.');
@@ -291,7 +291,7 @@ Expr instance_joint_coordinate(const Instance *instance, Arena *arena)
     return variable(arena, instance->coordinate, "", 0);
 }
 
-/* "i", or of an edge with a suffix "s.i" */
+/* "i", or for an edge with a suffix "s.i" */
 static Expr edge_variable(const Instance *instance, Arena *arena, int which, const char *member)
 {
     int count;
@@ -319,7 +319,7 @@ Expr instance_through(const Instance *instance, Arena *arena, int which)
     return edge_variable(instance, arena, which, domain_through(instance->row->domain));
 }
 
-/* the rate of a symbol that moves a value: 1 for time, the primed name of a variable */
+/* the rate of a symbol that a value depends on: 1 for time, the primed name of a variable */
 static Expr symbol_rate(Arena *arena, Expr symbol)
 {
     if (expr_symbol_kind(symbol) == SYMBOL_TIME)
@@ -343,7 +343,7 @@ Expr system_user_rate(Arena *arena, Expr e)
     return rate;
 }
 
-/* --- members that a whole family has --- */
+/* --- members of a whole family --- */
 
 /* clang-format off */
 static const Member frame_planar[] = {
@@ -442,7 +442,7 @@ static const Member thermal[] = {
 };
 /* clang-format on */
 
-/* of a part with one scalar edge; those of more name theirs in their rows */
+/* of a part with one scalar edge; parts with more edges list theirs in their rows */
 static const Member *scalar_members(const Component *row, int *count)
 {
     int edges;
@@ -502,7 +502,7 @@ const Member *component_member(const Component *row, bool planar, int i)
     return i - count < row->member_count ? &row->members[i - count] : NULL;
 }
 
-/* whether a name is the stem of its own states with a number, from 1 */
+/* whether a name consists of the stem of its own states and a number from 1 */
 static bool is_numbered_state(const Component *row, const char *name)
 {
     const size_t stem = row->state_stem != NULL ? strlen(row->state_stem) : 0;
@@ -522,7 +522,7 @@ const Member *component_find_member(const Component *row, bool planar, const cha
     return NULL;
 }
 
-/* --- steps --- */
+/* --- joint primitives --- */
 
 void steps_none(Arena *arena, Steps *out)
 {
@@ -568,7 +568,7 @@ static void cross(Arena *arena, const Expr a[3], const Expr b[3], Expr out[3])
     }
 }
 
-/* how much a component weighs in choosing an axis; one that holds symbols counts as large */
+/* size of an entry when an axis is chosen; an entry with symbols counts as large */
 static double size_of(Expr e)
 {
     return expr_kinds(e) == 0 ? fabs(expr_evaluate(e, NULL, NULL)) : 1.0;
@@ -585,7 +585,7 @@ void axis_complement(Arena *arena, const Expr u[3], Expr n1[3], Expr n2[3])
     for (int i = 0; i < 3; i++) {
         if (!expr_is(u[i], 1) && !expr_is(u[i], -1))
             continue;
-        /* along an axis of the frame: the next one of the circle x y z */
+        /* along an axis of the frame: the cyclically next one of x y z */
         for (int j = 0; j < 3; j++)
             n1[j] = e[j];
         n1[(i + 1) % 3] = expr_int(arena, 1);

@@ -1,9 +1,9 @@
-/* component.h: one row a component type, one Instance a part of the user's model
+/* component.h: one row for each component type, one Instance for each part of the user's model
  *
- * The row says what the type adds to the graph, how its statement reads, its steps
- * from tail to head (motion and reaction space follow), its effort or its scalar
- * relation, its members and its help. The engine asks a row, and never asks which row
- * it is. Rows are const tables; an Instance is owned by its model. */
+ * The row defines what the type adds to the graph, its statement, its joint primitives from tail to
+ * head (motion and reaction space follow), its effort or its scalar relation, its members and its
+ * help. The engine calls a row, and never tests which row it is. Rows are const tables; an Instance
+ * is owned by its model. */
 #ifndef COTREE_COMPONENT_COMPONENT_H
 #define COTREE_COMPONENT_COMPONENT_H
 
@@ -13,65 +13,68 @@
 typedef struct Component Component;
 typedef struct Instance Instance;
 
-/* --- how a statement gives its values --- */
+/* --- values in a statement --- */
 
 typedef enum ParamKind {
-    PARAM_SCALAR,   /* an expression of parameters */
-    PARAM_LAW,      /* an expression of t, parameters and variables */
-    PARAM_VECTOR,   /* three components in the frame named in `meaning`; two in a planar scene (z is
-                       0) */
-    PARAM_LAWS,     /* a vector of such expressions */
-    PARAM_INERTIA,  /* planar: one number (Izz); spatial: three or six: Ixx Iyy Izz [Ixy Ixz Iyz]
-                       tensor entries */
-    PARAM_MOMENT,   /* a torque: planar one number (z), spatial a vector; of laws */
-    PARAM_AXIS,     /* x y z -x -y -z or a vector; kept as a unit vector, exact where it is */
-    PARAM_AXES,     /* two of them */
-    PARAM_ROTATION, /* z(90 deg)*x(a): kept as 9 entries, row by row, tail components of head axes'
-                       matrix R_tail_head */
-    PARAM_LIST,     /* one or more expressions of parameters, [a, b]; "" as fallback: none */
+    PARAM_SCALAR,  /* an expression of parameters */
+    PARAM_LAW,     /* an expression of t, parameters and variables */
+    PARAM_VECTOR,  /* three components in the frame named in `meaning`; two in a planar scene (z is
+                      0) */
+    PARAM_LAWS,    /* a vector of such expressions */
+    PARAM_INERTIA, /* planar: one number (Izz); spatial: three or six: Ixx Iyy Izz [Ixy Ixz Iyz]
+                      tensor entries */
+    PARAM_MOMENT,  /* a torque: planar one number (z), spatial a vector; of laws */
+    PARAM_AXIS,    /* x y z -x -y -z or a vector; stored as a unit vector, exact where possible */
+    PARAM_AXES,    /* two of them */
+    /* z(90 deg)*x(a): stored as the 9 entries of R_tail_head, row by row, from head to tail axes */
+    PARAM_ROTATION,
+    PARAM_LIST,      /* one or more expressions of parameters, [a, b]; fallback "": none */
     PARAM_LIST_LAWS, /* one or more laws */
-    PARAM_WORD       /* one of the words in `fallback`, between '|', the first is the default */
+    PARAM_WORD /* one of the words in `fallback`, separated by '|'; the first is the default */
 } ParamKind;
 
 typedef enum ParamUse {
-    POSITIONAL = 1,   /* may stand without its key behind the places: arm r m [..] */
-    GIVES_SOURCE = 2, /* across or through, whatever the rest of the network does */
+    POSITIONAL = 1,   /* its key may be omitted after the terminals: arm r m [..] */
+    GIVES_SOURCE = 2, /* an across or through variable, independent of the rest of the network */
     GIVES_LOAD = 4,   /* an effort that acts on bodies from outside */
     GIVES = GIVES_SOURCE | GIVES_LOAD,
-    ALIKE = 8,  /* those of a row that have it are subtracted: of one dimension, whichever */
-    ALONG = 16, /* may vary along the part: x in it is the place, of whose powers it is made */
-    GEARS = 32, /* where it is given, other values are of a shaft that turns, also on a length */
-    PAIRED = 64 /* where it isn't given it is as the other of its row that is PAIRED, too */
+    /* these params of a row are subtracted from each other: one dimension for all, whichever it
+     * is */
+    ALIKE = 8,
+    ALONG = 16, /* may vary along the part: as a polynomial of x, the position along it */
+    GEARS = 32, /* where it is given, other values belong to a shaft that turns, even on a length */
+    PAIRED = 64 /* where it isn't given, it has the value of the other PAIRED param of the row */
 } ParamUse;
 
 typedef struct Param {
     const char *name;
     ParamKind kind;
-    const char *unit;     /* of its value, as in brackets: "kg*m^2"; "" none, NULL any. Two between
-                             '|': on a length (a line, a slide), on an angle */
+    /* of its value, as in brackets: "kg*m^2"; "" none, NULL any. Two separated by '|': on a length
+     * (a line, a slide), and on an angle */
+    const char *unit;
     const char *fallback; /* the default: a number (for vectors: each entry), an axis' letter (for
                              axes: two), the words; NULL: must be given */
     const char *meaning;
     int use; /* of ParamUse */
 } Param;
 
-/* the unit that counts: "N/m|N*m" is the first on a length, the second on an angle; new string,
+/* the applicable unit: the first of "N/m|N*m" on a length, the second on an angle; new string,
  * NULL: any */
 char *param_unit(const Param *param, bool on_angle);
-/* which of the two counts for a part */
+/* which of the two units applies to a part */
 bool instance_takes_angle(const Instance *instance, const Param *param);
-/* whose value is in force: that param's or, where this is PAIRED and not given, the other's */
+/* the param whose value applies: that param or, where it is PAIRED and not given, the other one */
 int instance_in_force(const Instance *instance, int param);
 
 typedef struct Value {
-    bool given;                    /* by the user, not the fallback */
+    bool given;                    /* set by the user, not the fallback */
     int count;                     /* entries of `at` */
     Expr *at;                      /* in the pool of its owner */
     const char *word;              /* of PARAM_WORD */
-    const struct Measure *measure; /* of a param that is ALIKE (model/measure.h); NULL: any */
+    const struct Measure *measure; /* of an ALIKE param (model/measure.h); NULL: any */
 } Value;
 
-/* --- what the statement connects --- */
+/* --- terminals of a statement --- */
 
 typedef enum Places {
     PLACES_NONE,   /* body m1: makes the frame of its own name, edge ground -> m1 */
@@ -98,14 +101,14 @@ typedef enum Family {
     FAMILY_TRANSDUCER
 } Family;
 
-/* --- steps of an edge with motion, from tail to head: shifts first, in tail axes, then turns ---
- */
+/* --- joint primitives of an edge with motion, from tail to head: first shifts, in tail axes, then
+ * turns --- */
 
 typedef struct Step {
-    Expr axis[3];   /* unit vector: of a shift in tail axes; of a turn in the axes that the turns
-                       before it made */
-    int coordinate; /* which of the instance's coordinates moves it */
-    Expr scale;     /* distance or angle = scale * coordinate; 1 but for a screw's shift */
+    /* unit vector: for a shift in tail axes; for a turn in the axes after the turns before it */
+    Expr axis[3];
+    int coordinate; /* number of the instance's coordinate that moves it */
+    Expr scale;     /* distance or angle = scale * coordinate; 1 except for a screw's shift */
 } Step;
 
 typedef struct Steps {
@@ -124,29 +127,30 @@ typedef enum CoordinateKind {
     COORDINATE_LENGTH,
     COORDINATE_ANGLE,
     COORDINATE_PARAMETER,
-    COORDINATE_TWIST /* of a shape, in rad: it turns nothing as a whole */
+    COORDINATE_TWIST /* of a shape, in rad: it turns no frame as a whole */
 } CoordinateKind;
 
 typedef struct CoordinateRow {
-    const char *member; /* "x", "theta", "s1"; "" when the coordinate has the instance's own name */
+    /* "x", "theta", "s1"; "" when the instance's own name is the coordinate's name */
+    const char *member;
     CoordinateKind kind;
-    bool rotation; /* of the rotation half */
+    bool rotation; /* it belongs to the rotation half */
 } CoordinateRow;
 
-/* --- what deforms: shapes with coordinates of their own, behind those of its pose ---
+/* --- flexible parts: shapes with coordinates of their own, after those of its pose ---
  *
  * All in the axes of its root, the frame that its edge leads to; theory 9. */
 
-typedef struct ShapeState { /* symbols, or what stands for them */
+typedef struct ShapeState { /* symbols, or their replacements */
     const Expr *q, *rate;   /* of each shape */
     Expr w[3];              /* angular velocity of the root */
 } ShapeState;
 
-typedef struct SectionFrame { /* a frame on it */
+typedef struct SectionFrame { /* position and orientation of a frame on a flexible part */
     Expr position[3];
-    Expr angle[3]; /* of turns about z, then the new y, then the newest x */
-    Expr bend[3];  /* what is left of position'' in the axes of the root at q'' = 0 */
-    Expr twist[3]; /* and of angle'' */
+    Expr angle[3]; /* of turns about z, then the new y, then the newest x (rad) */
+    Expr bend[3];  /* position'' in the axes of the root at q'' = 0 */
+    Expr twist[3]; /* angle'' at q'' = 0 */
     Expr *shift;   /* d position/d q: shapes x 3 */
     Expr *turn;    /* d angle/d q, likewise */
 } SectionFrame;
@@ -159,13 +163,13 @@ typedef struct SectionFrame { /* a frame on it */
     ROW(with_turn, 3 * count)                                                                      \
     ROW(block, count *count)                                                                       \
     ROW(bias, count) ROW(push, count) ROW(stress, count) ROW(drive, count)
-/* of a load that is a sum of `powers` powers of xi, the place along the part over its length */
+/* for a load that is a sum of `powers` powers of xi, the position along the part over its length */
 #define SHAPE_ARRAYS_OF_LOAD(ROW)                                                                  \
     ROW(extent, powers) ROW(spread, 3 * powers) ROW(spread_shift, 3 * powers * count)
 
-/* Its local block over the acceleration a of the root, its angular acceleration and q'', less a
- * field of weight g: force = mass (a - g) + alpha x moment + sum with_shift q'' + bias_force, and
- * so on. `own` pushes on q, with elasticity and damping. */
+/* Its local block over the acceleration a of the root, its angular acceleration alpha and q'',
+ * minus a field of weight g: force = mass (a - g) + alpha x moment + sum with_shift q'' +
+ * bias_force, and so on. `own` acts on q, including elasticity and damping. */
 typedef struct ShapeInertia {
     Expr mass, moment[3], inertia[9];
     Expr *with_shift, *with_turn; /* shapes x 3 */
@@ -173,15 +177,15 @@ typedef struct ShapeInertia {
     Expr bias_force[3], bias_torque[3], *bias;
     Expr *push;         /* of elasticity and damping */
     Expr *stress;       /* of elasticity alone */
-    Expr stored;        /* in elasticity */
+    Expr stored;        /* elastic energy, J */
     Expr *load;         /* per length, ground axes, over the user's variables: powers x 3 */
-    Expr *extent;       /* what each power comes to along the part, */
+    Expr *extent;       /* integral of each power along the part, */
     Expr *spread;       /* its first moment, powers x 3, */
-    Expr *spread_shift; /* and what moves it: powers x shapes x 3 */
-    Expr *drive;        /* what else pushes on q, over the user's variables */
+    Expr *spread_shift; /* and its generalised forces: powers x shapes x 3 */
+    Expr *drive;        /* other generalised forces on q, over the user's variables */
 } ShapeInertia;
 
-typedef struct SectionPart { /* a component of what a section carries, in its axes */
+typedef struct SectionPart { /* a component of the load in a section, in its axes */
     const char *name;
     bool in_plane, in_space, moment;
     int axis;
@@ -190,24 +194,26 @@ typedef struct SectionPart { /* a component of what a section carries, in its ax
 typedef struct Deforming {
     int (*count)(const Instance *instance, bool planar);
     CoordinateRow (*coordinate)(const Instance *instance, bool planar, int i);
-    /* how much of a shape's coordinate moves no point by more than 1 m, or turns none by 1 rad */
+    /* nominal value of a shape's coordinate: it moves no point by more than 1 m, or turns none by
+     * more than 1 rad */
     double (*unit)(const Instance *instance, bool planar, int i);
-    /* in how many powers of the place its load varies; 0: there is none */
+    /* number of powers of its load along the part; 0: there is no load */
     int (*load_powers)(const Instance *instance, Arena *arena);
-    /* `at`: along it, from its root; its arrays have room for all shapes */
+    /* section frame at the position `at` from its root; the arrays of `out` have room for all
+     * shapes */
     void (*station)(const Instance *instance, Arena *arena, bool planar, Expr at,
                     const ShapeState *state, SectionFrame *out);
-    /* of what is beyond the place `from` along it */
+    /* inertia of the part beyond the position `from` */
     void (*inertia)(const Instance *instance, Arena *arena, bool planar, Expr from,
                     const ShapeState *state, ShapeInertia *out);
-    /* the force or moment in a section that a name means, "bending"; the name ends at its bracket.
-     * NULL in its stead: it has no length, and no sections */
+    /* the force or moment in a section with that name, "bending"; the name ends at its bracket.
+     * NULL as function: the part has no length, and no sections */
     const SectionPart *(*section)(bool planar, const char *name);
 } Deforming;
 
 /* --- efforts: forces between two frames or on a joint, and transducers --- */
 
-typedef struct Motion1 { /* what an effort or relation may depend on; what doesn't apply is 0 */
+typedef struct Motion1 { /* what an effort or relation may depend on; 0 where it doesn't apply */
     Expr displacement;   /* distance between the two frames, or the joint's coordinate */
     Expr rate;
     Expr across;  /* voltage of the (first) scalar edge */
@@ -218,7 +224,7 @@ typedef struct Motion1 { /* what an effort or relation may depend on; what doesn
 
 typedef struct ScalarEdge {
     const char *suffix; /* "p": T1.p; "" for the part's own name */
-    int plus, minus;    /* which of the part's terminals; -1: the datum */
+    int plus, minus;    /* indices of the part's terminals; -1: the datum */
     Branching branching;
     int preference; /* in trees: sources of across 10, storage of across 20, resistive 30, storage
                        of through 40, sources of through 50 */
@@ -228,56 +234,60 @@ typedef enum RelationKind {
     RELATION_ACROSS,     /* v = value */
     RELATION_THROUGH,    /* i = value */
     RELATION_RESISTIVE,  /* v = value * i + rest */
-    RELATION_CONDUCTIVE, /* i = value, which holds the edge's own v: a diode */
+    RELATION_CONDUCTIVE, /* i = value, which contains the edge's own v: a diode */
     RELATION_CAPACITIVE, /* i = content' + rest */
     RELATION_INDUCTIVE,  /* v = content' + rest */
-    RELATION_PORT,       /* of a part with two edges: v = value or i = inverse, over the v and i of
-                            the other edge; each edge gives one of them, as the tree asks */
-    RELATION_FREE,       /* value = 0, which gives neither: a nullor's output */
-    RELATION_IMPLICIT,   /* value = 0, over its own v and i: a resistance that may be 0 */
-    RELATION_IDEAL       /* closed v = on i + least, open i = v/off: see Ideal */
+    /* of a part with two edges: v = value or i = inverse, over the v and i of the other edge; each
+     * edge gives one of them, depending on the tree */
+    RELATION_PORT,
+    RELATION_FREE,     /* value = 0, which determines neither: a nullor's output */
+    RELATION_IMPLICIT, /* value = 0, over its own v and i: a resistance that may be 0 */
+    RELATION_IDEAL     /* closed v = on i + least, open i = v/off: see Ideal */
 } RelationKind;
 
-/* A switch or diode. Runs take the side that it is on as its relation. Elsewhere both sides are one
- * equation, which of an ideal one, without resistance on one side or on both, gives neither v nor
- * i. Closed v = on i + least, but through the open side's v = least, i = least/off. */
+/* A switch or diode. In runs its relation is that of its current side. Elsewhere both sides are one
+ * equation. For an ideal one, without resistance on one side or on both, that gives neither v nor
+ * i. Closed v = on i + least, through the open side's point v = least, i = least/off. */
 typedef struct Ideal {
-    Expr when;  /* what closes it; NULL: a diode, which closes at v > least and opens below */
-    Expr on;    /* resistance when it is closed, or 0 */
-    Expr off;   /* when it is open; NULL: nothing flows */
-    Expr least; /* across it when it begins to conduct */
+    /* its closing condition; NULL: a diode, which closes at v > least and opens below */
+    Expr when;
+    Expr on;    /* resistance when closed, or 0 */
+    Expr off;   /* resistance when open; NULL: no flow */
+    Expr least; /* across variable at which it begins to conduct */
 } Ideal;
 
-/* of one scalar edge; over t, parameters and the user's variables, its own among them */
+/* of one scalar edge; over t, parameters and the user's variables, including its own */
 typedef struct Relation {
     RelationKind kind;
     Expr value;
-    Expr inverse;  /* RESISTIVE whose value holds the edge's own i: i over its v; may be NULL */
-    Expr content;  /* charge or flux; its kin in other domains */
-    Expr rest;     /* back-emf, resistance of a winding; 0 */
-    Expr stored;   /* energy in the edge, J; NULL: none, or it isn't known in closed form */
-    Expr smooth;   /* what `value` holds the rate of, so that it may not jump; NULL: nothing */
+    Expr inverse; /* RESISTIVE whose value contains the edge's own i: i over its v; may be NULL */
+    Expr content; /* charge or flux, or its equivalent in other domains */
+    Expr rest;    /* back-emf, resistance of a winding; 0 */
+    Expr stored;  /* energy in the edge, J; NULL: none, or unknown in closed form */
+    /* the expression whose rate `value` contains, so that it must not jump; NULL: none */
+    Expr smooth;
     Ideal ideal;   /* of RELATION_IDEAL, and where the part `switches` */
-    bool switches; /* between two resistances: `ideal` tells them, `value` holds both */
+    bool switches; /* between two resistances: `ideal` has them, `value` contains both */
 } Relation;
 
-/* a state of a part's own, x' = rate, or one that is held and replaced at each sampling instant */
+/* a state of a part's own, x' = rate, or one that is constant between sampling instants and then
+ * replaced */
 typedef struct OwnState {
     const char *member; /* "integral": c1.integral */
     Expr initial;
-    Expr rate;     /* 0 where it is held */
+    Expr rate;     /* 0 where it is sampled */
     Expr period;   /* s; NULL: continuous */
-    Expr next;     /* held: its value from a sampling instant on, of values just before it */
-    bool is_input; /* which the program that runs the model may give instead */
+    Expr next;     /* sampled: its value from a sampling instant on, over values just before it */
+    bool is_input; /* the program that runs the model may set it instead */
 } OwnState;
 
 /* --- rows --- */
 
-typedef struct Member { /* what can be asked of an instance: h9.fx, R1.power */
+typedef struct Member { /* a named quantity of an instance: h9.fx, R1.power */
     const char *name;
     const char *unit;
     const char *meaning;
-    int primes; /* derivatives in time that can be asked for */
+    int primes; /* number of time derivatives that have names */
 } Member;
 
 struct Component {
@@ -292,13 +302,15 @@ struct Component {
     int coord_count;
     const CoordinateRow *coords_planar; /* NULL: as spatial */
     int coord_count_planar;
-    /* spatial, where values decide which they are (euler=); NULL: always `coords` */
+    /* spatial, where values decide which coordinates it has (euler=); NULL: always `coords` */
     const CoordinateRow *(*coords_of)(const Instance *instance, int *count);
-    const char *not_in_plane; /* refused in a planar scene: what serves there; NULL: it may */
+    /* refused in a planar scene: what to use there instead; NULL: it may be used */
+    const char *not_in_plane;
     Branching translation; /* of its mechanical edge; of the scalar edge of those that have one */
-    Branching rotation;    /* BRANCH_NEVER for forces, and the mechanical edge of transducers */
-    int preference; /* completion: lower first; joints 10 and, in each tree, 1 a coordinate of that
-                       half; bodies 50; virtual joints add 1000 */
+    Branching rotation;    /* BRANCH_NEVER for forces, and for the mechanical edge of transducers */
+    /* for completion: lower first; joints 10, plus, in each tree, 1 for each coordinate of that
+     * half; bodies 50; virtual joints add 1000 */
+    int preference;
     void (*steps)(const Instance *instance, Arena *arena, bool planar,
                   Steps *out); /* bodies, arms, joints */
     /* bodies: mass and inertia about the mass centre, body axes, as Ixx Iyy Izz Ixy Ixz Iyz tensor
@@ -309,7 +321,7 @@ struct Component {
     /* PLACES_ON: force and torque on the head, in ground axes or, with *in_body, in the head's */
     void (*wrench)(const Instance *instance, Arena *arena, bool planar, Expr force[3],
                    Expr torque[3], bool *in_body);
-    /* PLACES_COORDINATE: the prescribed value, an expression of t and parameters; of a coupler one
+    /* PLACES_COORDINATE: the prescribed value, an expression of t and parameters; for a coupler one
      * of parameters and other coordinates, by the user's names */
     Expr (*prescribed)(const Instance *instance, Arena *arena);
     /* the force along the line (on the head, away from the tail) or the generalised force on the
@@ -318,37 +330,39 @@ struct Component {
     Expr (*potential)(const Instance *instance, Arena *arena,
                       const Motion1 *motion); /* energy stored; NULL: none */
     Expr (*rotor)(const Instance *instance,
-                  Arena *arena); /* inertia seen by the joint's coordinate (motor J); NULL: none */
-    int terminal_count;          /* of scalar parts; 0: two */
-    const char *terminal_usage;  /* " A B C D", for help; NULL: " PLUS MINUS" */
+                  Arena *arena);    /* inertia on the joint's coordinate (motor J); NULL: none */
+    int terminal_count;             /* of scalar parts; 0: two */
+    const char *terminal_usage;     /* " A B C D", for help; NULL: " PLUS MINUS" */
     const ScalarEdge *scalar_edges; /* NULL: one from the first terminal to the second */
     int scalar_edge_count;
-    /* of scalar edge `which`. across, through in `motion` are that edge's own, as the user's
-     * variables; displacement and rate those of the joint's coordinate, likewise. */
+    /* of scalar edge `which`. In `motion` across and through are that edge's own, as the user's
+     * variables; displacement and rate are those of the joint's coordinate, likewise. */
     void (*relation)(const Instance *instance, Arena *arena, int which, const Motion1 *motion,
                      Relation *out);
-    bool has_named_law; /* a current from its voltage so long that a reader gets it by name */
-    /* PLACES_PARTS: adds what it brings to the relation of the edge of parts[which] */
+    /* its law, a current from its voltage, is so long that it is shown by name */
+    bool has_named_law;
+    /* PLACES_PARTS: adds its terms to the relation of the edge of parts[which] */
     void (*couple)(const Instance *instance, Arena *arena, const Instance *const parts[2],
                    int which, Relation *out);
-    /* entry of the symmetric matrix of what its parts store together */
+    /* entry of the symmetric matrix of the energy that its parts store together */
     Expr (*stores)(const Instance *instance, Arena *arena, const Instance *const parts[2], int row,
                    int column);
-    const char *couples;    /* the row that its parts have to be of */
-    const char *state_stem; /* "x": its own states are x1, x2 ..., of which `members` has the first;
-                               NULL: each has a member */
+    const char *couples; /* the row that its parts must have */
+    /* "x": its own states are x1, x2 ..., and `members` contains the first; NULL: each has a
+     * member */
+    const char *state_stem;
     int (*own_state_count)(const Instance *instance); /* NULL: none */
     void (*own_state)(const Instance *instance, Arena *arena, int k, OwnState *out);
-    const Member *members; /* beyond those that its family has */
+    const Member *members; /* in addition to those of its family */
     int member_count;
-    const char *positive; /* the param that has to be above 0; NULL: none */
-    /* Refuse values that no model could have. Values of parameters alone are numbers here, and only
-     * numbers are looked at. May be NULL. */
+    const char *positive; /* the param that must be above 0; NULL: none */
+    /* Refuses values that no model can have. Values of parameters alone are numbers here, and only
+     * numbers are checked. May be NULL. */
     Status (*check)(const Instance *instance, Arena *arena, bool planar, Diag *diag);
-    /* add a line about numbers that are legal and unlikely; may be NULL */
+    /* adds a line about permitted but unlikely numbers; may be NULL */
     void (*doubt)(const Instance *instance, bool planar, Text *out);
     const char *help;
-    const char *example; /* statements from an empty session that run */
+    const char *example; /* statements that run from an empty session */
     const char *see;
 };
 
@@ -359,54 +373,56 @@ struct Instance {
     bool is_virtual;
     int tail; /* nodes; a scalar component's plus and minus; -1 where none */
     int head;
-    int edge; /* mechanical edge, -1: none (springs on a joint have one along the joint's frames) */
+    int edge; /* mechanical edge, -1: none (a spring on a joint has one along the joint's frames) */
     int terminal_count;          /* of a scalar part; 0: it has none */
     int *terminals;              /* nodes */
     const char **terminal_names; /* "0": the datum */
     int scalar_count;
     int *scalar_edges;
-    int parts[2];                      /* PLACES_PARTS: instances; -1 */
-    Expr sensed;                       /* PLACES_SENSED: over the user's variables; NULL */
-    const struct EquationBlock *given; /* equations that no row tells (equation_block.h); NULL */
-    int joint;                         /* instance whose coordinate it acts on; -1 */
+    int parts[2]; /* PLACES_PARTS: instances; -1 */
+    Expr sensed;  /* PLACES_SENSED: over the user's variables; NULL */
+    /* equation block of a part whose equations no row defines (equation_block.h); NULL */
+    const struct EquationBlock *given;
+    int joint; /* the instance whose coordinate it acts on; -1 */
     int joint_coordinate;
     const char *coordinate; /* its name, as in the user's expressions; NULL */
     bool on_angle;          /* that coordinate is an angle */
     bool is_geared;         /* a value of use GEARS is given */
-    Value *values;          /* one a param of the row */
+    Value *values;          /* one for each param of the row */
     int coord_count;
-    int pose_count;     /* the first of them place its head; those of shapes follow */
+    /* number of coordinates that place its head: they come first, those of shapes follow */
+    int pose_count;
     const char **coord; /* names: "h8", "m1.x", or the user's coord= */
     CoordinateKind *coord_kind;
     bool *coord_rotation;
-    int by; /* driver: instance (a source) or coordinate owner that supplies the motion; -1: its own
-               effort */
+    /* driver: instance (a source) or coordinate owner that supplies the motion; -1: its own
+     * effort */
+    int by;
     int by_coordinate; /* -1 when `by` is a source */
     const char *text;  /* its statement */
 };
 
-/* whether it deforms along a length, as a beam does */
+/* whether it is flexible along a length, as a beam is */
 bool instance_bends(const Instance *instance);
-/* The coordinates of its pose in this scene, its values read. */
+/* The coordinates of its pose in this scene, once its values are read. */
 const CoordinateRow *instance_coords(const Instance *instance, bool planar, int *count);
-/* How many coordinates it has, those of shapes among them, and which is the i-th. */
+/* The number of its coordinates, including those of shapes, and the i-th of them. */
 int instance_coord_count(const Instance *instance, bool planar);
 CoordinateRow instance_coord(const Instance *instance, bool planar, int i);
-/* Refuse values that no model could have, by the row; they are numbers where they can be. */
+/* Refuses values that no model can have, by the row's check; values are numbers where possible. */
 MUST_USE Status instance_check(const Instance *instance, Arena *arena, bool planar, Diag *diag);
 const Component *component_find(const char *name);           /* exact; NULL */
 const Component *component_at(int i);                        /* 0, 1, ...; NULL at the end */
 int component_param(const Component *row, const char *name); /* -1: none */
 int component_source(const Component *row); /* the param that makes it a source; -1: none */
-/* the one of its params that gives something from outside, a single number; -1: none */
+/* the one of its params that is an input from outside, a single number; -1: none */
 int instance_input(const Instance *instance);
 const Value *instance_value(const Instance *instance,
                             const char *name);                    /* assert that the row has it */
 Expr instance_scalar(const Instance *instance, const char *name); /* its only entry; NULL: none */
-/* A copy of values and of what is theirs. */
+/* A copy of values and of all they own. */
 Value *values_copy(Pool *pool, const Value *values, int count);
-/* The parameter that stands for an entry of a value where equations don't hold its number:
- * "#b1.mass[0]" */
+/* The parameter that replaces an entry of a value in the equations: "#b1.mass[0]" */
 Expr instance_literal(const Instance *instance, Arena *arena, int param, int entry);
 /* Members of an instance of this family and row, in order: NULL at the end. Those of its
  * coordinates (Instance.coord) are not repeated here, unless the family has them anyway. */
@@ -415,12 +431,12 @@ const Member *component_find_member(const Component *row, bool planar, const cha
 
 /* --- helpers for scalar rows --- */
 
-/* The variable that a user writes for a member: "R1.i"; of a second edge "T1.s.v". */
+/* The variable that a user writes for a member: "R1.i"; for a second edge "T1.s.v". */
 Expr instance_variable(const Instance *instance, Arena *arena, const char *member);
-/* Where the joint's coordinate that the part acts on stands, `primes` derivatives: "h1'". */
+/* The joint's coordinate that the part acts on, with `primes` derivatives: "h1'". */
 Expr instance_coordinate(const Instance *instance, const Instance *joint, Arena *arena, int primes);
-/* The same without primes, where the joint isn't at hand: to differentiate a law of the position.
- */
+/* The same without primes, where the joint isn't available: to differentiate a law of the
+ * position. */
 Expr instance_joint_coordinate(const Instance *instance, Arena *arena);
 /* potential of one of its terminals: "c.v"; 0 at the datum */
 Expr instance_potential(const Instance *instance, Arena *arena, int terminal);
@@ -430,22 +446,22 @@ int component_terminals(const Component *row);
 /* across or through variable of a part's scalar edge, by the names of its domain */
 Expr instance_across(const Instance *instance, Arena *arena, int which);
 Expr instance_through(const Instance *instance, Arena *arena, int which);
-/* names of the two in a domain: "v" and "i", "p" and "flow" ... */
+/* names of both variables in a domain: "v" and "i", "p" and "flow" ... */
 const char *domain_across(Domain domain);
 const char *domain_through(Domain domain);
 const char *domain_across_unit(Domain domain);
-/* derivative in time of an expression over t, parameters and the user's variables: over those and
+/* time derivative of an expression over t, parameters and the user's variables: over those and
  * their primed names */
 Expr system_user_rate(Arena *arena, Expr e);
 
-/* step helpers for rows */
+/* helpers for the joint primitives of rows */
 void steps_none(Arena *arena, Steps *out); /* no shift, no turn, R_0 = 1 */
 void steps_shift(Arena *arena, Steps *out, const Expr axis[3], int coordinate);
 void steps_turn(Arena *arena, Steps *out, const Expr axis[3], int coordinate);
-/* how many motions the steps leave open: translation, rotation (a screw's one counts in both) */
+/* the number of free motions: translation, rotation (a screw's one counts in both) */
 void steps_freedom(const Steps *steps, int freedom[2]);
-/* n1, n2 that make a right-handed triad u, n1, n2 with the unit vector u: x y for z, and so on in
- * circle; for others n1 is across the axis that u leans on least. */
+/* n1, n2 that form a right-handed triad u, n1, n2 with the unit vector u: x y for z, and so on in
+ * cyclic order; for other u, n1 is orthogonal to the axis that has the smallest component of u. */
 void axis_complement(Arena *arena, const Expr u[3], Expr n1[3], Expr n2[3]);
 
 #endif

@@ -1,4 +1,4 @@
-/* component_rows.h: the rows of types.def by name, and what several of them share */
+/* component_rows.h: the rows of types.def by name, and functions that several rows share */
 #ifndef COTREE_COMPONENT_COMPONENT_ROWS_H
 #define COTREE_COMPONENT_COMPONENT_ROWS_H
 
@@ -9,7 +9,7 @@
 #include "component/types.def"
 #undef TYPE
 
-/* --- component.c: refuse numbers that a value can't be --- */
+/* --- component.c: refuse numbers that a value can't have --- */
 
 MUST_USE Status check_positive(const Instance *instance, const char *param, Diag *diag);
 MUST_USE Status check_not_negative(const Instance *instance, const char *param, Diag *diag);
@@ -28,33 +28,33 @@ enum { FREE_SHIFTS = 3, FREE_COORDS = 7, FREE_COORDS_PLANAR = 3 };
 
 extern const CoordinateRow free_coords[FREE_COORDS];
 extern const CoordinateRow free_coords_planar[FREE_COORDS_PLANAR];
-/* Component.coords_of of rows with euler=; those of spherical are the rotation's alone */
+/* Component.coords_of of rows with euler=; spherical has only those of the rotation */
 const CoordinateRow *free_coords_of(const Instance *instance, int *count);
 const CoordinateRow *spherical_coords_of(const Instance *instance, int *count);
-/* the rotation, in coordinates `first` and on */
+/* the rotation, in coordinates from `first` on */
 void attitude_steps(const Instance *instance, Arena *arena, int first, Steps *out);
 void free_steps(const Instance *instance, Arena *arena, bool planar, Steps *out);
 /* refuses euler= in a planar scene */
 MUST_USE Status attitude_check(const Instance *instance, Arena *arena, bool planar, Diag *diag);
 
-/* --- scalar.c: what scalar domains share; relations are those of Component.relation --- */
+/* --- scalar.c: shared by scalar domains; relations are those of Component.relation --- */
 
-/* content value*x, and half of value*x^2 stored */
+/* content value*x, and stored energy value*x^2/2 */
 void scalar_storage(RelationKind kind, Expr value, Expr x, Arena *arena, Relation *out);
-/* of rows with a param `value`: across = value, or through = -value (so much is given to plus) */
+/* of rows with a param `value`: across = value, or through = -value (the flow into plus) */
 void scalar_across_source(const Instance *instance, Arena *arena, int which, const Motion1 *motion,
                           Relation *out);
 void scalar_through_source(const Instance *instance, Arena *arena, int which, const Motion1 *motion,
                            Relation *out);
-/* what couples a line to a joint: across = its rate, and through works on it */
+/* couples a line to a joint: across = rate of the joint's coordinate, and through acts on it */
 void scalar_rate_of_joint(const Instance *instance, Arena *arena, int which, const Motion1 *motion,
                           Relation *out);
 Expr scalar_through_on_joint(const Instance *instance, Arena *arena, const Motion1 *motion);
-/* of two edges p and s, without loss: across_p = ratio * across_s, through_s = -ratio * through_p
- */
+/* of two edges p and s, lossless: across_p = ratio * across_s, through_s = -ratio * through_p */
 void scalar_converter(const Instance *instance, Arena *arena, int which, Expr ratio, Relation *out);
 /* of rows with params k and d: through = k*deflection + d*across, deflection' = across. The
- * deflection is a state of the part's own where k and d are there, content where k is alone. */
+ * deflection is a state of the part's own where both k and d are given, and content where only k
+ * is. */
 void scalar_spring(const Instance *instance, const char *deflection, Arena *arena,
                    const Motion1 *motion, Relation *out);
 int scalar_spring_states(const Instance *instance);
@@ -62,7 +62,7 @@ void scalar_spring_state(const Instance *instance, const char *deflection, Arena
                          OwnState *out);
 MUST_USE Status scalar_check_spring(const Instance *instance, Arena *arena, bool planar,
                                     Diag *diag);
-/* refuses a joint's coordinate of the other kind; `instead` is the way out */
+/* refuses a joint's coordinate of the other kind; `instead` names an alternative */
 MUST_USE Status scalar_check_hinge(const Instance *instance, bool hinge, const char *instead,
                                    Diag *diag);
 

@@ -1,12 +1,14 @@
 /* control.c: limits and sampling of control blocks; input, gain, sum, integrator, lag
  *
- * With the input e, states x and the period h, continuous and from one instant to the next:
+ * With the input e, states x and the period h (s), continuous and from one sampling instant to the
+ * next (x+):
  *   integrator   y = x,   x' = k e         x+ = x + h k e, or where a limit lies before that
- *   lag          y = x,   x' = (k e - x)/T   x+ = x + (k e - x)(1 - exp(-h/T)), exact for a held e
+ *   lag          y = x,   x' = (k e - x)/T   x+ = x + (k e - x)(1 - exp(-h/T)), exact for constant
+ * e
  */
 #include "component/control.h"
 
-/* --- what blocks share --- */
+/* --- shared by blocks --- */
 
 bool block_is_sampled(const Instance *instance)
 {
@@ -268,7 +270,7 @@ const Component component_sum = {
 
 /* --- integrator --- */
 
-/* the input, 0 where a limit stands against it */
+/* the input, or 0 where the output is at a limit */
 static Expr integrand(const Instance *instance, Arena *arena)
 {
     Expr x = block_state(instance, arena, "x");

@@ -1,8 +1,8 @@
-/* control.h: what control blocks share: limits, sampling, states
+/* control.h: shared by control blocks: limits, sampling, states
  *
- * A block is a voltage source whose value is a command over signals and states of its own. Sampled,
- * it holds the command of the last sampling instant in a state, and its other states move by their
- * `next` instead of their rates. */
+ * A block is a voltage source whose value is a command over signals and states of its own. A
+ * sampled block stores the command of the last sampling instant in a state. Its other states change
+ * by their `next` instead of their rates. */
 #ifndef COTREE_COMPONENT_CONTROL_H
 #define COTREE_COMPONENT_CONTROL_H
 
@@ -18,14 +18,15 @@
 
 bool block_is_sampled(const Instance *instance);
 Expr block_state(const Instance *instance, Arena *arena, const char *member);
-/* between the limits, where there are some */
+/* limited to the block's limits, where it has some */
 Expr block_limited(const Instance *instance, Arena *arena, Expr command);
 void block_relation(const Instance *instance, Arena *arena, Expr command, Relation *out);
-/* how many states, of which `inner` are the block's own in either case */
+/* number of states; `inner` of them are the block's own, sampled or not */
 int block_state_count(const Instance *instance, int inner);
-/* `out` as it is continuous, with `next` as it is sampled, becomes that of the two which counts */
+/* `out` contains the continuous state and the `next` of the sampled one: removes the one that does
+ * not apply */
 void block_choose(const Instance *instance, Arena *arena, OwnState *out);
-/* the state behind the block's own: the command, held */
+/* the state after the block's own: the command, constant between sampling instants */
 void block_held(const Instance *instance, Arena *arena, Expr command, OwnState *out);
 MUST_USE Status block_check(const Instance *instance, Diag *diag);
 

@@ -1,7 +1,7 @@
-/* controlled.c: sources whose voltage or current is a multiple of something elsewhere
+/* controlled.c: sources whose voltage or current is a multiple of another quantity
  *
- * The terminals c and d of a controlling voltage are only looked at: nothing flows into them, so
- * other components have to hold them. A controlling current is any expression. */
+ * The terminals c and d of a controlling voltage are only measured: no current flows into them, so
+ * other components must determine their potentials. A controlling current is any expression. */
 #include "component/component_rows.h"
 
 /* clang-format off */

@@ -1,9 +1,9 @@
 /* driver.c: a coordinate that follows time, and one that follows others: gears, racks, cams,
  * differentials
  *
- * q = f(t), or q = f(c1, c2, ..), is one row of the constraints, q - f. Its multiplier is the
- * effort on q along that coordinate; of a coupler -df/dc of it acts on each c, so that it does no
- * work. */
+ * q = f(t), or q = f(c1, c2, ..), is one constraint row, q - f = 0. Its multiplier is the effort on
+ * q along that coordinate. For a coupler, -df/dc times this effort acts on each c, so that it does
+ * no work. */
 #include "component/component_rows.h"
 
 /* clang-format off */

@@ -1,8 +1,8 @@
 /* electrical.c: resistor, capacitor, inductor, coupling, sources
  *
- * v is the potential of plus against minus, i flows from plus to minus inside. R, C
- * and L may depend on time and variables, also on the component's own v or i; a capacitor's charge
- * is C v and an inductor's flux L i all the same. */
+ * v is the potential of plus against minus, i flows from plus to minus inside. R (ohm), C (F) and L
+ * (H) may depend on time and variables, also on the component's own v or i. A capacitor's charge is
+ * C v and an inductor's flux is L i in every case. */
 #include "component/component_rows.h"
 
 /* clang-format off */
@@ -170,7 +170,7 @@ static void coupling_couple(const Instance *instance, Arena *arena, const Instan
     Expr other = instance_through(parts[1 - which], arena, 0);
 
     out->content = expr_add(arena, out->content, expr_mul(arena, M, other));
-    /* M i1 i2 belongs to both: it is counted with the first */
+    /* M i1 i2 belongs to both parts: it is counted with the first */
     if (which == 0 && out->stored != NULL)
         out->stored = expr_add(arena, out->stored, expr_product(arena, (Expr[]){M, own, other}, 3));
 }

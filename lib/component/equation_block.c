@@ -87,7 +87,7 @@ static Expr own_symbol(const Instance *instance, Arena *arena, int i)
     return expr_symbol(arena, instance->coord[i], SYMBOL_VARIABLE);
 }
 
-/* an expression over the coordinates, with their symbols of now */
+/* an expression over the coordinates, with their current symbols */
 static Expr in_state(const Instance *instance, Arena *arena, const ShapeState *state, Expr e)
 {
     for (int i = 0; i < instance->given->count; i++) {
@@ -98,7 +98,7 @@ static Expr in_state(const Instance *instance, Arena *arena, const ShapeState *s
     return e;
 }
 
-/* what is left of the second rate of an expression over q at q'' = 0 */
+/* the second rate at q'' = 0 of an expression over q */
 static Expr left_of(Arena *arena, const ShapeState *state, int count, Expr e)
 {
     Expr first = expr_diff_along(arena, e, state->q, state->rate, count);
@@ -129,8 +129,8 @@ static void block_section_frame(const Instance *instance, Arena *arena, bool pla
         }
 }
 
-/* Rates' part of d/dt dT/dq' - dT/dq: what M alone makes of them. It stands apart from the forces,
- * so that the power of these and kinetic energy balance. */
+/* The part of d/dt dT/dq' - dT/dq that depends on rates, due to M alone. It is separate from the
+ * forces, so that their power and the kinetic energy balance. */
 static Expr rates_of(const Instance *instance, Arena *arena, const ShapeState *state,
                      const Expr *mass, int i)
 {
@@ -153,7 +153,7 @@ static Expr rates_of(const Instance *instance, Arena *arena, const ShapeState *s
 static void block_inertia(const Instance *instance, Arena *arena, bool planar, Expr from,
                           const ShapeState *state, ShapeInertia *out)
 {
-    enum { LONGEST = 2000 }; /* terms that are written out so that some may cancel */
+    enum { LONGEST = 2000 }; /* most terms that are written out so that some may cancel */
 
     const EquationBlock *given = instance->given;
     const Expr zero = expr_int(arena, 0);
@@ -173,7 +173,7 @@ static void block_inertia(const Instance *instance, Arena *arena, bool planar, E
         Expr own = rates_of(instance, arena, state, out->block, i);
 
         out->bias[i] = own;
-        /* in the user's names, as the rest of it is */
+        /* in the user's names, like the rest of it */
         for (int k = 0; k < count; k++) {
             const Expr q = own_symbol(instance, arena, k);
             const Expr rate = system_user_rate(arena, q);
@@ -217,7 +217,7 @@ static int unknown_states(const Instance *instance)
     return instance->given->order;
 }
 
-/* q' is the next state, or what the equation tells */
+/* q' is the next state, or follows from the equation */
 static void unknown_state(const Instance *instance, Arena *arena, int k, OwnState *out)
 {
     const bool is_last = k + 1 == instance->given->order;

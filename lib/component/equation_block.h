@@ -1,7 +1,7 @@
-/* equation_block.h: equations that a subsystem is given, not derived from parts
+/* equation_block.h: given equations of a subsystem, instead of derived ones
  *
- * What moves its frames are coordinates of one part, a *block*, which deforms and whose root rests
- * on ground; every other unknown is a part of its own, which is 0 = equation in a network. */
+ * The coordinates that move its frames belong to one part, a *block*. It is flexible, and its root
+ * is fixed in ground. Every other unknown is a part of its own, with 0 = equation in a network. */
 #ifndef COTREE_COMPONENT_EQUATION_BLOCK_H
 #define COTREE_COMPONENT_EQUATION_BLOCK_H
 
@@ -9,9 +9,9 @@
 
 extern const Component component_block, component_unknown;
 
-enum { GIVEN_POSE = 4 }; /* of a frame: x, y, z, and its turn about z */
+enum { GIVEN_POSE = 4 }; /* of a frame's pose: x, y, z, and its turn about z */
 
-/* All in the user's names. Owned by the pool that it was made in, and so are its arrays. */
+/* All in the user's names. The pool of its creation owns it and its arrays. */
 typedef struct EquationBlock {
     /* of a block: mass q'' = force, in the order of its coordinates */
     int count;
@@ -20,12 +20,13 @@ typedef struct EquationBlock {
     int frame_count;
     Expr *pose; /* frame_count x GIVEN_POSE, over coordinates and parameters */
     /* of an unknown */
-    Expr equation; /* it is 0, of those of order 1 with NAME.v for NAME', of order 2 with NAME.rate
-                      for NAME', NAME.v for NAME'', of others NAME.v for NAME itself */
-    int order;     /* of its highest derivative: 0, 1, 2 */
+    /* 0 = equation. With order 1 it contains NAME.v for NAME'; with order 2 NAME.rate for NAME' and
+     * NAME.v for NAME''; with order 0 NAME.v for NAME itself */
+    Expr equation;
+    int order; /* of its highest derivative: 0, 1, 2 */
 } EquationBlock;
 
-EquationBlock *equation_block_copy(Pool *pool, const EquationBlock *given); /* NULL: NULL */
+EquationBlock *equation_block_copy(Pool *pool, const EquationBlock *given); /* of NULL: NULL */
 bool equation_block_same(const EquationBlock *a, const EquationBlock *b);
 bool equation_block_depends(const EquationBlock *given, Expr symbol); /* NULL: false */
 

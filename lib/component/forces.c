@@ -1,8 +1,8 @@
-/* forces.c: what pushes and turns: on a frame, along a line, on a joint's coordinate
+/* forces.c: forces and torques: on a frame, along a line, on a joint's coordinate
  *
- * x is the distance of the two frames or the joint's coordinate, x' its rate. An effort
- * is that on the head: positive pushes it away from the tail, or moves it the way that
- * the coordinate counts. */
+ * x is the distance of the two frames or the joint's coordinate, x' its rate. An effort is the one
+ * on the head: a positive one pushes it away from the tail, or acts in the positive direction of
+ * the coordinate. */
 #include "component/component_rows.h"
 
 /* clang-format off */
@@ -107,7 +107,7 @@ const Component component_torque = {
     .see = "force actuator motor",
 };
 
-/* where a spring is relaxed */
+/* length or coordinate at which a spring is relaxed */
 static Expr relaxed(const Instance *instance)
 {
     return instance_scalar(instance, instance->joint >= 0 ? "rest" : "length");

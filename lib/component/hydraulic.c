@@ -1,7 +1,8 @@
 /* hydraulic.c: pipe, tank, inertance, valve, pump; cylinder
  *
- * p is the pressure of plus against minus, q the volume flow from plus to minus inside.
- * A cylinder on a slide's coordinate s: q = A s', force on the head F = A p, so that p q = F s'. */
+ * p (Pa) is the pressure of plus against minus, q (m^3/s) the volume flow from plus to minus
+ * inside. A cylinder on a slide's coordinate s: q = A s', force on the head F = A p, so that p q =
+ * F s'. */
 #include "component/component_rows.h"
 
 /* clang-format off */
@@ -50,7 +51,7 @@ static Expr resistance(const Instance *instance, Arena *arena, Expr flow)
         expr_mul(arena, instance_scalar(instance, "k"), expr_call1(arena, OP_ABS, flow)));
 }
 
-/* q of p = R q + k q |q|, of whatever sign: 2 p/(R + sqrt(R^2 + 4 k |p|)) */
+/* q from p = R q + k q |q|, for either sign: 2 p/(R + sqrt(R^2 + 4 k |p|)) */
 static Expr flow_of(const Instance *instance, Arena *arena, Expr p)
 {
     Expr R = instance_scalar(instance, "R");

@@ -1,7 +1,7 @@
 /* joints.c: joints that shift and turn along axes fixed in the tail
  *
- * u is the joint's axis, n1 and n2 complete a right-handed triad in the tail frame.
- * What the steps leave open is the motion space, its complement the reactions. */
+ * u is the joint's axis; n1 and n2 complete a right-handed triad in the tail frame. The joint
+ * primitives span the motion space; its complement is the reaction space. */
 #include "component/component_rows.h"
 
 /* clang-format off */

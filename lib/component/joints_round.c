@@ -1,4 +1,4 @@
-/* joints_round.c: joints that turn about several axes, and the one that restrains nothing */
+/* joints_round.c: joints that turn about several axes, and the free joint */
 #include "component/component_rows.h"
 
 #include <math.h>
@@ -26,7 +26,7 @@ static void cross_steps(const Instance *instance, Arena *arena, bool planar, Ste
     steps_turn(arena, out, axes + 3, 1);
 }
 
-/* u1 . u2 = 0: the constraint of a chord rests on it */
+/* u1 . u2 = 0: the constraint of a chord requires it */
 static Status cross_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
     const Expr *axes = instance_value(instance, "axes")->at;

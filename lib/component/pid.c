@@ -1,12 +1,17 @@
 /* pid.c: PD and PID control, and transfer functions
  *
- * With e = ref - of, the filter's time constant T and the period h:
- *   PD    u = Kp e + Kd e', or with a filter Kd (e - f)/T where f' = (e - f)/T
- *   PID   the same + Ki I,  I' = e + (y - u)/Kp where y is u within its limits: it comes back from
- *         them with the time constant Kp/Ki (Astrom and Haegglund 1995, section 3.5)
- *   sampled   Kd (e - previous)/h or Kd (e - f)/(T + h),  f+ = f + (e - f) h/(T + h),  I+ = I + h
- * I' A transfer function has the states of the controllable canonical form, x1' = x2 ... and xn' =
- * of - a_n x1 - ... - a_1 xn; sampled, these go on by the trapezoidal rule. */
+ * With e = ref - of, the filter's time constant T and the sampling period h (both s):
+ *
+ *     PD        u = Kp e + Kd e', or with a filter Kd (e - f)/T where f' = (e - f)/T
+ *     PID       the same + Ki I,  I' = e + (y - u)/Kp
+ *     sampled   Kd (e - previous)/h or Kd (e - f)/(T + h),  f+ = f + (e - f) h/(T + h),
+ *               I+ = I + h I'
+ *
+ * y is u within its limits: the integral returns from them with the time constant Kp/Ki (Astrom and
+ * Haegglund 1995, section 3.5).
+ *
+ * A transfer function has the states of the controllable canonical form, x1' = x2 ... and
+ * xn' = of - a_n x1 - ... - a_1 xn. Sampled, these advance by the trapezoidal rule. */
 #include "component/control.h"
 
 #include "base/memory.h"
@@ -80,7 +85,7 @@ static Expr error_of(const Instance *instance, Arena *arena)
     return expr_sub(arena, instance_scalar(instance, "ref"), instance_scalar(instance, "of"));
 }
 
-/* the state that the rate needs; NULL: none */
+/* the state that the derivative of the error needs; NULL: none */
 static const char *rate_state(const Instance *instance)
 {
     if (!has_rate(instance))
@@ -90,7 +95,7 @@ static const char *rate_state(const Instance *instance)
     return block_is_sampled(instance) ? "previous" : NULL;
 }
 
-/* the rate of the error, as the block has it */
+/* the derivative of the error, as the block computes it */
 static Expr error_rate(const Instance *instance, Arena *arena)
 {
     Expr e = error_of(instance, arena);
@@ -177,7 +182,7 @@ static void pid_state(const Instance *instance, Arena *arena, int k, OwnState *o
         block_held(instance, arena, pid_command(instance, arena), out);
 }
 
-/* Without filter and sampling the rate is the derivative: a jump would be an impulse. */
+/* Without filter and sampling the block differentiates: a jump would be an impulse. */
 static Status check_no_jump(const Instance *instance, Arena *arena, Diag *diag)
 {
     static const char *const names[] = {"ref", "of"};
@@ -282,7 +287,7 @@ static Expr canonical(const Instance *instance, Arena *arena, int i)
     return block_state(instance, arena, member);
 }
 
-/* of each state */
+/* symbols of all states */
 static Expr *canonicals(const Instance *instance, Arena *arena)
 {
     Expr *x = NEW_ARRAY(Expr, order_of(instance));
@@ -292,7 +297,7 @@ static Expr *canonicals(const Instance *instance, Arena *arena)
     return x;
 }
 
-/* coefficient of x[i] in -xn', over the leading one */
+/* coefficient of x[i] in -xn', divided by the leading one */
 static Expr denominator(const Instance *instance, Arena *arena, int i)
 {
     const Value *den = instance_value(instance, "den");
@@ -300,7 +305,7 @@ static Expr denominator(const Instance *instance, Arena *arena, int i)
     return expr_div(arena, den->at[den->count - 1 - i], den->at[0]);
 }
 
-/* of s^i, over the leading one of the denominator; 0 where the list is shorter */
+/* of s^i, divided by the leading coefficient of the denominator; 0 where the list is shorter */
 static Expr numerator(const Instance *instance, Arena *arena, int i)
 {
     const Value *num = instance_value(instance, "num");
@@ -351,8 +356,8 @@ static Expr last_rate(const Instance *instance, Arena *arena, const Expr x[])
     return rate;
 }
 
-/* State k an instant later, by the trapezoidal rule with the input held. Each x+[i] is
- * slope[i] X + value[i] with X = x+[n-1], which the last row then gives. */
+/* State k one sampling instant later, by the trapezoidal rule with a constant input. Each x+[i] is
+ * slope[i] X + value[i] with X = x+[n-1], which the last row then determines. */
 static Expr trapezoidal(const Instance *instance, Arena *arena, int k)
 {
     int n = order_of(instance);

@@ -1,8 +1,8 @@
-/* scalar.c: what the rows of hydraulics, shafts, slides and heat share
+/* scalar.c: shared by the rows of hydraulics, shafts, slides and heat
  *
- * Every domain has an across and a through variable, an edge that stores by its across variable
- * (tank, flywheel, slug, heat capacity) as a capacitor does, one that stores by its through
- * variable as an inductor does, one that resists, and sources of both (theory 8). */
+ * Every domain has an across and a through variable; an edge that stores by its across variable
+ * (tank, flywheel, slug, heat capacity), as a capacitor does; one that stores by its through
+ * variable, as an inductor does; one with resistance; and sources of both variables (theory 8). */
 #include "component/component_rows.h"
 
 void scalar_storage(RelationKind kind, Expr value, Expr x, Arena *arena, Relation *out)

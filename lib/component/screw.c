@@ -1,7 +1,7 @@
 /* screw.c: the joint whose shift follows from its turn
  *
- * u is the axis, h the pitch, the shift of one turn, and theta the coordinate: the tip
- * shifts by h theta / (2 pi) along u and turns by theta about it. */
+ * u is the axis (unit vector), h the pitch (m), the shift of one turn, and theta the coordinate
+ * (rad): the head shifts by h theta / (2 pi) along u and turns by theta about it. */
 #include "component/component_rows.h"
 
 #include <math.h>
@@ -33,8 +33,8 @@ static void screw_steps(const Instance *instance, Arena *arena, bool planar, Ste
                                        3);
 }
 
-/* It is a branch of both trees or of none, so it goes before the other joints in both: then the
- * same ones close a circuit of screws in either tree. */
+/* A screw is a branch of both trees or of none, so it comes before the other joints in both: then
+ * the same screws close a circuit of screws in either tree. */
 enum { BEFORE_OTHERS = 5 };
 
 const Component component_screw = {

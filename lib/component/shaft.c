@@ -1,7 +1,7 @@
 /* shaft.c: rotation along a line: flywheel, compliant shaft, gear, sources, end on a joint
  *
- * w is the rate of plus against minus, the torque goes from plus to minus inside: torque*w is the
- * power that a part takes. */
+ * w (rad/s) is the angular velocity of plus against minus, and the torque (N m) passes from plus to
+ * minus inside: torque*w is the power into a part. */
 #include "component/component_rows.h"
 
 /* clang-format off */

@@ -1,7 +1,7 @@
 /* slide.c: translation along a line: slug, compliant rod, sources, end on a joint
  *
- * v is the velocity of plus against minus, the force goes from plus to minus inside: force*v is
- * the power that a part takes. */
+ * v (m/s) is the velocity of plus against minus, and the force (N) passes from plus to minus
+ * inside: force*v is the power into a part. */
 #include "component/component_rows.h"
 
 /* clang-format off */

@@ -2,11 +2,10 @@
  *
  * Diode, v the forward voltage, i the current from plus to minus inside:
  *   exponential   i = Is (exp(v/(n Vt)) - 1) + G v,  Vt = k T/q at T = 300.15 K (27 degrees
- *                 Celsius), G = 1e-12 S, without which diodes that all block leave voltages open
- *   piecewise     i = v/Roff below Vf, Vf/Roff + (v - Vf)/Ron above it
- *   ideal         i >= 0, v <= Vf, i (v - Vf) = 0
- * The comparisons in max and if are located by runs, and so are the ends of an ideal part's sides.
- */
+ *                 Celsius), G = 1e-12 S, without which voltages between blocking diodes are
+ * undetermined piecewise     i = v/Roff below Vf, Vf/Roff + (v - Vf)/Ron above it ideal         i
+ * >= 0, v <= Vf, i (v - Vf) = 0 Runs locate the zeros of the comparisons in max and if, and the
+ * state changes of ideal parts. */
 #include "component/component_rows.h"
 
 #include <string.h>
@@ -39,7 +38,7 @@ static Expr thermal_voltage(Arena *arena)
     return expr_real(arena, 1.380649e-23 * 300.15 / 1.602176634e-19);
 }
 
-/* exp(x), from x = 100 on its tangent: no current goes there, but iterations do */
+/* exp(x), from x = 100 on its tangent: no solution is there, but iterates may be */
 static Expr bounded_exp(Arena *arena, Expr x)
 {
     Expr most = expr_int(arena, 100);
@@ -72,7 +71,7 @@ static Expr piecewise(const Instance *instance, Arena *arena, Expr v, Expr exces
     return expr_if(arena, expr_call2(arena, OP_LT, zero, excess), above, expr_div(arena, v, off));
 }
 
-/* what an instance has for its two sides */
+/* the resistances of an instance, closed and open */
 static Ideal two_sides(const Instance *instance, Expr when, Expr least)
 {
     return (Ideal){.when = when,

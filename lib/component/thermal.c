@@ -1,7 +1,7 @@
 /* thermal.c: heat capacity and resistance, sources of heat and of temperature
  *
- * T is the temperature of plus against minus (0 K, or against the surroundings, as the model
- * counts it), heat flows from plus to minus inside. Their product is no power. */
+ * T is the temperature of plus against minus (against 0 K or the surroundings, as the model defines
+ * it), heat flows from plus to minus inside. Their product is no power. */
 #include "component/component_rows.h"
 
 /* clang-format off */

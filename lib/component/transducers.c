@@ -1,7 +1,7 @@
 /* transducers.c: one object with an edge in two domains
  *
- * On the coordinate s of a joint; F the effort on its head along s. v i - F s' is what they store
- * and lose:
+ * On the coordinate s of a joint; F the effort on its head along s. The power v i - F s' is stored
+ * or lost:
  *   DC motor          v = R i + L i' + Kv N s',   F = N Kt i - N^2 B s',   rotor N^2 J
  *   plate capacitor   q = C(s) v,                 F = 1/2 dC/ds v^2
  *   solenoid          v = R i + (L(s) i)',        F = 1/2 dL/ds i^2
@@ -58,7 +58,7 @@ static const Member motor_members[] = {
 };
 /* clang-format on */
 
-/* Kt or Kv: in SI both are the same number, so one may stand for the other */
+/* Kt or Kv: in SI both are the same number, so one may replace the other */
 static Expr constant(const Instance *instance, const char *name)
 {
     const int param = component_param(instance->row, name);
@@ -166,7 +166,7 @@ const Component component_motor = {
 
 /* --- plate capacitor and solenoid: C or L is a law of the joint's coordinate --- */
 
-/* Whatever else it depended on would do work, too. */
+/* A dependence on anything else would do work, too. */
 static Status check_law(const Instance *instance, const char *param, Diag *diag)
 {
     Expr law = instance_scalar(instance, param);

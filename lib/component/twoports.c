@@ -2,7 +2,7 @@
  *
  * Of the edges p (terminals a b) and s (c d), with the ratio n and the gyration r:
  *   transformer  v_p = n v_s,  i_s = -n i_p        gyrator  v_p = r i_s,  v_s = -r i_p
- * They pass on all power: v_p i_p + v_s i_s = 0. */
+ * They are lossless: v_p i_p + v_s i_s = 0. */
 #include "component/component_rows.h"
 
 /* clang-format off */
@@ -197,7 +197,7 @@ const Component component_gyrator = {
 
 /* --- potentiometer --- */
 
-/* An end of the track may have no resistance at all at some time: then nothing is divided by it. */
+/* The resistance of an end of the track may be 0 at some time, so nothing is divided by it. */
 static void potentiometer_relation(const Instance *instance, Arena *arena, int which,
                                    const Motion1 *motion, Relation *out)
 {
