@@ -1,16 +1,16 @@
-/* event.h: events of a model: a condition, and what happens when it becomes true */
+/* event.h: events of a model: a condition, and the action when it becomes true */
 #ifndef COTREE_MODEL_EVENT_H
 #define COTREE_MODEL_EVENT_H
 
 #include "expr/expr.h"
 
-/* what happens when a condition becomes true */
+/* action when a condition becomes true */
 typedef enum EventAction { EVENT_MARK, EVENT_STOP, EVENT_SET } EventAction;
 
 typedef struct NewValue {
-    const char *name; /* variable, as in a Start */
+    const char *name; /* name of the variable, as in a Start */
     int primes;
-    Expr value; /* over variables, t and parameters, just before the event */
+    Expr value; /* over variables, t and parameters, evaluated just before the event */
 } NewValue;
 
 typedef struct Event {
@@ -21,7 +21,7 @@ typedef struct Event {
     int value_count;
     const NewValue *values; /* of EVENT_SET */
     const char *text;       /* its statement */
-    bool is_bound;          /* nobody's of the model: it watches where the law of a part ends */
+    bool is_bound;          /* not a user's event: it detects where the law of a part ends */
 } Event;
 
 #endif

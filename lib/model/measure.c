@@ -1,7 +1,7 @@
 /* measure.c: dimensions of expressions and variables, from their text
  *
- * A walk over the syntax tree with a Measure for each node. Laws are looked into with the
- * measures of their arguments; what was found of one is kept while the walk lasts. */
+ * A walk over the syntax tree computes a Measure for each node. The bodies of laws are walked with
+ * the measures of their arguments; the result for a law is stored during the walk. */
 #include "model/model_impl.h"
 
 #include <math.h>
@@ -9,10 +9,10 @@
 #include <string.h>
 
 enum {
-    SECOND = 2, /* places of Dimension.power */
+    SECOND = 2, /* indices of Dimension.power */
     ANGLE = 5,
-    DEEPEST = 4000,  /* levels of laws in one another; what lies deeper isn't looked into */
-    MOST_LAWS = 5000 /* bodies that one statement looks into: laws may call each other twice over */
+    DEEPEST = 4000,  /* depth of nested laws; deeper ones are not walked */
+    MOST_LAWS = 5000 /* bodies walked for one statement: laws may call each other twice each */
 };
 
 static const Measure any = {.kind = MEASURE_ANY};
@@ -35,7 +35,7 @@ static bool is_angular_rate(Dimension d)
     return memcmp(&d, &rate, sizeof d) == 0;
 }
 
-/* 50 Hz are no 50 rad/s */
+/* 50 Hz is not 50 rad/s */
 static bool turns_clash(Measure a, Measure b)
 {
     return (a.is_cycles && is_angular_rate(b.dimension)) ||
@@ -48,7 +48,7 @@ bool measures_fit(Measure a, Measure b)
         return true;
     if (turns_clash(a, b))
         return false;
-    /* as many seconds more or less as a bare t leaves out; without units all of them */
+    /* any power of seconds that a bare t omits; without units in the text any power */
     if ((a.has_time || b.has_time) && !a.has_units && !b.has_units)
         return true;
     if (a.has_time || b.has_time)
@@ -56,7 +56,7 @@ bool measures_fit(Measure a, Measure b)
     return dimension_same(a.dimension, b.dimension);
 }
 
-/* of a sum of two that fit */
+/* of a sum of two that match */
 static Measure joined(Measure a, Measure b)
 {
     if (a.kind == MEASURE_KNOWN && b.kind == MEASURE_KNOWN) {
@@ -148,7 +148,7 @@ static Measure rate_of(Measure a, int primes)
                : any;
 }
 
-/* --- what is said where two don't fit --- */
+/* --- messages where two don't match --- */
 
 bool measure_is_plain(Measure measure)
 {
@@ -200,23 +200,23 @@ Status measures_join(Measure a, Measure b, const Syntax *left, const Syntax *rig
 
 /* --- the walk --- */
 
-typedef struct LawMeasure { /* of a law, for arguments of these measures */
+typedef struct LawMeasure { /* of a law, for arguments with these measures */
     int law;
     const Measure *given;
     Measure measure;
 } LawMeasure;
 
 typedef struct KnownMeasure {
-    Pool *pool; /* of `given`; NULL until a law was met */
+    Pool *pool; /* of `given`; NULL until the first law */
     LIST(LawMeasure) laws;
-    const char *guilty; /* the law that a fault stands in; NULL */
+    const char *guilty; /* the law that contains a fault; NULL */
 } KnownMeasure;
 
 typedef struct MeasureWalk {
     const Scope *scope;
-    const Definition *law; /* that is looked into; NULL: the scope's own text */
-    const Measure *given;  /* of its arguments */
-    int depth;             /* levels of syntax trees above */
+    const Definition *law; /* the law being walked; NULL: the scope's own text */
+    const Measure *given;  /* the measures of its arguments */
+    int depth;             /* number of syntax tree levels above */
     KnownMeasure *known;
     Diag *diag;
 } MeasureWalk;
@@ -272,7 +272,7 @@ static Measure of_name(const MeasureWalk *w, const Syntax *syntax)
 
 /* --- operators --- */
 
-/* 10 V + t is meant as it is: what is made of t, without units, fits a sum as a number does */
+/* 10 V + t is accepted: an expression of t without units matches a sum, as a number does */
 static Measure term(Measure a)
 {
     return a.kind == MEASURE_KNOWN && a.has_time && !a.has_units ? number : a;
@@ -289,7 +289,7 @@ static Status sum(const MeasureWalk *w, const Syntax *syntax, Measure a, Measure
     return measures_join(a, b, syntax->args[0], syntax->args[1], what, out, w->diag);
 }
 
-/* a power that is written as a number, in halves */
+/* a power written as a number, in halves */
 static bool half_powers(const Syntax *syntax, int *out)
 {
     const Syntax *const *args = (const Syntax *const *)syntax->args;
@@ -386,7 +386,7 @@ static const char *find_rule(const char *name)
     return NULL;
 }
 
-/* The letter of argument i: behind the last the last two go on. */
+/* The letter of argument i: after the last letter, the last two repeat. */
 static char rule_letter(const char *rule, int i)
 {
     int count = (int)strcspn(rule, "=");
@@ -432,7 +432,7 @@ static Measure rule_value(char letter, Measure x)
 static Status by_rule(const MeasureWalk *w, const Syntax *call, const char *rule,
                       const Measure *args, Measure *out)
 {
-    /* joined so far of each letter, and who began */
+    /* the joined measure so far for each letter, and the argument that set it */
     Measure joined[2] = {number, number};
     const Syntax *first[2] = {NULL, NULL};
 
@@ -470,7 +470,7 @@ static const LawMeasure *find_law(const KnownMeasure *known, int law, const Meas
     return NULL;
 }
 
-/* What is wrong inside is said at the call, of the law that it stands in. */
+/* Reports a fault inside a law at its call, with the name of the law that contains it. */
 static Status by_law(const MeasureWalk *w, const Syntax *call, int index, const Measure *args,
                      Measure *out)
 {
@@ -510,7 +510,7 @@ static Status by_law(const MeasureWalk *w, const Syntax *call, int index, const 
     return status;
 }
 
-/* an entry of what is shown, or of what was found */
+/* an entry of what `show` prints, or of a result */
 static Measure of_entry(const MeasureWalk *w, const Syntax *call)
 {
     const EntryFinder *entries = w->scope->entries;
@@ -522,7 +522,7 @@ static Measure of_entry(const MeasureWalk *w, const Syntax *call)
     return out;
 }
 
-/* what a beam tells at a place, which is a length */
+/* a beam's quantity at a position, which is a length */
 static Status at_place(const MeasureWalk *w, const Syntax *call, const char *unit,
                        const Measure *args, Measure *out)
 {
@@ -564,7 +564,7 @@ done:
 
 /* --- nodes --- */
 
-/* of a vector: what its entries have in common; they may differ */
+/* for a vector: the common measure of its entries, which may differ */
 static Status vector(const MeasureWalk *w, const Syntax *syntax, Measure *out)
 {
     Measure entry = any;
@@ -625,7 +625,7 @@ Status measure_of(const Scope *scope, const Syntax *syntax, Measure *out, Diag *
 
 /* --- variables --- */
 
-/* of a terminal's potential; NULL: the name is none */
+/* unit of a terminal's potential; NULL: the name is no potential */
 static const char *potential_unit(const State *state, const char *name)
 {
     const char *dot = strrchr(name, '.');
@@ -638,8 +638,8 @@ static const char *potential_unit(const State *state, const char *name)
     return unit;
 }
 
-/* of a joint: along its only coordinate; of a driver: along that which supplies its motion; of what
- * acts on a coordinate, or along a line */
+/* unit for a joint: along its only coordinate; for a driver: along the one that supplies its
+ * motion; for a part that acts on a coordinate, or along a line */
 static const char *effort_unit(const State *state, const Instance *part)
 {
     static const char *const units[] = {"N", "N*m", NULL, "N*m"};
@@ -678,14 +678,14 @@ Measure variable_measure(const State *state, const Instance *own, const char *na
         return measure_of_unit(whole_unit(name));
     if (own != NULL && strncmp(name, own->name, length) == 0 && name[length] == '.')
         return measure_of_unit(member_unit(state, own, name + length + 1));
-    /* a member may stand for a coordinate that the user has given a name */
+    /* a member may be a coordinate that the user has renamed */
     if (thing == NULL && part != NULL &&
         variable_resolve(state, NULL, name, 0, 0, (Place){0}, &resolved, NULL) == OK)
         thing = state_thing(state, resolved.at);
     text_free(&resolved);
     if (thing != NULL && thing->kind != THING_DEFINITION) {
         part = state->parts.at[thing->index];
-        if (part->given != NULL) /* equations of any units hold it */
+        if (part->given != NULL) /* equations may use any units for it */
             return out;
         if (thing->kind == THING_COORDINATE || part->coord_count == 1)
             out = measure_of_unit(

@@ -1,11 +1,12 @@
-/* measure_check.c: places where a dimension is wanted */
+/* measure_check.c: checks of required dimensions */
 #include "model/model_impl.h"
 
 #include <string.h>
 
-enum { LONGEST_NAME = 40 }; /* of an item in a message; it stands below it anyway */
+/* of an item in a message, which also shows the whole statement below */
+enum { LONGEST_NAME = 40 };
 
-/* brackets and signs taken off */
+/* without brackets and signs */
 static const Syntax *bare(const Syntax *syntax)
 {
     while ((syntax->kind == SYNTAX_GROUP && syntax->primes == 0) ||
@@ -19,8 +20,8 @@ static bool is_literal(const Syntax *syntax)
     return (syntax->kind == SYNTAX_NUMBER || syntax->kind == SYNTAX_VECTOR) && syntax->has_unit;
 }
 
-/* A length for each angle (a pitch in m/rev) is no length: it would be taken for one radian. What
- * a quotient of a velocity and a rate gives is a radius. */
+/* A length per angle (a pitch in m/rev) is no length: it would be read per radian. The quotient of
+ * a velocity and an angular rate is a radius. */
 static bool is_pitch(Measure wanted, Measure given)
 {
     static const Dimension length = {{1, 0, 0, 0, 0, 0}};

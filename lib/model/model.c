@@ -1,4 +1,4 @@
-/* model.c: a model is the statements it accepted, in order, and the state they made */
+/* model.c: a model is the list of accepted statements, and the state that they made */
 #include "model/model_history.h"
 
 #include "language/functions.h"
@@ -10,7 +10,7 @@
 
 struct Model {
     Arena *arena;
-    bool is_fork; /* the arena is another model's */
+    bool is_fork; /* it shares the arena of another model */
     State *state;
     Opened *opened; /* the definition that is being read; NULL */
     DataFinder finder;
@@ -278,7 +278,7 @@ char *model_save(const Model *model)
     return text_done(&text);
 }
 
-/* --- looking --- */
+/* --- queries --- */
 
 uint64_t model_revision(const Model *model)
 {
@@ -349,7 +349,7 @@ bool model_coordinate(const Model *model, const char *name, const Instance **own
         *index = thing->coordinate;
         return true;
     }
-    /* a coordinate that has its owner's name */
+    /* a coordinate whose name is its owner's */
     if (thing == NULL || thing->kind != THING_PART)
         return false;
     *owner = model->state->parts.at[thing->index];

@@ -1,4 +1,4 @@
-/* model_apply.c: who of the model carries out a statement: the table of its verbs */
+/* model_apply.c: the table of the model's verbs, with the function that carries out each */
 #include "language/verbs.h"
 #include "model/model_impl.h"
 

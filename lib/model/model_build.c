@@ -1,6 +1,7 @@
-/* model_build.c: a component's statement to an instance, its frame, terminals and edges
+/* model_build.c: from a component's statement to an instance, its frame, terminals and edges
  *
- * A statement is read in full into a Draft; only then nodes, edges and names are added. */
+ * A statement is completely read into a PartDraft first; only then nodes, edges and names are
+ * added. */
 #include "model/model_draft.h"
 
 #include <assert.h>
@@ -64,7 +65,7 @@ Status key_unknown(const Component *row, const char *key, Place place, Diag *dia
     return E_NAME;
 }
 
-/* by=V1, by=leg1.th1: what supplies the motion of a driver instead of itself */
+/* by=V1, by=leg1.th1: the source or coordinate that supplies the motion of a driver */
 static Status read_by(PartDraft *draft, const Pair *pair)
 {
     Instance *part = draft->part;
@@ -244,7 +245,7 @@ Status part_check_plane(const State *state, const Instance *part, Place place, D
     return status;
 }
 
-/* where the statement gives the direction that left the plane */
+/* position in the statement of the direction that is out of plane */
 static Place direction_place(const PartDraft *draft)
 {
     const Statement *statement = draft->statement;
@@ -258,7 +259,7 @@ static Place direction_place(const PartDraft *draft)
     return statement->place;
 }
 
-/* where the statement gives that value; the whole statement where it doesn't */
+/* position in the statement of that value; otherwise the whole statement */
 static Place value_place(const PartDraft *draft, const char *key)
 {
     const Statement *statement = draft->statement;
@@ -278,7 +279,7 @@ static Place value_place(const PartDraft *draft, const char *key)
     return statement->place;
 }
 
-/* --- committing --- */
+/* --- commit --- */
 
 int state_terminal(State *state, const char *name, Domain domain)
 {
@@ -302,7 +303,8 @@ static int add_edge(State *state, const Edge *edge)
     return graph_add_edge(state->graph, edge);
 }
 
-/* A virtual joint enters only trees in which it has freedom, and only when the user says so. */
+/* A virtual joint is a branch only in trees in which it has freedom, and only if the user chooses
+ * it. */
 static Branching branching_of(const Instance *part, bool rotation, int freedom)
 {
     if (part->row->domain != DOMAIN_MECHANICAL)
@@ -406,7 +408,7 @@ void part_draft_commit(PartDraft *draft, const char *text)
     state_forget_trees(state);
 }
 
-/* joints that make no sense in a plane, whatever their axes are */
+/* joints that have no meaning in a plane, whatever their axes */
 static Status check_scene(const State *state, const Component *row, Place place, Diag *diag)
 {
     if (!state->planar || row->not_in_plane == NULL)

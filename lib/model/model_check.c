@@ -1,21 +1,21 @@
-/* model_check.c: whether the values of parts make sense as numbers
+/* model_check.c: checks whether the values of parts are valid numbers
  *
- * Rows refuse numbers that a value can't be. Here values that follow from parameters are put in as
- * the numbers that they are now, so that it is one whether a mass was typed or follows from a
- * parameter, and whether a statement or a new value of the parameter brings it in. */
+ * Rows of the component table refuse invalid numbers. Here values that follow from parameters are
+ * replaced by their current numbers. So it makes no difference whether a mass is a number or
+ * follows from a parameter, or whether a statement or a new value of the parameter sets it. */
 #include "model/model_impl.h"
 
 #include <math.h>
 #include <string.h>
 
-/* of parameters alone, and no number yet */
+/* of parameters alone, and not a number yet */
 static bool is_of_parameters(Expr e)
 {
     return !expr_is_number(e) && (expr_kinds(e) & ~(1U << SYMBOL_PARAMETER)) == 0;
 }
 
-/* The values as numbers where parameters tell them; `out` has room for all and, behind them, for
- * their entries. E_DOMAIN where one isn't finite. */
+/* The values as numbers where parameters determine them; `out` has room for all values and, after
+ * them, for their entries. E_DOMAIN where one isn't finite. */
 static Status read_numbers(State *state, const Instance *part, Value *out, Diag *diag)
 {
     Expr *entries = (Expr *)(out + part->row->param_count);
@@ -53,7 +53,7 @@ static const Instance *maker_of(const State *state, int node)
     return NULL;
 }
 
-/* an arm with at= stands on what bends, between its ends */
+/* an arm with at= needs a flexible part, and a position between its ends */
 static Status check_section_frame(State *state, const Instance *arm, const Value *at, Diag *diag)
 {
     const Instance *beam = maker_of(state, arm->tail);
@@ -90,12 +90,12 @@ static Status check_arm(State *state, const Instance *arm, Diag *diag)
     const Instance *on = at >= 0 && arm->values[at].given ? maker_of(state, arm->tail) : NULL;
 
     return arm->row->family == FAMILY_ARM && at >= 0 && arm->values[at].given &&
-                   (on == NULL || on->given == NULL) /* a frame that equations move */
+                   (on == NULL || on->given == NULL) /* a frame that given equations move */
                ? check_section_frame(state, arm, &arm->values[at], diag)
                : OK;
 }
 
-/* A coupler knows coordinates of joints alone: on those it acts. */
+/* A coupler may contain only coordinates of joints, since it acts on these. */
 static Status check_coupled(State *state, const Instance *part, Diag *diag)
 {
     const Expr value = part->row->family == FAMILY_COUPLER ? part->values[0].at[0] : NULL;
@@ -154,7 +154,7 @@ Status part_check(State *state, const Instance *part, Text *remarks, Diag *diag)
     CHECK(coupled_check(state, part, remarks, diag));
     CHECK(check_arm(state, &numeric, diag));
     CHECK(check_coupled(state, part, diag));
-    /* what stands on it, where it may have become shorter */
+    /* arms on it, as it may have become shorter */
     for (int i = 0; row->deforming != NULL && i < state->parts.count; i++)
         if (state->parts.at[i]->row->family == FAMILY_ARM && state->parts.at[i]->tail == part->head)
             CHECK(part_check(state, state->parts.at[i], remarks, diag));
@@ -168,7 +168,7 @@ done:
 
 /* --- after a parameter has changed --- */
 
-/* whether the line needs one of the definitions that changed */
+/* whether the line needs one of the changed definitions */
 static bool needs_changed(const Line *line, const bool *changed)
 {
     for (int i = 0; i < line->use_count && !line->is_gone; i++)
@@ -177,7 +177,7 @@ static bool needs_changed(const Line *line, const bool *changed)
     return false;
 }
 
-/* mark the definitions that follow from those marked */
+/* marks the definitions that follow from marked ones */
 static void spread_change(const State *state, bool *changed)
 {
     bool more = true;

@@ -1,27 +1,29 @@
-/* model_coupled.c: whether parts can store what their couplings say
+/* model_coupled.c: checks whether the stored energy of coupled parts is positive definite
  *
- * Coupled coils store i^T L i / 2. L, with their inductances on its diagonal and the mutual ones
- * beside it, is positive definite: others would give back more energy than they took, and a run
- * would grow without a word. Two of them may share less than sqrt(L1*L2).
+ * Coupled coils store the energy i^T L i / 2 (J). L (H, n x n), with their inductances on its
+ * diagonal and the mutual inductances off it, must be positive definite. Otherwise the coils would
+ * return more energy than they received, and a run would grow without a message. For two coils this
+ * means |M| < sqrt(L1*L2).
  *
- * Close couplings of several coils come one by one, and until the last has come their matrix has
- * zeros where none belongs. So while two of the coils aren't coupled yet, only pairs are refused;
- * the whole matrix is, when equations are made of it. */
+ * Close couplings of several coils are given one by one, and until the last is given their matrix
+ * has wrong zeros. So while two of the coils aren't coupled yet, only pairs are checked. The whole
+ * matrix is checked when equations are made of it. */
 #include "model/model_impl.h"
 
 #include <math.h>
 #include <string.h>
 
-#define LEAST 1e-12 /* of a diagonal entry: less is rounding, of a coupling without leakage */
+/* relative to a diagonal entry: less is rounding error, of a coupling without leakage */
+#define LEAST 1e-12
 
 /* of parts coupled with each other, directly or through others */
 typedef struct CouplingCheck {
     State *state;
-    const Instance *part; /* whose values are looked at; perhaps not among the state's parts yet */
+    const Instance *part; /* the part being checked; it may not be among the state's parts yet */
     LIST(const Instance *)
     members;
     int couplings;
-    double *matrix; /* of so many members */
+    double *matrix; /* of that many members */
     bool is_known;
 } CouplingCheck;
 
@@ -33,7 +35,7 @@ static int place_in(const CouplingCheck *c, const Instance *part)
     return -1;
 }
 
-/* couplings of the state, and the part itself where it is a new one; NULL at the end */
+/* couplings of the state, and the part itself where it is a new coupling; NULL at the end */
 static const Instance *coupling_at(const CouplingCheck *c, int i)
 {
     const State *state = c->state;
@@ -165,7 +167,7 @@ static Status refuse(const CouplingCheck *c, Diag *diag)
     return E_VALUE;
 }
 
-/* the first two that no coupling of theirs allows; false: there are none */
+/* the first two parts whose couplings are not permitted; false: there are none */
 static bool find_pair(const CouplingCheck *c, int pair[2])
 {
     const int n = c->members.count;
@@ -184,7 +186,7 @@ static bool find_pair(const CouplingCheck *c, int pair[2])
     return false;
 }
 
-/* whether each two of them are coupled */
+/* whether every two of them are coupled */
 static bool is_complete(const CouplingCheck *c)
 {
     const int n = c->members.count;
@@ -195,7 +197,7 @@ static bool is_complete(const CouplingCheck *c)
     return true;
 }
 
-/* those coupled with the part alone, where they couldn't be whatever else is coupled */
+/* checks the parts coupled with this part alone, which further couplings can't make valid */
 static Status check_so_far(CouplingCheck *c, Text *remarks, Diag *diag)
 {
     int pair[2];

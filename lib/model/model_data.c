@@ -1,10 +1,10 @@
-/* model_data.c: files of data that table() names, read when a statement is applied
+/* model_data.c: data files of table(), read when a statement is applied
  *
- * A file holds rows of numbers between commas, semicolons or blanks; its first row may name the
- * columns, with units in brackets behind: "h [deg]" is h, in SI from here on. Lines that begin with
- * # are comments. The first column is x and grows. What was read stays with the arena under the
- * file's name and the column's, so that a statement that is applied anew by undo finds the data
- * that it was made with. */
+ * A file contains rows of numbers separated by commas, semicolons or blanks. Its first row may name
+ * the columns, followed by units in brackets: "h [deg]" is h, converted to SI on reading. Lines
+ * that begin with # are comments. The first column is x, in ascending order. The arena stores the
+ * data by the names of file and column. So a statement that undo applies again finds the data that
+ * it was made with. */
 #include "expr/units.h"
 #include "language/functions.h"
 #include "model/model_impl.h"
@@ -15,17 +15,17 @@
 #include <string.h>
 
 typedef struct Cells {
-    LIST(char *) at; /* borrowed from the line that was taken apart */
+    LIST(char *) at; /* borrowed from the line that was split */
 } Cells;
 
 typedef struct DataReader {
-    const char *file; /* as the user calls it */
+    const char *file; /* as the user wrote it */
     Place place;      /* of the name in the statement */
     const char *column;
     Place column_place;
     int line;
-    int x_cell, y_cell;  /* from 0 */
-    Unit x_unit, y_unit; /* of factor 1 where the file tells none */
+    int x_cell, y_cell;  /* indices of the columns, from 0 */
+    Unit x_unit, y_unit; /* factor 1 where the file has no unit */
     LIST(double) x;
     LIST(double) y;
     Diag *diag;
@@ -72,7 +72,7 @@ Status data_open(const DataFinder *finder, const char *name, Place place, DataFi
 
 /* --- cells --- */
 
-/* the column a call asks for: a text, a number as written, the second if it says none */
+/* the column of a call: a text, a number as written; by default the second */
 const char *data_column(const Syntax *call)
 {
     return call->count > 2 ? call->args[2]->text : "2";
@@ -92,8 +92,8 @@ static char *trim(char *cell)
     return cell;
 }
 
-/* Take a line apart, in place, at commas or semicolons, or where it has none at blanks; a cell may
- * stand in quotes. */
+/* Splits a line, in place, at commas or semicolons, or at blanks if it has neither; a cell may be
+ * in quotes. */
 static void split(char *line, Cells *cells)
 {
     char *at = trim(line);
@@ -146,7 +146,7 @@ static bool is_number_text(const char *text)
     return text[0] != '\0' && text[strspn(text, "0123456789")] == '\0';
 }
 
-/* where the unit of a head begins, "[deg]" of "h [deg]"; NULL: it ends with none */
+/* where the unit of a head begins, "[deg]" of "h [deg]"; NULL: it has none at its end */
 static const char *unit_of_head(const char *head)
 {
     const char *open = strrchr(head, '[');
@@ -154,7 +154,7 @@ static const char *unit_of_head(const char *head)
     return open != NULL && head[strlen(head) - 1] == ']' ? open : NULL;
 }
 
-/* "h" is "h [deg]", and so is that */
+/* "h" matches "h [deg]", and so does "h [deg]" */
 static bool is_head(const char *head, const char *name)
 {
     const char *unit = unit_of_head(head);
@@ -211,7 +211,7 @@ static Status find_column(DataReader *r, const Cells *cells, bool named)
     return E_NAME;
 }
 
-/* rounded once where the unit is a ratio, so that 300 [ms] is what 0.3 is */
+/* rounded once where the unit is a ratio, so that 300 [ms] equals 0.3 */
 static double in_si(const Unit *unit, double value)
 {
     return unit->den != 0 && unit->pi_power == 0
@@ -250,11 +250,11 @@ static Status take_row(DataReader *r, const Cells *cells)
     return OK;
 }
 
-/* far more than a table has, far less than fills the memory where a file has no end */
+/* far more than a table has, far less than fills the memory if a file has no end */
 enum { LONGEST_LINE = 1 << 20, MOST_ROWS = 10000000 };
 
-/* The next line without its end, which may be a newline, a carriage return or both; E_MISSING with
- * nothing said at the end of the file. */
+/* The next line without its end, which may be a newline, a carriage return or both; E_MISSING
+ * without a message at the end of the file. */
 static Status next_line(DataReader *r, FILE *in, Text *line)
 {
     int c;
@@ -346,7 +346,7 @@ static Status read_call(const DataFinder *finder, Arena *arena, const Syntax *ca
     return status;
 }
 
-/* what is written otherwise is refused when it is built */
+/* other forms are refused when the expression is built */
 static bool is_data_call(const Syntax *syntax)
 {
     return syntax->kind == SYNTAX_CALL && function_takes_text(syntax->text) && syntax->count > 0 &&

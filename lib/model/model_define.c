@@ -1,13 +1,13 @@
 /* model_define.c: parameters, laws and outputs
  *
- * A parameter stays a symbol, so a new value changes no equation. A law or output is put
- * in place wherever it is used, so a new one makes the state anew from its lines. */
+ * A parameter remains a symbol, so a new value changes no equation. A law or output is substituted
+ * wherever it is used, so a new one rebuilds the state from its lines. */
 #include "model/model_impl.h"
 
 #include <math.h>
 #include <string.h>
 
-/* --- circles --- */
+/* --- circular definitions --- */
 
 static Status report_circle(const State *state, const int *from, int definition, int last,
                             Place place, Diag *diag)
@@ -32,7 +32,8 @@ static Status check_circle(const State *state, int definition, const int *uses, 
                            Place place, Diag *diag)
 {
     int n = state->definitions.count;
-    int *from = NEW_ARRAY(int, n); /* which one led here; -1 the new text itself, -2 not seen */
+    /* the definition that led here; -1 the new text itself, -2 not seen */
+    int *from = NEW_ARRAY(int, n);
     NumberList stack = {0};
     Status status = OK;
 
@@ -52,7 +53,7 @@ static Status check_circle(const State *state, int definition, const int *uses, 
         int at = state->definitions.at[d].line;
         const int root = line_root(state, at);
 
-        /* of an instance also what its statement needs, which has to come first */
+        /* for an instance also the needs of its statement, which must come first */
         for (bool more = true; more; at = root) {
             const Line *line = &state->lines.at[at];
 
@@ -75,7 +76,7 @@ done:
     return status;
 }
 
-/* --- making and changing --- */
+/* --- adding and changing --- */
 
 int definition_add(State *state, Definition d, const char *text, const Scope *scope)
 {
@@ -100,8 +101,8 @@ static Status check_new_name(const State *state, const char *name, DefinitionKin
                                      : name_is_free(state, name, place, diag);
 }
 
-/* The line of a definition says something new: make the state anew from its lines. On failure
- * nothing has changed. */
+/* Replaces the line of a definition: rebuilds the state from its lines. On failure nothing has
+ * changed. */
 static Status replace_line(State **state, int index, const char *text, const Scope *scope,
                            Place place, Effect effect, Outcome *outcome, Diag *diag)
 {
@@ -134,7 +135,7 @@ static void set_body(State *state, Definition *d, Expr body)
     definitions_forget_values(state);
 }
 
-/* Give the parameter another body, unless parts refuse the values that follow. */
+/* Sets another body of the parameter, unless parts refuse the resulting values. */
 static Status try_body(State *state, Definition *d, Expr body, const Statement *statement,
                        Outcome *outcome, Diag *diag)
 {
@@ -154,7 +155,7 @@ static Status try_body(State *state, Definition *d, Expr body, const Statement *
     return status;
 }
 
-/* A value of another dimension may not fit where the name is used. */
+/* A value of another dimension may not match where the name is used. */
 static Status change_parameter(State **in, Definition *d, Expr body, Measure measure,
                                const Statement *statement, const Scope *scope, const char *text,
                                Outcome *outcome, Diag *diag)
@@ -293,7 +294,7 @@ static Expr *argument_symbols(State *state, const Statement *statement)
     return arguments;
 }
 
-/* whether equations with the one are those with the other */
+/* whether equations with either law are the same */
 static bool is_same_law(const Definition *law, const Statement *statement, Expr body)
 {
     bool same = law->body == body && law->argument_count == statement->argument_count;
@@ -321,7 +322,7 @@ Status apply_law(State **state, const Statement *statement, Outcome *outcome, Di
     if (law != NULL) {
         CHECK(check_circle(s, definition_index(s, law), scope.uses.at, scope.uses.count,
                            statement->name_place, diag));
-        /* in other words also where it comes to the same: their units may differ */
+        /* also with another text of equal value: its units may differ */
         if (strcmp(s->lines.at[law->line].text, text) != 0)
             status = replace_line(
                 state, definition_index(s, law), text, &scope, statement->name_place,

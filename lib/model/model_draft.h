@@ -1,4 +1,4 @@
-/* model_draft.h: a component's statement on its way to an instance */
+/* model_draft.h: a component's statement while an instance is made from it */
 #ifndef COTREE_MODEL_MODEL_DRAFT_H
 #define COTREE_MODEL_MODEL_DRAFT_H
 
@@ -10,20 +10,20 @@ typedef struct PartDraft {
     Instance *part; /* in the state's pool */
     Scope scope;
     int at;                 /* next operand */
-    int first_value;        /* operand with which values begin */
-    const char **terminals; /* names, where the part has scalar edges; else NULL */
+    int first_value;        /* index of the first operand that is a value */
+    const char **terminals; /* names, where the part has scalar edges; otherwise NULL */
     const Syntax *coordinate_names;
     Diag *diag;
 } PartDraft;
 
-/* a part of that row, not yet of the state; its values are to come */
+/* a part of that row, not in the state yet; its values are set later */
 Instance *part_new(State *state, const Component *row, bool is_virtual);
-/* Make it one of the state, with its nodes and edges, its values read. */
+/* Adds it to the state, with its nodes and edges; its values must have been read. */
 void part_draft_commit(PartDraft *draft, const char *text);
-/* the name of the part, then what it connects (model_terminals.c) */
+/* reads the name of the part, then what it connects (model_terminals.c) */
 MUST_USE Status part_draft_read_name(PartDraft *draft);
 MUST_USE Status part_draft_read_terminals(PartDraft *draft);
-/* how the statement of such a part begins: "NAME TAIL TIP" */
+/* the start of the statement of such a part: "NAME TAIL TIP" */
 void places_form(const Component *row, Text *out);
 Place statement_end(const Statement *statement);
 bool part_is_frame(const Instance *part);

@@ -1,7 +1,7 @@
-/* model_event.c: events: a condition, and what happens when it becomes true
+/* model_event.c: events: a condition, and the action when it becomes true
  *
- * Their lines come behind all others, since they may name anything and nothing names
- * them; a later statement of the same name takes the place of the earlier one. */
+ * Their lines come after all others, since they may name anything and nothing names them. A later
+ * statement with the same name replaces the earlier one. */
 #include "model/model_impl.h"
 
 #include <string.h>
@@ -13,7 +13,7 @@ static bool is_constant(Expr e)
     return (expr_kinds(e) & ~(1U << SYMBOL_PARAMETER)) == 0;
 }
 
-/* made of comparisons, and of what can't change during a run */
+/* contains comparisons and operands that are constant during a run */
 static bool is_condition(Expr e)
 {
     if (is_constant(e))
@@ -39,7 +39,7 @@ static bool is_condition(Expr e)
     }
 }
 
-/* whether a condition that is one asks two changing values to be equal */
+/* whether a condition compares two variable values for equality */
 static bool asks_equality(Expr e)
 {
     if (is_constant(e) || expr_kind(e) != EXPR_CALL)
@@ -54,7 +54,7 @@ static bool asks_equality(Expr e)
     return false;
 }
 
-/* the first == or != in the text; NULL where it stands in an output or a law */
+/* the first == or != in the text; NULL where it is in an output or a law */
 static const Syntax *find_equality(const Syntax *syntax)
 {
     const Syntax *found = NULL;
@@ -175,7 +175,7 @@ static Status read_pairs(EventDraft *r, const Statement *statement, Diag *diag)
     return OK;
 }
 
-/* a new event, or another one under the same name */
+/* adds a new event, or replaces the one of the same name */
 static void put_event(State *state, const char *text, const Event *event, const Scope *scope)
 {
     const Thing *thing = state_thing(state, event->name);

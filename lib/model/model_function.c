@@ -1,5 +1,5 @@
-/* model_function.c: calls: functions of the table, pulses and polygons, laws, entries of what is
- * shown, figures of a run */
+/* model_function.c: calls: functions of the table, pulses and polygons, laws, entries that `show`
+ * prints, and figures of a run */
 #include "base/decimal.h"
 #include "language/foreign_syntax.h"
 #include "language/functions.h"
@@ -12,13 +12,13 @@ typedef Status Build(Scope *scope, const Syntax *syntax, const Expr *args, Expr 
 
 static Build build_pulse, build_polygon, build_table;
 
-/* what builds the shapes of the table of functions */
+/* builders of the pulse shapes in the table of functions */
 static const struct {
     const char *name;
     Build *build;
 } builders[] = {{"pulse", build_pulse}, {"pwl", build_polygon}, {"table", build_table}};
 
-/* entries of what `show` prints; where each has a unit of its own there is none here */
+/* entries that `show` prints; without a unit here if each has a unit of its own */
 static const struct {
     const char *name;
     int args;
@@ -49,8 +49,8 @@ static Status wrong_count(const Syntax *syntax, const char *usage, Diag *diag)
 
 /* --- pulses, from two edges, and polygons --- */
 
-/* From 0 at x = 0 to 1 at x = width, and exactly these before and after, so that a pulse leaves
- * nothing behind. One that takes no time is a step. */
+/* From 0 at x = 0 to 1 at x = width, with exactly these values before and after, so that a pulse
+ * ends at exactly 0. For width 0 it is a step. */
 static Expr edge(Arena *arena, Expr x, Expr width)
 {
     if (expr_is_zero(width))
@@ -87,7 +87,7 @@ static Status build_pulse(Scope *scope, const Syntax *syntax, const Expr *args, 
     return OK;
 }
 
-/* The line through points from..to, by halves: as deep as the logarithm of their number. */
+/* The polygon through points from..to, by bisection: as deep as the logarithm of their number. */
 static Expr polygon(Arena *arena, Expr t, const Expr *points, int from, int to)
 {
     int middle = (from + to) / 2;
@@ -133,7 +133,7 @@ static Status build_polygon(Scope *scope, const Syntax *syntax, const Expr *args
     return OK;
 }
 
-/* the order of a derivative is a whole number that has one */
+/* the order of a derivative must be a permitted whole number */
 static bool is_order(Expr e)
 {
     int64_t num, den;
@@ -164,7 +164,7 @@ static Status build_table(Scope *scope, const Syntax *syntax, const Expr *args, 
     return OK;
 }
 
-/* --- the rest --- */
+/* --- other calls --- */
 
 static Status call_function(Scope *scope, const Syntax *syntax, const Function *row,
                             const Expr *args, Expr *out, Diag *diag)
@@ -184,7 +184,7 @@ static Status call_function(Scope *scope, const Syntax *syntax, const Function *
     return OK;
 }
 
-/* each of its points is looked at in each step */
+/* each of its points is evaluated in each step */
 static Status too_long(const Syntax *syntax, Diag *diag)
 {
     (void)diag_at(diag, E_VALUE, syntax->place, "%s with %d points is too long", syntax->text,
@@ -211,7 +211,7 @@ static Status call_law(Scope *scope, const Syntax *syntax, int index, const Expr
     return OK;
 }
 
-/* mass(2,2): a variable of that name, its numbers without blanks */
+/* mass(2,2): a variable with that name, its numbers without blanks */
 static Status call_entry(Scope *scope, const Syntax *syntax, int wanted, const Expr *args,
                          Expr *out, Diag *diag)
 {
@@ -243,8 +243,7 @@ done:
     return status;
 }
 
-/* the part that deforms whose deflection or section's force a call asks for: b1.v(x); NULL: it asks
- * for none */
+/* the flexible part of a call for a deflection or section force: b1.v(x); NULL: the call is none */
 static const Instance *bent_part(const State *state, const char *text, const char **member)
 {
     static const char *const members[] = {"u", "v", "w", "phi"};
@@ -290,7 +289,7 @@ bool place_has_rate(const State *state, const char *name)
     return has;
 }
 
-/* b1.v(L/2): a variable of that name, the place as the number that it is now */
+/* b1.v(L/2): a variable with that name, and the position as its current number */
 static Status call_deflection(Scope *scope, const Syntax *syntax, const Instance *part,
                               const char *member, const Expr *args, Expr *out, Diag *diag)
 {
@@ -329,7 +328,7 @@ static Status call_deflection(Scope *scope, const Syntax *syntax, const Instance
     return OK;
 }
 
-/* max(h8): a variable of that name, its argument as printed */
+/* max(h8): a variable with that name, its argument as printed */
 static Status call_figure(Scope *scope, const Syntax *syntax, const Expr *args, Expr *out,
                           Diag *diag)
 {

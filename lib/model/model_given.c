@@ -1,11 +1,11 @@
-/* model_given.c: subsystems that hold equations in the place of parts
+/* model_given.c: subsystems that contain equations instead of parts
  *
- * What moves frames becomes a block, mass q'' = force: the coefficients of the efforts at these
- * frames have to be the transposed Jacobian of their motion, or the ports would make power of
- * nothing. A frame in through= that is given no motion is free: its motion is unknowns of its own,
- * which the efforts that are given there move. Every other unknown becomes a part of its own in the
- * network. `unknown` and `give` make parts, so that their names are there; what these hold is told
- * when all lines are read (model_given_end.c). */
+ * Unknowns that move frames become a block, mass q'' = force. The coefficients of the efforts at
+ * these frames must be the transposed Jacobian of their motion; otherwise the ports would create
+ * power. A frame in through= without given motion is free: its motion is additional unknowns, on
+ * which the efforts given there act. Every other unknown becomes a part of its own in the network.
+ * `unknown` and `give` make parts, so that their names exist. Their equations are set when all
+ * lines are read (model_given_end.c). */
 #include "model/model_given.h"
 #include "component/component_rows.h"
 #include "language/verbs.h"
@@ -68,7 +68,7 @@ static Statements read_lines(const char *body)
     return out;
 }
 
-/* whether the tree holds the variable with so many primes at least */
+/* whether the tree contains the variable with at least that many primes */
 static bool holds(const Syntax *syntax, const char *name, int primes)
 {
     if (syntax->kind == SYNTAX_VARIABLE && strcmp(syntax->text, name) == 0)
@@ -79,7 +79,7 @@ static bool holds(const Syntax *syntax, const char *name, int primes)
     return false;
 }
 
-/* of `P.x`: the port, and which motion; -1: something else */
+/* for `P.x`: the port, and which motion; -1: something else */
 static int motion_given(const Subsystem *subsystem, const char *path, int *port)
 {
     const size_t length = strcspn(path, ".");
@@ -97,7 +97,7 @@ typedef struct Scan {
     Statements lines;
     LIST(const char *) names; /* of unknowns, and "A.x" of free frames */
     bool *moves;
-    bool *frames, *free; /* by port: its motion is given */
+    bool *frames, *free; /* by port: whether its motion is given, or it is free */
 } Scan;
 
 static bool mark_all(Scan *scan, const Syntax *syntax, int primes)
@@ -111,7 +111,7 @@ static bool mark_all(Scan *scan, const Syntax *syntax, int primes)
     return more;
 }
 
-/* frames in through= that are given no motion */
+/* frames in through= without given motion */
 static void mark_free(Scan *scan, const State *state)
 {
     for (int p = 0; p < scan->subsystem->port_count; p++) {
@@ -131,8 +131,8 @@ static void mark_free(Scan *scan, const State *state)
     }
 }
 
-/* what accelerates in one equation with what moves a frame, or in the effort that moves a free one
- */
+/* marks unknowns that accelerate in one equation with an unknown that moves a frame, or in the
+ * effort on a free frame */
 static bool mark_beside(Scan *scan, const Statement *s)
 {
     bool moves = false, more = false;
@@ -150,7 +150,7 @@ static bool mark_beside(Scan *scan, const Statement *s)
     return more;
 }
 
-/* What stands in a frame's motion moves it, and what accelerates with that. */
+/* Marks the unknowns in a frame's motion, and those that accelerate in the same equations. */
 static void mark_moving(Scan *scan, const State *state)
 {
     bool more = true;
@@ -244,14 +244,15 @@ static EquationBlock *new_given(State *state, int count, int frames)
     return given;
 }
 
-/* values that are nothing yet */
+/* empty values */
 static void clear_values(State *state, Instance *part)
 {
     for (int k = 0; k < part->row->param_count; k++)
         param_fallback(state, &part->row->params[k], &part->values[k]);
 }
 
-/* A part of the inside between mechanical nodes (-1: its own) or on a terminal and the datum. */
+/* Adds a part of the inside between mechanical nodes (-1: its own) or on a terminal and the
+ * datum. */
 static Instance *add_part(State *state, const Component *row, const char *name, int tail, int head,
                           const char *terminal)
 {
@@ -300,7 +301,7 @@ static Status is_taken(const Use *use, const char *name, Place place, Diag *diag
     return E_NAME;
 }
 
-/* whether the user left the name of a part that is made of equations */
+/* whether the name of a part made from equations is still free in the user's model */
 static Status name_is_left(const State *state, const Use *use, const char *name, Place place,
                            Diag *diag)
 {
@@ -312,7 +313,7 @@ static Status name_is_left(const State *state, const Use *use, const char *name,
     return is_taken(use, name, place, diag);
 }
 
-/* the block and its coordinates, then the frames that it moves */
+/* adds the block and its coordinates, then the frames that it moves */
 static Status add_block(State *state, const Use *use, Place place, Diag *diag)
 {
     BlockEquations *equations = use->equations;
@@ -456,8 +457,8 @@ static Status in_this_scene(const State *state, const BlockEquation *e, const Pa
     return E_VALUE;
 }
 
-/* What hands out an effort at a frame, of which others may have been told; NULL: the frame rests,
- * and feels none. */
+/* The part that applies an effort at a frame, which may exist already; NULL: the frame is at rest,
+ * and needs no effort. */
 static Instance *loading_part(State *state, const Component *row, const char *name,
                               const char *frame)
 {
@@ -472,7 +473,7 @@ static Instance *loading_part(State *state, const Component *row, const char *na
                     graph_find_node(state->graph, frame), NULL);
 }
 
-/* *out: the part of what a port is given, if it has one */
+/* *out: the part for the quantity that a port is given, if it has one */
 static Status part_given(State *state, const Use *use, const BlockEquation *e, Instance **out,
                          Place place, Diag *diag)
 {
@@ -499,13 +500,13 @@ static Status part_given(State *state, const Use *use, const BlockEquation *e, I
         CHECK(name_is_left(state, use, name.at, place, diag));
     if (!port->is_frame && e->member == 0 && e->value->kind == SYNTAX_NUMBER &&
         strtod(e->value->text, NULL) == 0)
-        (void)state_terminal(state, at, DOMAIN_ELECTRICAL); /* it only looks */
+        (void)state_terminal(state, at, DOMAIN_ELECTRICAL); /* it has no current */
     else if (!port->is_frame)
         *out = add_part(state, e->member == 0 ? &component_isource : &component_vsource, name.at,
                         -1, -1, at);
     else if (!moves)
         *out = loading_part(state, load, name.at, at);
-    else if (state_part(state, own) == NULL) /* of a definition whose end isn't read */
+    else if (state_part(state, own) == NULL) /* of a definition whose end has not been read */
         add_frame(state, use, e->port, state->datum[DOMAIN_MECHANICAL], 0);
 done:
     text_free(&name);

@@ -1,4 +1,4 @@
-/* model_given.h: what the files of given equations share */
+/* model_given.h: shared by the files of given equations */
 #ifndef COTREE_MODEL_MODEL_GIVEN_H
 #define COTREE_MODEL_MODEL_GIVEN_H
 
@@ -13,33 +13,36 @@ typedef enum EquationKind { EQUATION_UNKNOWN, EQUATION_INTERNAL, EQUATION_GIVES 
 
 typedef struct BlockEquation {
     EquationKind kind;
-    Instance *part; /* of an unknown that moves nothing; that hands out what is given, or NULL */
+    /* of an unknown that moves nothing, or the part that applies what is given; or NULL */
+    Instance *part;
     int port;
     bool is_motion;
-    int member; /* of given_motions or given_efforts; of a terminal 0 for its current, 1 for its
-                   voltage */
+    /* index in given_motions or given_efforts; for a terminal 0 for its current, 1 for its
+     * voltage */
+    int member;
     const Syntax *value;
     Place place;
-    Expr e; /* the value, once all lines are read */
+    Expr e; /* its value, after all lines have been read */
     struct BlockEquation *next;
 } BlockEquation;
 
 struct BlockEquations {
     BlockEquation *first, *last;
-    const char **moving; /* names of unknowns that move frames, in order; then those of free ones */
+    /* names of unknowns that move frames, in order, followed by those of free frames */
+    const char **moving;
     int moving_count;
-    int free_count; /* of unknowns that are the motion of a frame itself */
-    int *frames;    /* ports whose motion is given, or free */
+    int free_count; /* number of unknowns that are the motion of a frame itself */
+    int *frames;    /* ports whose motion is given, or that are free */
     int frame_count;
     Instance *block; /* NULL until the first unknown */
-    bool has_parts;  /* lines made some */
+    bool has_parts;  /* lines have made some */
 };
 
-/* Whether frames of the scene have the motion: one of given_motions. */
+/* Whether frames of the scene have that motion, one of given_motions. */
 bool given_moves(const State *state, int motion);
-/* "leg1.NAME", and "leg1.A_x" of the motion A.x; in the state's pool */
+/* "leg1.NAME", and "leg1.A_x" for the motion A.x; in the state's pool */
 const char *given_name(State *state, const Use *use, const char *name);
-/* Whether a frame rests: where it stands then, over parameters. */
+/* Whether a frame is at rest, and then its pose, over parameters. */
 bool given_rests(const State *state, const char *frame, Expr pose[GIVEN_POSE]);
 
 #endif

@@ -1,4 +1,5 @@
-/* model_given_end.c: given equations, all of them read, to the values of the parts made for them */
+/* model_given_end.c: sets the values of the parts made for given equations, once all lines are
+ * read */
 #include "base/random.h"
 #include "model/model_given.h"
 
@@ -14,15 +15,16 @@ typedef struct Ending {
     Scope scope;
     NameList arguments;          /* efforts at frames whose motion is given: "leg1.B.fx" */
     ModelGivenEndExprs rates;    /* highest derivatives of unknowns that move */
-    ModelGivenEndExprs unknowns; /* themselves */
+    ModelGivenEndExprs unknowns; /* the unknowns themselves */
     ModelGivenEndExprs efforts;  /* of `arguments` */
-    ModelGivenEndExprs once;     /* rates and efforts: what equations of motion are linear in */
-    ModelGivenEndExprs from, to; /* variables of ports at rest, derivatives of the other unknowns */
-    bool at_use;                 /* what is wrong is what the instance is bound to */
+    ModelGivenEndExprs once;     /* rates and efforts: equations of motion are linear in these */
+    /* variables of ports at rest, derivatives of the other unknowns; and their replacements */
+    ModelGivenEndExprs from, to;
+    bool at_use; /* the fault is in the frame or terminal that the instance is bound to */
     Diag *diag;
 } Ending;
 
-/* --- ports whose motion is told --- */
+/* --- ports with known motion --- */
 
 static void put(Ending *ending, Expr from, Expr to)
 {
@@ -41,7 +43,8 @@ static Expr variable(const Ending *ending, const char *head, const char *member)
     return symbol;
 }
 
-/* the members of a frame: which motion (-1: a turn that there isn't), and how many times derived */
+/* the members of a frame: which motion (-1: a turn that doesn't exist), and the number of
+ * derivatives */
 static const struct {
     const char *name;
     int motion, order;
@@ -53,7 +56,7 @@ static const struct {
     {".theta''", 3, 2}, {".alphax", -1, 2}, {".alphay", -1, 2}, {".alphaz", 3, 2},
 };
 
-/* a motion of a free frame, derived so many times */
+/* a motion of a free frame, with that number of derivatives */
 static Expr free_motion(const Ending *ending, int port, int motion, int order)
 {
     static const char *const primes[] = {"", "'", "''"};
@@ -68,7 +71,7 @@ static Expr free_motion(const Ending *ending, int port, int motion, int order)
     return out;
 }
 
-/* a frame in through= that is given no motion */
+/* a frame in through= without given motion */
 static bool is_free(const Ending *ending, int port)
 {
     const Port *p = &ending->use->subsystem->ports[port];
@@ -79,8 +82,8 @@ static bool is_free(const Ending *ending, int port)
     return p->is_frame && p->is_through;
 }
 
-/* A.x and the like are numbers where A rests, and so are their rates; of a free frame they are
- * unknowns */
+/* A.x and the like are numbers where A is at rest, and so are their rates; for a free frame they
+ * are unknowns */
 static Status put_ports(Ending *ending)
 {
     const Use *use = ending->use;
@@ -164,7 +167,7 @@ static bool depends_on_any(Expr e, const ModelGivenEndExprs *symbols)
     return false;
 }
 
-/* the highest derivative of an unknown in the equations */
+/* the order of an unknown's highest derivative in the equations */
 static int order_of(const Ending *ending, const Instance *unknown)
 {
     int order = 0;
@@ -177,7 +180,7 @@ static int order_of(const Ending *ending, const Instance *unknown)
     return order;
 }
 
-/* Names of derivatives in the equations: the last is what the network solves for, the others are
+/* Names of derivatives in the equations: the network solves for the last one, the others are
  * states. */
 static void report_orders(Ending *ending)
 {
@@ -255,7 +258,7 @@ static bool is_listed(const BlockEquations *equations, int port, int motion)
     return false;
 }
 
-/* each port hands out something, and a frame that is moved all of its motion */
+/* each port must be given a quantity, and a moved frame all of its motion */
 static Status check_ports(const Ending *ending)
 {
     const Subsystem *subsystem = ending->use->subsystem;
@@ -264,7 +267,7 @@ static Status check_ports(const Ending *ending)
     for (int p = 0; p < subsystem->port_count; p++) {
         const Port *port = &subsystem->ports[p];
 
-        /* a frame at rest feels no effort */
+        /* a frame at rest needs no effort */
         if (is_listed(equations, p, -1) || (port->is_frame && equations->moving_count > 0))
             continue;
         (void)diag_at(ending->diag, E_MODEL, equations->last->place,
@@ -298,7 +301,7 @@ static Status check_ports(const Ending *ending)
     return OK;
 }
 
-/* --- identities, by numbers at random places --- */
+/* --- identities, tested numerically at random points --- */
 
 static double random_value(void *context, Expr symbol)
 {
@@ -308,21 +311,22 @@ static double random_value(void *context, Expr symbol)
 
     for (const char *c = expr_name(symbol); *c != '\0'; c++)
         seed = seed * 131 + (unsigned char)*c;
-    seed += (uint64_t)state->number * 977; /* another place each time it is counted up */
+    seed += (uint64_t)state->number * 977; /* another point each time it is incremented */
     unit = random_unit(&seed);
     if (expr_symbol_kind(symbol) != SYMBOL_PARAMETER)
         return unit;
     own = state_number_now(state, symbol);
-    return own != 0 ? own * (1 + unit / 4) : unit / 4; /* next to what it is: of its sign */
+    /* close to its current value: with the same sign */
+    return own != 0 ? own * (1 + unit / 4) : unit / 4;
 }
 
 enum { TRIES = 6 };
-static const double EQUAL = 1e-9; /* of the larger of two numbers: far above rounding */
+static const double EQUAL = 1e-9; /* relative to the larger of two numbers: far above rounding */
 
-/* whether a and b are one function; where no place tells, they are not taken for one */
+/* whether a and b are the same function; false where no point decides it */
 static bool same_function(const State *state, Expr a, Expr b)
 {
-    State place = *state; /* its number alone tells places apart */
+    State place = *state; /* its number alone distinguishes points */
     bool same = true, is_listed = a == b;
 
     for (int i = 0; i < TRIES && same; i++) {
@@ -349,9 +353,9 @@ static bool is_negative(const State *state, Expr e)
     return negative;
 }
 
-/* --- what moves frames --- */
+/* --- unknowns that move frames --- */
 
-/* its motion (else zero) */
+/* its motion (otherwise zero) */
 static Expr motion_of(const Ending *ending, int frame, int motion)
 {
     if (is_free(ending, ending->equations->frames[frame]))
@@ -391,8 +395,8 @@ static Status read_pose(const Ending *ending, EquationBlock *given)
     return OK;
 }
 
-/* What an equation is to be divided by, so that it is mass q'' - force + J^T effort = 0: by the
- * first effort that the unknown moves. NULL: it moves none */
+/* The divisor that brings an equation to the form mass q'' - force + J^T effort = 0: from the first
+ * effort that acts on the unknown. NULL: none does */
 static Expr scale_of(const Ending *ending, const EquationBlock *given, Expr row, int unknown)
 {
     Arena *arena = ending->state->arena;
@@ -418,7 +422,8 @@ static Expr scale_of(const Ending *ending, const EquationBlock *given, Expr row,
     return expr_int(arena, 1);
 }
 
-/* whether all efforts stand in the row as they do work on the unknown's motion */
+/* whether the coefficients of all efforts in the row equal those of their work on the unknown's
+ * motion */
 static bool makes_no_power(const Ending *ending, const EquationBlock *given, Expr row, Expr scale,
                            int unknown)
 {
@@ -454,7 +459,7 @@ static Status not_the_one(const Ending *ending, const BlockEquation *row, int un
     return E_MODEL;
 }
 
-/* it is linear in what may stand in it once only */
+/* checks that it is linear in quantities that may only occur linearly */
 static Status check_linear(const Ending *ending, const BlockEquation *row,
                            const ModelGivenEndExprs *symbols, const char *what)
 {
@@ -491,7 +496,7 @@ static Status read_row(const Ending *ending, const BlockEquation *row, int unkno
     return OK;
 }
 
-/* inertia: symmetric, not negative, of positions alone */
+/* the mass matrix must be symmetric, not negative, and depend on positions alone */
 static Status check_mass(const Ending *ending, const EquationBlock *given,
                          const BlockEquation *const *rows)
 {
@@ -546,7 +551,7 @@ static bool contains_turn(Expr e, Expr symbol)
     return false;
 }
 
-/* an angle, where it turns a frame or stands below a sine */
+/* marks an unknown as an angle where it turns a frame or is the argument of a sine */
 static void report_kinds(const Ending *ending, const EquationBlock *given)
 {
     Instance *block = ending->equations->block;
@@ -564,7 +569,7 @@ static bool is_moving_row(const Ending *ending, const BlockEquation *e)
            (depends_on_any(e->e, &ending->rates) || depends_on_any(e->e, &ending->efforts));
 }
 
-/* without a block nothing carries the frames */
+/* without a block nothing determines the motion of the frames */
 static Status check_no_motion(const Ending *ending)
 {
     for (const BlockEquation *e = ending->equations->first; e != NULL; e = e->next) {
@@ -578,7 +583,7 @@ static Status check_no_motion(const Ending *ending)
     return OK;
 }
 
-/* what moves a free frame: its effort is the one that is given there, or none */
+/* the equation of a free frame's motion: the effort given there, or none */
 static BlockEquation *free_row(const Ending *ending, int frame, int motion)
 {
     static const int effort_of[GIVEN_POSE] = {0, 1, 2, 5};
@@ -595,7 +600,7 @@ static BlockEquation *free_row(const Ending *ending, int frame, int motion)
     return row;
 }
 
-/* the rows of free frames behind the others, as their unknowns are */
+/* the rows of free frames come after the others, as their unknowns do */
 static Status read_free(const Ending *ending, EquationBlock *given, const BlockEquation **rows)
 {
     int next = given->count - ending->equations->free_count;
@@ -649,9 +654,9 @@ static Status report_block(Ending *ending)
     return OK;
 }
 
-/* --- the rest --- */
+/* --- other unknowns --- */
 
-/* the other equations, in the order of the other unknowns */
+/* sets the other equations, in the order of the other unknowns */
 static Status report_unknowns(Ending *ending)
 {
     const BlockEquations *equations = ending->equations;
@@ -666,7 +671,7 @@ static Status report_unknowns(Ending *ending)
         if (u->kind != EQUATION_UNKNOWN || u->part == NULL)
             continue;
         while (e->kind != EQUATION_INTERNAL || is_moving_row(ending, e))
-            e = e->next; /* counts agree */
+            e = e->next; /* the counts are equal */
         CHECK(check_linear(ending, e, &last, "the highest derivatives"));
         ((EquationBlock *)u->part->given)->equation =
             e->e; /* a copy of its own, see report_orders() */
@@ -698,7 +703,7 @@ static Status report_given(Ending *ending)
     return OK;
 }
 
-/* In order; the first fault is told. */
+/* In order; reports the first fault. */
 static Status end_all(Ending *ending)
 {
     TRY(check_counts(ending));
@@ -734,7 +739,7 @@ Status given_end(State *state, int use, bool *at_use, Diag *diag)
         return OK;
     status = end_all(&ending);
     *at_use = ending.at_use;
-    /* what the expressions need, a line that came of them does */
+    /* a line made from the expressions needs what they need */
     if (status == OK)
         line_uses(state, &state->lines.at[state->lines.count - 1], &ending.scope);
     LIST_FREE(ending.scope.uses);

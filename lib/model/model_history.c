@@ -1,12 +1,12 @@
-/* model_history.c: the statements that a model accepted, and the way back and forth over them */
+/* model_history.c: the accepted statements of a model, with undo and redo */
 #include "model/model_history.h"
 
 #include "language/verbs.h"
 
 #include <string.h>
 
-/* Of states that others took the place of (a name deleted, a law replaced), which are quicker kept
- * than made anew. */
+/* For states that were replaced (a name deleted, a law replaced): storing them is quicker than
+ * rebuilding. */
 static const size_t most_kept = (size_t)128 << 20; /* bytes */
 
 void history_open(History *history)
@@ -31,7 +31,7 @@ static Accepted *add(History *history, const char *text, Effect effect, const St
     return &history->list.at[history->list.count - 1];
 }
 
-/* Apply, and have the way back. */
+/* Applies a statement, and sets the mark for undoing it. */
 static Status apply_marked(State **state, const Statement *statement, StateMark *mark,
                            Outcome *outcome, Diag *diag)
 {
@@ -47,7 +47,7 @@ static Status apply_marked(State **state, const Statement *statement, StateMark 
     return OK;
 }
 
-/* a definition is called by its first line */
+/* the name of a definition is its first line */
 static const char *name_of_block(History *history, const char *text)
 {
     const size_t length = strcspn(text, "\n");
@@ -91,7 +91,7 @@ void history_join(History *history, int count, const char *called)
     last[1 - count].after = count - 1;
 }
 
-/* --- back and forth --- */
+/* --- undo and redo --- */
 
 static Status take_again(History *history, int i, State **state, Diag *diag)
 {
@@ -115,7 +115,7 @@ done:
     return status;
 }
 
-/* the state that the first `count` steps make, from their texts */
+/* rebuilds the state after the first `count` steps, from their texts */
 static Status make_anew(History *history, int count, State **state, Diag *diag)
 {
     State *made = state_new((*state)->arena);

@@ -1,8 +1,7 @@
-/* model_history.h: the statements that a model accepted, in order, and the way back and forth over
- * them
+/* model_history.h: the accepted statements of a model, in order, with undo and redo
  *
- * Each step has a mark of the state that it found. Where that state is no longer there, the state
- * is made anew from the texts of the steps before. */
+ * Each step has a mark of the state before it. Where that state no longer exists, it is rebuilt
+ * from the texts of the steps before. */
 #ifndef COTREE_MODEL_MODEL_HISTORY_H
 #define COTREE_MODEL_MODEL_HISTORY_H
 
@@ -12,31 +11,31 @@ typedef struct Accepted {
     const char *text; /* the statement in full */
     Effect effect;
     bool clears;
-    int before;         /* steps before it that are undone with it */
-    int after;          /* steps behind it that are done again with it */
-    const char *called; /* what they are called together; NULL: text */
+    int before;         /* number of steps before it that are undone with it */
+    int after;          /* number of steps after it that are redone with it */
+    const char *called; /* their common name; NULL: text */
     StateMark mark;
-    int serial; /* no other step has it */
+    int serial; /* unique number */
 } Accepted;
 
 typedef struct History {
     Pool *texts;
     LIST(Accepted) list;
-    int done; /* steps that count; those behind can be redone */
-    int low;  /* the fewest since a group was begun */
+    int done; /* number of steps in effect; those after them can be redone */
+    int low;  /* the lowest number since a group was begun */
     int serial;
 } History;
 
 void history_open(History *history);
 void history_close(History *history);
-/* Apply a statement; one that says something becomes a step. */
+/* Applies a statement; if it has an effect it becomes a step. */
 MUST_USE Status history_restore(History *history, State **state, const Statement *statement,
                                 Outcome *outcome, Diag *diag);
 void history_clear(History *history, State **state);
-/* The last `count` steps are one from now on. */
+/* Makes the last `count` steps one. */
 void history_join(History *history, int count, const char *called);
-/* Back over the last step, or forth over the next, and those that go with it: what they are called,
- * and what they changed. */
+/* Undoes the last step, or redoes the next one, with those that belong to it; returns their name
+ * and effect. */
 MUST_USE Status history_undo(History *history, State **state, const char **over, Effect *effect,
                              Diag *diag);
 MUST_USE Status history_redo(History *history, State **state, const char **over, Effect *effect,

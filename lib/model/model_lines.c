@@ -1,10 +1,10 @@
-/* model_lines.c: the lines that a state is made of: adding and ordering */
+/* model_lines.c: the lines that a state is made from: adding and ordering */
 #include "model/model_impl.h"
 
 #include <ctype.h>
 #include <string.h>
 
-/* "virtual rev h8 ..." in full: the statement's verb may have been shortened */
+/* "virtual rev h8 ..." in full: the statement's verb may be abbreviated */
 char *statement_full_text(const Statement *statement)
 {
     const char *rest = statement->text;
@@ -74,8 +74,8 @@ typedef struct LineOrder {
     bool *placed;
     int *lines;
     int count;
-    NumberList stack; /* lines waiting for what they use */
-    NumberList next;  /* which of their uses to look at */
+    NumberList stack; /* lines that wait for the lines they use */
+    NumberList next;  /* index of the use to visit next, for each */
 } LineOrder;
 
 static void place_line(LineOrder *order, int line)
@@ -105,7 +105,7 @@ static void place_line(LineOrder *order, int line)
     }
 }
 
-/* outputs and events may hold the names of anything that was made after them first */
+/* outputs and events come after all that they may name */
 static int rank_of(const State *state, const Line *line)
 {
     DefinitionKind kind =

@@ -1,9 +1,8 @@
-/* model_mark.c: the way back over a statement, without making the state anew
+/* model_mark.c: undoes a statement without rebuilding the state
  *
- * Most statements only add: parts, names, lines go to the ends of lists, and a mark of
- * their lengths is the way back. What a statement changes in place is kept as it was,
- * in the order of the changes. A state that took the place of another keeps that one,
- * in which nothing is changed any more. */
+ * Most statements only add parts, names and lines to the ends of lists. A mark of the lengths is
+ * enough to undo that. What a statement changes in place is stored with its old value, in the order
+ * of the changes. A state that replaced another owns that one, which then no longer changes. */
 #include "model/model_impl.h"
 
 #include <assert.h>
@@ -30,7 +29,7 @@ StateMark state_mark(const State *state)
                        .changes = state->changes.count};
 }
 
-/* --- keeping --- */
+/* --- storing --- */
 
 static Change *keep(State *state, ChangeKind kind, int at)
 {
@@ -123,7 +122,7 @@ void state_note_setup(State *state, const Setup *before)
     keep(state, CHANGED_SETUP, 0)->was.setup = copy;
 }
 
-/* --- back --- */
+/* --- restoring --- */
 
 static void restore_setup(State *state, const Setup *setup)
 {
@@ -136,7 +135,7 @@ static void restore_setup(State *state, const Setup *setup)
     state->settings = setup->settings;
 }
 
-/* values of parameters follow from one another */
+/* values of parameters depend on each other */
 static void restore_definition(State *state, int at, const Definition *was)
 {
     mem_keep_part(state->definitions.at, &state->definitions.at[at], sizeof *was);
@@ -314,7 +313,7 @@ void state_forget_before(State *state, size_t bytes)
     }
 }
 
-/* --- its end --- */
+/* --- freeing --- */
 
 static void free_one(State *state)
 {

@@ -1,7 +1,7 @@
-/* model_names.c: one name, one thing; what a dotted name reaches
+/* model_names.c: names and their meaning; resolution of dotted names
  *
- * A variable's own name is its coordinate's ("theta1", "m1.x"), or owner and member
- * ("h9.fx"); primes follow behind it. */
+ * A variable's own name is its coordinate's ("theta1", "m1.x"), or owner and member ("h9.fx"),
+ * followed by primes. */
 #include "component/equation_block.h"
 #include "language/foreign_syntax.h"
 #include "language/functions.h"
@@ -10,7 +10,7 @@
 #include <ctype.h>
 #include <string.h>
 
-/* variables of the model as a whole; the error is of lengths and angles alike */
+/* variables of the whole model; the error has lengths and angles alike */
 static const struct {
     const char *name;
     const char *unit;
@@ -18,7 +18,7 @@ static const struct {
                        {"constraint.error", NULL}, {"model.n", "1"},          {"model.m", "1"},
                        {"model.dof", "1"}};
 
-/* what a count can be of: blocks of equations */
+/* what count.NAME can count: blocks of equations */
 static const char *const blocks[] = {"constraints", "jacobian", "velocity", "acceleration", "mass",
                                      "forces",      "network",  "state",    "equations"};
 static const char *const operations[] = {"add", "mul", "fun"};
@@ -53,7 +53,7 @@ const char *syntax_name(const Syntax *syntax)
     return syntax->text;
 }
 
-/* --- what names are --- */
+/* --- descriptions of names --- */
 
 static void article(Text *text, const char *word)
 {
@@ -200,7 +200,7 @@ static Status check_order(const char *name, int primes, int most, Place place, D
     return E_NAME;
 }
 
-/* The message for a part named alone where a variable is wanted: its members. */
+/* Reports a part's name without a member where a variable is required: lists its members. */
 static Status part_alone(const State *state, const Instance *part, Place place, Diag *diag)
 {
     const Member *member = component_member(part->row, state->planar, 0);
@@ -223,7 +223,7 @@ static Status part_alone(const State *state, const Instance *part, Place place, 
     return E_NAME;
 }
 
-/* what is said of a member that can't be asked for, as a key or a function of a place may not */
+/* hint for a member that is no variable, such as a key or a function of a position */
 static void hint_member(const State *state, const Instance *part, const char *member,
                         const Suggest *suggest, const Text *list, Diag *diag)
 {
@@ -264,8 +264,8 @@ static Status member_unknown(const State *state, const Instance *part, const cha
     return E_NAME;
 }
 
-/* a coordinate by the member name that its row gives it, also where the user renamed it; a part
- * that is being read has none yet */
+/* a coordinate by the member name in its row, also where the user renamed it; a part that is being
+ * read has none yet */
 static int coordinate_of_member(const State *state, const Instance *part, const char *member)
 {
     for (int i = 0; i < part->coord_count; i++) {
@@ -400,7 +400,7 @@ static Status plain_resolve(const State *state, const char *path, int primes, Pl
     return E_NAME;
 }
 
-/* leg1.h3, where there is none */
+/* leg1.h3, if there is no such name */
 static Status inside_unknown(const State *state, const char *path, const char *use, Place place,
                              Diag *diag)
 {
@@ -447,7 +447,7 @@ done:
     return status;
 }
 
-/* what gives a flow that can be nothing, in one word; none in hydraulics */
+/* a source with zero flow, in one word; none in hydraulics */
 static const char *idle_source(Domain domain)
 {
     static const char *const sources[DOMAIN_COUNT] = {[DOMAIN_ELECTRICAL] = "isource",
@@ -474,7 +474,7 @@ static Status dotted_resolve(const State *state, const Instance *own, const char
     if (part != NULL)
         return member_resolve(state, part, member, primes, place, name, diag);
     status = potential_resolve(state, path, dot, primes, place, name, diag);
-    /* a loop of blocks, which is written one after the other */
+    /* a loop of blocks, which must be written one after the other */
     if (status == E_NAME && own != NULL && diag != NULL && diag->hint[0] == '\0' &&
         own->row->family == FAMILY_SCALAR && own->row->domain != DOMAIN_HYDRAULIC &&
         strcmp(dot + 1, domain_across(own->row->domain)) == 0)

@@ -1,4 +1,4 @@
-/* model_number.c: what parameters and expressions of them are worth now */
+/* model_number.c: current values of parameters and of expressions of them */
 #include "model/model_impl.h"
 
 #include <math.h>
@@ -56,7 +56,7 @@ double state_literal(State *state, const char *name)
     return value;
 }
 
-/* push the parameters that must be known first; whether there were any */
+/* pushes the parameters that must be known first; returns whether there were any */
 static bool push_unknown(const State *state, Expr body, NumberList *stack)
 {
     Expr *symbols = NULL;
@@ -121,7 +121,7 @@ double state_number_now(const State *state, Expr body)
     Expr *symbols = NULL;
     int count = expr_symbols(&body, 1, &symbols);
 
-    /* parameters stand for expressions of others, and none for itself */
+    /* parameters depend on others, and none on itself */
     while (count > 0) {
         for (int i = 0; i < count; i++) {
             const Definition *d = definition_find(state, expr_name(symbols[i]), DEFINES_PARAMETER);

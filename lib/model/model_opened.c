@@ -1,14 +1,15 @@
 /* model_opened.c: a definition that is being read, statement by statement
  *
- * Each is tried at once on a state of its own; the model learns of them when `end` is read. */
+ * Each statement is tried at once on a separate state; the model gets the definition when `end` is
+ * read. */
 #include "model/model_impl.h"
 
 #include <string.h>
 
 struct Opened {
     State *trial;
-    int use;   /* the instance there that the statements are tried on */
-    Text text; /* the statements accepted, a line each */
+    int use;   /* the instance there to which the statements are applied */
+    Text text; /* the accepted statements, one on each line */
 };
 
 static void add_line(Opened *opened, const Statement *statement)

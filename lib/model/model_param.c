@@ -1,7 +1,8 @@
-/* model_param.c: the values that a part's statement gives, by the kind its row says
+/* model_param.c: the values in a part's statement, by the kind in its row
  *
- * Vectors are held with three entries, also in a planar scene (the third is 0). Axes
- * become unit vectors u / |u|, with an exact |u| where the entries are exact. */
+ * Vectors have three entries, also in a planar scene (the third is 0). Axes become unit vectors u /
+ * |u|,
+ * with an exact |u| where the entries are exact. */
 #include "model/model_impl.h"
 
 #include <math.h>
@@ -10,7 +11,7 @@
 typedef Status Read(Scope *scope, const Wanted *wanted, const Syntax *syntax, Value *out,
                     Diag *diag);
 
-/* a direction has no length: [3 mm, 4 mm, 0] is one */
+/* a direction has no unit: [3 mm, 4 mm, 0] is one */
 static Status check_axes(const Scope *scope, const Wanted *wanted, const Syntax *syntax, Diag *diag)
 {
     Text what = {0};
@@ -232,7 +233,7 @@ done:
 
 /* --- rotations --- */
 
-/* sine or cosine: a number of a number */
+/* sine or cosine: a number for a number */
 static Expr on_circle(Arena *arena, Op op, Expr angle)
 {
     Expr value = expr_call1(arena, op, angle);
@@ -242,7 +243,7 @@ static Expr on_circle(Arena *arena, Op op, Expr angle)
                : value;
 }
 
-/* cosine and sine, exact at quarter turns, of other numbers as doubles */
+/* cosine and sine, exact at quarter turns, otherwise as doubles */
 static void circle(Arena *arena, Expr angle, Expr *c, Expr *s)
 {
     static const int cosines[] = {1, 0, -1, 0};
@@ -329,7 +330,7 @@ static Status read_rotation(Scope *scope, const Wanted *wanted, const Syntax *sy
 
 /* --- words --- */
 
-/* the word between bars, where `text` stands at one; its length */
+/* length of the word between bars that begins at `text` */
 static size_t word_length(const char *text)
 {
     return strcspn(text, "|");
@@ -404,7 +405,7 @@ Status param_check_alike(const Component *row, const Value *values, int index, c
     return OK;
 }
 
-/* how many entries a default has */
+/* number of entries of a default */
 static int fallback_count(const State *state, ParamKind kind, const char *fallback)
 {
     switch (kind) {

@@ -1,4 +1,4 @@
-/* model_rebuild.c: a state made anew from its lines, and its lines as a script */
+/* model_rebuild.c: rebuilds a state from its lines, and saves its lines as a script */
 #include "model/model_impl.h"
 
 Status state_apply_text(State **state, const char *text, Text *remarks, Diag *diag)
@@ -28,7 +28,7 @@ static const char *line_name(const State *state, const Line *line)
     return line->definition >= 0 ? state->definitions.at[line->definition].name : line->text;
 }
 
-/* whether it changes something in an instance: set leg1.L1 = 2, set leg1.m1.mass = 3 */
+/* whether it changes values inside an instance: set leg1.L1 = 2, set leg1.m1.mass = 3 */
 static bool sets_inside(const State *state, const Line *line, const char *use)
 {
     return line->key != NULL &&
@@ -79,7 +79,7 @@ Status apply_pairs(State **state, const Statement *statement, ApplyPair *apply, 
     if (statement->pairs.count == 0)
         return diag_at(diag, E_SYNTAX, statement->place, "'%s' is followed by NAME = value",
                        statement->verb);
-    /* several: on a copy, so that a later one that fails leaves nothing of the earlier ones */
+    /* several pairs are applied to a copy, so that a failure undoes the earlier pairs */
     if (statement->pairs.count > 1)
         CHECK(state_rebuild(*state, -1, &work, NULL, NULL, diag));
     for (int i = 0; i < statement->pairs.count; i++) {

@@ -1,9 +1,9 @@
 /* model_rename.c: a definition's statements in the names of an instance
  *
- * What an instance leg1 makes is called leg1.NAME everywhere in the model, so that no other
- * part of cotree knows of subsystems. A name inside is, in this order: a law's argument, a word
- * of the language, a port, a name of its own, a parameter or law of the model. The bare name of a
- * part that is no value leaves it to a parameter, its own or the model's. */
+ * What an instance leg1 makes is called leg1.NAME everywhere in the model, so that no other part of
+ * cotree needs to handle subsystems. A name inside is, in this order: a law's argument, a word of
+ * the language, a port, a name of its own, a parameter or law of the model. The bare name of a part
+ * that is no value means a parameter of that name, the instance's or the model's. */
 #include "language/verbs.h"
 #include "model/model_impl.h"
 
@@ -15,9 +15,9 @@ typedef struct ModelRenameRenaming {
     int use;
     Pool *pool;
     const Statement *statement; /* a law's arguments hide other names */
-    bool gives;                 /* it is of equations: efforts at ports are names of the inside */
+    bool gives; /* it belongs to equations: efforts at ports are names of the inside */
     Diag *diag;
-    bool along;  /* x is the place along a part */
+    bool along;  /* x is the position along a part */
     bool places; /* names are those of parts, not of values */
 } ModelRenameRenaming;
 
@@ -74,8 +74,8 @@ done:
     return status;
 }
 
-/* Where a port is attached: NULL: it is a name of the inside. One of a definition that is being
- * read stands for whatever it will be bound to. */
+/* The node or part that a port is bound to; NULL: it is a name of the inside. A port of a
+ * definition that is being read represents whatever it will be bound to. */
 static Status port_place(const ModelRenameRenaming *r, int port, const char **out)
 {
     const Use *use = use_of(r);
@@ -102,7 +102,7 @@ static Status port_place(const ModelRenameRenaming *r, int port, const char **ou
     return OK;
 }
 
-/* The potential of a terminal on which nothing stands yet. */
+/* The potential of a terminal to which nothing is connected yet. */
 static void place_terminal(const ModelRenameRenaming *r, const char *name, const char *member)
 {
     for (Domain d = DOMAIN_ELECTRICAL; d < DOMAIN_COUNT; d++)
@@ -110,7 +110,7 @@ static void place_terminal(const ModelRenameRenaming *r, const char *name, const
             (void)state_terminal(r->state, name, d);
 }
 
-/* a member of what doesn't move, or has no potential, is a number */
+/* a member of a frame at rest, or of a terminal without potential, is a number */
 static const char *fixed_member(const State *state, bool is_frame, const char *member)
 {
     if (!is_frame)
@@ -158,7 +158,7 @@ static bool is_models(const State *state, const char *name)
            definition_find(state, name, DEFINES_LAW) != NULL;
 }
 
-/* whether the bare name, which is known inside, can be that of a value */
+/* whether the bare name, which exists inside, can be that of a value */
 static bool is_value(const State *state, const char *name)
 {
     const Thing *thing = state_value_thing(state, name);
@@ -167,7 +167,7 @@ static bool is_value(const State *state, const char *name)
            (thing->kind != THING_PART || part_is_value(state->parts.at[thing->index]));
 }
 
-/* `first` is a path's first name, `rest` what follows it, with its dot */
+/* `first` is a path's first name, `rest` follows it, with its dot */
 static Status path_of_port(const ModelRenameRenaming *r, int port, const char *rest,
                            const char **out, const char **number)
 {
@@ -194,7 +194,7 @@ static Status path_of_port(const ModelRenameRenaming *r, int port, const char *r
     return OK;
 }
 
-/* *number: it stands for this one, where that isn't NULL */
+/* *number: replaces the name, where it isn't NULL */
 static Status rename_path(const ModelRenameRenaming *r, const char *path, Place place,
                           const char **out, const char **number)
 {
@@ -232,7 +232,7 @@ static Status rename_in(const ModelRenameRenaming *r, Syntax *syntax)
             syntax->primes = 0;
         }
     }
-    /* a call of a law of its own, or of what a part has */
+    /* a call of a law of its own, or of a part's function */
     if (syntax->kind == SYNTAX_CALL &&
         is_known(r->state,
                  own_name(r, pool_text(r->pool, syntax->text, strcspn(syntax->text, ".")))))
@@ -291,7 +291,7 @@ static Status rename_terminal(const ModelRenameRenaming *r, Syntax *syntax)
     return OK;
 }
 
-/* a name that the statement makes; brackets for several */
+/* a name that the statement makes; several in brackets */
 static void rename_new(const ModelRenameRenaming *r, Syntax *syntax)
 {
     if (syntax->kind == SYNTAX_VARIABLE)
@@ -300,7 +300,7 @@ static void rename_new(const ModelRenameRenaming *r, Syntax *syntax)
         rename_new(r, syntax->args[i]);
 }
 
-/* A frame that was met before it is made stands for one that is given from outside. */
+/* A frame that occurs before the statement that makes it would mean a frame given from outside. */
 static Status check_made_first(const ModelRenameRenaming *r, const Operand *name)
 {
     const Use *use = use_of(r);
@@ -317,7 +317,7 @@ static Status check_made_first(const ModelRenameRenaming *r, const Operand *name
 
 /* --- statements --- */
 
-/* how many frames, joints or parts follow the name; values may come after them */
+/* number of frames, joints or parts after the name; values may follow them */
 static int named_places(const Component *row)
 {
     switch (row->places) {
@@ -374,7 +374,7 @@ static Status rename_component(const ModelRenameRenaming *r, Statement *s)
 
 static Status rename_use(const ModelRenameRenaming *r, Statement *s)
 {
-    assert(s->operands.at != NULL); /* the grammar wants them */
+    assert(s->operands.at != NULL); /* the grammar requires them */
 
     const char *name = syntax_name(s->operands.at[0].value);
     const Subsystem *inner = name != NULL ? state_subsystem(r->state, name, NULL) : NULL;
@@ -396,7 +396,7 @@ static Status rename_use(const ModelRenameRenaming *r, Statement *s)
     return OK;
 }
 
-/* unknown, internal, give: of the last, the ports whose variables it tells keep their names */
+/* unknown, internal, give: the ports whose variables a give sets are not renamed */
 static Status rename_given(ModelRenameRenaming *r, Statement *s)
 {
     r->gives = true;
@@ -418,7 +418,7 @@ static Status rename_given(ModelRenameRenaming *r, Statement *s)
     return OK;
 }
 
-/* what the verbs of a definition have: names and pairs of variables; of an event keys as well */
+/* operands of a definition's verbs: names and pairs of variables; events also have keys */
 static Status rename_verb(const ModelRenameRenaming *r, Statement *s)
 {
     const bool is_event = strcmp(s->verb, "event") == 0;

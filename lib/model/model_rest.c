@@ -1,4 +1,4 @@
-/* model_rest.c: frames that rest: ground, and arms on arms on it */
+/* model_rest.c: frames at rest: ground, and arms on it, also through other arms */
 #include "model/model_given.h"
 
 #include <string.h>
@@ -32,7 +32,7 @@ static void turn(Arena *arena, Expr R[9], const Expr *by)
     memcpy(R, product, sizeof product);
 }
 
-/* its place and turn against ground, along arms; false: something else lies between */
+/* its position and rotation against ground, along arms; false: the path contains another part */
 static bool place_frame(const State *state, const char *frame, Expr r[3], Expr R[9])
 {
     const Instance *arm = frame_maker(state, frame);

@@ -1,4 +1,4 @@
-/* model_scene.c: scene, gravity, title; changing and deleting what is there */
+/* model_scene.c: scene, gravity, title; changing and deleting existing things */
 #include "base/code_memory.h"
 #include "base/threads.h"
 #include "language/verbs.h"
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* the line of a statement of which only the last one counts */
+/* adds the line of a statement of which only the last one has effect */
 static void add_only_line(State *state, const Statement *statement, const Scope *scope)
 {
     char *text = statement_full_text(statement);
@@ -49,7 +49,7 @@ static Status check_scene(const State *state, const Operand *operand, bool plana
     return status;
 }
 
-/* The scene's line keeps its place before the others, whose text it may make wrong. */
+/* The scene's line remains before the others, which may be invalid in the new scene. */
 static Status change_scene(State **state, Line *line, const Statement *statement, Diag *diag)
 {
     Place place = statement->operands.at[0].place;
@@ -123,7 +123,7 @@ Status apply_title(State **state, const Statement *statement, Outcome *outcome, 
 
 /* --- set NAME.key = value --- */
 
-/* what is said of `set leg1.A = ...`, where A is no parameter */
+/* message for `set leg1.A = ...`, where A is no parameter */
 static Status key_of_use(const State *state, const Use *use, const char *key, const Pair *pair,
                          Diag *diag)
 {
@@ -175,7 +175,7 @@ done:
     return status;
 }
 
-/* where a place is in a text */
+/* offset of a position in a text */
 static size_t offset_of(const char *text, Place place)
 {
     const char *at = text;
@@ -185,7 +185,7 @@ static size_t offset_of(const char *text, Place place)
     return (size_t)(at - text) + (size_t)place.column - 1;
 }
 
-/* the statement of a part with another value of a key; new */
+/* the statement of a part with another value for a key; new */
 static char *statement_with(const Instance *part, const char *key, const Syntax *value, Diag *diag)
 {
     Statement *statement = NULL;
@@ -210,8 +210,8 @@ static char *statement_with(const Instance *part, const char *key, const Syntax 
     return text_done(&text);
 }
 
-/* A key that decides which shapes a part has: its statement says so from the first, and the state
- * is made anew. */
+/* Sets a key that determines which shapes a part has: its statement gets the value, and the state
+ * is rebuilt. */
 static Status change_shapes(State **state, const Instance *part, const Pair *pair, const char *key,
                             Outcome *outcome, Diag *diag)
 {
@@ -240,7 +240,7 @@ static Status change_shapes(State **state, const Instance *part, const Pair *pai
     return OK;
 }
 
-/* Coordinates have names, which other statements use: no key may change which there are. */
+/* Coordinates have names, which other statements use: no key may change the set of coordinates. */
 static Status keeps_coordinates(const State *state, const Instance *part, const Pair *pair,
                                 Diag *diag)
 {
@@ -254,7 +254,7 @@ static Status keeps_coordinates(const State *state, const Instance *part, const 
     return status;
 }
 
-/* set k = 3: what k = 3 does */
+/* set k = 3: same as k = 3 */
 static Status set_parameter(State **state, const Pair *pair, Outcome *outcome, Diag *diag)
 {
     Text text = {0};
@@ -340,7 +340,7 @@ done:
 static const struct {
     Effect effect;
     const char *hint;
-    int most;                 /* of whole numbers from 1; 0: the values are words */
+    int most;                 /* for whole numbers from 1; 0: the values are words */
     const char *const *words; /* the name, then the values */
 } settings[] = {
 #define SETTING(id, effect, hint, ...) {EFFECT_##effect, hint, 0, WORDS(__VA_ARGS__)},
@@ -364,7 +364,7 @@ void setting_text(const State *state, ModelSetting setting, Text *out)
         text_add(out, settings[setting].words[1 + value]);
 }
 
-/* the place of a word in a list ended by NULL; -1: it isn't there */
+/* the index of a word in a list ended by NULL; -1: it isn't there */
 static int find_word(const char *const *words, const char *word)
 {
     for (int i = 0; word != NULL && words[i] != NULL; i++)
@@ -373,7 +373,7 @@ static int find_word(const char *const *words, const char *word)
     return -1;
 }
 
-/* how much more than 1 a whole number is; -1: it is none of those there may be */
+/* a whole number minus 1; -1: it is not permitted */
 static int find_number(const Syntax *syntax, int most)
 {
     char *end;
@@ -401,7 +401,7 @@ static Status refuse_setting(int setting, Place place, Diag *diag)
     return E_VALUE;
 }
 
-/* set NAME VALUE, or NAME = VALUE, of one of the model's */
+/* set NAME VALUE, or NAME = VALUE, for a setting of the model */
 static Status apply_setting(State *state, int setting, const Statement *statement, Outcome *outcome,
                             Diag *diag)
 {

@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-/* what the unit of a value given for a variable has to be, per second for each prime; "" any */
+/* the required unit of a variable's value, per second for each prime; "" any */
 static void unit_of(const State *state, const char *name, int primes, Text *unit)
 {
     Measure measure = variable_measure(state, NULL, name);
@@ -15,8 +15,9 @@ static void unit_of(const State *state, const char *name, int primes, Text *unit
         text_add(unit, "/s");
 }
 
-/* A value can be given to what the start is made of: positions and rates, voltages, currents and
- * what they store. */
+/* Variables that determine the start can have a value: positions and rates, voltages, currents and
+ * what
+ * they store. */
 Status initial_check(const Scope *scope, const Pair *pair, Text *name, Diag *diag)
 {
     const State *state = scope->state;
@@ -182,7 +183,7 @@ done:
     return status;
 }
 
-/* --- keeping and saving --- */
+/* --- copying and saving --- */
 
 static Status copy_start(State *to, const StartEntry *entry, NameList *broken, Text *remarks,
                          Diag *diag)
@@ -214,7 +215,7 @@ done:
 
 Status starts_copy(State *to, const State *from, NameList *broken, Text *remarks, Diag *diag)
 {
-    /* those that definitions gave anew are among them, unless they were taken back */
+    /* those that definitions set again are among them, unless they were removed */
     forget_starts(to, false);
     forget_starts(to, true);
     for (int i = 0; i < from->starts.count; i++)
@@ -236,7 +237,7 @@ Status starts_copy(State *to, const State *from, NameList *broken, Text *remarks
     return OK;
 }
 
-/* whether a definition that is in use gives such values itself */
+/* whether a definition in use sets such values itself */
 static bool gives_starts(const State *state, const char *verb)
 {
     const size_t length = strlen(verb);

@@ -1,4 +1,4 @@
-/* model_state.c: a state, and what is found in it */
+/* model_state.c: a state, and queries of it */
 #include "model/model_impl.h"
 
 #include <string.h>

@@ -1,9 +1,9 @@
-/* model_store.c: a definition of a subsystem, with what it needs, as a text of its own */
+/* model_store.c: a definition of a subsystem with all that it needs, as a separate text */
 #include "model/model_impl.h"
 
 #include <string.h>
 
-/* its definition, and those that its line needs, theirs too */
+/* marks a definition, those that its line needs, and theirs too */
 static void want(const State *state, int definition, bool *wanted)
 {
     LIST(int) open = {0};
@@ -36,7 +36,7 @@ static void add_ports(const Subsystem *subsystem, bool gives, Text *out)
         text_add(out, "nothing");
 }
 
-/* what the file is about, for who reads it */
+/* a comment for the reader about the contents of the file */
 static void add_head(const Subsystem *subsystem, Text *out)
 {
     text_addf(out, "# %s: motion and voltage are given at ", subsystem->name);

@@ -1,13 +1,13 @@
 /* model_subsystem.c: definitions of subsystems: their ports, and their statements as text
  *
- * A definition is tried on an instance of its own name, whose ports are bound to anything that
- * can stand there, so that its faults are told where it is written. The instance is taken back
- * when the definition is whole: text is what stays. */
+ * A definition is tried on an instance with its own name, whose ports are bound to anything that is
+ * valid there. So its faults are reported where it is written. The instance is removed when the
+ * definition is complete: only the text is stored. */
 #include "model/model_given.h"
 
 #include <string.h>
 
-/* --- looking --- */
+/* --- queries --- */
 
 const Use *state_use(const State *state, const char *name)
 {
@@ -90,7 +90,7 @@ static Status read_port(const Header *h, const Syntax *syntax, const char *key)
     return OK;
 }
 
-/* those of one key; ports come before those that are through, which may name some of them */
+/* the ports of one key; ports come before through ports, which may name some of them */
 static Status read_ports(const Header *h, const Statement *statement, const char *key)
 {
     for (int i = 0; i < statement->pairs.count; i++) {
@@ -150,9 +150,9 @@ Status subsystem_begin(State *state, const Statement *statement, int *use, Diag 
     return OK;
 }
 
-/* --- the end --- */
+/* --- end of the definition --- */
 
-/* whether anything inside stands on the port, or speaks of it */
+/* whether anything inside is attached to the port, or names it */
 static bool is_made(const State *state, const Use *use, int port)
 {
     Text name = {0};
@@ -197,7 +197,7 @@ Status subsystem_check_ports(const State *state, int use, Place place, Diag *dia
     return OK;
 }
 
-/* What the trial showed: which frames it makes, and the parameters. */
+/* Results of the trial: which frames it makes, and the parameters. */
 static void learn(State *state, int use, Subsystem *out)
 {
     const Use *u = &state->uses.at[use];
@@ -224,7 +224,7 @@ static void models_uses(const State *state, int first, int definitions, Scope *s
                 scope_use(scope, state->lines.at[i].uses[k]);
 }
 
-/* Try the body; what it shows is `out`'s, its names new. */
+/* Tries the body; `out` gets the results, with new names. */
 static Status try_definition(State **state, const Statement *statement, Subsystem *out,
                              Scope *scope, Diag *diag)
 {
@@ -254,7 +254,7 @@ done:
     return status;
 }
 
-/* what try_definition() made, to the pool */
+/* copies the result of try_definition() to the pool */
 static const Subsystem *settle(State *state, const Statement *statement, Subsystem *learnt)
 {
     Subsystem *subsystem = pool_alloc(state->pool, sizeof *subsystem);

@@ -1,4 +1,4 @@
-/* model_terminals.c: what a component's statement connects: frames, coordinates, terminals */
+/* model_terminals.c: the frames, coordinates and terminals in a component's statement */
 #include "model/model_draft.h"
 
 #include <string.h>
@@ -187,7 +187,7 @@ static Status on_joint(PartDraft *draft)
     return act_on(draft, name, place);
 }
 
-/* spring k1 r1 r2, or spring k1 h8: one place that is no frame is a coordinate */
+/* spring k1 r1 r2, or spring k1 h8: a single name that is no frame is a coordinate */
 static Status link_places(PartDraft *draft)
 {
     if (draft->statement->operands.count > 2)
@@ -307,7 +307,7 @@ done:
     return status;
 }
 
-/* as many as the row says; the ends of an edge have to differ */
+/* as many as the row requires; the ends of an edge must differ */
 static Status read_terminals(PartDraft *draft)
 {
     const Component *row = draft->part->row;
@@ -331,7 +331,7 @@ static Status read_terminals(PartDraft *draft)
     return OK;
 }
 
-/* sensor v1 h8' a 0: what is sensed may be any expression of variables */
+/* sensor v1 h8' a 0: the measured value may be any expression of variables */
 static Status sensed_value(PartDraft *draft)
 {
     Scope scope = draft->scope;

@@ -1,8 +1,8 @@
-/* model_tree.c: which edges the user chose for which tree, and the trees that follow
+/* model_tree.c: the user's choice of edges for each tree, and the resulting trees
  *
- * Choices are names, so that they outlive edits of the graph. A tree is completed from
- * them when it is asked for; a tree statement is checked at once, as far as the graph
- * hangs together already. */
+ * Choices are stored by name, so that they remain valid after edits of the graph. A tree is
+ * completed from them on request. A tree statement is checked at once, as far as the graph is
+ * connected already. */
 #include "model/model_impl.h"
 
 #include <string.h>
@@ -11,8 +11,8 @@ static const TreeKind mechanical_kinds = TREE_ELECTRICAL; /* the kinds before it
 
 /* --- choices to trees --- */
 
-/* The part that an edge's name names, and which of its scalar edges ("T1.s"); *which -1: the name
- * is the part's own. NULL: none. */
+/* The part and the scalar edge that an edge's name names ("T1.s"); *which -1: the name is the
+ * part's own. NULL: none. */
 static const Instance *edge_part(const State *state, const char *name, int *which)
 {
     const char *member = "";
@@ -68,7 +68,7 @@ static void chosen_free(Chosen *chosen)
     MEM_FREE(chosen->excluded, chosen->preference);
 }
 
-/* A definition's own choice holds in each instance of which the model names no edge. */
+/* A definition's own choice applies in each instance of which the model names no edge. */
 static void add_inside_choice(const State *state, TreeKind kind, const Choice *choice,
                               const InsideChoice *inside, Chosen *chosen)
 {
@@ -166,11 +166,11 @@ done:
 typedef struct Request {
     State *state;
     const Statement *statement;
-    int kind;     /* the one tree that is named; -1: of each edge's own domain */
-    NameList add; /* or, without signs, the set */
+    int kind;     /* the one tree that is named; -1: each edge's own domain */
+    NameList add; /* or, without signs, the complete set */
     NameList drop;
     bool has_signs;
-    const Operand *first; /* edge, for places */
+    const Operand *first; /* edge, for its position */
     Choice choices[TREE_KINDS];
     bool touched[TREE_KINDS];
     Outcome *outcome;
@@ -202,7 +202,7 @@ static void list_remove(NameList *list, const NameList *gone)
     list->count = kept;
 }
 
-/* the tree kind that a word names; -1: none */
+/* the tree kind with that word; -1: none */
 static int kind_named(const char *word)
 {
     for (TreeKind kind = 0; kind < TREE_KINDS; kind++)
@@ -236,7 +236,7 @@ static Status which_edge(const Request *request, const Instance *part, Place pla
     return E_NAME;
 }
 
-/* the joint that is meant by its coordinate, as in "tree theta1"; NULL: none */
+/* the joint with that coordinate, as in "tree theta1"; NULL: none */
 static const Instance *joint_of_coordinate(const State *state, const char *name, Place place)
 {
     int owner;
@@ -315,8 +315,8 @@ static bool can_enter(const Request *request, const char *name, TreeKind kind)
     return edge >= 0 && graph_branching(state->graph, edge, kind) != BRANCH_NEVER;
 }
 
-/* The names of a list that a tree of this kind may hold: a virtual joint is none where it has no
- * freedom, a motor only in the electrical tree. */
+/* The names of a list that a tree of this kind may contain: no virtual joint without freedom in it,
+ * and a motor only in the electrical tree. */
 static NameList of_kind(const Request *request, const NameList *list, TreeKind kind)
 {
     NameList out = {0};
@@ -327,7 +327,7 @@ static NameList of_kind(const Request *request, const NameList *list, TreeKind k
     return out;
 }
 
-/* `tree a b`: these are the branches of every tree whose domain is named. */
+/* `tree a b`: these become the branches of every tree whose domain is named. */
 static void set_tree(Request *request, TreeKind kind)
 {
     Choice *choice = &request->choices[kind];
@@ -342,7 +342,7 @@ static void set_tree(Request *request, TreeKind kind)
     LIST_FREE(mine);
 }
 
-/* the branches of the tree as it is, arms left out; the chosen ones where there is no tree yet */
+/* the current branches of the tree, without arms; the chosen ones where there is no tree yet */
 static NameList current_branches(const Request *request, TreeKind kind)
 {
     const State *state = request->state;
@@ -361,7 +361,7 @@ static NameList current_branches(const Request *request, TreeKind kind)
     return out;
 }
 
-/* `tree - h9`: out, and what was open is completed anew */
+/* `tree - h9`: removes it, and completes the tree anew */
 static void drop_from(Request *request, TreeKind kind)
 {
     Choice *choice = &request->choices[kind];
@@ -375,7 +375,7 @@ static void drop_from(Request *request, TreeKind kind)
     LIST_FREE(mine);
 }
 
-/* `tree + a - b`: an edge leaves only a tree that another enters; the rest stays as it is */
+/* `tree + a - b`: removes an edge only from trees that another one enters; the rest is unchanged */
 static void change_tree(Request *request, TreeKind kind)
 {
     Choice *choice = &request->choices[kind];
@@ -403,7 +403,7 @@ static void change_tree(Request *request, TreeKind kind)
     LIST_FREE(enter);
 }
 
-/* Every edge that is to enter must be able to, in some tree of those in play. */
+/* Every edge that enters must be a possible branch of some of the trees concerned. */
 static Status check_entering(const Request *request)
 {
     for (int i = 0; i < request->add.count; i++) {
@@ -446,9 +446,9 @@ static Status check_dropped(const Request *request)
     return OK;
 }
 
-/* --- checking and committing --- */
+/* --- checks and commit --- */
 
-/* nodes are still without any connection to the datum: the tree can't be judged yet */
+/* some nodes have no connection to the datum yet: then the tree can't be checked */
 static bool hangs_together(const State *state, TreeKind kind)
 {
     int *part = NEW_ARRAY(int, graph_node_count(state->graph));
@@ -556,7 +556,7 @@ static void request_free(Request *request)
 
 /* --- statements --- */
 
-/* `tree joint`, `tree absolute`: forgets what was chosen for the mechanical trees */
+/* `tree joint`, `tree absolute`: removes the choices for the mechanical trees */
 static void preset(Request *request, bool absolute)
 {
     for (TreeKind kind = 0; kind < mechanical_kinds; kind++) {
@@ -569,7 +569,7 @@ static void preset(Request *request, bool absolute)
     }
 }
 
-/* `rotation`, then `joint` or `absolute`, or edges; in `first` where those start */
+/* `rotation`, then `joint` or `absolute`, or edges; `first` is the index where those start */
 static Status read_words(Request *request, int *first, const char **word)
 {
     const Statement *statement = request->statement;
@@ -610,7 +610,7 @@ Status apply_tree(State **state, const Statement *statement, Outcome *outcome, D
 
     CHECK(read_words(&request, &first, &word));
     if (word != NULL && strcmp(word, "best") == 0) {
-        /* a search weighs equations, which a session has */
+        /* a search compares equations, which only a session has */
         status = diag_at(diag, E_SYNTAX, statement->operands.at[first - 1].place,
                          "'best' searches both mechanical trees together");
         diag_hint(diag, "tree best");
@@ -659,7 +659,7 @@ done:
 
 /* --- in a definition --- */
 
-/* the names of one kind, in the place of those that an earlier line named */
+/* replaces the names of one kind from an earlier line */
 static void keep_inside(const Request *request, TreeKind kind, bool excluded)
 {
     State *state = request->state;
@@ -676,7 +676,7 @@ static void keep_inside(const Request *request, TreeKind kind, bool excluded)
 Status apply_tree_inside(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
 {
     const bool excluded = strcmp(statement->verb, "cotree") == 0;
-    Outcome unsaid = {EFFECT_NONE, {0}}; /* how it would be completed, were that all */
+    Outcome unsaid = {EFFECT_NONE, {0}}; /* how it would be completed if these were all edges */
     Request request = request_start(*state, statement, &unsaid, diag);
     const char *word = NULL;
     int first = 0;
@@ -711,9 +711,9 @@ done:
     return status;
 }
 
-/* --- keeping and saving --- */
+/* --- copying and saving --- */
 
-/* `gone`: the names of edges that aren't there any more, each once */
+/* `gone`: the names of edges that no longer exist, each once */
 static void copy_names(State *to, NameList *list, const NameList *from, NameList *gone)
 {
     for (int i = 0; i < from->count; i++) {
@@ -755,7 +755,7 @@ static void save_names(Text *text, TreeKind kind, const char *sign, const NameLi
     text_char(text, '\n');
 }
 
-/* Presets first, then what is kept out, then what is in: set in this order, each is what it was. */
+/* Presets first, then excluded edges, then chosen ones: this order restores each choice. */
 void choices_save(const State *state, Text *text)
 {
     const Choice *choices = state->choices;

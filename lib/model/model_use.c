@@ -1,7 +1,7 @@
 /* model_use.c: instances of subsystems: a definition's statements, applied in their names
  *
- * `use` of several is a line each, so that one can go without the others. What an instance makes
- * has lines of its own, which come and go with that one. */
+ * A `use` of several instances becomes one line for each, so that one can be deleted alone. What an
+ * instance makes has lines of its own, which are added and removed with that line. */
 #include "language/verbs.h"
 #include "model/model_given.h"
 
@@ -9,9 +9,9 @@
 
 enum { MOST_STATEMENTS = 20000 }; /* of one instance: definitions that double soon have more */
 
-/* --- what may be reached from outside --- */
+/* --- names accessible from outside --- */
 
-/* whether `use` is the one at work, or around it: its names came by a port */
+/* whether `use` is the one being applied, or one around it: its names came by a port */
 static bool is_around(const State *state, int use)
 {
     int at = state->inside;
@@ -71,7 +71,7 @@ Status use_check_bound(const State *state, const char *name, Place place, Diag *
     return E_NAME;
 }
 
-/* Of a vector, which has a value for each instance, that of one. */
+/* The value for one instance, from a vector with a value for each. */
 static Status value_for(const Pair *pair, int which, int count, Syntax *out, Diag *diag)
 {
     const Syntax *value = pair->value;
@@ -121,7 +121,7 @@ static Status check_allowed(const State *state, int use, const Statement *s, Dia
     return E_SYNTAX;
 }
 
-/* a definition says each thing once */
+/* a definition must make each name once */
 static Status check_new(const State *state, const Statement *renamed, const Statement *statement,
                         Diag *diag)
 {
@@ -151,7 +151,7 @@ static Status apply_renamed(State **state, Statement *s, const Statement *from, 
         return apply_tree_inside(state, s, outcome, diag);
     if (s->row.number != VERB_output)
         return state_apply(state, s, outcome, diag);
-    /* one by one: several would be tried on a state made anew, which lacks what goes before */
+    /* one by one: several would be tried on a rebuilt state, which lacks the statements before */
     s->pairs.count = 1;
     for (int i = 0; i < pairs && status == OK; i++) {
         s->pairs.at = at + i;
@@ -239,12 +239,14 @@ static void show_inside(const State *state, int use, const char *text, Diag *dia
 
 typedef struct Expansion {
     int use;
-    const Syntax *const *overrides; /* by parameter: what `use` says instead, or NULL; NULL: none */
+    /* by parameter: the value in `use` instead, or NULL; NULL: none */
+    const Syntax *const *overrides;
     Outcome *outcome;
-    bool at_use; /* what failed stands there, not in the definition */
+    bool at_use; /* the fault is there, not in the definition */
 } Expansion;
 
-/* A parameter of the definition with another value, in the names of who uses it. */
+/* Applies a parameter of the definition with another value, in the names of the user of the
+ * instance. */
 static Status apply_override(State **state, const Expansion *x, const Statement *statement,
                              const Syntax *given, Diag *diag)
 {
@@ -296,7 +298,7 @@ static Status apply_line(State **state, Expansion *x, const Statement *statement
     return OK;
 }
 
-/* The end of a definition that holds equations: what is wrong with a line is shown there. */
+/* The end of a definition that contains equations: shows a fault at its line. */
 static Status end_lines(State *state, const Expansion *x, const char *body, Diag *diag)
 {
     bool at_use = false;
@@ -458,7 +460,7 @@ static Status bind_terminal(UseDraft *d, int port, const Syntax *value)
     return OK;
 }
 
-/* What `use` says of a parameter, before the definition is looked at. */
+/* Reads the value of a parameter in `use`, before the definition is read. */
 static Status read_override(UseDraft *d, int parameter, const Syntax *value)
 {
     Scope scope = {.state = *d->state, .kind = SCOPE_PARAMETER};
@@ -536,7 +538,7 @@ static Status check_name(const UseDraft *d, const Operand *operand)
     return name_is_free(state, name, operand->place, d->diag);
 }
 
-/* The error of a definition's line, told where it is used. */
+/* Reports the error of a definition's line where it is used. */
 static Status report_inside(const UseDraft *d, const Operand *operand, const Diag *fault)
 {
     (void)diag_at(d->diag, fault->status, operand->place, "%s: %s", d->use.name, fault->message);

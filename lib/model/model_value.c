@@ -1,19 +1,19 @@
-/* model_value.c: what an expression of the user's means
+/* model_value.c: converts a user's expression
  *
- * Numbers are exact where their decimals and units are; a unit turns its number to SI.
- * Parameters stay symbols, laws and outputs are put in place, variables become symbols
- * of their own names. A Scope says what may occur. */
+ * Numbers are exact where their decimals and units are; a unit converts its number to SI.
+ * Parameters remain symbols, laws and outputs are substituted, variables become symbols of their
+ * own names. A Scope defines what may occur. */
 #include "language/functions.h"
 #include "model/model_impl.h"
 
 #include <math.h>
 #include <string.h>
 
-/* what each kind of place allows, and what to say when something else stands there */
+/* what each kind of value permits, and the message otherwise */
 static const struct {
     bool time;
     bool variables;
-    bool asks;        /* the model's own figures, other runs */
+    bool asks;        /* permits the model's own figures, and other runs */
     const char *what; /* "a parameter" can't depend on ... */
     const char *way_out;
 } scopes[] = {
@@ -67,7 +67,8 @@ static Expr number(Arena *arena, const Syntax *syntax)
 
 /* --- derivatives in time --- */
 
-/* d/dt along the primed names of variables; of values at a place, b1.v(0.5), where they have one */
+/* d/dt along the primed names of variables; and of values at a position, b1.v(0.5), where they have
+ * one */
 static Status time_derivative(const State *state, Expr e, int primes, Place place, Expr *out,
                               Diag *diag)
 {
@@ -173,7 +174,7 @@ done:
     return status;
 }
 
-/* an output of another run: the variables in it are those of that run */
+/* an output of another run: its variables are those of that run */
 static Status output_of_run(Scope *scope, const Syntax *syntax, const Definition *output,
                             size_t prefix, Expr *out, Diag *diag)
 {
@@ -334,7 +335,7 @@ static Status convert_node(Scope *scope, const Syntax *syntax, Expr *out, Diag *
     return OK;
 }
 
-/* as convert_node(), and where the arena refuses what was built, that is said at this place */
+/* as convert_node(); if the arena refuses the result, reports that at this position */
 static Status convert(Scope *scope, const Syntax *syntax, Expr *out, Diag *diag)
 {
     Arena *arena = scope->state->arena;
@@ -349,7 +350,7 @@ static Status convert(Scope *scope, const Syntax *syntax, Expr *out, Diag *diag)
     return status;
 }
 
-/* New nodes that one expression may take: far above what anybody writes. A law that calls another
+/* New nodes permitted for one expression: far above what anybody writes. A law that calls another
  * twice, which calls another twice, and so on, doubles with each. */
 enum { MOST_NODES = 1 << 18 };
 
@@ -360,7 +361,7 @@ static Status convert_bounded(Scope *scope, const Syntax *syntax, Expr *out, Dia
     ArenaMark *mark = arena_mark(arena);
     Status status;
 
-    arena_reset(arena); /* what others failed to build is not this text's fault */
+    arena_reset(arena); /* a failure of earlier expressions is no fault of this text */
     status = convert(scope, syntax, out, diag);
     (void)arena_limit(arena, limit);
     if (status == OK) {

@@ -1,4 +1,4 @@
-/* subsystem.h: definitions of subsystems, and their instances, as a model keeps them */
+/* subsystem.h: definitions of subsystems, and their instances, as a model stores them */
 #ifndef COTREE_MODEL_SUBSYSTEM_H
 #define COTREE_MODEL_SUBSYSTEM_H
 
@@ -6,31 +6,32 @@
 
 typedef struct Port {
     const char *name;
-    bool is_frame;   /* else a terminal */
-    bool is_through; /* the inside gives its motion or voltage: reached as leg1.B, never bound */
+    bool is_frame;   /* otherwise a terminal */
+    bool is_through; /* the inside determines its motion or voltage: named as leg1.B, never bound */
 } Port;
 
 typedef struct Subsystem {
     const char *name;
-    const char *body; /* its statements, a line each */
+    const char *body; /* its statements, one on each line */
     Port *ports;
     int port_count;
-    const char **parameters; /* that `use` may give another value */
+    const char **parameters; /* those that `use` may set */
     int parameter_count;
-    int size; /* statements of an instance, those of instances inside included */
+    int size; /* number of statements of an instance, including those of instances inside */
 } Subsystem;
 
 typedef struct BlockEquations
-    BlockEquations; /* of an instance that is given them (model_given.c) */
+    BlockEquations; /* for an instance with given equations (model_given.c) */
 
 typedef struct Use { /* an instance of a subsystem */
     const char *name;
     const Subsystem *subsystem;
-    const char **bound; /* by port: where it is attached outside; NULL: made inside, or not yet */
-    int outer;          /* the use in which it was made; -1 */
+    /* by port: what it is attached to outside; NULL: made inside, or not yet bound */
+    const char **bound;
+    int outer; /* the use in which it was made; -1 */
     int line;
     BlockEquations *equations; /* NULL: it is made of parts */
-    bool is_trial; /* of a definition that is being read: ports are bound where they are met */
+    bool is_trial; /* for a definition that is being read: ports are bound where they occur */
 } Use;
 
 #endif
