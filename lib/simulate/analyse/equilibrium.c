@@ -1,11 +1,12 @@
-/* equilibrium.c: where everything rests
+/* equilibrium.c: static equilibrium
  *
- * Newton's method from the assembled start (search.c), or from where the network has settled beside
- * mechanics that stands still. Where that fails one of the conditions is relaxed and taken back in
- * steps as long as Newton's method follows: first gravity, forces and sources grow from nothing;
- * then a conductance beside every part whose current is an expression of its voltage shrinks to
- * nothing. At last everything creeps, masses and storage elements its resistance, until it rests:
- * pseudo-transient continuation (Kelley and Keyes 1998). */
+ * Newton's method (search.c) from the assembled initial state, or from the state in which the
+ * network has settled while the mechanics is held. Where that fails a condition is relaxed and
+ * restored step by step, as long as Newton's method converges: first source stepping, where
+ * gravity, forces and sources grow from 0; then gmin stepping, where a conductance in parallel with
+ * every part whose current is an expression of its voltage shrinks to 0. Last comes
+ * pseudo-transient continuation (Kelley and Keyes 1998): (J + r I) dw = -F(w), where masses and
+ * storage elements I resist the motion, until everything is at rest. */
 #include "simulate/run/run.h"
 
 #include "algebra/linear.h"
@@ -20,11 +21,11 @@
 #include <string.h>
 
 #define CREEP_STEPS 500
-#define CREEP       0.3   /* rad or m in a step of creeping */
-#define GROWTH      100   /* of residuals, in one */
-#define LEAST_SHARE 1e-4  /* of a path, in a step */
-#define GMIN        1e-1  /* S, to begin with */
-#define LEAST_GMIN  1e-14 /* S, from which on there is none */
+#define CREEP       0.3   /* rad or m: largest step of pseudo-transient continuation */
+#define GROWTH      100   /* largest growth of residuals in such a step */
+#define LEAST_SHARE 1e-4  /* least step of a path from 0 to 1 */
+#define GMIN        1e-1  /* S, at first */
+#define LEAST_GMIN  1e-14 /* S, below which it is 0 */
 
 typedef struct Quest {
     EquilibriumResidual *equations;
@@ -33,12 +34,12 @@ typedef struct Quest {
     const VariableIndex *l;
     int n;         /* of equations */
     double *begun; /* base */
-    double *kept;  /* the same, while something is tried */
-    Bound *bounds; /* where laws of parts end, */
+    double *kept;  /* the same, saved during a trial */
+    Bound *bounds; /* ends of validity of parts' laws, */
     int bound_count;
-    Probe *measures; /* what comes to 0 there, */
-    double *sides;   /* and its values where the search began */
-    int beyond;      /* bound behind which the last solution was; -1: none was */
+    Probe *measures; /* the expressions that are 0 at these ends, */
+    double *sides;   /* and their values at the start of the search */
+    int beyond;      /* bound that the last solution violates; -1: none */
 } Quest;
 
 static void begin_again(Quest *e)
@@ -58,7 +59,8 @@ static const double *measures_here(const Quest *e)
     return probe_values(e->measures, &row);
 }
 
-/* A solution behind the end of a part's law, as a plate beyond its electrode, is none. */
+/* A solution outside the range of a part's law, as a plate beyond its electrode, is not
+ * accepted. */
 static bool is_within(Quest *e)
 {
     const double *values = e->bound_count > 0 ? measures_here(e) : NULL;
@@ -89,7 +91,7 @@ static bool run_within(Quest *e)
     return found;
 }
 
-/* Newton's method at once, or once the network has settled beside mechanics that stands still */
+/* Newton's method, at once or after the network has settled while the mechanics is held */
 static bool seek(Quest *e)
 {
     const size_t bytes = (size_t)equilibrium_length(e->equations) * sizeof(double);
@@ -107,10 +109,10 @@ static bool seek(Quest *e)
     return false;
 }
 
-/* --- paths --- */
+/* --- continuation paths --- */
 
-/* from an easier problem at 0 to the one that was set at 1; `turn` is false where nothing changes
- * on the way */
+/* a path from an easier problem at 0 to the original one at 1; `turn` sets the position on it, and
+ * returns false where that changes nothing */
 typedef struct Path {
     const char *phase;
     double first; /* step */
@@ -160,7 +162,7 @@ done:
     return status;
 }
 
-/* --- creeping --- */
+/* --- pseudo-transient continuation --- */
 
 typedef struct Creep {
     Factors *factors;
@@ -173,8 +175,8 @@ static void creep_close(Creep *c)
     MEM_FREE(c->w, c->step, c->right, c->jacobian);
 }
 
-/* (J + resistance * inertia) dw = -residual: a step backward Euler. Whether there is one, and it is
- * short enough. */
+/* (J + resistance * inertia) dw = -residual: a step of backward Euler. False: there is none, or it
+ * is too long. */
 static bool creep_step(Quest *e, Creep *c, double resistance)
 {
     const double *values, *missed;
@@ -193,7 +195,8 @@ static bool creep_step(Quest *e, Creep *c, double resistance)
            vector_largest(c->step, e->l->nu) <= CREEP;
 }
 
-/* the step, or as little of it as leaves the equations in sight; how the residuals have grown */
+/* make the step, or a part of it for which residuals are defined; returns the growth of the
+ * residuals */
 static double creep_on(Quest *e, Creep *c)
 {
     const double before = search_growth(e->search, c->w);
@@ -246,7 +249,7 @@ done:
 
 /* --- messages --- */
 
-/* the name of a state or an algebraic unknown, by its number in (x, z) */
+/* name of a state or an algebraic unknown, by its number in (x, z) */
 static const char *network_unknown(const Quest *e, int i)
 {
     const System *system = e->l->system;
@@ -254,7 +257,7 @@ static const char *network_unknown(const Quest *e, int i)
     return i < e->l->nx ? system_x(system, i)->name : system_z(system, i - e->l->nx)->name;
 }
 
-/* the same for a place in w; NULL: of the mechanics */
+/* the same by index in w; NULL: an unknown of the mechanics */
 static const char *network_place(const Quest *e, int i)
 {
     const VariableIndex *l = e->l;
@@ -264,7 +267,7 @@ static const char *network_place(const Quest *e, int i)
     return network_unknown(e, i < l->nu + l->nx ? i - l->nu : i - l->nu - l->m);
 }
 
-/* " by 3.2", of what is missed */
+/* " by 3.2", the residual */
 static void report_missed(double missed, Text *text)
 {
     if (isfinite(missed))
@@ -332,7 +335,7 @@ static Status report_failure(Quest *e, Diag *diag)
     return E_SOLVER;
 }
 
-/* a network too large for full matrices, if it is singular */
+/* report a singular network that is too large for full matrices */
 static Status refuse_singular(Quest *e, Diag *diag)
 {
     const int singular = search_may_be_full(e->search) ? -1 : search_undetermined(e->search);
@@ -438,7 +441,7 @@ static void quest_close(Quest *e)
     MEM_FREE(e->begun, e->kept);
 }
 
-/* what was found is where a search for z begins */
+/* the solution is the initial guess of z */
 static void guess_network(const Quest *e, ActiveRun *r)
 {
     const VariableIndex *l = phases_whole(r->phases)->layout;
@@ -471,7 +474,7 @@ Status run_equilibrium(System *system, const SimulationInput *setting, Result **
     CHECK(status);
     v = equilibrium_base(e.equations);
     memset(r->result->start.y, 0, (size_t)(l->n + l->nu + l->nx) * sizeof(double));
-    for (int i = 0; i < l->n; i++) /* less than rounding of 1 rad or 1 m is nothing */
+    for (int i = 0; i < l->n; i++) /* differences below the rounding of 1 rad or 1 m are dropped */
         r->result->start.y[i] = fabs(v[i]) < 1e-15 ? 0 : v[i];
     memcpy(r->result->start.y + l->n + l->nu, v + l->n, (size_t)l->nx * sizeof(double));
     memcpy(r->result->start.y + variable_index_references(l),

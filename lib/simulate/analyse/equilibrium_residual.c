@@ -1,4 +1,4 @@
-/* equilibrium_residual.c: a system at rest: its rows, their slopes, and the map from steps to
+/* equilibrium_residual.c: a system at rest: its rows, their derivatives, and the map from steps to
  * coordinates */
 #include "simulate/analyse/equilibrium_residual.h"
 
@@ -11,11 +11,11 @@
 #include <math.h>
 #include <string.h>
 
-/* dq/ds by coordinates: entries of coordinate i from start[i] up to start[i + 1]. Those of four
- * Euler parameters have the same speeds in the same order. */
+/* dq/ds by coordinates: entries of coordinate i are start[i] up to before start[i + 1]. Those of
+ * four Euler parameters have the same speeds in the same order. */
 typedef struct Map {
     int *start, *speed;
-    Probe *probe; /* N, angles that count turns */
+    Probe *probe; /* computes N and multi-turn angles */
     double *base; /* N(q0) */
 } Map;
 
@@ -23,27 +23,27 @@ typedef struct Map {
 typedef struct EquilibriumResidualPart {
     Jacobian *jacobian;
     double *values;
-    int *place; /* in the Jacobian of all */
+    int *place; /* positions in the whole Jacobian */
 } EquilibriumResidualPart;
 
 struct EquilibriumResidual {
     System *system;
     VariableIndex *l;
-    ActiveRun *start; /* on the system of the user */
+    ActiveRun *start; /* of the user's system */
     Parameters parameters;
     Expr load, gmin;
     double at;                      /* s */
-    double *speeds, *accelerations; /* of what is driven; NULL: everything rests */
+    double *speeds, *accelerations; /* of what is driven; NULL: everything is at rest */
     int n, length;
-    int references; /* in v, references of angles: behind the unknowns */
+    int references; /* index in v of the references of angles, after the unknowns */
     double *v;      /* base */
-    Probe *probe;   /* residuals, angles that count turns from place to place */
+    Probe *probe;   /* computes residuals, and multi-turn angles at each place */
     Map map;
     EquilibriumResidualPart slopes, inertia; /* inertia: M, and A by rates of storage elements */
-    double *by; /* of the moves of slopes: those by coordinates first, as in dq/ds */
+    double *by; /* factors of the derivatives: those by coordinates first, as in dq/ds */
     Pattern pattern;
     double *jacobian;
-    double *w, *place; /* of the last values; v there */
+    double *w, *place; /* of the last evaluation; v there */
     const double *values;
 };
 
@@ -52,7 +52,7 @@ struct EquilibriumResidual {
 typedef struct EquilibriumResidualVary {
     Arena *arena;
     Expr time, instant, load;
-    bool keeps; /* the rates of drivers */
+    bool keeps; /* with the rates of drivers */
 } EquilibriumResidualVary;
 
 static Expr vary(void *context, const Instance *instance, int param, Expr value)
@@ -114,7 +114,7 @@ static bool is_euler(const System *system, int coordinate)
     return false;
 }
 
-/* the entries of `count` coordinates for whichever speed one of them holds */
+/* the entries of `count` coordinates for each speed that one of them depends on */
 static void map_coordinates(EquilibriumResidual *s, int first, int count,
                             EquilibriumResidualRoots *roots)
 {
@@ -163,7 +163,7 @@ static Status make_map(EquilibriumResidual *s, Diag *diag)
     return status;
 }
 
-/* q0 + N(q0) s; each four Euler parameters brought to unit length, and dq/ds there */
+/* q0 + N(q0) s; each four Euler parameters scaled to unit length; and dq/ds there */
 static void place_coordinates(const EquilibriumResidual *s, const double *w, double *q,
                               double *slopes)
 {
@@ -198,10 +198,10 @@ static void place_coordinates(const EquilibriumResidual *s, const double *w, dou
     }
 }
 
-/* --- rows and slopes --- */
+/* --- rows and derivatives --- */
 
-/* Held states have no rates: x' = 0 tells nothing of them. At rest the next sample leaves each as
- * it is, and an input keeps what it begins with: x' = next - x in the place of x' = 0. */
+/* Sampled states have no rates: x' = 0 doesn't determine them. At rest the next sample leaves each
+ * unchanged, and an input is at its initial value: x' = next - x replaces x' = 0. */
 static Status hold_samples(const EquilibriumResidual *s, Expr *rows, Diag *diag)
 {
     Arena *arena = system_arena(s->system);
@@ -224,7 +224,7 @@ static Status hold_samples(const EquilibriumResidual *s, Expr *rows, Diag *diag)
     return OK;
 }
 
-/* the rows; then angles that count turns */
+/* the rows, then multi-turn angles */
 static Status push_roots(const EquilibriumResidual *s, EquilibriumResidualRoots *roots, Diag *diag)
 {
     const VariableIndex *l = s->l;
@@ -256,7 +256,7 @@ static void free_part(EquilibriumResidualPart *part)
     MEM_FREE(part->values, part->place);
 }
 
-/* by steps, which move coordinates by dq/ds, and by the other unknowns */
+/* derivatives by steps, which move coordinates by dq/ds, and by the other unknowns */
 static void make_slopes(EquilibriumResidual *s)
 {
     const VariableIndex *l = s->l;
@@ -285,13 +285,13 @@ static void make_inertia(EquilibriumResidual *s)
     make_part(s, &moves, &s->inertia);
 }
 
-/* the place in w of the unknown that goes with a mechanical row: a step, or a multiplier */
+/* index in w of the unknown that belongs to a mechanical row: a step, or a multiplier */
 static int own_column(const EquilibriumResidual *s, int row)
 {
     return row < s->l->nu ? row : row + s->l->nx;
 }
 
-/* what stands somewhere in the Jacobian */
+/* terms at positions in the Jacobian */
 typedef struct EquilibriumResidualTerms {
     LIST(int) row;
     LIST(int) column;
@@ -311,7 +311,7 @@ static void add_part(EquilibriumResidualTerms *terms, const EquilibriumResidualP
         add_term(terms, p->row[k], p->column[k]);
 }
 
-/* where a part's entries are to be added, from places of terms; how many there are */
+/* set where a part's entries are added, from positions of terms; returns how many there are */
 static int take_places(EquilibriumResidualPart *part, const int *place)
 {
     const int count = jacobian_pattern(part->jacobian)->count;
@@ -322,7 +322,7 @@ static int take_places(EquilibriumResidualPart *part, const int *place)
     return count;
 }
 
-/* the pattern of the Jacobian with inertia and each mechanical unknown's own place */
+/* the pattern of the Jacobian, with inertia and with the own entry of each mechanical unknown */
 static void make_pattern(EquilibriumResidual *s)
 {
     EquilibriumResidualTerms terms = {0};
@@ -361,7 +361,8 @@ done:
 
 static RowValues row_of(const EquilibriumResidual *s, const double *v);
 
-/* whose rate a driver's row gives alone; -1: no driver's, or of several speeds */
+/* the speed whose rate a driver's row alone determines; -1: not a driver's row, or several
+ * speeds */
 static int driven_speed(const VariableIndex *l, int row, const double *phi_u)
 {
     int own = -1;
@@ -375,7 +376,7 @@ static int driven_speed(const VariableIndex *l, int row, const double *phi_u)
     return own;
 }
 
-/* All other speeds are 0, or there is nothing that rests against what is driven. */
+/* Check that all other speeds are 0; otherwise nothing is at rest relative to what is driven. */
 static Status check_driven(const EquilibriumResidual *s, const double *phi_u, const double *rates,
                            Diag *diag)
 {
@@ -400,7 +401,7 @@ static Status check_driven(const EquilibriumResidual *s, const double *phi_u, co
     return OK;
 }
 
-/* Rows of Phi_u, then what they come to; the step that they ask for of few speeds. */
+/* Solve rows of Phi_u for speeds or accelerations; a step with few nonzero entries. */
 static Status rates_of(const EquilibriumResidual *s, Probe *probe, const double *u, double *out,
                        int right, Diag *diag)
 {
@@ -417,7 +418,7 @@ static Status rates_of(const EquilibriumResidual *s, Probe *probe, const double 
     return check_driven(s, values, out, diag);
 }
 
-/* Speeds of drivers, and their accelerations beside these. */
+/* Speeds of drivers, and their accelerations at these speeds. */
 static Status drive(EquilibriumResidual *s, Diag *diag)
 {
     const VariableIndex *l = s->l;
@@ -447,9 +448,9 @@ done:
     return status;
 }
 
-/* --- life --- */
+/* --- construction and destruction --- */
 
-/* what the user guessed, where a search for it begins */
+/* user's guesses as initial guess of the search */
 static void guess_network(EquilibriumResidual *s, const VariableIndex *theirs)
 {
     double *z = s->v + s->l->n + s->l->nx + s->l->m;
@@ -545,7 +546,7 @@ bool equilibrium_step_gmin(EquilibriumResidual *s, double gmin)
     return probe_turn(s->probe, s->gmin, gmin);
 }
 
-/* --- places --- */
+/* --- base and states --- */
 
 static RowValues row_of(const EquilibriumResidual *s, const double *v)
 {
@@ -593,7 +594,7 @@ void equilibrium_place(const EquilibriumResidual *s, const double *w, double *v)
             (size_t)s->l->multi_turns * sizeof(double));
 }
 
-/* --- numbers --- */
+/* --- values --- */
 
 static void look(EquilibriumResidual *s, const double *w)
 {
@@ -613,7 +614,7 @@ const double *equilibrium_residual(EquilibriumResidual *s, const double *w)
     return s->values;
 }
 
-/* add a part's entries where the last values were told; NULL: each of its moves is 1 */
+/* add a part's entries at the last evaluation; moves NULL: each is 1 */
 static void add_entries(EquilibriumResidual *s, const EquilibriumResidualPart *part,
                         const double *by, double factor, double *jacobian)
 {

@@ -1,8 +1,8 @@
-/* freedoms.c: the admissible motions of two trees compared
+/* freedoms.c: compares the admissible motions for two trees
  *
- * The columns of the null space of Phi_u are the admissible speeds. What one frame turns
- * against another along them spans the turns that it can make; those of the real joints
- * that are outside the span of the others are lost. */
+ * The columns of the null space of Phi_u (m x nu) are the admissible speeds. The angular velocities
+ * of one frame relative to another along them span its possible rotations. A rotation with the real
+ * joints that is outside the span of those with the virtual joints is lost. */
 #include "simulate/analyse/freedoms.h"
 
 #include "algebra/dense.h"
@@ -15,14 +15,14 @@
 #include <stdio.h>
 #include <string.h>
 
-#define LOST 1e-6 /* rad/s per unit of speed: less is rounding */
+#define LOST 1e-6 /* rad/s per unit of speed: less is rounding error */
 
 typedef struct Turning {
-    double at[3]; /* ground axes */
+    double at[3]; /* axes of the datum */
 } Turning;
 typedef LIST(Turning) Turnings;
 
-/* admissible speeds at the start: freedoms x nu, row by row; new */
+/* admissible speeds in the initial state: freedoms x nu, row by row; new */
 static double *find_motions(ResultReader *reader)
 {
     const Equations *eq = compiled_equations(result_reader_first(reader)->numbers);
@@ -55,7 +55,7 @@ static double *find_motions(ResultReader *reader)
     return motions;
 }
 
-/* the components of angular velocity of a frame, ground axes; zero for what it doesn't have */
+/* the components of angular velocity of a frame, axes of the datum; 0 where a frame has none */
 static void angular_velocity(ResultReader *reader, const char *frame, Expr out[3])
 {
     static const char *const members[] = {"wx", "wy", "wz"};
@@ -65,14 +65,14 @@ static void angular_velocity(ResultReader *reader, const char *frame, Expr out[3
         char name[300];
 
         (void)snprintf(name, sizeof name, "%s.%s", frame, members[i]);
-        /* ground has none, and a plane only the last */
+        /* ground has none, and in a plane only the last exists */
         if (strcmp(frame, "ground") == 0 ||
             system_variable(reader->result->system, name, 0, &out[i], &ignored) != OK)
             out[i] = expr_int(system_arena(reader->result->system), 0);
     }
 }
 
-/* what the head turns against the tail along each admissible motion */
+/* angular velocity of the head relative to the tail along each admissible motion */
 static Status find_turnings(ResultReader *reader, const char *tail, const char *head, Turnings *out,
                             Diag *diag)
 {
@@ -99,7 +99,7 @@ done:
     return status;
 }
 
-/* a less its parts along a basis of unit vectors; the size that is left */
+/* subtract from a its components along an orthonormal basis; returns the norm of the rest */
 static double reduce(double a[3], const Turning *basis, int count)
 {
     for (int b = 0; b < count; b++) {
@@ -113,7 +113,7 @@ static double reduce(double a[3], const Turning *basis, int count)
     return hypot(hypot(a[0], a[1]), a[2]);
 }
 
-/* the turn that `real` has and `with` lacks, of unit size; false: there is none */
+/* the rotation that is possible in `real` and not in `with`, of unit size; false: there is none */
 static bool find_lost(const Turnings *real, const Turnings *with, double out[3])
 {
     Turning basis[3];

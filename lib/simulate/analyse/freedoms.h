@@ -1,15 +1,16 @@
-/* freedoms.h: whether a virtual joint that is a branch covers what its frames can do
+/* freedoms.h: whether a virtual joint that is a branch allows every motion of its frames
  *
- * As a branch it claims that its coordinates tell every motion that the real joints leave to its
- * frames. Where they don't, freedoms are lost that no equation speaks of. */
+ * As a branch it assumes that its coordinates describe every motion that the real joints allow its
+ * frames. Where they don't, freedoms are lost without any equation that constrains them. */
 #ifndef COTREE_SIMULATE_ANALYSE_FREEDOMS_H
 #define COTREE_SIMULATE_ANALYSE_FREEDOMS_H
 
 #include "simulate/run/result_reader.h"
 
-/* Compare the freedoms nu - rank(Phi_u) of two assembled starts of one model: `real` in trees of
- * real edges, `with` in trees with the virtual joints whose instances are listed. Fails with
- * E_BRANCH where freedoms are lost, naming the joint and the turn that it leaves out. O(nu^2 m). */
+/* Compare the freedoms nu - rank(Phi_u) of two assembled initial states of one model: `real` with
+ * trees of real edges, `with` with trees that contain the listed virtual joints. Fails with
+ * E_BRANCH where freedoms are lost, naming the joint and the rotation that it can't represent.
+ * O(nu^2 m). */
 MUST_USE Status freedoms_compare(ResultReader *real, ResultReader *with,
                                  const Instance *const *joints, const char *const (*frames)[2],
                                  int count, Diag *diag);

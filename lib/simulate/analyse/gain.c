@@ -1,9 +1,9 @@
-/* gain.c: the first of d, c b, c A b ... that isn't 0
+/* gain.c: the first of the Markov parameters d, c b, c A b ... that isn't 0
  *
- * Two bounds go along: what entries may be off by, which decides what can be told at all, and what
- * is rounded here, in twice the digits. Where the second leaves open what the first doesn't, as
- * where entries are exact and cancel, the sums are formed to the last digit (markov_parameters.h).
- */
+ * Each has two bounds: of the error from the entries, which decides what can be distinguished from
+ * 0 at all, and of the rounding error here, in double-double arithmetic. Where the second is too
+ * large and the first isn't, as where entries are exact and cancel, the sums are computed exactly
+ * (markov_parameters.h). */
 #include "simulate/analyse/gain.h"
 
 #include "algebra/markov_parameters.h"
@@ -11,9 +11,9 @@
 
 #include <float.h>
 
-#define LEAST 1e-290 /* sums of products below lose digits */
+#define LEAST 1e-290 /* products below this lose digits */
 
-/* A^k b, what that may be off by, and what rounding may add */
+/* A^k b, the bound of its error, and that of rounding */
 typedef struct Power {
     DoubleDouble *v;
     double *off, *noise;
@@ -26,7 +26,7 @@ typedef struct GainValue {
 
 typedef struct GainSearch {
     const Siso *s;
-    double *a, *a_error; /* in units of time in which A is about 1: powers of it stay in range */
+    double *a, *a_error; /* in units of time in which A is about 1: its powers don't overflow */
     int unit;
     Power now, next;
     MarkovParameters *exact; /* NULL: not needed yet */
@@ -67,7 +67,7 @@ static void search_close(GainSearch *search)
              search->next.v, search->next.off, search->next.noise);
 }
 
-/* add a product, whose first factor may be off by `error` */
+/* add a product, whose first factor has an error of `error` */
 static inline void add(DoubleDouble *sum, GainValue *bound, double by, double error, const Power *p,
                        int j, int n)
 {
@@ -81,7 +81,7 @@ static inline void add(DoubleDouble *sum, GainValue *bound, double by, double er
         bound->noise += fmax(fabs(by) * (p->noise[j] + n * DOUBLE_DOUBLE_ROUNDING * size), LEAST);
 }
 
-/* along c */
+/* c times the power */
 static GainValue value_of(const GainSearch *search)
 {
     const Siso *s = search->s;
@@ -113,7 +113,7 @@ static void step(GainSearch *search)
     search->next = kept;
 }
 
-/* c A^k b to the last digit; false: there are too many, or it is too small for numbers */
+/* c A^k b exactly; false: too many digits, or too small for a double */
 static bool settle(GainSearch *search, int k, GainValue *value)
 {
     const Siso *s = search->s;
@@ -136,13 +136,13 @@ static bool is_determined(const GainValue *value)
     return fabs(value->at) > value->off + value->noise;
 }
 
-/* Whether rounding decides: what entries leave open doesn't hold it all. */
+/* whether rounding prevents a decision: the bound of the entries alone would allow one */
 static bool is_open(const GainValue *value)
 {
     return !is_determined(value) && fabs(value->at) + value->noise > value->off;
 }
 
-/* out of the units of time */
+/* converted from the units of time */
 static double scaled(double value, int by)
 {
     const int size = ilogb(value) + by;

@@ -1,8 +1,8 @@
 /* linearize.c: derivatives of the equations along the constraints
  *
- * With w = (q, u, x) and what follows from it, e = (u', lambda, x', z), all equations are
- * E(w, e, inputs) = 0, and a deviation of w gives E_e de = -E_w dw. A deviation of one state moves
- * the dependent coordinates and speeds along: Phi_u ds = 0, (Phi_u u - nu)_q dq + Phi_u du = 0, dq
+ * With w = (q, u, x) and the unknowns e = (u', lambda, x', z) that it determines, all equations are
+ * E(w, e, inputs) = 0, and a deviation of w gives E_e de = -E_w dw. A deviation of one state also
+ * moves the dependent coordinates and speeds: Phi_u ds = 0, (Phi_u u - nu)_q dq + Phi_u du = 0, dq
  * = N ds. */
 #include "simulate/analyse/linearize_impl.h"
 
@@ -16,7 +16,7 @@ typedef struct LinearizeVary {
     const LinearOrder *order;
     const Expr *symbols;
     Arena *arena;
-    Expr since; /* time from the point on */
+    Expr since; /* time after the point */
 } LinearizeVary;
 
 static Expr vary(void *context, const Instance *instance, int param, Expr value)

@@ -1,10 +1,10 @@
 /* linearize.h: linear equations about a point of a result, and their modes
  *
  * The equations M u' + Phi_u^T lambda = F, Phi_u u' = gamma, A [x'; z] = r and their constraints
- * are compiled, differentiated along deviations through their program (compile/tangents.h), and put
- * together along the constraints. Every entry comes with a bound of what rounding, of the numbers
- * given and on the way, leaves open. One that its bound doesn't tell from 0 is 0, unless it comes
- * out the same with all numbers moved in their last places. */
+ * are compiled, differentiated along deviations by forward differentiation (compile/tangents.h),
+ * and projected onto the constraints. Every entry has a bound of its error, from the rounding of
+ * given numbers and of the computation. An entry that is 0 within its bound is set to 0, unless it
+ * is nearly the same with all numbers perturbed in their last places. */
 #ifndef COTREE_SIMULATE_ANALYSE_LINEARIZE_H
 #define COTREE_SIMULATE_ANALYSE_LINEARIZE_H
 
@@ -13,19 +13,19 @@
 
 typedef struct LinearInput {
     const char *name;
-    const char *source; /* component whose value it adds to; NULL: a parameter of the name */
+    const char *source; /* component to whose value it is added; NULL: a parameter of that name */
 } LinearInput;
 
 typedef struct LinearOrder {
     ResultReader *about; /* of the result */
-    double at;           /* instant of it, s */
-    SceneSource scene;   /* of the result; asked where an input is a component's value */
+    double at;           /* an instant of the run, s */
+    SceneSource scene;   /* of the result; used where an input is a component's value */
     const LinearInput *inputs;
     int input_count;
-    const Expr *outputs; /* over the user's variables */
+    const Expr *outputs; /* expressions of the user's variables */
     const char *const *output_names;
     int output_count;
-    const char *const *independent; /* coordinates wanted as independent */
+    const char *const *independent; /* coordinates that the user wants independent */
     int independent_count;
     const CallMonitor *watch;
 } LinearOrder;
@@ -39,19 +39,19 @@ typedef struct Mode {
     double real, imaginary; /* eigenvalue, 1/s; imaginary >= 0 */
     double omega;           /* its absolute value, rad/s */
     double damping;         /* -real / omega; 0 where omega is */
-    double error;           /* the eigenvalue is known to, 1/s */
-    bool is_doubtful;       /* whether it grows or fades can't be determined: real is 0 */
-    double *amplitude;      /* parts: the largest is 1 */
-    double *phase;          /* rad, in (-pi, pi], of the largest 0 */
+    double error;           /* bound of the eigenvalue's error, 1/s */
+    bool is_doubtful;       /* whether it grows or decays can't be determined: real is 0 */
+    double *amplitude;      /* parts: relative to the largest, which is 1 */
+    double *phase;          /* rad, in (-pi, pi], relative to the largest, whose phase is 0 */
 } Mode;
 
 typedef struct Modes {
     int count, parts;
-    Mode *at; /* rising omega */
+    Mode *at; /* ascending omega */
     char **part_names;
 } Modes;
 
-/* New; free with modes_free(). E_SOLVER where the eigenvalues can't be found. */
+/* New; free with modes_free(). E_SOLVER where the eigenvalue iteration fails. */
 MUST_USE Status modes_find(const Linear *linear, Modes **out, Diag *diag);
 void modes_free(Modes *modes); /* NULL is fine */
 

@@ -1,4 +1,4 @@
-/* linearize_columns.c: what a deviation of a state or an input brings with it, column by column */
+/* linearize_columns.c: the columns of A, B, C, D: deviations of everything by one state or input */
 #include "simulate/analyse/linearize_impl.h"
 
 #include "base/memory.h"
@@ -9,12 +9,12 @@
 
 typedef struct Deviation {
     LinearNumber *s, *u, *q; /* nu, nu, n */
-    LinearNumber *follow;    /* unknowns */
-    LinearNumber *right;     /* the same, or used */
+    LinearNumber *follow;    /* of the unknowns e */
+    LinearNumber *right;     /* right-hand side: as many, or `used` */
     LinearNumber *turn;      /* n: N s' */
     LinearNumber *outputs;
-    int input; /* that deviates by 1, or -1 */
-    int state; /* network state that does, or -1 */
+    int input; /* that has a deviation of 1, or -1 */
+    int state; /* network state that has one, or -1 */
     int column;
 } Deviation;
 
@@ -38,7 +38,7 @@ static void deviation_close(Deviation *d)
     MEM_FREE(d->s, d->u, d->q, d->follow, d->right, d->turn, d->outputs);
 }
 
-/* number_add(), where nothing comes of most */
+/* number_add() with a quick exit where a factor is 0 */
 static inline void add_product(LinearNumber *sum, LinearNumber a, LinearNumber b)
 {
     if ((a.value != 0 || a.error != 0) && (b.value != 0 || b.error != 0))
@@ -54,8 +54,8 @@ static void by_map(const Work *w, Deviation *d)
     }
 }
 
-/* Derivatives of all rows along deviations, a lane each: of the input, and of coordinates and
- * states, of speeds, of what follows. */
+/* Derivatives of all rows along deviations, one batch lane each: by the input, by coordinates and
+ * states, by speeds, by the unknowns e. */
 typedef enum Parts { BY_INPUT, BY_POSITION, BY_SPEED, BY_ALL } Parts;
 
 static void move(const Work *w, const Deviation *d, int count, Parts parts)
@@ -93,7 +93,7 @@ static void solve(const Work *w, Deviation *d)
     MEM_FREE(b, error, found, off);
 }
 
-/* what rows of constraints move by, in the place of the right side */
+/* copy the derivatives of constraint rows to the right-hand side */
 static void take_rows(const Work *w, Deviation *d, int count, int first)
 {
     for (int lane = 0; lane < count; lane++)
@@ -112,7 +112,7 @@ static void take_turn(const Work *w, Deviation *d, int lane)
     }
 }
 
-/* dependent ones: speeds apart, since the velocity rows deviate with position first */
+/* dependent ones: speeds separately, since the velocity rows have a deviation by position first */
 static void complete(const Work *w, Deviation *d, int count)
 {
     move(w, d, count, BY_INPUT);
@@ -127,7 +127,8 @@ static void complete(const Work *w, Deviation *d, int count)
         linear_complete(w, d[lane].right, d[lane].u);
 }
 
-/* everything that deviations of independent ones, of a state or an input bring with them */
+/* the deviations of everything, from those of independent coordinates and speeds, a state or an
+ * input */
 static void spread(const Work *w, Deviation *d, int count)
 {
     if (w->used > 0)
@@ -191,7 +192,7 @@ static void put(const LinearColumn *column, int row, LinearNumber number)
     column->error[(ptrdiff_t)row * column->stride] = number.error;
 }
 
-/* what can't be distinguished from 0 is 0 */
+/* set entries to 0 that are 0 within their errors */
 static void drop(const LinearColumn *column, int count)
 {
     for (int i = 0; i < count; i++)
@@ -223,8 +224,8 @@ static void write_column(const Work *w, const Deviation *d, const LinearColumn *
         put(outputs, o, d->outputs[o]);
 }
 
-/* Rates of an input that the equations hold, x' = A x + B u + B1 u', as where a source closes a
- * circuit of capacitors: of x - B1 u the equations hold none, x~' = A x~ + (B + A B1) u. */
+/* Rates of an input in the equations, x' = A x + B u + B1 u', as where a source closes a loop of
+ * capacitors: equations of x~ = x - B1 u contain none, x~' = A x~ + (B + A B1) u. */
 static Status take_rate(const Work *w, Deviation *d, int input, Linear *out, Diag *diag)
 {
     double *b1 = NEW_ARRAY(double, 2 * out->states), *d1 = NEW_ARRAY(double, 2 * out->outputs);
@@ -276,7 +277,7 @@ done:
     return status;
 }
 
-/* the deviation of a column: of a state, or behind these of an input */
+/* the deviation of a column: of a state, or after these of an input */
 static void begin(const Work *w, const Linear *out, int c, Deviation *d)
 {
     const int f = w->freedoms;
@@ -293,10 +294,10 @@ static void begin(const Work *w, const Linear *out, int c, Deviation *d)
 
 /* --- M s'' + K s + C s' = 0 --- */
 
-/* T, how all speeds move with independent ones, and what is left of the balances along it */
+/* T, the derivative of all speeds by the independent ones, and the balances projected onto it */
 typedef struct ColumnBalance {
     LinearNumber *along;  /* T, nu x freedoms */
-    LinearNumber *moment; /* nu: room */
+    LinearNumber *moment; /* nu: workspace */
 } ColumnBalance;
 
 static LinearNumber mass_entry(const Work *w, int i, int j)
@@ -304,7 +305,7 @@ static LinearNumber mass_entry(const Work *w, int i, int j)
     return (LinearNumber){w->matrix[i * w->unknowns + j], w->matrix_error[i * w->unknowns + j]};
 }
 
-/* nothing but accelerations and multipliers in the balances */
+/* whether balances contain no unknowns but accelerations and multipliers */
 static bool is_mechanical(const Work *w)
 {
     for (int i = 0; i < w->l->nu; i++)
@@ -317,7 +318,7 @@ static bool is_mechanical(const Work *w)
     return true;
 }
 
-/* of what acts on all speeds: along the independent ones */
+/* project a load on all speeds onto the independent ones */
 static void put_along(const Work *w, const ColumnBalance *b, double sign, double *at, double *error,
                       int stride)
 {
@@ -338,7 +339,7 @@ static void add_mass(const Work *w, const LinearNumber *acceleration, LinearNumb
             add_product(&moment[i], mass_entry(w, i, j), acceleration[j]);
 }
 
-/* T, and M of independent coordinates T^T M T */
+/* T, and the mass matrix of independent coordinates, T^T M T */
 static void open_balance(const Work *w, ColumnBalance *b, Linear *out)
 {
     const int nu = w->l->nu, f = w->freedoms;
@@ -373,7 +374,8 @@ static void close_balance(const ColumnBalance *b)
     MEM_FREE(b->along, b->moment);
 }
 
-/* -T^T (what the balances miss + M u'), u' being what constraints ask of dependent ones alone */
+/* -T^T (residual of the balances + M u'), where u' is what constraints determine of dependent
+ * speeds alone */
 static void write_force(const Work *w, const ColumnBalance *b, const Deviation *d, int column,
                         Linear *out)
 {
@@ -396,7 +398,7 @@ static void forget_balance(Linear *out)
     out->mass = out->mass_error = out->force = out->force_error = NULL;
 }
 
-/* s' are the speeds, and nothing else moves s */
+/* whether s' are the speeds, and s depends on nothing else */
 static bool speeds_are_rates(const Linear *out)
 {
     for (int i = 0; i < out->freedoms; i++)

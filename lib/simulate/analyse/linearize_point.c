@@ -1,7 +1,8 @@
-/* linearize_point.c: the point about which is linearized, and how far its numbers may be off
+/* linearize_point.c: the point of linearisation, and bounds of the errors of its numbers
  *
- * Given coordinates are taken as meant up to half a unit in their last place. Dependent ones, and
- * what follows from all, may be off by what their equations still miss there. */
+ * Given coordinates are accurate to half a unit in their last place. The error of dependent ones,
+ * and of the unknowns that all of them determine, is bounded by the residuals of their
+ * equations. */
 #include "simulate/analyse/linearize_impl.h"
 
 #include "algebra/rank.h"
@@ -11,12 +12,12 @@
 
 #include <string.h>
 
-#define AHEAD 0.1  /* of the time that the fastest swing takes for a radian */
-#define SAME  1e-5 /* over that time, of the largest coefficient of its row */
+#define AHEAD 0.1  /* of the time in which the fastest oscillation moves by a radian */
+#define SAME  1e-5 /* change over that time, relative to the largest coefficient of its row */
 
-#define BESIDE 0x1p-52 /* relative: by which coefficients are others beside the point */
+#define BESIDE 0x1p-52 /* relative perturbation of coefficients */
 
-enum { MOST_STEPS = 8 }; /* of Newton's method; equations that are linear in it take two */
+enum { MOST_STEPS = 8 }; /* of Newton's method; linear equations take two */
 
 /* --- equations in use --- */
 
@@ -62,7 +63,7 @@ double linear_moved(const Work *w, int r, int column, double value)
     return w->beside == 0 || value == 0 ? value : value * (1 + BESIDE * random_unit(&seed));
 }
 
-/* E_e, which is read from the tangents; whether it isn't as it was */
+/* Copy E_e from the tangents. Returns whether it has changed. */
 static bool fill_matrix(const Work *w)
 {
     const int n = w->unknowns;
@@ -95,7 +96,7 @@ static void evaluate(Work *w, bool is_bounded)
     const RowValues row = row_with(w, w->order->at, w->y, w->follow);
     RowValues off = row_with(w, number_error(w->order->at), w->y_error, w->follow_error);
 
-    off.references = NULL; /* which turn it is, is certain */
+    off.references = NULL; /* the turn is known exactly */
     if (w->beside != 0)
         probe_tangents_beside(w->derived, &row, w->beside, w->along);
     else
@@ -104,7 +105,7 @@ static void evaluate(Work *w, bool is_bounded)
         w->values[i].value = tangents_value(w->along, i, &w->values[i].error);
 }
 
-/* --- what follows from the state --- */
+/* --- the unknowns that the state determines --- */
 
 static void factor(Work *w)
 {
@@ -122,7 +123,7 @@ static void residuals(const Work *w, double *right, double *error)
     }
 }
 
-/* u', lambda, x', z at the point, by Newton; linear equations but for F in x' and z */
+/* u', lambda, x', z at the point by Newton's method; only F in x' and z may be nonlinear */
 static bool find_rates(Work *w)
 {
     double *right = NEW_ARRAY(double, w->unknowns), *error = NEW_ARRAY(double, w->unknowns);
@@ -152,7 +153,7 @@ static bool find_rates(Work *w)
     return sound;
 }
 
-/* what these equations miss still, with their errors, is what their unknowns may be off by */
+/* bound their errors by the residuals of these equations and their errors */
 static bool bound_rates(Work *w)
 {
     double *right = NEW_ARRAY(double, w->unknowns), *error = NEW_ARRAY(double, w->unknowns);
@@ -172,7 +173,7 @@ static bool bound_rates(Work *w)
 
 /* --- geometry --- */
 
-/* N' is N along q' */
+/* N' is the derivative of N along q' */
 static void turn_map(Work *w)
 {
     const VariableIndex *l = w->l;
@@ -188,7 +189,7 @@ static void turn_map(Work *w)
         w->map_rate[i].value = tangents_root(w->turning, constraints + i, 0, &w->map_rate[i].error);
 }
 
-/* after evaluate() */
+/* call after evaluate() */
 static void evaluate_geometry(Work *w)
 {
     const VariableIndex *l = w->l;
@@ -209,7 +210,7 @@ static void evaluate_geometry(Work *w)
     turn_map(w);
 }
 
-/* new: Phi_u without its errors */
+/* new: Phi_u without error bounds */
 static double *plain_phi_u(const Work *w)
 {
     double *phi_u = NEW_ARRAY(double, w->l->m * w->l->nu);
@@ -219,7 +220,7 @@ static double *plain_phi_u(const Work *w)
     return phi_u;
 }
 
-/* those of the start may be dependent here, where others are not */
+/* Choose independent rows: those of the initial state may be dependent here. */
 static void choose_rows(Work *w)
 {
     const Assembled *start = &w->order->about->result->start;
@@ -261,7 +262,7 @@ static Status choose_independent(Work *w, Diag *diag)
     return status;
 }
 
-/* Phi_u's dependent columns */
+/* factor the dependent columns of Phi_u */
 static bool factor_dependent(Work *w)
 {
     const int nu = w->l->nu, m = w->used;
@@ -307,7 +308,8 @@ void linear_complete(const Work *w, const LinearNumber *right, LinearNumber *v)
 
 /* --- errors of the state --- */
 
-/* what rows miss, at the place of the row of constraint 0, moved onto dependent speeds */
+/* deviations of dependent speeds for the residuals of rows, `first` being the index of constraint
+ * 0's */
 static void miss(const Work *w, int first, LinearNumber *moves)
 {
     LinearNumber *right = NEW_ARRAY(LinearNumber, w->used);
@@ -366,7 +368,7 @@ static void open_room(Work *w)
         w->y_error[i] = number_error(w->y[i]);
 }
 
-/* Newton begins where the run has found the network: from nothing it doesn't come back out of an
+/* Newton's method starts from the network's state in the run: from 0 it doesn't converge past an
  * exponential. */
 static void begin_at_network(Work *w)
 {
@@ -435,9 +437,9 @@ bool linear_perturbed(Work *w)
     return verified_solve_is_regular(w->equations);
 }
 
-/* --- how it goes on --- */
+/* --- along the motion --- */
 
-/* about the largest of the eigenvalues that deviations of coordinates have, 1/s */
+/* approximate largest eigenvalue of the deviations of coordinates, 1/s */
 static double quickness(const Linear *linear)
 {
     const int n = linear->freedoms;
@@ -451,7 +453,7 @@ static double quickness(const Linear *linear)
     return sqrt(stiffness) + damping;
 }
 
-/* where coordinates and speeds are after a time, with the rates of now */
+/* coordinates and speeds after a time, with the current rates */
 static void move_on(const Work *w, double time, double *y)
 {
     const VariableIndex *l = w->l;
@@ -469,8 +471,8 @@ static void move_on(const Work *w, double time, double *y)
         y[l->n + j] += time * w->follow[j];
 }
 
-/* Whether coefficients of coordinates, speeds, accelerations and multipliers in a row are others:
- * `here` at the point, so many each. */
+/* Whether coefficients of coordinates, speeds, accelerations and multipliers in a row have changed:
+ * `here` at the point, `count` of each. */
 static bool row_changes(const double *here, const double *there, int count)
 {
     double largest = 0, change = 0;
@@ -482,7 +484,7 @@ static bool row_changes(const double *here, const double *there, int count)
     return !(change <= SAME * largest);
 }
 
-/* these coefficients of balances and velocity rows in use, where the tangents stand; new */
+/* these coefficients of balances and velocity rows in use, at the tangents' point; new */
 static double *coefficients(const Work *w)
 {
     const int nu = w->l->nu, count = w->at.rates;

@@ -1,11 +1,11 @@
-/* linearize_result.c: linear equations as they are handed out, with their names */
+/* linearize_result.c: the linear equations that are returned, with their names */
 #include "simulate/analyse/linearize_impl.h"
 
 #include "base/memory.h"
 
 #include <string.h>
 
-/* "h8"; for an angular velocity m1.Wx "m1.turnX", a small turn about that axis */
+/* "h8"; for an angular velocity m1.Wx "m1.turnX", a small rotation about that axis */
 static char *part_name(const Work *w, int speed)
 {
     int i = speed_coordinate(w->system, speed);

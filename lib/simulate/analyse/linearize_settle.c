@@ -1,15 +1,15 @@
-/* linearize_settle.c: which entries of the linear equations are 0
+/* linearize_settle.c: decides which entries of the linear equations are 0
  *
- * Bounds take every error at its worst, and each by itself: far from rest those of a long chain are
- * beyond all measure, and what they can't tell from 0 is most of what there is. What they leave
- * open is asked for again beside the point. */
+ * Bounds add up every error at its worst, independently of the others: far from rest those of a
+ * long chain are huge, and most entries are 0 within them. For such entries the equations are
+ * evaluated again at perturbed points. */
 #include "simulate/analyse/linearize_impl.h"
 
 #include "algebra/linear.h"
 #include "base/memory.h"
 
-#define ROUNDED 1e-12 /* of the largest entry of a row: what rounding may leave */
-#define ALIKE   1e-3  /* of an entry, by which others beside the point differ at most */
+#define ROUNDED 1e-12 /* of the largest entry of a row: rounding error */
+#define ALIKE   1e-3  /* largest relative difference of an entry at perturbed points */
 
 /* a matrix of a Linear, row by row, with its bounds */
 typedef struct Entries {
@@ -29,7 +29,7 @@ static void list_entries(const Linear *linear, Entries out[MATRICES])
     out[3] = (Entries){linear->d, linear->d_error, q, p};
 }
 
-/* whether bounds don't tell an entry from 0 that is more than rounding would leave of its row */
+/* whether an entry is 0 within its bound, but larger than rounding error of its row */
 static bool is_doubtful(const Entries *m, int row, int k)
 {
     const double *at = m->at + (ptrdiff_t)row * m->columns;
@@ -55,8 +55,8 @@ static bool has_doubtful(const Linear *linear)
     return false;
 }
 
-/* What is true is nearly the same where all numbers and all coefficients are moved in their last
- * places; what rounding left is not. What isn't told from 0 so either is 0. */
+/* A true entry is nearly the same when all numbers and all coefficients are perturbed in their last
+ * places; a rounding error is not. Entries that remain doubtful are 0. */
 static void settle(Linear *linear, Linear *const *samples, int count)
 {
     Entries m[MATRICES], sampled[SAMPLES][MATRICES];
@@ -79,7 +79,7 @@ static void settle(Linear *linear, Linear *const *samples, int count)
         }
 }
 
-/* the same once more, beside the point: *out is new, NULL where it can't be determined there */
+/* the same at a perturbed point: *out is new, NULL where it can't be evaluated there */
 static Status sample(Work *w, uint64_t seed, Linear **out, Diag *diag)
 {
     Linear *linear;

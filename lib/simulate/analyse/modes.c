@@ -1,9 +1,9 @@
-/* modes.c: eigenvalues of a linear system, and which parts move
+/* modes.c: eigenvalues of linear equations, and the motion of all parts in each mode
  *
- * Where M, K and C are known, in modal coordinates: what neither damps nor turns has the
- * eigenvalues +-i sqrt of those of M^-1 K, anything else the eigenvalues of a matrix that nearly
- * decouples. What stands for itself and its conjugate is one mode. The eigenvector moves every
- * coordinate, dependent ones too. */
+ * Where M, K and C are known, in modal coordinates: without damping and gyroscopic terms the
+ * eigenvalues are +-i sqrt of those of M^-1 K; otherwise they are those of a matrix that is nearly
+ * decoupled. A conjugate pair is one mode. The eigenvector moves every coordinate, dependent ones
+ * too. */
 #include "simulate/analyse/linearize.h"
 
 #include "algebra/modal.h"
@@ -13,9 +13,9 @@
 #include <math.h>
 #include <string.h>
 
-#define SAME 1e-6 /* sizes of parts that count as equal */
+#define SAME 1e-6 /* relative difference of amplitudes that count as equal */
 
-/* amplitudes and phases over the largest part, the first of those that are as large */
+/* amplitudes and phases relative to the largest part, the first of equal ones */
 static void scale_shape(Mode *mode, int parts)
 {
     double largest = 0, turn = 0;
@@ -28,7 +28,7 @@ static void scale_shape(Mode *mode, int parts)
     for (int p = 0; p < parts && largest > 0; p++) {
         mode->amplitude[p] /= largest;
         mode->phase[p] = remainder(mode->phase[p] - turn, 2 * M_PI);
-        /* just above or just below half a turn is half a turn */
+        /* slightly more or less than half a turn counts as half a turn */
         if (mode->phase[p] < -M_PI + SAME || mode->amplitude[p] == 0)
             mode->phase[p] = mode->amplitude[p] == 0 ? 0 : M_PI;
     }
@@ -67,7 +67,7 @@ static int by_omega(const void *a, const void *b)
     return 0;
 }
 
-/* by insertion, which leaves what is equal in its order */
+/* by insertion, which is stable */
 static void sort(Modes *modes)
 {
     for (int i = 1; i < modes->count; i++) {
@@ -82,7 +82,7 @@ static void sort(Modes *modes)
 
 /* --- in modal coordinates --- */
 
-/* a block of a matrix whose rows are `stride` apart, times `sign`; new */
+/* a block of a matrix with rows `stride` apart, times `sign`; new */
 static BoundedMatrix take_block(const double *at, const double *error, int stride, int rows,
                                 int columns, double sign)
 {
@@ -96,14 +96,14 @@ static BoundedMatrix take_block(const double *at, const double *error, int strid
     return (BoundedMatrix){out, out_error};
 }
 
-/* columns of M's unsolved rows, of the sign that their name has */
+/* columns of the rows before solving with M, times `sign` */
 static BoundedMatrix take_columns(const Linear *linear, int first, int count, double sign)
 {
     return take_block(linear->force + first, linear->force_error + first, linear->states,
                       linear->freedoms, count, sign);
 }
 
-/* columns of A's rows that networks have */
+/* columns of the networks' rows of A */
 static BoundedMatrix network_columns(const Linear *linear, int first, int count)
 {
     const int above = 2 * linear->freedoms, at = above * linear->states + first;
@@ -129,7 +129,7 @@ static Modal *modal_of(const Linear *linear, BoundedMatrix stiffness)
     return modal;
 }
 
-/* M s'' + K s = 0 with a symmetric K, as far as its entries tell */
+/* whether the equations are M s'' + K s = 0 with a symmetric K, within errors of entries */
 static bool is_conservative(const Linear *linear, BoundedMatrix stiffness)
 {
     const int f = linear->freedoms;
@@ -149,9 +149,8 @@ static bool is_conservative(const Linear *linear, BoundedMatrix stiffness)
     return true;
 }
 
-/* a root of s^2 = -square, where that is known to `error` and `count` others can't be determined
- * from it
- */
+/* A root of s^2 = -square, which is known to `error`; `count` roots are within each other's
+ * errors. */
 static Root root_of_square(double square, double error, int count)
 {
     const double size = fabs(square);
@@ -168,12 +167,12 @@ static Root root_of_square(double square, double error, int count)
         root.real = sqrt(-square);
     /* sqrt(size) - sqrt(size - error), and its rounding */
     root.error = error / (sqrt(size) + sqrt(size - error)) + 0x1p-52 * sqrt(size);
-    /* a single one is real, and so is its square: what is conjugate would be within its disc */
+    /* a single one is real, as is its square: its conjugate would be in its disc too */
     root.is_on_axis = square > 0 && count == 1;
     return root;
 }
 
-/* both roots of each eigenvalue of M^-1 K; false where they aren't numbers */
+/* both roots of each eigenvalue of M^-1 K; false where they are not finite */
 static bool push_conservative(const Linear *linear, const Modal *modal, Modes *modes)
 {
     const int f = linear->freedoms;
@@ -187,7 +186,7 @@ static bool push_conservative(const Linear *linear, const Modal *modal, Modes *m
     for (int k = 0; k < f && sound; k++) {
         Root root = root_of_square(mean[k], error[k], count[group[k]]);
 
-        /* what meets no stiffness moves alone as well */
+        /* without stiffness a coordinate is a mode by itself */
         for (int i = 0; i < f; i++)
             vector[i] = modal->is_still[k] ? i == k : modal->vector[i * f + k];
         fill_mode(linear, &root, vector, &modes->at[modes->count++]);
@@ -200,7 +199,7 @@ static bool push_conservative(const Linear *linear, const Modal *modal, Modes *m
     return sound;
 }
 
-/* a matrix of all states, and how far its entries may be off */
+/* a matrix of all states, with bounds of its entries' errors */
 typedef struct StateMatrix {
     int n;
     double *at, *error;
@@ -216,7 +215,7 @@ static void put_block(const StateMatrix *m, int row, int column, int rows, int c
         }
 }
 
-/* rows x f times X, put at its place */
+/* rows x f times X, stored at its position */
 static void put_moved(const StateMatrix *m, const Modal *modal, BoundedMatrix b, int rows, int row,
                       int column)
 {
@@ -265,7 +264,7 @@ static StateMatrix modal_matrix(const Linear *linear, const Modal *modal)
     return m;
 }
 
-/* what coordinates and speeds are, of modal ones */
+/* coordinates and speeds from modal ones */
 static void leave_modal(const Modal *modal, double complex *vector)
 {
     const int f = modal->n;
@@ -279,8 +278,8 @@ static void leave_modal(const Modal *modal, double complex *vector)
     mem_free(out);
 }
 
-/* roots of a matrix of all states, in modal coordinates or (NULL) in those of `linear`; false:
- * there are none to be found */
+/* eigenvalues of a matrix of all states, in modal coordinates or (NULL) in those of `linear`;
+ * false: they can't be found */
 static bool push_spectrum(const Linear *linear, const Modal *modal, const double *a,
                           const double *error, Modes *modes)
 {

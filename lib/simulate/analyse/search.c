@@ -1,4 +1,4 @@
-/* search.c: KINSOL with a solver of linear equations that bears singular ones */
+/* search.c: KINSOL with a linear solver that allows singular matrices */
 #include "simulate/analyse/search.h"
 
 #include "algebra/dense.h"
@@ -13,48 +13,48 @@
 #include <string.h>
 #include <sunmatrix/sunmatrix_sparse.h>
 
-/* what is found */
+/* convergence */
 #define ENOUGH 1e-9  /* residual over the terms of its row */
-#define LEAST  1e-15 /* residual over the largest entry of its row: unknowns of no size */
-#define FINE   1e-12 /* residual over its weight: no further round */
+#define LEAST  1e-15 /* residual over the largest entry of its row: for unknowns of size 0 */
+#define FINE   1e-12 /* residual over its weight: no further round is needed */
 
 /* rounds */
 #define ROUNDS       12
 #define ROUND        20    /* iterations in one */
-#define SLOW         0.99  /* of the residuals left after a round: it gets nowhere */
-#define SETTLED      1e-15 /* residual over its weight: the end of a round */
-#define STILL        1e-15 /* step in itself, likewise */
-#define LITTLE       1e-6  /* a state, reaction or voltage below which a step is small in itself */
-#define LITTLE_SHARE 1e-9  /* of the largest force, or entry of a row: least weight at last */
+#define SLOW         0.99  /* ratio of residuals after a round: no progress */
+#define SETTLED      1e-15 /* residual over its weight: ends a round */
+#define STILL        1e-15 /* relative step, likewise */
+#define LITTLE       1e-6  /* least scale of a state, reaction or voltage for relative steps */
+#define LITTLE_SHARE 1e-9  /* of the largest force, or entry of a row: least weight in the end */
 
 /* steps */
 #define LONGEST 1.0  /* rad or m */
-#define SHORT   1e-4 /* share of a step, below which the search for its length ends */
-#define LARGEST 1e60 /* residual over its weight: undefined places are as bad as this */
+#define SHORT   1e-4 /* fraction of a step, below which the line search ends */
+#define LARGEST 1e60 /* residual over its weight at points where it is undefined */
 
 /* full matrices */
-#define MOST_FULL 300 /* unknowns of a network */
-#define FEW_SVD   100 /* unknowns to find what moves most */
+#define MOST_FULL 300 /* unknowns of a network, at most */
+#define FEW_SVD   100 /* unknowns, at most, for a singular value decomposition */
 
 struct EquilibriumSearch {
     Cleanup cleanup;
     EquilibriumResidual *equations;
     const CallMonitor *watch;
     int n;
-    int speeds;             /* of w: steps */
+    int speeds;             /* number of steps in w */
     const int *start, *row; /* pattern of the Jacobian */
     Factors *factors;
     double *kept;                  /* base */
-    bool is_held;                  /* the mechanics */
-    double *missed, *size, *entry; /* of rows: residuals, their terms, their largest entries */
+    bool is_held;                  /* the mechanics is held */
+    double *missed, *size, *entry; /* of rows: residuals, sums of terms, largest entries */
     SUNContext context;
     void *memory;
-    N_Vector w, unit, weight; /* of a unit, of a residual: KINSOL's scales */
+    N_Vector w, unit, weight; /* scales of KINSOL: of unknowns, of residuals */
     SUNMatrix matrix;
     SUNLinearSolver linear;
 };
 
-/* --- what KINSOL calls --- */
+/* --- callbacks of KINSOL --- */
 
 static SUNLinearSolver_Type solver_type(SUNLinearSolver solver)
 {
@@ -76,7 +76,7 @@ static int solver_setup(SUNLinearSolver solver, SUNMatrix matrix)
                                                                   : SUNLS_LUFACT_FAIL;
 }
 
-/* a step's length as KINSOL measures it once it was made */
+/* a step's length in KINSOL's norm */
 static double length_of(const EquilibriumSearch *s, const double *step)
 {
     double length = 0;
@@ -90,8 +90,9 @@ static double length_of(const EquilibriumSearch *s, const double *step)
     return length;
 }
 
-/* No part moves further than LONGEST. `right` stays, as if the step were whole: its fall of the
- * residuals is never too good then, and KINSOL makes no step longer. */
+/* Shorten the step so that no part moves further than LONGEST. `right` is unchanged, as for the
+ * whole step: the predicted decrease of the residuals is then never exceeded, and KINSOL makes no
+ * longer step. */
 static int solver_solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector step, N_Vector right,
                         realtype tolerance)
 {
@@ -155,7 +156,7 @@ static void keep_quiet(int code, const char *module, const char *function, char 
     (void)code, (void)module, (void)function, (void)message, (void)data;
 }
 
-/* --- life --- */
+/* --- construction and destruction --- */
 
 static void close_solver(void *object)
 {
@@ -254,7 +255,7 @@ void search_free(EquilibriumSearch *s)
 
 /* --- rounds --- */
 
-/* w at the base, its residuals and sizes of rows; false where something isn't finite */
+/* evaluate w at the base, its residuals and sizes of rows; false where something isn't finite */
 static bool look(EquilibriumSearch *s)
 {
     double *w = N_VGetArrayPointer(s->w);
@@ -277,8 +278,9 @@ static bool holds(const EquilibriumSearch *s, int i, double missed)
     return fabs(missed) <= fmax(ENOUGH * s->size[i], LEAST * s->entry[i]);
 }
 
-/* After look(): what a residual is measured by, its terms or itself; but by `share` of the largest
- * force, or of an unknown of 1, at least, while reactions and currents are still to come. */
+/* Weights of residuals, after look(): the size of their terms or of themselves; but at least
+ * `share` of the largest force, or of an unknown of 1, while reactions and currents are still
+ * unknown. */
 static void weigh(EquilibriumSearch *s, double share)
 {
     double force = 0;
@@ -293,7 +295,7 @@ static void weigh(EquilibriumSearch *s, double share)
     }
 }
 
-/* after look() */
+/* whether all equations hold, after look() */
 static bool all_hold(const EquilibriumSearch *s)
 {
 
@@ -303,7 +305,7 @@ static bool all_hold(const EquilibriumSearch *s)
     return true;
 }
 
-/* after weigh(): the residuals as KINSOL sums them */
+/* KINSOL's norm of the residuals, after weigh() */
 static double measure(const EquilibriumSearch *s)
 {
     double sum = 0;
@@ -313,7 +315,7 @@ static double measure(const EquilibriumSearch *s)
     return sqrt(sum);
 }
 
-/* after weigh(): the largest */
+/* the largest residual, after weigh() */
 static double worst(const EquilibriumSearch *s, const double *missed)
 {
     double largest = 0;
@@ -323,11 +325,11 @@ static double worst(const EquilibriumSearch *s, const double *missed)
     return vector_is_finite(missed, s->n) ? largest : INFINITY;
 }
 
-/* the rounds of search_run(), which leave the base where they end */
+/* the rounds of search_run(); the base is where they end */
 static bool go_on(EquilibriumSearch *s)
 {
     bool is_stuck = false;
-    double share = 1; /* each balance is measured by the largest, until all hold */
+    double share = 1; /* each balance is relative to the largest, until all hold */
 
     if (!look(s))
         return false;
@@ -352,7 +354,7 @@ static bool go_on(EquilibriumSearch *s)
             if (code < 0 || worst(s, s->missed) <= FINE)
                 return true;
         } else if (code < 0) {
-            /* the fall may be seen once residuals are measured anew */
+            /* the decrease may show with new weights */
             if (is_stuck)
                 return false;
             is_stuck = true;
@@ -386,7 +388,7 @@ bool search_settle(EquilibriumSearch *s)
     return found;
 }
 
-/* --- about the base --- */
+/* --- at the base --- */
 
 double search_growth(EquilibriumSearch *s, const double *w)
 {
@@ -414,7 +416,7 @@ int search_rank(EquilibriumSearch *s)
     return factors_solve(s->factors, s->size, N_VGetArrayPointer(s->w));
 }
 
-/* what moves most where the equations stay as they are; -1: nothing may. O(n^3) */
+/* the unknown that moves most along the null space; -1: none. O(n^3) */
 static int loosest(const EquilibriumSearch *s, const double *values)
 {
     const size_t n = (size_t)s->n;

@@ -1,10 +1,10 @@
-/* search.h: Newton's method for the equations of rest
+/* search.h: Newton's method for the equations of static equilibrium
  *
  * KINSOL searches in w from the base (line search on the residuals, each over the size of its terms
- * where a round begins; Hindmarsh and others 2005), and the base follows: a round ends after some
- * steps, before small turns have become large ones. Steps come from sparse factors; where these are
- * small or nearly singular from full ones of as many columns as are independent, so that redundant
- * constraints and freedoms that nothing holds do no harm. */
+ * at the start of a round; Hindmarsh and others 2005). The base then moves: a round ends after some
+ * steps, before small rotations have become large. Steps come from sparse LU factors; where the
+ * matrix is small or nearly singular, from full factors of as many columns as are independent, so
+ * that redundant constraints and unconstrained freedoms do no harm. */
 #ifndef COTREE_SIMULATE_ANALYSE_SEARCH_H
 #define COTREE_SIMULATE_ANALYSE_SEARCH_H
 
@@ -16,24 +16,23 @@ typedef struct EquilibriumSearch EquilibriumSearch;
 EquilibriumSearch *search_new(EquilibriumResidual *equations, const CallMonitor *watch);
 void search_free(EquilibriumSearch *search); /* NULL is fine */
 
-/* From the base to a place where every equation holds, which is the base then. False: none was
- * found, or the watch said stop; the base stays. */
+/* From the base to a point where every equation holds, which becomes the base. False: none was
+ * found, or the watch requested a stop; the base is unchanged. */
 bool search_run(EquilibriumSearch *search);
 
-/* The same with the mechanics held where it is (equilibrium_hold()): the network settles beside it.
- */
+/* The same with the mechanics held (equilibrium_hold()): only the network settles. */
 bool search_settle(EquilibriumSearch *search);
 
-/* --- about the base --- */
+/* --- at the base --- */
 
-/* the largest residual at w, each over what it is measured by at the base; INFINITY: undefined */
+/* the largest residual at w, with the weights at the base; INFINITY: undefined */
 double search_growth(EquilibriumSearch *search, const double *w);
 
-/* whether equation i holds; *missed tells by how much it doesn't */
+/* whether equation i holds; *missed becomes its residual */
 bool search_holds(EquilibriumSearch *search, int i, double *missed);
-/* unknowns that the equations determine there; -1: singular, and too large to tell */
+/* number of unknowns that the equations determine there; -1: singular, and too large to compute */
 int search_rank(EquilibriumSearch *search);
-/* a place in w of an unknown that nothing determines; -1: not known. O(n^3) where n is small. */
+/* index in w of an unknown that no equation determines; -1: not known. O(n^3) where n is small. */
 int search_undetermined(EquilibriumSearch *search);
 /* whether full matrices are small enough */
 bool search_may_be_full(const EquilibriumSearch *search);

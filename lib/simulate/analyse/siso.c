@@ -1,4 +1,4 @@
-/* siso.c: which states stand between an input and an output, and (s - A)^-1 */
+/* siso.c: the states between an input and an output, and (s - A)^-1 */
 #include "simulate/analyse/siso.h"
 
 #include "algebra/schur.h"
@@ -8,7 +8,7 @@
 
 /* --- states between input and output --- */
 
-/* Mark what is reached from marked states; `back`: what reaches them. */
+/* Mark what is reachable from marked states; `back`: what they are reachable from. */
 static void follow(const double *a, int n, bool back, bool *marked)
 {
     int *queue = NEW_ARRAY(int, n);
@@ -45,7 +45,7 @@ static int find_kept(const Linear *linear, int output, int input, int *kept)
     return count;
 }
 
-/* of a state; with input and output as one more state everything acts on everything */
+/* scale of each state; input and output count as one more state */
 static void find_scale(const Siso *s, double *scale)
 {
     const int n = s->n, m = n + 1;
@@ -124,8 +124,8 @@ struct Resolvent {
     DoubleDouble *b, *c; /* Q^T b, Q^T c */
     double norm;
     DoubleDoubleComplex *factors; /* n x n: U on and above the diagonal */
-    DoubleDoubleComplex *factor;  /* of step k: what was taken of row k from the row below */
-    bool *exchanged;              /* step k exchanged its two rows before */
+    DoubleDoubleComplex *factor;  /* of step k: multiple of row k taken from the next row */
+    bool *exchanged;              /* step k exchanged its two rows first */
     DoubleDoubleComplex *x, *y;   /* (s - H)^-1 Q^T b, (s - H)^-T Q^T c */
 };
 

@@ -1,9 +1,8 @@
-/* transfer.c: poles, zeros and gain of one output against one input; frequency response
+/* transfer.c: poles, zeros and gain of one output for one input; frequency response
  *
- * States through which no way leads from the input to the output are left out first, by the
- * entries of A, B, C that aren't 0. Poles are eigenvalues of what is left (spectrum.h); zeros see
- * zeros.h. The response is solved for, frequency by frequency; roots only tell the turns of its
- * phase. */
+ * States on no path from the input to the output are omitted first, by the entries of A, B, C that
+ * aren't 0. Poles are eigenvalues of the rest (spectrum.h); for zeros see zeros.h. The response is
+ * solved for at each frequency; roots only determine the turns of its phase. */
 #include "simulate/analyse/transfer.h"
 
 #include "base/memory.h"
@@ -13,8 +12,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define MET   1e-13 /* of a zero: a frequency as near as that is the zero */
-#define KNOWN 1e-3  /* a root known to less of its size isn't left out against another */
+#define MET   1e-13 /* relative: a frequency so near to a zero counts as the zero */
+#define KNOWN 1e-3  /* a root with a larger relative error isn't cancelled */
 
 static const double LEAST_RESPONSE = 1e-200, MOST_RESPONSE = 1e200;
 
@@ -59,7 +58,7 @@ static void remove_root(Root *roots, int *count, int which)
     (*count)--;
 }
 
-/* a pole and a zero lie within each other's errors, and these tell something of where */
+/* whether a pole and a zero are within each other's errors, and these are small */
 static bool is_same(const Root *pole, const Root *zero)
 {
     const double apart = hypot(pole->real - zero->real, pole->imaginary - zero->imaginary);
@@ -68,7 +67,7 @@ static bool is_same(const Root *pole, const Root *zero)
     return apart <= error && (error <= KNOWN * size_of(*pole) || size_of(*pole) == 0);
 }
 
-/* the pair of those that are closest, of those above or on the real axis */
+/* the closest pair of those, on or above the real axis */
 static bool closest(const Transfer *t, int *pole, int *zero)
 {
     double best = INFINITY;
@@ -101,7 +100,7 @@ static void drop_pair(Root *roots, int *count, int which)
         }
 }
 
-/* Leave out poles and zeros that can't be distinguished. */
+/* Remove pairs of poles and zeros that are equal within their errors. */
 static void cancel(Transfer *t)
 {
     const int before = t->poles;
@@ -118,7 +117,7 @@ static void cancel(Transfer *t)
 
 /* --- polynomials --- */
 
-/* gain times the product of (s - root), falling powers: new, count + 1 */
+/* gain times the product of (s - root), descending powers: new, count + 1 */
 static double *expand(const Root *roots, int count, double gain)
 {
     double *out = NEW_ARRAY(double, count + 1);
@@ -132,11 +131,11 @@ static double *expand(const Root *roots, int count, double gain)
         if (roots[i].imaginary < 0)
             continue;
         degree += roots[i].imaginary > 0 ? 2 : 1;
-        for (int k = degree; k > 0; k--) /* behind the old degree all are 0 */
+        for (int k = degree; k > 0; k--) /* beyond the old degree all are 0 */
             out[k] += linear * out[k - 1] + (k > 1 ? constant * out[k - 2] : 0);
     }
     for (int k = 0; k <= count; k++)
-        out[k] += 0.0; /* never -0 */
+        out[k] += 0.0; /* avoids -0 */
     return out;
 }
 
@@ -195,8 +194,8 @@ done:
 
 /* --- frequency response --- */
 
-/* argument of the product of (j omega - root), continuous in omega; `halves` counts what are half
- * turns at its start */
+/* argument of the product of (j omega - root), continuous in omega; `halves` becomes the number of
+ * half turns at omega = 0 */
 static double turns_of(const Root *roots, int count, double omega, int *halves)
 {
     double sum = 0;
@@ -210,7 +209,7 @@ static double turns_of(const Root *roots, int count, double omega, int *halves)
     return sum;
 }
 
-/* the phase as the roots tell it; at its start, where nothing integrates, 0 or half a turn */
+/* the phase from the roots; at omega = 0, without integrators, 0 or half a turn */
 static double phase_by_roots(const Transfer *t, double omega)
 {
     int above = t->gain < 0, below = 0;
@@ -232,7 +231,7 @@ static double decades_of(const Root *roots, int count, double omega)
     return sum;
 }
 
-/* whether j omega is a zero as far as that is known */
+/* whether j omega is a zero within its error */
 static bool is_zero(const Transfer *t, double omega)
 {
     for (int i = 0; i < t->zeros; i++)
@@ -242,7 +241,7 @@ static bool is_zero(const Transfer *t, double omega)
     return false;
 }
 
-/* dB of gain prod(j omega - zero) / prod(j omega - pole): in any range of numbers */
+/* dB of gain prod(j omega - zero) / prod(j omega - pole), without overflow */
 static double gain_by_roots(const Transfer *t, double omega)
 {
     if (t->gain == 0 || is_zero(t, omega))
@@ -279,11 +278,11 @@ void transfer_response(const Linear *linear, int output, int input, const Transf
         double complex h = respond(&s, resolvent, omega[i]);
         double turns = phase_by_roots(transfer, omega[i]);
 
-        /* far from all roots its numbers may be too small or too large for products */
+        /* far from all roots products may over- or underflow */
         gain[i] = cabs(h) > LEAST_RESPONSE && (cabs(h) < MOST_RESPONSE || isinf(cabs(h)))
                       ? 20 * log10(cabs(h))
                       : gain_by_roots(transfer, omega[i]);
-        /* the response is as exact as A; the roots tell which turn it is on */
+        /* the response is as accurate as A; the roots determine its turn */
         if (transfer->gain == 0)
             phase[i] = 0;
         else if (!(cabs(h) > LEAST_RESPONSE && cabs(h) < MOST_RESPONSE))

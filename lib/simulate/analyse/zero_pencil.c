@@ -1,6 +1,6 @@
-/* zero_pencil.c: null vectors of [A - z b; c d] by inverse iteration, and what errors of its
- * entries move z by: |dz| <= |l|^T |dP| |r| / |l_x^T x|, where l and r are the vectors on the left
- * and on the right, l_x and x what of them belongs to states (Stewart and Sun 1990, chapter VI). */
+/* zero_pencil.c: null vectors of [A - z b; c d] by inverse iteration, and the effect of errors dP
+ * of its entries on z: |dz| <= |l|^T |dP| |r| / |l_x^T x|, where l and r are the left and right
+ * null vectors, l_x and x their entries for states (Stewart and Sun 1990, chapter VI). */
 #include "simulate/analyse/zero_pencil.h"
 
 #include "algebra/roots.h"
@@ -31,7 +31,7 @@ static Complex *pencil_new(const Siso *s, Complex z, bool transposed)
     return p;
 }
 
-/* P = L U with exchanged rows; a pivot that is 0 becomes what rounding leaves of one */
+/* P = L U with exchanged rows; a pivot of 0 is replaced by rounding error */
 static void factor(Complex *p, int m, int *pivot)
 {
     double norm = 0;
@@ -78,7 +78,7 @@ static void solve(const Complex *p, int m, const int *pivot, Complex *v)
     }
 }
 
-/* of length 1, of a matrix that is nearly singular; its factors take its place */
+/* null vector of length 1 of a nearly singular matrix, which is overwritten by its factors */
 static void null_vector(Complex *p, int m, Complex *v)
 {
     int *pivot = NEW_ARRAY(int, m);

@@ -1,13 +1,13 @@
-/* zeros.c: zeros of one output against one input
+/* zeros.c: zeros of one output for one input
  *
- * As often as one of d, c b, c A b ... is passed by until one isn't 0, the gain (gain.h),
- * the output is turned into one state (Householder), which is 0 then, and whose rate takes the
- * place of the output; that takes a state away. Zeros are the eigenvalues of A - b d^-1 c that is
- * left (Emami-Naeini and Van Dooren 1982): as doubles enclose them (enclosure.h), or else disturbed
- * a little so that multiple ones split; single ones are brought to H(z) = 0 by Newton's method. A
- * zero z is off by (|dH(z)| + |H(z)|)/|H'(z)|, or by less where its null vectors tell so
- * (zero_pencil.h); one that comes m times, of which s is the distance
- * of a split one from the mean, by the m-th root of m s^(m-1) times that. */
+ * The steps are repeated until one of d, c b, c A b ... isn't 0, which is the gain (gain.h):
+ * Householder's reflection turns the output into one state, which is then 0; its rate replaces the
+ * output, and the state is removed. Zeros are the eigenvalues of the remaining A - b d^-1 c
+ * (Emami-Naeini and Van Dooren 1982). They are enclosed in double precision (enclosure.h); or else
+ * the matrix is perturbed a little so that multiple ones split, and single ones are refined to H(z)
+ * = 0 by Newton's method. The error of a zero z is (|dH(z)| + |H(z)|)/|H'(z)|, or the bound from
+ * its null vectors if that is less (zero_pencil.h). For a zero of multiplicity m it is the m-th
+ * root of m s^(m-1) times that, where s is the distance of a split one from the mean. */
 #include "simulate/analyse/zeros.h"
 
 #include "algebra/enclosure.h"
@@ -20,29 +20,29 @@
 
 enum {
     MOST_STEPS = 6,
-    PLACES = 3 /* where an answer is held against the response: by the sizes of its roots */
+    PLACES = 3 /* points of the check against the response: by sizes of roots */
 };
 
 #define UNIT   0x1p-53
-#define ALONE  0.1  /* a step less than this of the way to the next zero */
-#define APART  1e-6 /* likewise: what is known so well needs no more digits to begin with */
-#define NEAR   1e-3 /* of its error is as good as 0 */
-#define CLOSE  4    /* roundings: doubles hold no better */
-#define LITTLE 1e-9 /* of a zero, by which it is off at most: then H tells it well */
-#define SAME   1e-6 /* of a response */
-#define ASIDE  0.6  /* rad, from the real axis to the right */
-#define SPLIT  1e-7 /* relative; closer than its square is as good as the same */
+#define ALONE  0.1  /* largest step, relative to the distance to the next zero */
+#define APART  1e-6 /* likewise: such a zero needs no more digits as initial guess */
+#define NEAR   1e-3 /* relative to its error: as good as 0 */
+#define CLOSE  4    /* roundings: the limit of double precision */
+#define LITTLE 1e-9 /* largest relative error of a zero for which H is reliable */
+#define SAME   1e-6 /* relative difference of responses */
+#define ASIDE  0.6  /* rad, of the points, from the positive real axis */
+#define SPLIT  1e-7 /* relative difference; below its square two zeros are the same */
 
-/* in more digits */
+/* in double-double */
 typedef struct Wider {
     int n, stride;
     DoubleDouble *a, *b, *c;
     DoubleDouble d;
 } Wider;
 
-/* --- one state less --- */
+/* --- removal of one state --- */
 
-/* Turn the states so that c = [0 .. 0 r]. */
+/* Reflect the states so that c = [0 .. 0 r]. */
 static void turn_output(Wider *s)
 {
     const int n = s->n;
@@ -72,7 +72,7 @@ static void turn_output(Wider *s)
     mem_free(v);
 }
 
-/* the last state is 0, its rate the new output */
+/* the last state is 0, its rate is the new output */
 static void drop_last(Wider *s)
 {
     const int n = --s->n;
@@ -92,8 +92,8 @@ static double nearest_of(const double complex *value, int count, int k)
     return nearest;
 }
 
-/* Eigenvalues that doubles tell apart, to their rounding or so well that Newton's method gets
- * there; false: there are others. */
+/* Eigenvalues that double precision separates, accurate to rounding or enough for Newton's method;
+ * false: there are others. */
 static bool enclosed_values(const DoubleDouble *a, int n, double complex *value)
 {
     Enclosure e;
@@ -108,7 +108,7 @@ static bool enclosed_values(const DoubleDouble *a, int n, double complex *value)
     return sound;
 }
 
-/* with a disturbed by rounding */
+/* with a perturbed by rounding */
 static bool disturbed_values(DoubleDouble *a, int n, double complex *value)
 {
     DoubleDoubleComplex *t = NEW_ARRAY(DoubleDoubleComplex, n * n);
@@ -156,7 +156,7 @@ static double complex *reduced_roots(const Wider *s)
 
 /* --- errors --- */
 
-/* H at a place, with what its vectors tell */
+/* H at a point, with its vectors */
 typedef struct ZerosTrial {
     const Siso *s;
     const Wider *wide;
@@ -164,8 +164,8 @@ typedef struct ZerosTrial {
     double complex *x, *y; /* (z - A)^-1 b, (z - A)^-T c */
     double *x_size;        /* of x's entries */
     double complex value, slope;
-    double error; /* of the value */
-    double least; /* what counts as a size beside 0: the least pole's that isn't 0 */
+    double error; /* bound of the value's error */
+    double least; /* least scale: that of the smallest pole that isn't 0 */
 } ZerosTrial;
 
 static ZerosTrial trial_new(const Siso *s, const Wider *wide)
@@ -208,7 +208,7 @@ static double value_error(const ZerosTrial *at)
     return sum;
 }
 
-/* what the method rounds, which has the scaled matrices as a whole before it */
+/* the rounding error of the method, which starts from the whole scaled matrices */
 static double method_error(const ZerosTrial *at)
 {
     const Siso *s = at->s;
@@ -234,7 +234,8 @@ static void go_to(ZerosTrial *at, double complex z)
     at->error = value_error(at);
 }
 
-/* Where doubles don't hold how equal ones split: in a circle, of their size or the least pole's. */
+/* Where double precision doesn't show how equal ones split: on a circle, of their size or the least
+ * pole's. */
 static double complex split_of(const double complex *first, int count, int k, double least)
 {
     const double size = fmax(cabs(first[k]), least);
@@ -250,7 +251,7 @@ static double complex split_of(const double complex *first, int count, int k, do
     return equal > 1 ? SPLIT * size * cexp(I * (cimag(first[k]) < 0 ? -angle : angle)) : 0;
 }
 
-/* Newton's method where others are far; how far it is off then */
+/* Newton's method where others are far; returns the error afterwards */
 static double improve(ZerosTrial *at, const double complex *first, double complex *value, int count,
                       int k)
 {
@@ -276,8 +277,8 @@ static double improve(ZerosTrial *at, const double complex *first, double comple
     return error > 0 ? error + cabs(at->value / at->slope) : 0;
 }
 
-/* As it was found, if that is the better known and others are far: where a pole all but equals it,
- * and where it is so far beyond all poles that H there is rounding alone, and 0 stands for it. */
+/* The value as found first, if its bound is smaller and others are far: where it nearly equals a
+ * pole, and where it is so far beyond all poles that H there is rounding error. */
 static void take_from_pencil(const Siso *s, const double complex *first, int count, int k,
                              double complex *value, double *error)
 {
@@ -320,7 +321,7 @@ static void bound_zeros(const Siso *s, const Wider *wide, double least, double c
     at.least = least;
     memcpy(first, value, (size_t)count * sizeof *first);
     for (int k = 0; k < count; k++) {
-        /* one of a pair tells the other, unless they are about equal and have to split */
+        /* one of a pair determines the other, unless they are about equal and have to split */
         if (k > 0 && -cimag(first[k]) > SPLIT * cabs(first[k]) && first[k] == conj(first[k - 1])) {
             value[k] = conj(value[k - 1]);
             error[k] = error[k - 1];
@@ -403,7 +404,7 @@ bool zeros_find(const Siso *single, const Gain *gain, const Root *pole, Root *ze
     return sound;
 }
 
-/* --- the answer as a whole --- */
+/* --- check of the whole answer --- */
 
 static int by_value(const void *a, const void *b)
 {
@@ -412,7 +413,7 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* log of prod(z - root), and how far that may be off */
+/* log of prod(z - root), and a bound of its error */
 static double complex log_product(const Root *root, int count, double complex z, double *error)
 {
     double complex sum = 0;
@@ -426,7 +427,7 @@ static double complex log_product(const Root *root, int count, double complex z,
     return sum;
 }
 
-/* at one place */
+/* at one point */
 static bool agrees_at(ZerosTrial *at, const Answer *a, double complex z, double *largest)
 {
     double error = 0, open;
@@ -439,7 +440,7 @@ static bool agrees_at(ZerosTrial *at, const Answer *a, double complex z, double 
     open = at->error + method_error(at);
     if (isfinite(cabs(at->value) + open))
         *largest = fmax(*largest, cabs(at->value) + open);
-    /* what is known to little says so itself */
+    /* a value with a large error is not checked */
     return !(error < ALONE) || !isfinite(cabs(product)) || !isfinite(cabs(at->value)) ||
            cabs(at->value - product) <= SAME * cabs(at->value) + 2 * error * cabs(product) + open;
 }

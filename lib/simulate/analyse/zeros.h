@@ -1,4 +1,4 @@
-/* zeros.h: zeros of a transfer function, with what they are known to */
+/* zeros.h: zeros of a transfer function, with bounds of their errors */
 #ifndef COTREE_SIMULATE_ANALYSE_ZEROS_H
 #define COTREE_SIMULATE_ANALYSE_ZEROS_H
 
@@ -10,16 +10,16 @@
 MUST_USE bool zeros_find(const Siso *single, const Gain *gain, const Root *pole, Root *zero,
                          int *count);
 
-/* all together, borrowed */
+/* all results together, borrowed */
 typedef struct Answer {
     const Gain *gain;
     const Root *pole, *zero; /* n, zeros */
     int zeros;
 } Answer;
 
-/* Whether the response at some places is what these tell of it, as far as errors of entries and
- * roots and the rounding of both go; what is known to little is passed over. *largest: what it may
- * be there at most. O(n^3). */
+/* Whether the response at some points agrees with these, within the errors of entries and roots and
+ * the rounding error of both; values with large errors are not checked. *largest: a bound of the
+ * response there. O(n^3). */
 bool zeros_agree(const Siso *single, const Answer *answer, double *largest);
 
 #endif

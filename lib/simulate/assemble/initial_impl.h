@@ -17,8 +17,8 @@ typedef struct GivenValue {
     int column;  /* unknown that is fixed with it: the index, or that of a coordinate's speed; -1 */
     bool is_own; /* of the system: the user gave no value */
     VariableReferent referent; /* what it determines of frames, if anything */
-    double target; /* the value; Euler parameters are of unit length, and of the sign that the
-                      system's own expression has */
+    double target; /* the value; Euler parameters have unit length, and the sign of the system's own
+                      expression */
     int group;     /* of Euler parameters of one attitude, given or guessed; -1 */
     VariableReferent
         rate_of; /* coordinate or parameter whose first derivative it is, if it is one */

@@ -50,8 +50,8 @@ typedef struct Eliminated {
 typedef struct Equations {
     int n, nu, m, nx, nz;
     int multi_turn_count;  /* of a */
-    const uint64_t *sides; /* counts changes of switches between resistances, which make equations
-                              of other numbers of them; NULL: there are none */
+    const uint64_t *sides; /* counts changes of switches between resistances, each of which changes
+                              numbers in the equations; NULL: there are no such switches */
     void *context;
     void (*take_references)(void *context,
                             const double *a); /* a for the calls below; NULL: there are none */

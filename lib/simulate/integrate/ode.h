@@ -180,8 +180,8 @@ struct Stepper {
     double t;            /* its end, s */
     double *y;           /* y at t, projected where the method projects */
     LIST(double *) room; /* memory of it and its method, freed with it */
-    double next; /* step it would take next, s; 0: to be chosen, as after a start, when its driver
-                  * may say it */
+    double next; /* s: step it would take next; 0: not chosen yet, as after a start, when its driver
+                    may set it */
     int stuck;   /* steps in succession that end where they began: below resolution */
     StepShrinkage step_shrinkage; /* stagnation.h */
     double bound;                 /* set by its driver: largest step now, s; 0: free */
