@@ -2,15 +2,15 @@
  *
  *     p   parameters, then what follows from them alone
  *     y   coordinates q, speeds u, network states x, references of angles of full turns
- *     s   what is solved for: x', algebraic unknowns z, u', lambda
+ *     s   the solution: x', algebraic unknowns z, u', lambda
  *
- * Every function takes (p, t, y, s) and gives one array. All of them are lowered together, once, as
- * a Program is (compile/lower.h): so they compute what a run computes.
+ * Every function has the arguments (p, t, y, s) and returns one array. All of them are lowered
+ * together, once, like a Program (compile/lower.h): so they compute the same numbers as a run.
  *
- * A live one goes through events by itself: behind the parameters stand the signs of what equations
- * jump at, so that they are smooth between events, and behind s a direction (dt, dy, ds, dp), along
- * which functions `tangent_...` are derivatives: `tangent_p_...` by parameters, the others by the
- * rest. */
+ * Live code handles events by itself. The parameters are followed by the signs of the event
+ * functions at which equations jump, so that the equations are smooth between events. s is followed
+ * by a direction (dt, dy, ds, dp), along which functions `tangent_...` are derivatives:
+ * `tangent_p_...` by parameters, the others by the rest. */
 #ifndef COTREE_EXPORT_CODE_H
 #define COTREE_EXPORT_CODE_H
 
@@ -57,8 +57,7 @@ typedef struct CodeEvent {
 
 /* what an event gives a value to */
 typedef enum CodeLevel { CODE_COORDINATE, CODE_SPEED, CODE_STATE } CodeLevel;
-/* what may stay of positions, where events set others (formulate/system_build/held_coordinates.h)
- */
+/* positions that may be held when events set others (formulate/system_build/held_coordinates.h) */
 typedef enum CodeHeldKind { CODE_GIVEN, CODE_JOINT, CODE_BODY, CODE_FRAME } CodeHeldKind;
 typedef struct CodeTarget {
     CodeLevel level;
@@ -78,7 +77,7 @@ typedef struct CodeLive {
     int first; /* of the signs, in p */
     LIST(CodeEvent) events;
     LIST(CodeTarget) targets;
-    int given;         /* of them, the first; the others may stay, or are rates */
+    int given;         /* count of given ones, first; others: held, or rates */
     LIST(int) samples; /* states that are sampled */
     LIST(int) held;    /* states that an importer holds: inputs */
     Expr *seeds;       /* the direction: 1 + ny + ns symbols, then one a model parameter */
@@ -141,7 +140,7 @@ typedef struct Code {
     int group_count;
     bool is_explicit;     /* u', and lambda, are written out: function `accelerations` */
     bool is_redundant;    /* constraints repeat each other */
-    LIST(char *) outputs; /* what was asked for, in words */
+    LIST(char *) outputs; /* the requested items, as text */
     LIST(char *) conditions;
     CodeLive live;
     CodeModes modes;
@@ -212,9 +211,9 @@ void code_sided_rows(const Code *code, Expr *rows);
 MUST_USE Status code_add_modes(Code *code, const Expr *rows, int count, Diag *diag);
 /* what jumps or bends there because a diode has two sides */
 bool code_is_side(const Code *code, Expr call);
-/* margins of diodes: above 0 while they stay closed, below while they stay open; of switches 0 */
+/* margins of diodes: above 0 while closed, below while open; of switches 0 */
 void code_margins(const Code *code, Expr *out);
-/* numbers that C is told of them */
+/* their numbers in C */
 void code_modes_begin(const Code *code, Text *out);
 /* the rows of the mode at the start, from the values of all functions there */
 void code_modes_store(Code *code, const double *roots);
@@ -247,11 +246,11 @@ typedef struct Language {
     const char *local, *result;   /* a line that makes a name, one that sets an entry: "%s = %s" */
     const char *onward;           /* at the end of a line that goes on */
     const char *number, *rounded; /* around a literal; around what isn't of the type; NULL */
-    const char *power[3];         /* before, between and behind base and exponent */
+    const char *power[3];         /* text before, between and after base and exponent */
     void (*open)(Text *out, const Code *code, const CodeFunction *function, const char *locals);
     const char *close;
     const char *check;   /* the command for a file FILE that checks itself */
-    bool differentiates; /* what a mode of ideal switches asks of states */
+    bool differentiates; /* constraints of states in a mode of ideal switches */
     /* the whole file */
     void (*file)(const Code *code, const struct Language *language, Text *out);
 } Language;
@@ -264,8 +263,8 @@ void code_print(const Code *code, int function, const Language *language, Text *
 char *code_print_derived(const Code *code, const Language *language, Text *out);
 /* additions, multiplications, functions of one */
 OpCount code_count(const Code *code, int function);
-/* What the file is, each line behind `lead`: model, trees, arrays with their entries, functions and
- * what they cost, how it checks itself. (code_head.c) */
+/* The description of the file, each line after `lead`: model, trees, arrays with their entries,
+ * functions and their costs, the self-check. (code_head.c) */
 void code_head(const Code *code, const Language *language, const char *lead, Text *out);
 /* A text of the runtime with its $NAMES replaced by the code's numbers. (code_head.c) */
 void code_fill(const Code *code, const char *text, Text *out);

@@ -44,7 +44,7 @@ int code_newton_rows(Code *code, const Expr *residuals, int first, int count, co
     for (int k = 0; k < count; k++) {
         const int at = first + k;
 
-        /* x', z, u' and lambda stand one behind the other in the layout, too */
+        /* x', z, u' and lambda are consecutive in the layout, too */
         unknowns[k] = l->symbols[l->rates + at];
     }
     for (int i = 0; i < count; i++) {

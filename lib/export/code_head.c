@@ -1,4 +1,5 @@
-/* code_head.c: what exported files say of themselves, and the sizes that they are written for */
+/* code_head.c: description at the head of exported files, and the sizes that they are written
+ * for */
 #include "export/code.h"
 
 #include "present/count.h"

@@ -1,8 +1,8 @@
-/* code_live.c: what code needs that goes through events by itself
+/* code_live.c: additions to code that handles events by itself
  *
- * What jumps stands on signs, which are parameters: between events all functions are smooth, and
- * each event looks at which sign is next. Derivatives are taken of the formulas themselves, along a
- * direction (dt, dy, ds) that stands behind s: one pass each, whatever the number of variables. */
+ * Discontinuous expressions depend on signs, which are parameters: all functions are smooth between
+ * events, and each event changes a sign. Derivatives are those of the formulas, along a direction
+ * (dt, dy, ds) that follows s: one pass each, whatever the number of variables. */
 #include "export/code.h"
 
 #include "formulate/kinematics/edges.h"
@@ -139,7 +139,7 @@ static Status add_given(Code *code, const NewValue *value, CodeLiveExprs *target
     return OK;
 }
 
-/* behind positions that are given: their rates, if speeds tell them */
+/* after given positions: their rates, if speeds determine them */
 static int add_rate(Code *code, CodeLiveExprs *targets, Expr rate, const char *name)
 {
     const CodeTarget target = {
@@ -167,8 +167,8 @@ static void add_given_rates(Code *code, CodeLiveExprs *targets)
     }
 }
 
-/* Behind what events set, where they set positions: what stays where it can, and rates, as in a run
- * (assemble/reinitialise_stay.c). */
+/* If events set positions, these are followed by coordinates to be held where possible, and rates,
+ * as in a run (assemble/reinitialise_stay.c). */
 static void add_held_coordinates(Code *code, CodeLiveExprs *targets)
 {
     typedef LIST(const char *) Names;
@@ -349,7 +349,7 @@ static int directions(const Code *code, int most, Expr *symbols, Expr *rates)
     return count;
 }
 
-/* model parameters; those that follow from others move as their own seeds say */
+/* model parameters; dependent ones have their own seeds */
 static Expr along_parameters(const Code *code, Expr e)
 {
     const Model *model = code->view->model;

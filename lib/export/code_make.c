@@ -357,7 +357,7 @@ static void add_joint(Code *code)
     mem_free(rows);
 }
 
-/* all that is solved for, where what ideal switches ask of networks may be told of speeds */
+/* the whole solution, if constraints of ideal switches may involve speeds */
 static Status add_modes(Code *code, Diag *diag)
 {
     const VariableIndex *l = code->layout;

@@ -1,4 +1,4 @@
-/* code_modes.c: ideal switches in exported code: one set of equations, in which their sides are
+/* code_modes.c: ideal switches in exported code: one set of equations, with the switch states as
  * parameters
  *
  * A run has a System for each mode, with a tree, and so states, of its own. Code has the equations
@@ -6,8 +6,8 @@
  *
  *     closed (v - least - on i) + (1 - closed) (i - v/off) = 0
  *
- * and what it solves them by looks for the rank in numbers (share/code/modes.c): states are those
- * of the whole in every mode, and what a mode asks of them is a constraint. theory 8. */
+ * and its solver determines the rank numerically (share/code/modes.c): the states are those of the
+ * whole in every mode, and the conditions of a mode on them are constraints. theory 8. */
 #include "export/code.h"
 
 #include "algebra/rank.h"
@@ -213,7 +213,7 @@ Status code_add_modes(Code *code, const Expr *rows, int count, Diag *diag)
     return add_looks(code, diag);
 }
 
-/* Behind what else code is given: whether its solution is one step away */
+/* Whether the equations are linear in the solution, so that one Newton step solves them */
 static bool is_linear(const Code *code)
 {
     const unsigned solved = 1U << SYMBOL_STATE_RATE | 1U << SYMBOL_ALGEBRAIC | 1U << SYMBOL_STATE |
@@ -277,7 +277,7 @@ static const CodeIdeal *find_dependent(const Code *code, int n)
     const CodeIdeal *found = &code->modes.ideals.at[0];
 
     for (int i = 0; i < n; i++)
-        left[i] = least[i] = 1 + fmod(i * 0.6180339887498949, 1); /* no two alike */
+        left[i] = least[i] = 1 + fmod(i * 0.6180339887498949, 1); /* all different */
     rank_least_multipliers(code->modes.rows, n, n, least);
     for (int i = 0; i < n; i++)
         left[i] = fabs(left[i] - least[i]);
@@ -290,7 +290,7 @@ static const CodeIdeal *find_dependent(const Code *code, int n)
 
 Status code_modes_check(const Code *code, const char *language, Diag *diag)
 {
-    static const double NOTHING = 1e-10; /* of a row: as exported C tells it */
+    static const double NOTHING = 1e-10; /* relative to a row: the same as in exported C */
     const int n = code->groups[code->modes.group].count;
     int *order = NULL, rank = n;
     const CodeIdeal *found;

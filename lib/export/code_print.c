@@ -1,7 +1,7 @@
 /* code_print.c: a function of numbers, line by line
  *
- * Only what the function's entries need is written. A value that is used once stands inside the one
- * that uses it, as long as lines stay short; any other is named, once. */
+ * Only values that the function's entries need are written. A value that is used once is written
+ * inside its user if lines remain short; any other is named, once. */
 #include "export/code.h"
 
 #include <math.h>
@@ -38,7 +38,7 @@ typedef struct Printing {
 
 /* --- lines --- */
 
-/* where a line may end: behind a blank, or behind a sign between factors */
+/* where a line may end: after a blank, or after a sign between factors */
 static size_t breaking(const char *text, size_t most)
 {
     size_t at = 0;

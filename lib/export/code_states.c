@@ -45,7 +45,7 @@ static double parameter_value(void *context, Expr symbol)
     return NAN;
 }
 
-/* A symbol of the whole as a user's variable, which every mode tells. */
+/* A symbol of the whole as a user's variable, which has a value in every mode. */
 static Expr by_name(const Code *code, Expr symbol)
 {
     return expr_symbol(code->arena, expr_name(symbol), SYMBOL_VARIABLE);
@@ -133,7 +133,7 @@ static double largest(const double *values, int count)
     return most;
 }
 
-/* `near`: 1, less to stay closer to the start */
+/* `near`: 1; less for states closer to the initial state */
 static void write_at_random(CodeStates *st, double near)
 {
     const VariableIndex *l = st->code->layout;
@@ -197,8 +197,8 @@ static void measure_loss(CodeStates *st, const double *acceleration, const doubl
     MEM_FREE(full_mass, phi_u, top, bottom, lambda);
 }
 
-/* A state with what is solved for there; false: some of it has no value. `row` tells all of it,
- * away from where it is a solution. */
+/* Add a state with its solution; false: some of it has no value. `row` has all its values.
+ * Functions are evaluated away from it, where they aren't 0. */
 static bool take_state(CodeStates *st, double t, RowValues row)
 {
     Code *code = st->code;
@@ -211,7 +211,7 @@ static bool take_state(CodeStates *st, double t, RowValues row)
     memcpy(s + l->nx, row.z, (size_t)l->nz * sizeof(double));
     memcpy(s + l->nx + l->nz, row.acceleration, (size_t)l->nu * sizeof(double));
     memcpy(s + l->nx + l->nz + l->nu, row.multipliers, (size_t)l->m * sizeof(double));
-    /* functions are looked at away from the constraints, which are 0 on them */
+    /* functions are evaluated away from the constraint manifold, on which constraints are 0 */
     for (int i = 0; i < code->ny; i++)
         off[i] = code_off(i, st->y[i]);
     row.q = off;
@@ -271,8 +271,8 @@ static bool add_state(CodeStates *st, double t)
     return true;
 }
 
-/* The start, in whose mode the session has other equations, as these tell it: what they have no
- * name for is 0 in s. */
+/* The initial state, from the session's different equations in its mode; entries of s without a
+ * name there are 0. */
 static Status add_start_in_mode(CodeStates *st, const Exported *what, Diag *diag)
 {
     Code *code = st->code;
@@ -341,7 +341,7 @@ Status code_add_states(Code *code, const Exported *what, int most, Diag *diag)
     for (int i = 0; i < TRIES && code->states.count < most; i++) {
         CHECK(monitor_poll(code->view->watch));
         write_at_random(&st, near);
-        /* what drivers do is told of one instant */
+        /* drivers are known at one instant only */
         if (!add_state(&st, code->inverse != NULL ? 0 : near * fabs(random_unit(&st.seed))))
             near *= NEARER;
     }

@@ -8,7 +8,7 @@
 #include "export/archive.h"
 #include "export/code.h"
 
-/* modelDescription.xml (fmu_description.c); `token` says which code it belongs to */
+/* modelDescription.xml (fmu_description.c); `token` identifies the code that it belongs to */
 void fmu_describe(const Code *code, const Exported *what, const char *token, Text *out);
 #define FMU_IDENTIFIER "model" /* of binaries */
 #define FMU_TOLERANCE  "1e-6"  /* where an importer names none */

@@ -1,7 +1,7 @@
-/* fmu_description.c: modelDescription.xml: what an importer of an FMU is told of its variables
+/* fmu_description.c: modelDescription.xml: the description of an FMU's variables for importers
  *
- * Value references are those of share/fmu/fmu.h: t, parameters, states, their rates, outputs,
- * event indicators. In version 2 variables are met by their place in the list, too. */
+ * Value references are those of share/fmu/fmu.h: t, parameters, states, their rates, outputs, event
+ * indicators. In version 2 variables are also referenced by their index in the list. */
 #include "export/fmu.h"
 
 #include "base/names.h"
@@ -128,7 +128,7 @@ static void add_state(Description *d, int i, int reference)
     text_free(&part);
 }
 
-/* what was asked for: a state or parameter itself, if it is one */
+/* a requested item: a state or parameter itself, if it is one */
 static void add_output(Description *d, int i, int reference)
 {
     const char *name = d->code->outputs.at[i];

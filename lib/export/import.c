@@ -229,7 +229,7 @@ void import_comment(Import *import, int line, const char *format, ...)
     end_line(import, line);
 }
 
-/* in a comment, and as a remark behind `mark` */
+/* in a comment, and as a remark after `mark` */
 static void remark(Import *import, int line, const char *mark, const Text *said)
 {
     import_comment(import, line, "%s", said->at);
@@ -281,7 +281,7 @@ bool import_add(Import *import, int line, const char *format, ...)
     add_formatted(&text, format, args);
     va_end(args);
 
-    /* what the file holds may make no sense here: that is told here and not when it is applied */
+    /* the file's contents may be invalid here: that is reported here and not when it is applied */
     reads = statement_parse(text.at, 1, (SyntaxOptions){false}, &next, &statement, &why) == OK &&
             next == text.length;
     statement_free(statement);

@@ -1,8 +1,8 @@
 /* import.h: statements of ours from the text of another program's file
  *
- * A format is a line of importers.def, and a function in lib/export. What it reads becomes
- * statements; what we have no statement for is left out, and said with its line in a comment and
- * in a remark. Names are made legal, and numbered where they clash. */
+ * A format is a line of importers.def, and a function in lib/export. Its input is translated to
+ * statements. Elements without an equivalent statement are omitted, and reported with their line in
+ * a comment and in a remark. Names are made legal, and numbered where they clash. */
 #ifndef COTREE_EXPORT_IMPORT_H
 #define COTREE_EXPORT_IMPORT_H
 
@@ -54,8 +54,8 @@ enum { IMPORT_PARAMETER = 'p' };
 const char *import_name(Import *import, char kind, const char *name);
 /* the same where it has been met; NULL */
 const char *import_known(const Import *import, char kind, const char *name);
-/* A part with names of its own begins, in which those taken so far stay taken; and ends. They don't
- * stand in one another. */
+/* Start and end of a part with names of its own; names used before can't be reused in it. Such
+ * parts aren't nested. */
 void import_enter(Import *import, ImportScope *scope);
 void import_return(Import *import);
 void import_scope_free(ImportScope *scope); /* what it holds */

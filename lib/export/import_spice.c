@@ -48,7 +48,7 @@ static void read_times(Spice *s)
     }
 }
 
-/* what .tran asks for, as statements in comments: an import runs nothing */
+/* the run requested by .tran, as statements in comments: an import runs nothing */
 static void write_times(Spice *s, bool has_initial)
 {
     if (s->tran == NULL)

@@ -1,11 +1,12 @@
 /* import_urdf.c: a robot in the Unified Robot Description Format
  *
  * A link is a frame, at the joint that carries it, and a mass somewhere in it. Here it is a body,
- * at its mass centre and parallel to the link's frame, and where the two are apart an arm from the
- * body to that frame, NAME_origin. A link without mass that is fixed to another is an arm of that
- * one. The tree hangs on ground: URDF says nothing about what holds its root, nor about gravity.
+ * at its mass centre and parallel to the link's frame. If their origins differ, an arm,
+ * NAME_origin, leads from the body to that frame. A link without mass that is fixed to another is
+ * an arm of that one. The root of the tree is fixed to ground: URDF defines neither the support of
+ * its root nor gravity.
  *
- * R(rpy) = Rz(yaw) Ry(pitch) Rx(roll), from the link's frame to that in which it stands. */
+ * R(rpy) = Rz(yaw) Ry(pitch) Rx(roll), from the link's frame to the frame that contains it. */
 #include "export/xml.h"
 
 #include "algebra/matrix3.h"
@@ -23,7 +24,7 @@ typedef struct ImportUrdfPose {
 typedef struct ImportUrdfLink {
     const Element *element;
     const char *name;  /* ours */
-    const char *frame; /* ours, at its origin; NULL: not said yet */
+    const char *frame; /* ours, at its origin; NULL: not written yet */
     double mass;       /* kg */
     double centre[3];  /* m, in its frame */
     double inertia[6]; /* xx yy zz xy xz yz about the centre, in its axes, kg*m^2 */
@@ -60,7 +61,7 @@ enum { LINK = 'l', JOINT = 'j', OWN = 'o' }; /* spaces of names */
 
 /* --- values --- */
 
-/* `count` numbers between blanks, as the attribute's value; absent: they stay */
+/* `count` numbers between blanks, as the attribute's value; unchanged if absent */
 static Status read_numbers(Urdf *u, const Element *element, const char *name, int count,
                            double *out)
 {
@@ -103,7 +104,7 @@ static const char *vector(Urdf *u, const double *v)
                        import_number(u->import, v[1]), import_number(u->import, v[2]));
 }
 
-/* An angle; what is written to ten digits of a quarter turn is one, and stays exact. */
+/* An angle; a multiple of a quarter turn written to ten digits is read as the exact multiple. */
 static const char *angle(Urdf *u, double value)
 {
     static const char *const quarters[] = {"-pi", "-pi/2", "0", "pi/2", "pi"};
@@ -337,7 +338,7 @@ static const char *axis_of(Urdf *u, const Joint *joint, const char *key)
     return import_text(u->import, "%s=%s", key, vector(u, joint->axis));
 }
 
-/* what a joint has beside its freedom */
+/* properties of a joint other than its freedom */
 static Status write_extras(Urdf *u, const Joint *joint)
 {
     const Element *limit = xml_child(joint->element, "limit");

@@ -57,7 +57,7 @@ static bool begins(const char *line, size_t length, const char *word)
     return length >= strlen(word) && strncasecmp(line, word, strlen(word)) == 0;
 }
 
-/* The first line, no card; people often type it behind a "*". */
+/* The first line, no card; it often starts with a "*". */
 static void write_title(Import *import, const char *line, size_t length)
 {
     while (length > 0 && (*line == '*' || *line == ' ' || *line == '\t')) {

@@ -1,8 +1,8 @@
 /* spice_elements.c: parameters, models and elements of a netlist, or of a .subckt of it, as
  * statements
  *
- * Names that a card speaks of have to be there before it: cards are said in the order of their
- * ranks (elements, what is controlled by currents, switches and what is called). */
+ * Names that a card refers to have to be defined before it: cards are written in the order of their
+ * ranks (elements, current-controlled elements, switches and subcircuit calls). */
 #include "export/spice_impl.h"
 
 #include <ctype.h>
@@ -527,8 +527,7 @@ static void write_source(Spice *s, const Card *card)
 
 /* --- subcircuits --- */
 
-/* the first word from `first` on that is a key, or says that keys follow; nodes and names end there
- */
+/* the first word from `first` on that is a key, or announces keys; nodes and names end there */
 int spice_first_key(const Card *card, int first)
 {
     int i = first;

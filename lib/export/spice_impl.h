@@ -1,4 +1,4 @@
-/* spice_impl.h: a netlist as it is being said, for the files that do so */
+/* spice_impl.h: state of the translation of a netlist, for the files that do it */
 #ifndef COTREE_EXPORT_SPICE_IMPL_H
 #define COTREE_EXPORT_SPICE_IMPL_H
 
@@ -41,7 +41,7 @@ typedef struct Spice {
     Diag *diag;
 } Spice;
 
-/* a value; false: s->why tells */
+/* a value; false: the reason is s->why */
 bool spice_read(Spice *s, const char *text, SpiceValue *out);
 /* a number given in words or, where `text` is NULL or empty, `other` */
 bool spice_value_or(Spice *s, const char *text, const char *other, SpiceValue *out);
@@ -54,8 +54,8 @@ void spice_write_initial(Spice *s, int line, const char *variable, SpiceValue v)
 void spice_read_parameters(Spice *s, const Card *card, int first);
 /* parameters, those taken before and those of .param, and models */
 void spice_write_values(Spice *s);
-/* All elements have their names before one is said, and before nodes have theirs; what can't be
- * said is none from then on. */
+/* All elements get their names before one is written, and before nodes get theirs. Cards without
+ * translation are no elements from then on. */
 void spice_name_elements(Spice *s);
 void spice_write_elements(Spice *s);
 /* whether an element stands on the node, or but reads its voltage */
@@ -79,15 +79,14 @@ typedef struct SpiceKey {
 bool spice_check_keys(Spice *s, const Card *element, const Card *card, int first,
                       const SpiceKey *keys);
 
-/* What R, L or C (`model` or NULL) is multiplied by at its temperature; Is and n of a diode there.
- * False: s->why tells. */
+/* The factor of R, L or C (`model` or NULL) at its temperature; Is and n of a diode there. False:
+ * the reason is s->why. */
 bool spice_temperature_factor(Spice *s, const Card *card, const DeviceModel *model,
                               SpiceValue *out);
 bool spice_heat_diode(Spice *s, const Card *card, const DeviceModel *model, SpiceValue *is,
                       SpiceValue *n);
 
-/* the first word from `first` on that is a key, or says that keys follow; nodes and names end there
- */
+/* the first word from `first` on that is a key, or announces keys; nodes and names end there */
 int spice_first_key(const Card *card, int first);
 /* the .subckt that a card X calls, of those inside and around; NULL */
 Spice *spice_find_subcircuit(const Spice *s, const Card *card);

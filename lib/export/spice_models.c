@@ -162,7 +162,7 @@ bool spice_temperature_factor(Spice *s, const Card *card, const DeviceModel *mod
 /* Is and n of the exponential at 27 degrees that is the diode at T (ngspice manual, 7.2):
  *   Is(T) = Is * (T/Tnom)^(xti/n) * exp((T/Tnom - 1)*eg/(n*Vt)), Vt = k*T/q
  *   n*k*T/q = n'*k*300.15/q, n' = n*T/300.15
- * eg in V, temperatures in K. False: why tells. */
+ * eg in V, temperatures in K. False: the reason is `why`. */
 bool spice_heat_diode(Spice *s, const Card *card, const DeviceModel *model, SpiceValue *is,
                       SpiceValue *n)
 {

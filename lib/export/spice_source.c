@@ -1,8 +1,8 @@
-/* spice_source.c: what a source of SPICE gives over time, as an expression of ours
+/* spice_source.c: the time function of a SPICE source, as an expression of ours
  *
  * The formulas are those of the ngspice manual (version 39, chapter 4, "Voltage and Current
- * Sources"); what a source says of itself by 0 or not at all has the defaults given there.
- * ramp(x) is max(0, x): with it a source rests until its delay is over. */
+ * Sources"); values that are 0 or missing have the defaults given there. ramp(x) is max(0, x): with
+ * it a source is constant until its delay is over. */
 #include "export/spice_source.h"
 
 #include <math.h>

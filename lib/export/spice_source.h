@@ -4,8 +4,8 @@
 
 #include "export/spice_value.h"
 
-/* Times of .tran, which are defaults of sources; text "0": there is none. And those that stand
- * behind a PWL as keys; text NULL: not given. */
+/* Times of .tran, which are defaults of sources; text "0": there is none. And those after a PWL as
+ * keys; text NULL: not given. */
 typedef struct SpiceTimes {
     SpiceValue step, stop;
     SpiceValue delay, repeat;
@@ -13,7 +13,7 @@ typedef struct SpiceTimes {
 
 /* whether a word begins a function of time */
 bool spice_is_source(const char *word);
-/* SIN, PULSE, PWL, EXP or SFFM of these numbers. False: `why` tells. */
+/* SIN, PULSE, PWL, EXP or SFFM of these numbers. False: the reason is `why`. */
 bool spice_source(Import *import, const char *name, const SpiceValue *values, int count,
                   const SpiceTimes *times, const char **out, const char **why);
 

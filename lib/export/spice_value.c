@@ -220,7 +220,8 @@ static bool read_piece(Reader *r, Text *out)
     return fail(r, import_text(r->import, "'%s' can't be read in an expression", r->at));
 }
 
-/* up to one of the characters, which stays, or to the end; `?` makes an if of what came before */
+/* up to one of the characters, which isn't consumed, or to the end; `?` makes the text before a
+ * condition */
 static bool read_until(Reader *r, const char *ends, Text *out)
 {
     Text piece = {0}, yes = {0}, no = {0};

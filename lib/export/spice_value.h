@@ -11,8 +11,9 @@ typedef struct SpiceValue {
     double number;
 } SpiceValue;
 
-/* Read `4.7k`, `10uF`, `1meg`, `{2*a}`, `'a+b'` or the name of a parameter; what names of the file
- * mean is import_known() with kind SPICE_PARAMETER. False: `why` tells, a text of the import's. */
+/* Read `4.7k`, `10uF`, `1meg`, `{2*a}`, `'a+b'` or the name of a parameter; names of the file are
+ * looked up by import_known() with kind SPICE_PARAMETER. False: the reason is `why`, a text of the
+ * import's. */
 enum {
     SPICE_PARAMETER = IMPORT_PARAMETER,
     SPICE_NODE = 'n',
@@ -21,7 +22,7 @@ enum {
 };
 bool spice_value(Import *import, const char *word, SpiceValue *out, const char **why);
 SpiceValue spice_of(Import *import, double number);
-/* a number with its suffix and letters of a unit behind it; false: it is none */
+/* a number with its suffix, followed by letters of a unit; false: it is none */
 bool spice_number(const char *word, double *out);
 /* calls back for each name that an expression holds, in lower case */
 void spice_names(const char *word, void (*meet)(void *context, const char *name), void *context);

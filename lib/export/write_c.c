@@ -338,7 +338,7 @@ static void add_mode_tangent(const Code *code, Text *out)
                   "    return status;\n}\n");
 }
 
-/* ds along a direction in t and y, behind which it is put: code_live.c */
+/* ds along a direction in t and y, stored after these: code_live.c */
 static void add_tangent(const Code *code, Text *out)
 {
     const int first = code->ns + 1 + code->ny, own = 1 + code->ny + code->ns;
@@ -395,7 +395,7 @@ static void add_lines(Text *out, const char *const *lines)
         text_add(out, *lines);
 }
 
-/* a direction in which nothing holds ds, behind dt and dy */
+/* a direction in which ds is undetermined, after dt and dy */
 static void add_open(const Code *code, Text *out)
 {
     const int first = code->ns + 1 + code->ny;

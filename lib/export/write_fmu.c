@@ -40,7 +40,7 @@ static void add_events(const Code *code, Text *out)
     MEM_FREE(first, count, action);
 }
 
-/* what events give values to, and what may stay */
+/* variables that events set, and those that may be held */
 static void add_targets(const CodeLive *live, Text *out)
 {
     static const char *const names[] = {"fmu_level",    "fmu_place", "fmu_held_kind", "fmu_node",
@@ -64,7 +64,7 @@ static void add_targets(const CodeLive *live, Text *out)
     mem_free(column);
 }
 
-/* what was asked for, in words, which may hold strings */
+/* the requested items as text, which may contain strings */
 static void add_output_names(const Code *code, Text *out)
 {
     text_add(out, "static const char *const fmu_output_name[] = {");

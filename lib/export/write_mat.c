@@ -1,9 +1,10 @@
 /* write_mat.c: numbers of a run for Matlab, Octave and NumPy, in the format of MAT-files of level 4
  *
  * A matrix is five integers (type, rows, columns, whether it is complex, length of its name), the
- * name with its 0, and its entries column by column. Thousands of the type tell the order of bytes,
- * tens the kind of numbers, ones whether they are characters. MathWorks, MAT-File Format, "Level 4
- * MAT-File Format". libmatio writes these, too, and brings 30 libraries with it. */
+ * name with its 0, and its entries column by column. The thousands of the type define the byte
+ * order, the tens the kind of numbers, the ones whether they are characters. MathWorks, MAT-File
+ * Format, "Level 4 MAT-File Format". libmatio writes these, too, and brings 30 libraries with
+ * it. */
 #include "export/archive.h"
 #include "export/write.h"
 
