@@ -27,13 +27,13 @@ struct Autosave {
     char *folder; /* of all such files */
     char *path;   /* of ours; NULL: there is none */
     int file;
-    char *in; /* folder that the file said last; NULL */
+    char *in; /* last folder written to the file; NULL */
     Written *written;
     int count, room;
     int first;     /* the step that stands first */
     int settled;   /* number of the last step that is saved; 0: none */
     time_t synced; /* when it was last seen to that the file is on the disk */
-    bool failed;   /* it was told that nothing can be kept */
+    bool failed;   /* it was reported that nothing can be stored */
 };
 
 enum { SYNC_EVERY = 1 }; /* s: a pasted block doesn't wait for the disk at each of its lines */
@@ -114,7 +114,7 @@ static char *folder_of(const char *script)
     return real != NULL ? real : copy_text("/");
 }
 
-/* say the folder where it is another than before */
+/* write the folder if it has changed */
 static bool write_folder(Autosave *unsaved, const char *script)
 {
     char *folder = folder_of(script);
@@ -148,7 +148,8 @@ static bool write_step(Autosave *unsaved, const char *text, int number)
     return good;
 }
 
-/* What is written survives the session; that it survives the machine too, the disk is asked for. */
+/* Written data survives the session; syncing to disk makes it survive a crash of the machine
+ * too. */
 static void sync_file(Autosave *unsaved, bool now)
 {
     const time_t second = time(NULL);
@@ -289,7 +290,7 @@ void autosave_close(Autosave *unsaved)
     free(unsaved);
 }
 
-/* --- what was left behind --- */
+/* --- files of ended sessions --- */
 
 static int count_statements(int file)
 {

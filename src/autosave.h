@@ -1,9 +1,9 @@
-/* autosave.h: what is typed and not saved, kept where it outlives the session
+/* autosave.h: unsaved statements, in a file that outlives the session
  *
- * The statements that make the model stand in a file of the session's own, each written when it
- * was accepted: so nothing has to be done when the session ends, however that happens. An undone
- * statement is cut off again. While the session lives it holds a lock on the file; a file without
- * one was left behind. A saved or empty model has none. */
+ * The statements that make the model are in a file of the session's own, each written when it was
+ * accepted: so nothing has to be done when the session ends, however that happens. Undo truncates
+ * the file. The session locks the file while it runs; an unlocked file belongs to an ended session.
+ * A saved or empty model has no file. */
 #ifndef COTREE_SRC_AUTOSAVE_H
 #define COTREE_SRC_AUTOSAVE_H
 
@@ -21,10 +21,10 @@ void autosave_follow(Autosave *unsaved, const ct_session *session, const char *s
 void autosave_settle(Autosave *unsaved, const ct_session *session);
 /* whether there is something that would be lost */
 bool autosave_is_kept(const Autosave *unsaved);
-/* Ends the following; the file stays where there is something to lose. NULL is fine. */
+/* Stop recording; the file remains if there are unsaved statements. NULL is fine. */
 void autosave_close(Autosave *unsaved);
 
-/* One that was left behind: held by us until autosave_drop(). */
+/* A file of an ended session: locked by us until autosave_drop(). */
 typedef struct Leftover {
     char *path;
     int file;                /* its lock is ours */

@@ -1,8 +1,8 @@
 /* command.h: the verbs that the shell carries out itself, as a table
  *
- * Grammar and help of every verb are the library's, which also says who carries it out. A row
- * here stands in the file that does it; what it prints goes to `out`, from where it reaches
- * the screen, the pager or the file behind `>`. */
+ * Grammar and help of every verb are in the library, which also defines whether the shell executes
+ * it. Each row here is in the file that implements the verb. Output goes to `out`, and from there
+ * to the screen, the pager or the file after `>`. */
 #ifndef COTREE_SRC_COMMAND_H
 #define COTREE_SRC_COMMAND_H
 
@@ -38,8 +38,8 @@ const Command *command_find(const ct_statement *statement);
 
 /* print lines; an end of line is added where it is missing */
 void write_text(FILE *out, const char *text);
-/* What of a csv goes to where the statement says: below rows of the file behind `>>`, which has to
- * have the same header, all but that. */
+/* Write a csv to the destination of the statement. For `>>` the file must have the same header, and
+ * the rows are appended without it. */
 ct_status csv_rows(const Call *call, const char *text, const char **rows, ct_error *error);
 /* the word, name or string that stands as operand i; NULL */
 const char *call_word(const Call *call, int i);

@@ -35,7 +35,7 @@ static ct_status write_file(const Call *call, const char *path, const char *text
     return ct_error_at(call->statement, NULL, error, "%s", why.message);
 }
 
-/* An error unless the file behind `>` is of one of these types and may be written. */
+/* An error unless the file after `>` is of one of these types and may be written. */
 static ct_status check_file(const Call *call, const char *types, const char **path, ct_error *error)
 {
     bool append = false;
@@ -124,7 +124,7 @@ static ct_status command_draw(Call *call, ct_error *error)
     const char *type = path != NULL ? file_extension(path) : "";
     ct_paper paper = text_output_buffer();
 
-    /* the whole graph is text on a screen, which tells its trees best */
+    /* on a screen the whole graph is shown as text, which shows its trees best */
     if (is_one_of(type, "dot gv"))
         paper.format = "dot";
     else if (strcmp(type, "svg") == 0)
@@ -171,9 +171,9 @@ static bool fits(const ct_paper *paper)
     return now.columns == paper->columns && now.rows == paper->rows;
 }
 
-/* One picture over the other; the last one stays, which is all that a file or a pipe gets. The
- * frame to go on with, drawn anew, where the terminal has another size than the paper; -1: that is
- * all. */
+/* Draw the pictures one over the other; the last one remains, and only that is written to a file or
+ * a pipe. Returns the frame to continue with, redrawn, when the size of the terminal has changed;
+ * -1: finished. */
 static int show_frames(Call *call, char *const *frames, const ct_paper *paper, int first,
                        double interval)
 {

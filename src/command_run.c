@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* what was found is what was asked for */
+/* if the statement requests a result (ct_prints()), the report is its output */
 ct_status command_run(Call *call, ct_error *error)
 {
     ct_status status = ct_run(call->session, call->statement, error);
@@ -32,14 +32,15 @@ static ct_status command_expect(Call *call, ct_error *error)
 
 /* --- print --- */
 
-/* One printed line: what stands before `=`, and the unit behind the number. */
+/* One printed line: the text before `=`, and the unit after the number. */
 typedef struct Printed {
     char *name;
     char *unit; /* NULL: none */
     double value;
 } Printed;
 
-/* whether what ends before `end` is a literal, whose unit says what it is, not how to show it */
+/* whether the text that ends at `end` is a literal: its unit belongs to it and isn't a display
+ * unit */
 static bool is_literal(const char *text, const char *end)
 {
     while (end > text && end[-1] == ' ')
@@ -110,7 +111,7 @@ static void write_printed(const Call *call, const Printed *lines, int count)
     }
 }
 
-/* What has no unit behind it is in that of its dimension, where this is known. */
+/* An item without a unit is shown in that of its dimension, if this is known. */
 static void show_in_unit(const Call *call, const ct_expression *expression, Printed *line)
 {
     double size;
@@ -196,7 +197,7 @@ static int *column_widths(const TableColumns *table, int digits)
     return widths;
 }
 
-/* behind the columns from `from` on that fit beside the first one, at least one */
+/* the end of the columns from `from` on that fit next to the first one, at least one */
 static int block_end(const Call *call, const TableColumns *table, const int *widths, int from)
 {
     int room = call->columns - widths[0], to = from;
@@ -245,7 +246,7 @@ static void write_table(const Call *call, const TableColumns *table)
     free(widths);
 }
 
-/* What has no unit behind its name is put into that of its dimension, where this is known. */
+/* A column without a unit after its name gets that of its dimension, if this is known. */
 static void label_columns(const Call *call, const ct_expression *const *items, int count,
                           TableColumns *table)
 {
@@ -295,7 +296,7 @@ static ct_status round_column(const Call *call, const ct_expression *item,
     return status;
 }
 
-/* the statement that asks for all columns by name, behind which stand units as behind any */
+/* the statement that requests all columns by name, so that units can follow these */
 static ct_statement *asked_by_name(char *const *names)
 {
     char *text = copy_text("table");
@@ -316,7 +317,7 @@ static ct_statement *asked_by_name(char *const *names)
     return statement;
 }
 
-/* `t` that was asked for is the first column, which stands there anyway. */
+/* A requested `t` is the first column, which is always there. */
 static void drop_times(TableColumns *table, const ct_expression **items, int *count)
 {
     for (int j = *count; j >= 1; j--) {

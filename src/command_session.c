@@ -282,7 +282,7 @@ static ct_status command_redo(Call *call, ct_error *error)
     return ct_redo(call->session, error);
 }
 
-/* It says what it throws away: statements come back by undo, runs don't. */
+/* Reports what it removes: undo restores statements, but not runs. */
 static ct_status command_clear(Call *call, ct_error *error)
 {
     const int steps = ct_step_count(call->session), runs = ct_run_count(call->session);

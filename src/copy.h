@@ -14,7 +14,7 @@ NEVER_NULL char *copy_text(const char *text);  /* new, free() */
 NEVER_NULL char *copy_piece(const char *text, size_t length);
 NEVER_NULL char *copy_format(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* A text that grows behind a stream; output_buffer_close() hands over the characters as a new
+/* A stream that writes to a growing text; output_buffer_close() returns the characters as a new
  * string. */
 typedef struct OutputBuffer {
     FILE *out;

@@ -70,7 +70,7 @@ static bool is_known_extension(const char *extension)
 
 /* --- pieces of commands --- */
 
-/* colours that stay apart for all eyes (Okabe and Ito 2008) */
+/* colours that can be distinguished with colour blindness too (Okabe and Ito 2008) */
 static const char *const colors[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                      "#e69f00", "#56b4e9", "#000000"};
 enum { COLORS = sizeof colors / sizeof colors[0] };
@@ -216,7 +216,7 @@ bool drawing_in_window(const Call *call)
     return strcmp(wanted, "window") == 0 || (strcmp(wanted, "auto") == 0 && has_display());
 }
 
-/* with characters; as large as the terminal, with room for the line that asked for it */
+/* with characters; as large as the terminal, less the line of the statement */
 static void draw_text(Call *call, const Drawing *drawing)
 {
     int rows = 24, columns = 79;
@@ -261,7 +261,7 @@ static ct_status draw_screen(Call *call, const Drawing *drawing, ct_error *error
         return CT_OK;
     }
     if (window != NULL) {
-        /* a script ends, the window it drew stays */
+        /* the window remains when the script ends */
         char *window_terminal = terminal_for(window, drawing);
 
         terminal = copy_format("%s%s", window_terminal, call->shell->interactive ? "" : " persist");

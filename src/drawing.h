@@ -1,8 +1,8 @@
-/* drawing.h: pictures by gnuplot, or with characters, wherever they go
+/* drawing.h: pictures by gnuplot, or with characters, on any output
  *
- * Who draws gives a function that writes gnuplot's commands, data included, and one that draws with
- * characters; which is asked, and for which terminal, is decided here by the file's name, the
- * display and `set terminal`. */
+ * The caller passes a function that writes gnuplot's commands, data included, and one that draws
+ * with characters. This file chooses the function and the terminal by the file's name, the display
+ * and `set terminal`. */
 #ifndef COTREE_SRC_DRAWING_H
 #define COTREE_SRC_DRAWING_H
 
@@ -18,7 +18,7 @@ typedef struct Drawing {
     double interval;      /* s between pictures of one that moves; 0: it stands */
 } Drawing;
 
-/* The file behind `>`, NULL where there is none; an error unless it can hold a picture. */
+/* The file after `>`, NULL if there is none; an error unless its type is that of a picture. */
 ct_status drawing_check(const Call *call, const char **path, ct_error *error);
 /* whether what has no file goes into a window, rather than on the terminal as text */
 bool drawing_in_window(const Call *call);

@@ -114,7 +114,7 @@ ct_status file_place(const char *path, char **place, ct_error *error)
 
     umask(mask);
     if (fchmod(file, stat(path, &old) == 0 ? old.st_mode & 0777 : 0666 & ~mask) != 0) {
-        /* it stays private: still the file that was asked for */
+        /* it remains private: the right file all the same */
     }
     close(file);
     *place = name;

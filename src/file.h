@@ -12,24 +12,24 @@ bool file_is_confined(void);
 ct_status file_may_read(const char *path, ct_error *error);
 ct_status file_may_write(const char *path, ct_error *error);
 
-/* Write a text. A regular file is replaced in one step (a temporary one beside it, renamed), so
- * that a failed write leaves the old one; `append`, pipes and devices are written straight.
- * CT_FAILED with a message naming the file. */
+/* Write a text. A regular file is replaced in one step (by renaming a temporary one in the same
+ * folder), so that a failed write leaves the old one; `append`, pipes and devices are written
+ * directly. CT_FAILED with a message naming the file. */
 ct_status file_write(const char *path, const char *text, size_t length, bool append,
                      ct_error *error);
 bool file_has_content(const char *path);
 /* without its end; new; NULL: it can't be read */
 char *file_first_line(const char *path);
 
-/* A place for another program to write `path` to: a new empty file beside it, or `path` itself
- * where that is a device. `*place` is new, free(). file_settle() moves it to `path`, or removes
- * it when `keep` is false. */
+/* A temporary file for another program to write: a new empty file in the same folder as `path`, or
+ * `path` itself if that is a device. `*place` is new, free(). file_settle() moves it to `path`, or
+ * removes it when `keep` is false. */
 ct_status file_place(const char *path, char **place, ct_error *error);
 ct_status file_settle(const char *place, const char *path, bool keep, ct_error *error);
 
 /* new: `name` as meant in the file `from` (relative to its folder if such a file is there) */
 char *file_beside(const char *from, const char *name);
-const char *file_extension(const char *path); /* behind the last dot of the last part; "" */
+const char *file_extension(const char *path); /* after the last dot of the last part; "" */
 /* new: the file `name` in a folder of ours below $`variable`, or below ~/`home`; NULL: no home */
 char *file_in_home(const char *variable, const char *home, const char *name, bool make_folder);
 

@@ -73,7 +73,7 @@ bool gnuplot_has_terminal(const Gnuplot *gnuplot, const char *terminal)
     return false;
 }
 
-/* The number behind COUNT on the last line, which is taken off. */
+/* The number after COUNT on the last line, which is removed. */
 static int take_errors(char *said)
 {
     char *at = NULL;
@@ -89,8 +89,8 @@ static int take_errors(char *said)
     return count;
 }
 
-/* Gnuplot echoes its input, with a caret; the message stands on a line of its own behind
- * "line N:". The first one is the cause. */
+/* Gnuplot echoes its input, with a caret; the message is on a line of its own after "line N:". The
+ * first one is the cause. */
 static char *find_message(const char *said)
 {
     const char *at = strstr(said, "line ");
@@ -103,7 +103,7 @@ static char *find_message(const char *said)
     return copy_piece(colon, strcspn(colon, "\n"));
 }
 
-/* what it says without failing, free of blank lines and indentation */
+/* its warnings, without blank lines and indentation */
 static char *gather_warnings(const char *said)
 {
     OutputBuffer paper;

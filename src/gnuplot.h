@@ -1,7 +1,7 @@
-/* gnuplot.h: one living gnuplot, spoken to over pipes
+/* gnuplot.h: one running gnuplot process, connected by pipes
  *
- * It is started by the first plot and kept, so that windows stay. When it was killed, the
- * next plot starts another. */
+ * The first plot starts it, and it runs until the end, so that windows remain open. If it was
+ * killed, the next plot starts another. */
 #ifndef COTREE_SRC_GNUPLOT_H
 #define COTREE_SRC_GNUPLOT_H
 
@@ -13,9 +13,9 @@ typedef struct Gnuplot Gnuplot;
 ct_status gnuplot_start(Gnuplot **gnuplot, ct_error *error);
 bool gnuplot_has_terminal(const Gnuplot *gnuplot, const char *terminal);
 
-/* Have commands carried out, to the end: when it returns, files are complete. `*printed`: what
- * went to its standard output; `*warnings`: lines that it said without failing; both new, free().
- * CT_FAILED with gnuplot's own message when it complained, or when it ended. */
+/* Execute commands and wait for their end: when it returns, files are complete. `*printed`: its
+ * standard output; `*warnings`: its messages without an error; both new, free(). CT_FAILED with
+ * gnuplot's own message when it reported an error, or when it ended. */
 ct_status gnuplot_do(Gnuplot *gnuplot, const char *commands, char **printed, char **warnings,
                      ct_error *error);
 void gnuplot_close(Gnuplot *gnuplot); /* NULL is fine */

@@ -4,7 +4,7 @@
 #include <stddef.h>
 #include <unistd.h>
 
-enum { PATIENCE = 2 }; /* s, between being asked to end and having to */
+enum { PATIENCE = 2 }; /* s, between the request to end and the forced end */
 
 static volatile sig_atomic_t asked, ending, resized, continued, second_ends;
 

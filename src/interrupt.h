@@ -9,10 +9,10 @@
 #include <stdbool.h>
 
 void interrupt_setup(bool interactive);
-bool interrupt_asked(void); /* Ctrl-C came since interrupt_clear(), or the end is asked for */
+bool interrupt_asked(void); /* Ctrl-C since interrupt_clear(), or a request to end */
 void interrupt_clear(void);
 int interrupt_ending(void); /* the SIGTERM or SIGHUP that came, or 0 */
-/* since asked last: */
+/* since the last call: */
 bool interrupt_resized(void);   /* the window changed */
 bool interrupt_continued(void); /* the program was, after Ctrl-Z */
 

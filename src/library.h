@@ -4,8 +4,8 @@
 
 #include "cotree.h"
 
-/* Compiles the sources of an archive: *bytes new, free(). NULL where there is no compiler, or the
- * format has no name for this machine: then it is said. */
+/* Compiles the sources of an archive: *bytes new, free(). NULL with a message if there is no
+ * compiler, or the format has no name for this machine. */
 ct_status library_of(const ct_archive *archive, char **bytes, size_t *length, ct_error *error);
 
 #endif

@@ -63,7 +63,7 @@ static const char usage[] =
     "Environment: GNUPLOT, PAGER, XDG_CONFIG_HOME (cotree/init.ct), XDG_STATE_HOME\n"
     "(cotree/history, cotree/unsaved).\n";
 
-/* What the command line asks for; sources in their order. */
+/* The options of the command line; sources in their order. */
 typedef struct Invocation {
     struct {
         const char *text; /* a file's name, or lines: those of neighbouring -e together */

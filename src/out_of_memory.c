@@ -12,7 +12,7 @@ static void say(const char *text)
 {
     const ssize_t written = write(STDERR_FILENO, text, strlen(text));
 
-    (void)written; /* there is nobody left to tell */
+    (void)written; /* an error can't be reported any more */
 }
 
 _Noreturn void out_of_memory(void)

@@ -8,7 +8,7 @@
 
 /* what is kept of the session at hand; borrowed; NULL: nothing */
 void out_of_memory_note(const Autosave *unsaved);
-/* Say it and end the process, with the status of a statement that failed. */
+/* Print a message and end the process, with the status of a failed statement. */
 _Noreturn void out_of_memory(void);
 
 #endif

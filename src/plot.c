@@ -1,8 +1,8 @@
 /* plot.c: `plot ITEM... [vs ITEM] [> "file"]`, drawn by gnuplot
  *
- * A file's extension says in which format. Without a file the picture goes into a window when
- * there is a display, else the library draws it with characters, as large as the terminal. The data
- * travel inside the commands, so `plot ... > "fig.gp"` writes a script that needs nothing else. */
+ * A file's extension determines the format. Without a file the picture is shown in a window if
+ * there is a display; else the library draws it with characters, as large as the terminal. The
+ * commands contain the data, so `plot ... > "fig.gp"` writes a script that needs nothing else. */
 #include "plot.h"
 #include "copy.h"
 
@@ -71,7 +71,7 @@ static void lay_out_curves(Plot *plot, const ct_statement *statement)
     }
 }
 
-/* What has no unit behind it is in that of its dimension, where this is known. */
+/* An item without a unit is shown in that of its dimension, if this is known. */
 static void label_columns(const Call *call, PlotBlock *block, const ct_expression *const *items)
 {
     block->labels = check_allocated(calloc((size_t)block->columns + 1, sizeof *block->labels));

@@ -149,7 +149,7 @@ char *plot_axis_label(const Plot *plot, int panel, bool right)
     const char *quantity = find_quantity(unit);
     char *out = NULL;
 
-    /* a unit is told of what it is known of; a quantity stands for all */
+    /* names with known unit, then the others; the quantity replaces a list that is too long */
     if (strlen(known) + strlen(others) > LONGEST)
         out = copy_format("%s%s%s", quantity, *unit != '\0' ? " " : "", unit);
     else if (*known != '\0' || *others != '\0')
@@ -239,7 +239,7 @@ bool plot_event(const Plot *plot, const PlotBlock *block, int i, const char **na
     return *name != NULL;
 }
 
-/* Names of events that stand beside their lines, in rows where they cover one another less. */
+/* Names of events next to their lines, in rows in which they overlap less. */
 enum { NAME_ROWS = 6 };
 
 typedef struct EventNames {
@@ -417,7 +417,7 @@ static bool has_powers(const Plot *plot, int i)
            (plot->keys.y_is_log && least < 1e-4);
 }
 
-/* characters beside the panels, for numbers and the label of an axis; 0: no axis there */
+/* width in characters next to the panels, for numbers and the label of an axis; 0: no axis there */
 static int margin_for(const Plot *plot, bool right)
 {
     enum { PLAIN = 11, POWERS = 16 };

@@ -1,4 +1,4 @@
-/* process.c: a program beside us, with pipes to its input, output and complaints */
+/* process.c: a child process, with pipes to its standard input, output and error */
 #include "process.h"
 
 #include "interrupt.h"

@@ -1,4 +1,4 @@
-/* process.h: a program beside us, with pipes to its input, output and complaints
+/* process.h: a child process, with pipes to its standard input, output and error
  *
  * It gets a process group of its own, so that Ctrl-C stops our work and not it. */
 #ifndef COTREE_SRC_PROCESS_H

@@ -18,7 +18,7 @@ struct Reader {
     const char *text; /* what is left of it; NULL: file or prompt */
     const char *name; /* NULL: prompt */
     int line;         /* of the last physical line */
-    bool returned;    /* that one ended with a carriage return: a newline behind is its own */
+    bool returned;    /* it ended with a carriage return, to which a newline belongs */
     char *pasted;     /* a block with newlines, typed as one; NULL */
     size_t pasted_at; /* what was taken of it */
 };
@@ -75,7 +75,7 @@ static ReadResult fail_long(ct_error *error)
     return READ_FAILED;
 }
 
-/* the next character; a signal that asks for nothing (a window's new size) is passed over */
+/* the next character; a signal that needs no action here (a window's new size) is ignored */
 static int next_character(FILE *file)
 {
     int c;
@@ -94,9 +94,9 @@ static char *line_room(char *line, size_t length, size_t *room)
     return check_allocated(realloc(line, *room));
 }
 
-/* The characters up to the end of a line, which may be a newline, a carriage return or both; the
- * newline behind a carriage return is looked for only with the next line, since a terminal or a
- * pipe may not send one for long. */
+/* The characters up to the end of a line, which may be a newline, a carriage return or both; a
+ * newline after a carriage return is read only with the next line, because a terminal or a pipe may
+ * delay it. */
 static ReadResult read_file(Reader *reader, char **line, ct_error *error)
 {
     size_t length = 0, room = 0;
@@ -207,8 +207,8 @@ static ReadResult read_physical(Reader *reader, const char *prefix, bool more, c
 
 /* --- logical lines --- */
 
-/* A backslash at the line's end goes on, unless a comment took it. Blanks behind the backslash are
- * taken off, since nobody sees them. */
+/* A backslash at the line's end continues it, unless it is in a comment. Blanks after the backslash
+ * are removed, because they are invisible. */
 static bool goes_on(char *line)
 {
     size_t length = strlen(line), last;

@@ -26,8 +26,8 @@ void reader_free(Reader *reader);
 bool reader_is_prompt(const Reader *reader);
 bool reader_is_file(const Reader *reader);
 
-/* The next logical line, its physical lines joined by newlines: new, free(). `prefix`: what the
- * prompt says. */
+/* The next logical line, its physical lines joined by newlines: new, free(). `prefix`: the text of
+ * the prompt. */
 ReadResult reader_next(Reader *reader, const char *prefix, char **text, Origin *origin,
                        ct_error *error);
 

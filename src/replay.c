@@ -65,8 +65,8 @@ static void drop_definition(Shell *shell)
     ct_drop_definition(shell->session);
 }
 
-/* Whether a statement of the line begins with the word: all that tells a definition's first and
- * last line once it can't be read. */
+/* Whether a statement of the line starts with the word. In a definition that can't be parsed, only
+ * this identifies the first and last line. */
 static bool has_statement(const char *text, const char *word)
 {
     for (;;) {
@@ -177,8 +177,8 @@ ct_status replay(Shell *shell, Reader *reader)
     return first;
 }
 
-/* The file is one step to undo, also where it ended early: then what stands is said, if
- * something `goes_on` with it. */
+/* The file is one undo step, also if it ended early: then a message reports what was executed, if
+ * the session `goes_on`. */
 static void end_file(Shell *shell, const char *path, int group, bool goes_on, ct_status status)
 {
     char *called = copy_format("source \"%s\"", path);

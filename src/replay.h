@@ -5,12 +5,12 @@
 #include "reader.h"
 #include "shell.h"
 
-/* Run everything a reader gives. A script stops at its first error (with `keep_going` at its end)
- * and tells it in the returned status; a prompt goes on. The reader is given. */
+/* Run all lines of a reader. A script stops at its first error (with `keep_going` at its end) and
+ * returns it as status; a prompt continues. Takes ownership of the reader. */
 ct_status replay(Shell *shell, Reader *reader);
 
-/* Run a file: "-" is standard input. CT_FAILED with an empty message when the error was told
- * where it happened. */
+/* Run a file: "-" is standard input. CT_FAILED with an empty message when the error was reported
+ * where it occurred. */
 ct_status replay_file(Shell *shell, const char *path, ct_error *error);
 
 #endif

@@ -116,7 +116,7 @@ static void write_shown(const char *text, size_t length)
     }
 }
 
-/* blanks as wide as the text; its tabs stay tabs */
+/* blanks as wide as the text; its tabs remain tabs */
 static void write_blank(const char *text, size_t length)
 {
     for (size_t i = 0; i < length;) {

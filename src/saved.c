@@ -12,7 +12,7 @@
 #include <sys/stat.h>
 
 static const char HEAD[] = "# saved by cotree, unedited: ";
-enum { NUMBER = 16, LONGEST = 120 }; /* hexadecimal digits behind it; such a line */
+enum { NUMBER = 16, LONGEST = 120 }; /* hexadecimal digits of the checksum; length of such a line */
 
 typedef struct Kind {           /* of files that are ours */
     const char *verb, *operand; /* that writes them, and what it takes before the file */

@@ -1,7 +1,7 @@
-/* saved.h: files that `save` writes, and knows again
+/* saved.h: files that `save` writes and recognises
  *
- * The first line says that cotree wrote the rest, with a number that follows from it: a file that
- * was edited since, or is somebody else's, is not replaced unasked. */
+ * The first line marks the file as written by cotree, with a checksum of the rest. A file that was
+ * edited since, or has another origin, is replaced only with `overwrite`. */
 #ifndef COTREE_SRC_SAVED_H
 #define COTREE_SRC_SAVED_H
 
@@ -9,7 +9,7 @@
 
 /* Write a script in one step; over a file that isn't ours only with `overwrite`. */
 ct_status saved_write(const char *path, const char *script, bool overwrite, ct_error *error);
-/* the same of what ct_store() tells, which brings its first line */
+/* the same for the text of ct_store(), which includes its first line */
 ct_status stored_write(const char *path, const char *text, bool overwrite, ct_error *error);
 
 #endif

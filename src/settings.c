@@ -131,7 +131,7 @@ bool settings_own(const ct_statement *statement)
     return find(name_set(statement, &value)) != NULL;
 }
 
-/* the value, with what stands behind it as in `set units deg mm`, `count` of them */
+/* the value, and further ones as in `set units deg mm`, `count` of them */
 static char *value_text(const ct_statement *statement, const ct_expression *value, int count)
 {
     char *text = copy_text("");

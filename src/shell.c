@@ -31,14 +31,14 @@ static void hook_progress(void *context, const char *phase, double fraction)
     progress_show(&shell->progress, phase, fraction);
 }
 
-/* as `source` means it: beside the script that names it, if it is there */
+/* as in `source`: in the folder of the script that names it, if it is there */
 static char *hook_find_file(void *context, const char *name)
 {
     const Shell *shell = context;
     char *path = file_beside(shell->script, name);
     ct_error why;
 
-    /* a file that isn't there is the library's to tell */
+    /* the library reports a missing file */
     if (access(path, F_OK) == 0 && file_may_read(path, &why) != CT_OK) {
         free(path);
         return NULL;
@@ -52,7 +52,7 @@ static const char *const *hook_setting(void *context, int i)
     return settings_words(i);
 }
 
-/* Tell the library how wide the screen is; 0: text isn't wrapped. */
+/* Set the library's page width to the screen's; 0: text isn't wrapped. */
 static void set_width(Shell *shell, int columns)
 {
     ct_hooks hooks = {.context = shell,
@@ -118,7 +118,7 @@ static ct_status write_on_screen(Shell *shell, const char *text, size_t length, 
         return CT_OK;
     clearerr(stdout);
 
-    /* who reads has seen enough: nothing to tell, nor anybody to tell it to */
+    /* the reader closed the pipe: no message */
     if (errno == EPIPE) {
         shell->quitting = true;
         shell->failed++;
@@ -279,7 +279,8 @@ static ct_status run_next(Shell *shell, const Origin *origin, ct_cursor *line, b
     if (status == CT_OK && !ct_statement_is_empty(statement))
         status = carry_out(shell, statement, &error);
 
-    /* what happened in another file was told there: here is the way to it */
+    /* an error in another file was reported there, without message here: name the statement that
+     * led to it */
     if (status != CT_OK && error.message[0] != '\0') {
         shell->is_unsolved = error.is_unsolved;
         report_error(origin, line->text, &error);

@@ -39,8 +39,8 @@ typedef struct Shell {
 void shell_open(Shell *shell);
 void shell_close(Shell *shell);
 
-/* Run every statement of a logical line. What they print goes out, what they have to say is said;
- * the first that fails ends the line. */
+/* Run every statement of a logical line. Output and messages are printed; the first failing
+ * statement ends the line. */
 ct_status shell_run_line(Shell *shell, const Origin *origin, const char *text, bool shortened);
 
 #endif

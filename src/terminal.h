@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* of standard output; where that is no terminal, or doesn't tell, 24 x 80 */
+/* of standard output; 24 x 80 if that is no terminal, or doesn't report its size */
 void terminal_size(int *rows, int *columns);
 bool terminal_is_utf8(void);
 /* of $TERM: it knows no more than lines, so that nothing on it can be gone back over */
