@@ -1,8 +1,11 @@
 /* cutset_equations.c: M and F of the recursive form: cutsets projected on motion spaces
  *
- * F: inertia forces at u' = 0 and everything that pushes, summed inward over both trees.
- * M: column k is the same sum for u'_k = 1 with everything else at rest; of a pair (j, k)
- * the column of the speed that moves fewer bodies is taken, of equals the one further out. */
+ *     M u' + Phi_u^T lambda = F,   M nu x nu, F nu x 1
+ *
+ * F: inertia forces at u' = 0 and all applied loads, summed inward over both trees. M: column k is
+ * the sum of inertia forces, with reversed signs, for u'_k = 1 and everything else at rest. Entry
+ * (j, k) is taken from the column of the speed that moves fewer bodies; if both move equally many,
+ * from that of the speed further out. */
 #include "formulate/dynamics/cutset_equations.h"
 #include "formulate/dynamics/composite.h"
 #include "formulate/dynamics/composite_mass.h"

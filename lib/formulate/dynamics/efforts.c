@@ -1,4 +1,7 @@
-/* efforts.c: applied loads: forces, springs, dampers, actuators, motors */
+/* efforts.c: applied loads: forces, springs, dampers, actuators, motors
+ *
+ * Along a line from tail to head, with d = r_head - r_tail (m, 3 x 1): displacement s = |d|,
+ * direction n = d/s, rate s' = n.(v_head - v_tail). */
 #include "formulate/dynamics/efforts.h"
 #include "formulate/dynamics/laws.h"
 #include "formulate/dynamics/loads.h"
@@ -17,7 +20,7 @@
 
 #include <string.h>
 
-/* where an effort along the line between two frames acts */
+/* displacement, rate and direction of an effort along the line between two frames */
 static Status line_motion(System *system, const Instance *instance, Effort *effort, Diag *diag)
 {
     Arena *arena = system->arena;

@@ -1,4 +1,8 @@
-/* energy.c: energies, and the power of sources and losses */
+/* energy.c: energies, and the power of sources and losses
+ *
+ * For masses: T = sum (m v.v + w.I w)/2 and V = -sum m g.r (J), with the velocity v of the mass
+ * centre, its position r, and gravity g. Rotors, flexible parts and elements that store energy add
+ * their own terms. The power P (W) of sources minus losses satisfies d/dt(T + V) = P. */
 #include "formulate/dynamics/efforts.h"
 #include "formulate/dynamics/laws.h"
 #include "formulate/dynamics/shapes.h"

@@ -1,4 +1,14 @@
-/* shapes.c: local blocks of flexible parts */
+/* shapes.c: local blocks of flexible parts (theory 9)
+ *
+ * For the acceleration a (m/s^2) and angular acceleration alpha (rad/s^2) of the root and the shape
+ * coordinates q, in the axes of the root, the inertia loads are
+ *
+ *     force   m a + alpha x s + sum_i h_i q_i''
+ *     torque  s x a + J alpha + sum_i t_i q_i''
+ *     on q_j  h_j.a + t_j.alpha + sum_i B_ji q_i''
+ *
+ * with mass m, first moment s (3 x 1), inertia J (3 x 3), coupling vectors h_i and t_i (3 x 1) and
+ * the block B (shapes x shapes); terms at zero acceleration are added separately. */
 #include "formulate/dynamics/shapes.h"
 #include "formulate/dynamics/laws.h"
 #include "formulate/kinematics/frames.h"

@@ -1,4 +1,7 @@
-/* euler_parameters.c: Euler parameters of frames: the product of those of their turns */
+/* euler_parameters.c: Euler parameters of frames: the product of those of their turns
+ *
+ * p = (e0, e), 4 x 1, of unit length: e0 = cos(a/2) and e = k sin(a/2) for a turn by a (rad) about
+ * k. */
 #include "formulate/kinematics/coordinate.h"
 #include "formulate/system/kinematics.h"
 #include "formulate/system/sample.h"

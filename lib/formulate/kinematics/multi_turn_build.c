@@ -91,7 +91,8 @@ void multi_turn_build(System *system)
     }
 }
 
-/* (c s' - s c') r/(r^2 + 1e-8), r = s^2 + c^2: c s' - s c' where the joint holds, r being 1 */
+/* (c s' - s c') r/(r^2 + 1e-8) with r = s^2 + c^2. Where the joint's constraints hold, r is 1 and
+ * this is c s' - s c' */
 Status system_multi_turn_rate(System *system, int i, Expr *out, Diag *diag)
 {
     system_touch(system);

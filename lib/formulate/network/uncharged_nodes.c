@@ -1,14 +1,14 @@
 /* uncharged_nodes.c: nodes of a network at which the current of a coil meets only nonlinear laws
  *
- * The current of a coil can't jump. Where a capacitor, a source of voltage or a resistor takes what
- * it changes by, the node's voltage follows in finite time; where only diodes, transistors and
- * other laws do, it is the root of
+ * The current of a coil can't jump. Where a capacitor, a source of voltage or a resistor takes up
+ * the change of this current, the node's voltage follows in finite time. Where only diodes,
+ * transistors and other nonlinear laws take it up, the voltage v is the root of
  *
  *     sum of i_k(v) = sum of coil currents
  *
- * which changes as fast as the slopes di_k/dv are small: a cutset of coils and nonlinear laws
- * alone. Nodes are joined by edges of the first kind; the cutset is what leads out of a joined set.
- */
+ * The smaller the slopes di_k/dv, the faster v changes. The edges at such a node are a cutset of
+ * coils and nonlinear laws alone. Edges of the first kind join nodes into sets; the cutset is the
+ * set of edges that lead out of such a set. */
 #include "formulate/network/scalar_edges.h"
 #include "formulate/system/network.h"
 #include "formulate/system/origin.h"

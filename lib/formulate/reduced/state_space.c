@@ -12,7 +12,7 @@
 
 enum {
     MOST_COUPLED = 9, /* equations that are solved together */
-    MOST_LEFT = 400,  /* equations outside of all chains */
+    MOST_LEFT = 400,  /* equations that remain after all equations with one unknown are solved */
     SIZE = 1 << MOST_COUPLED
 };
 

@@ -42,8 +42,8 @@ struct System {
     System *numbered;
     System *sided; /* the system in which sides are searched; this one or one of the modes */
     System *whole; /* the hybrid system that owns it; NULL: none */
-    /* how a name becomes an expression: system_variable(), which all that tells one stands before
-     */
+    /* returns the expression of a name: system_variable(). A pointer, as files before variables.c
+     * need it */
     Status (*variable)(System *system, const char *path, int primes, Expr *out, Diag *diag);
 };
 
