@@ -1,4 +1,4 @@
-/* efforts.h: what springs, motors and forces exert */
+/* efforts.h: efforts of springs, motors and forces */
 #ifndef COTREE_FORMULATE_DYNAMICS_EFFORTS_H
 #define COTREE_FORMULATE_DYNAMICS_EFFORTS_H
 

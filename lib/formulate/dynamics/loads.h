@@ -28,7 +28,7 @@ typedef enum SumsFor {
     SUMS_FOR_JOINTS  /* also where no speed moves the node */
 } SumsFor;
 
-/* sums inward over both trees of what acts on nodes; new arrays in the system's pool */
+/* sums inward over both trees of the loads on nodes; new arrays in the system's pool */
 Sums *loads_sum(const System *system, const Loads *loads, SumsFor whom);
 Loads loads_new(const System *system);
 /* m (g - a) and -(I alpha + w x I w) of every mass, and of flexible parts, with u' or (NULL)

@@ -207,7 +207,7 @@ static const Row *open_row(const System *system, const double *shares, int insta
             sum += term;
             if (fabs(term) > size)
                 size = fabs(term);
-            /* the row of another part tells the user more */
+            /* the row of another part is more useful to the user */
             if (term != 0 && (found == NULL || found->reported.instance == instance))
                 found = &system->constraints->redundant_rows.at[k];
         }

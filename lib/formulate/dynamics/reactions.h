@@ -1,4 +1,4 @@
-/* reactions.h: what joints and constraint rows exert */
+/* reactions.h: reaction forces and moments of joints and constraint rows */
 #ifndef COTREE_FORMULATE_DYNAMICS_REACTIONS_H
 #define COTREE_FORMULATE_DYNAMICS_REACTIONS_H
 

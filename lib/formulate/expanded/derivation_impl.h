@@ -1,4 +1,4 @@
-/* derivation_impl.h: what the expanded form and its derivation share */
+/* derivation_impl.h: shared by the expanded form and its derivation */
 #ifndef COTREE_FORMULATE_EXPANDED_DERIVATION_IMPL_H
 #define COTREE_FORMULATE_EXPANDED_DERIVATION_IMPL_H
 

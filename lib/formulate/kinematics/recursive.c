@@ -345,7 +345,7 @@ Vec node_position(System *system, int node)
     LIST(int) way = {0};
     Vec p;
 
-    /* from the first node whose position is known, outward again */
+    /* outward from the last node on the path whose position is known */
     while (frames[node].parent >= 0 && positions[node].at[0] == NULL) {
         LIST_PUSH(way, node);
         node = frames[node].parent;

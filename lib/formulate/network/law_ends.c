@@ -1,4 +1,4 @@
-/* law_ends.c: where the law of a part that stores ends
+/* law_ends.c: limits of the laws of storage elements
  *
  * A charge eA/(s0 - s) v (C) is unbounded where the gap s0 - s (m) reaches 0, and has no meaning
  * beyond. A flux (L0 - k s) i (Wb) has no meaning where its coil stores no more energy. For each

@@ -40,7 +40,7 @@ static void add_gmin(System *system, Expr across, Relation *relation)
                                    expr_mul(system->arena, system->network->gmin, across));
 }
 
-/* i = value(v, i) gives i only by solving: i - value = 0 */
+/* i = value(v, i) determines i only by an equation: i - value = 0 */
 static void read_own_current(System *system, const Motion1 *motion, Relation *relation)
 {
     if ((relation->kind != RELATION_CONDUCTIVE && relation->kind != RELATION_THROUGH) ||

@@ -14,8 +14,9 @@ typedef enum EliminatedBy {
 } EliminatedBy;
 
 /* u'[j] for this F, where `pushes` is the part due to neither inertia nor gravity. excess[j] is the
- * minuend of the j-th pivot of M divided by the pivot; it is large where a speed has next to no
- * inertia of its own. Arrays of nu. Counts the cost of all methods, and returns the cheapest. */
+ * entry of M from which elimination leaves the j-th pivot, divided by this pivot. It is large where
+ * a speed has next to no inertia of its own. Arrays of nu. Counts the cost of all methods, and
+ * returns the cheapest. */
 EliminatedBy system_accelerations(System *view, const Expr *force, const Expr *pushes,
                                   Expr *acceleration, Expr *excess);
 #endif

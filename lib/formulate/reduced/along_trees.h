@@ -20,9 +20,9 @@ typedef struct EliminationOrder {
     bool ends_merged; /* including the last body, though none beyond turns about that axis */
 } EliminationOrder;
 
-/* u', where `applied` is the load on each speed besides inertia and gravity, and the excess: at
- * most the minuend of each pivot of M divided by the pivot. Arrays of nu. False: a speed moves no
- * mass. */
+/* u', where `applied` is the load on each speed besides inertia and gravity, and excess: an upper
+ * bound of the entry of M from which elimination leaves each pivot, divided by this pivot. Arrays
+ * of nu. False: a speed moves no mass. */
 bool accelerations_along(const System *system, const Groups *groups, const EliminationOrder *way,
                          const Expr *applied, Expr *acceleration, Expr *excess);
 

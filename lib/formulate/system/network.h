@@ -20,7 +20,7 @@ typedef struct Branchlike { /* a scalar edge */
     bool is_stiff; /* a chord whose v is the unknown and determines i */
     /* its i follows from its rate, and its equation is the balance of a node (network_nodes.c) */
     bool is_balanced;
-    int ideal; /* number of the ideal switch; -1 */
+    int ideal; /* its index in `ideals`; -1: it is no switch */
     /* of a switch between two resistances: 1 or 0, a number of the run; NULL: it is no such switch,
      * or both sides are in its equation */
     Expr closed;

@@ -4,7 +4,7 @@
 
 #include "formulate/system/system.h"
 
-/* e is differentiated in time for `who`: E_MODEL where it jumps */
+/* e is differentiated in time for the part `who`: E_MODEL where it jumps */
 MUST_USE Status system_need_smooth(const System *system, const char *who, Expr e, Diag *diag);
 
 #endif

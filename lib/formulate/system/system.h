@@ -408,7 +408,7 @@ typedef struct Critical {
 /* the i-th of the system, 0, 1 ...; false after the last */
 bool system_critical(const System *system, int i, Critical *out);
 
-/* --- where the law of a part that stores ends --- */
+/* --- limits of the laws of storage elements --- */
 
 typedef struct Bound {
     const char *instance; /* the instance with the law; borrowed */

@@ -346,7 +346,7 @@ static void add_rates(System *system)
     }
 }
 
-/* what supplies the motion of each driver */
+/* finds what supplies the motion of each driver */
 static void add_drives(System *system)
 {
     for (int i = 0; i < system->origin->instance_count; i++) {
@@ -430,7 +430,7 @@ done:
     return status;
 }
 
-/* what a new System is made from */
+/* the arguments from which a new System is built */
 typedef struct SystemBuilder {
     const Scene *scene;
     const SystemOptions *options;

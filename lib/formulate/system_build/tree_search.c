@@ -160,7 +160,7 @@ static bool can_enter(const TreeSearch *search, int edge, int half)
     return branching == BRANCH_MAY || branching == BRANCH_UNCHOSEN;
 }
 
-/* in `halves` (bits) one branch goes and one chord comes */
+/* replaces one branch by one chord, in the trees of `halves` (bits) */
 typedef struct Exchange {
     int halves, goes, comes;
     int more; /* coordinates that it adds */
