@@ -45,7 +45,7 @@ void mem_free_each(void *const pieces[], int count);
 void *list_make_room(void *at, int count, int more, int *room, size_t size);
 static inline void *list_room(void *at, int count, int more, int *room, size_t size)
 {
-    /* what has been taken off an old list in this call may have to be there again */
+    /* elements removed from an old list in this call may have to be restored */
     if (at == NULL || count + more > *room || mem_is_old(at))
         return list_make_room(at, count, more, room, size);
     return at;
@@ -69,10 +69,10 @@ typedef struct PoolMark {
 Pool *pool_new(size_t chunk_size); /* bytes; 0: 64 KiB. New; free with pool_free() */
 void pool_free(Pool *pool);
 void *pool_alloc(Pool *pool, size_t size); /* zeroed, aligned to 16 bytes */
-void *pool_room(Pool *pool, size_t size);  /* the same, holding anything */
+void *pool_room(Pool *pool, size_t size);  /* the same, uninitialised */
 char *pool_text(Pool *pool, const char *text, size_t length);
 PoolMark pool_mark(const Pool *pool);
-void pool_release(Pool *pool, PoolMark mark); /* frees what came after the mark */
+void pool_release(Pool *pool, PoolMark mark); /* frees pieces allocated after the mark */
 /* Before `size` bytes at `at`, a piece of the pool's, are changed in place: mem_keep_part(). */
 void pool_retain(Pool *pool, void *at, size_t size);
 size_t pool_bytes(const Pool *pool); /* held from the system */

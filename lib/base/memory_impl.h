@@ -6,12 +6,13 @@
 
 /* A piece of the system's, which belongs to no transaction; NULL: memory has ended. */
 void *system_allocate(size_t size, bool zeroed);
-/* One of the transaction that goes on, if one does; leaves it where memory has ended. */
+/* A piece of the current transaction, if there is one; leaves the transaction when out of
+ * memory. */
 MemPiece *piece_new(size_t size, bool zeroed, const void *maker);
 /* Change the size; the piece may move. The old piece stays allocated if a transaction may have to
  * restore it. */
 MemPiece *piece_resize(MemPiece *piece, size_t size, const void *maker);
-/* Give a piece back: at once, or when the transaction has come to its end. */
+/* Free a piece: at once, or at the end of the transaction. */
 void piece_drop(MemPiece *piece);
 
 /* --- faults.c --- */
@@ -19,7 +20,7 @@ void piece_drop(MemPiece *piece);
 #ifdef COTREE_FAULTS
 enum { FAULTS = true };
 void faults_begin(Transaction *transaction);
-/* After a try was taken back: the next one is to be made. */
+/* After the rollback of a trial: start the next one. */
 void faults_next(Transaction *transaction);
 bool faults_strike(void); /* whether this allocation fails */
 /* All pieces that the call found are as they were, or the program ends. */

@@ -1,6 +1,6 @@
 /* names.h: from a name to a number, by hashing
  *
- * Names keep the order in which they came. The map copies them, or borrows them all. */
+ * Names are in the order of their insertion. The map copies them, or borrows them all. */
 #ifndef COTREE_BASE_NAMES_H
 #define COTREE_BASE_NAMES_H
 

@@ -124,7 +124,7 @@ int text_width(const char *text)
     return width;
 }
 
-/* twice the cost of putting b where a is */
+/* twice the cost of replacing a by b */
 static int swap_cost(char a, char b)
 {
     if (a == b)
@@ -181,7 +181,7 @@ void suggest_offer(Suggest *suggest, const char *candidate)
     int limit = length <= 3 ? 1 : length <= 6 ? 2 : 3;
     int distance = text_distance(suggest->word, candidate, limit);
 
-    /* its beginning is the likeliest of slips */
+    /* a prefix of the name is the most likely mistake */
     if (length > 1 && distance > 1 && strncmp(suggest->word, candidate, (size_t)length) == 0)
         distance = 1;
 

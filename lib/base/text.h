@@ -28,7 +28,7 @@ void text_free(Text *text);
 
 /* bytes of the UTF-8 character that starts here (RFC 3629); 0: it isn't one */
 size_t text_character(const char *text);
-/* columns a UTF-8 string takes on a terminal */
+/* width of a UTF-8 string on a terminal, in columns */
 int text_width(const char *text);
 
 /* Edit distance with neighbours swapped as one step (Damerau 1964), letters of

@@ -1,4 +1,4 @@
-/* threads.c: pieces are taken by counting down
+/* threads.c: pieces are assigned by counting down
  *
  * `left` counts pieces that no thread has started. A thread that decrements it owns that piece, and
  * the work isn't replaced until the piece is done. `undone` counts unfinished pieces. Between two
@@ -99,7 +99,7 @@ static void wake_all(Threads *t)
     (void)pthread_mutex_unlock(&t->lock);
 }
 
-/* those that there are come to their end */
+/* end the running threads */
 static void end_all(Threads *t)
 {
     atomic_store(&t->is_over, true);
@@ -135,7 +135,7 @@ static void close_threads(void *object)
 
 Threads *threads_new(void)
 {
-    const bool was_scratch = mem_scratch(true); /* what stands in it is no part of a call's work */
+    const bool was_scratch = mem_scratch(true); /* not part of the call's transaction */
     Threads *t = NEW(Threads);
 
     (void)mem_scratch(was_scratch);
@@ -175,7 +175,7 @@ static void do_all(int count, void (*piece)(void *context, int which), void *con
         piece(context, i);
 }
 
-/* A piece knows of no transaction: nothing in it may leave the call. */
+/* A piece runs outside the transaction: nothing in it may leave the call. */
 static void do_share(Threads *t, int count, void (*piece)(void *context, int which), void *context)
 {
     Transaction *const own = transaction_now;

@@ -20,8 +20,8 @@ void threads_free(Threads *threads); /* ends and joins them; NULL is fine */
 /* From the next work on `count` of them at most, the caller's with them. NULL is fine. */
 void threads_set(Threads *threads, int count);
 int threads_count(const Threads *threads); /* 1 for NULL */
-/* Do pieces 0 to count - 1, and return when all are done. The caller's thread takes its share; it
- * does all of them where `threads` is NULL or busy with other work. */
+/* Do pieces 0 to count - 1, and return when all are done. The caller's thread does its share, or
+ * all pieces if `threads` is NULL or busy with other work. */
 void threads_do(Threads *threads, int count, void (*piece)(void *context, int which),
                 void *context);
 

@@ -1,4 +1,4 @@
-/* transaction.c: pieces made, freed and kept by the call that goes on */
+/* transaction.c: pieces allocated, freed and recorded by the current call */
 #include "base/memory_impl.h"
 
 #include <stdatomic.h>
@@ -28,7 +28,7 @@ enum { ASK_EACH = 1 << 16 };
 
 _Thread_local Transaction *transaction_now;
 
-/* bytes as they were, or what is to be called when all are; in the order of the keeping */
+/* old bytes, or a function to call when all bytes are restored; in the order of recording */
 struct Note {
     Note *next;
     void (*derive)(void *object);
@@ -215,7 +215,7 @@ MemPiece *piece_resize(MemPiece *piece, size_t size, const void *maker)
     return moved;
 }
 
-/* --- what is kept --- */
+/* --- recorded contents --- */
 
 static Note *note(void *at, size_t size)
 {

@@ -30,7 +30,7 @@ typedef struct MemPiece {
     struct MemPiece *before, *after; /* of those made, or those freed, in a transaction */
     size_t size;
     uint64_t born;     /* the transaction that made it; 0: none */
-    uint64_t kept;     /* the last one that made it, or keeps it as it was */
+    uint64_t kept;     /* the last transaction that allocated it or recorded its contents */
     const void *maker; /* NULL: it is scratch */
 } MemPiece;
 
@@ -55,7 +55,7 @@ typedef struct Transaction {
     MemPiece made, freed;      /* rings */
     MemPiece *spare[SPARE_SIZES];
     Cleanup cleanups; /* ring */
-    Note *notes;      /* what was kept, last first */
+    Note *notes;      /* recorded contents, last first */
     Note *later;      /* what is to be freed, last first */
     bool is_scratch;
     bool is_over;
@@ -66,8 +66,8 @@ typedef struct Transaction {
     long trial;            /* 0, 1 ...: which try with failing allocations; -1: it counts */
 } Transaction;
 
-/* In a function that is a transaction, at its beginning: returns `failure` where memory ends, or it
- * is stopped. It ends with the function. */
+/* At the start of a function that is a transaction: returns `failure` when out of memory, or
+ * stopped. The transaction ends with the function. */
 #define TRANSACTION(failure)                                                                       \
     __attribute__((cleanup(transaction_end))) Transaction transaction;                             \
     transaction_begin(&transaction);                                                               \
@@ -107,7 +107,7 @@ static inline MemPiece *piece_of(const void *memory)
     return (MemPiece *)memory - 1;
 }
 
-/* whether a piece was there before the transaction that goes on */
+/* whether a piece existed before the current transaction */
 static inline bool mem_is_old(const void *memory)
 {
     return transaction_now != NULL && piece_of(memory)->born != transaction_now->number;
@@ -125,15 +125,15 @@ static inline void mem_keep(void *memory)
 void mem_keep_part(const void *memory, void *at, size_t size);
 /* Before something of the caller's is, which is not a piece. */
 void mem_keep_foreign(void *at, size_t size);
-/* Called with `object` where the transaction fails, when what was kept is as it was: what has been
- * derived from it can be derived anew. Allocates nothing. */
+/* Called with `object` if the transaction fails, after recorded contents are restored, so that data
+ * derived from these can be recomputed. Must not allocate. */
 void mem_on_failure(void (*derive)(void *object), void *object);
 
-/* What is freed by `release`, and was there before the transaction, is freed when that has come to
- * its end, and true is returned; false: free it now. */
+/* An object that `release` frees and that existed before the transaction is freed at the end of the
+ * transaction; then returns true. False: free it now. */
 bool mem_frees_later(void *object, void (*release)(void *object));
-/* Whether pieces made from now on hold but numbers that each use computes anew: they are left as a
- * failure finds them. What it was before. */
+/* Set whether pieces allocated from now on contain only numbers that each use recomputes: a failure
+ * doesn't restore them. Returns the previous setting. */
 bool mem_scratch(bool is_scratch);
 
 /* Before what another library may refuse for lack of memory, and what it handed out. */
