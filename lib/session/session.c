@@ -110,7 +110,7 @@ ct_status session_left(ct_session *session, bool is_stopped, ct_error *error)
     return session_report(status, &diag, error);
 }
 
-/* a try with failing allocations is nobody's to watch, and takes no longer than that */
+/* trials with failing allocations report no progress and are short */
 static bool stop_trial(void *context)
 {
     static const int most = 2000;
@@ -190,10 +190,10 @@ static void add_counts(Text *line, OpCount count)
     layout_count(line, (int)count.fun, "function", "functions");
 }
 
-/* up to this number of edges, checks are made without a request */
+/* up to this number of edges, the cost of trees is computed without a request */
 enum { GLANCE = 40 };
 
-/* the trees that the model has, counted where that takes no time; -1: none are whole */
+/* index in `costs` of the cost of the present trees, computed if that is fast; -1: not available */
 static int log_trees(ct_session *session)
 {
     View view = session_view(session);
@@ -335,7 +335,7 @@ ct_status ct_apply(ct_session *session, const ct_statement *statement, ct_error 
     }
     if (session_room(s) != ROOM_MODEL)
         return CT_NOT_MINE;
-    /* what comes is compared with */
+    /* the cost of the present trees, to compare that of the next ones with */
     if (chooses_trees(s) && session->costs.count == 0 &&
         graph_edge_count(model_graph(session->model)) > 0)
         session->cost_now = log_trees(session);

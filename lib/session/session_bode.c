@@ -19,7 +19,7 @@ static const double LEAST_FREQUENCY = 1e-140, MOST_FREQUENCY = 1e140; /* Hz */
 static const double CLOSE =
     0.2; /* between points, of the distance to the root that they are about */
 static const double UNDAMPED =
-    1e-3; /* of a root: as close as points come where it has no damping */
+    1e-3; /* relative to a root: least distance of points to an undamped one */
 
 /* the request */
 typedef struct Bode {
@@ -181,7 +181,7 @@ static void suggest_range(Bode *bode)
         least = most = 1;
     least = pow(10, floor(log10(least / 5)));
     most = pow(10, ceil(log10(most * 5)));
-    /* where one is given, and beyond them, the other is two decades away */
+    /* if only one limit is given, and all roots are beyond it, the other is two decades away */
     if (bode->from == 0)
         bode->from = bode->to > 0 && bode->to <= least ? bode->to / 100 : least;
     if (bode->to == 0)

@@ -47,7 +47,8 @@ static Event event_of(BoundWatch *watch, Arena *arena, const Bound *bound, doubl
     return event;
 }
 
-/* what the measures are where the run begins; a start that can't be had is the run's to report */
+/* the values of the measures at the start of the run; the run itself reports a failing initial
+ * state */
 static Status measure_start(System *system, const RunInput *input, const Run *old,
                             const Bound *bounds, int count, double *out, Diag *diag)
 {

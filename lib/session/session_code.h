@@ -8,7 +8,7 @@
 typedef struct CodeItems {
     LIST(Expr) formulas; /* over the user's variables */
     LIST(char *) names;
-    Inverse *inverse; /* efforts of drivers from their motion are wanted; NULL */
+    Inverse *inverse; /* to compute efforts of drivers from their motion; NULL: none */
 } CodeItems;
 
 MUST_USE Status session_code_item(ct_session *session, const Syntax *item, CodeItems *items,
@@ -16,6 +16,6 @@ MUST_USE Status session_code_item(ct_session *session, const Syntax *item, CodeI
 /* The equations, the start and the items, which `what` borrows. */
 MUST_USE Status session_read_code(ct_session *session, CodeItems *items, bool is_inverse,
                                   Exported *what, Diag *diag);
-void code_items_free(CodeItems *items); /* what they hold */
+void code_items_free(CodeItems *items); /* its arrays */
 
 #endif

@@ -100,7 +100,7 @@ static Status read_mode(ct_session *session, const Statement *s, int *out, Diag 
     return OK;
 }
 
-/* All pictures of a strip stand about one instant, in phases of a mode. */
+/* All pictures of a strip are about one instant, in phases of a mode. */
 static Status bend_strip(ct_session *session, const Statement *s, Run *run, Strip *strip,
                          Diag *diag)
 {
@@ -287,7 +287,7 @@ ct_status ct_draw(ct_session *session, const ct_statement *statement, ct_paper *
 
 /* --- animate --- */
 
-static const double PERIOD = 2;        /* s, in which a mode goes there and back */
+static const double PERIOD = 2;        /* s, the period of an animated mode */
 static const double RATE = 25;         /* pictures a second */
 static const double RATE_OF_TEXT = 8;  /* a terminal shows no more */
 static const double MOST_FRAMES = 250; /* of a file */

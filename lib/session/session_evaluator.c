@@ -80,7 +80,7 @@ static double largest_in(const double *values, int count, int stride)
     return most;
 }
 
-/* Factor what stands in `rows`, whose right sides are scaled likewise. */
+/* Factor the matrix in `rows`; right sides are scaled with it. */
 static bool solver_factor(SessionEvaluatorSolver *solver)
 {
     const int n = solver->n, w = n + 1;

@@ -24,7 +24,7 @@ enum {
     ABOUT = 16     /* with so many instants each, evenly spaced, and those of a parabola's top and a
                       corner */
 };
-#define INSIDE 1e-9  /* of a piece: how far within it its ends are taken */
+#define INSIDE 1e-9  /* relative to a piece: distance of sampled ends from its ends */
 #define AGREE  1e-12 /* of the mean size: halves of a piece that differ by less agree */
 #define ROUGH  1e-6  /* of their size: a kink, a jump or a pole is in halves that differ by more; */
 #define LASTS  0.4   /* about a pole these add up to as much in the end, however short they are, */
@@ -498,7 +498,7 @@ static bool is_within(double value, double level, double band)
     return fabs(value - level) <= band;
 }
 
-/* where it begins to hold between sample k - 1, where it doesn't, and k */
+/* the instant at which the condition becomes true, between samples k - 1 and k */
 static Status instant(const FigureCourse *course, int k, Holds *holds, double level, double band,
                       double *out, Diag *diag)
 {

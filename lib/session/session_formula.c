@@ -1,8 +1,8 @@
-/* session_formula.c: an expression of the user's cut into what runs and the session know
+/* session_formula.c: splits a user's expression into parts that runs and the session can evaluate
  *
- * An expression is cut into leaves: subtrees that the model understands are variables of
- * one run; functions of runs (max(h8)), counts and sizes are numbers. What joins the
- * leaves is evaluated over their values. Mostly there is one leaf and nothing to join. */
+ * An expression is split into leaves. Subtrees that the model can resolve are variables of one run;
+ * functions of runs (max(h8)), counts and sizes are numbers. The operations above the leaves are
+ * evaluated over their values. Usually there is one leaf and no operation. */
 #include "session/session_impl.h"
 
 #include <ctype.h>
@@ -114,7 +114,7 @@ static int find_size(const char *path)
     return -1;
 }
 
-/* run2.h8: the number of the run and where the rest begins; 0: no such prefix */
+/* run2.h8: the number of the run and the start of the rest; 0: no such prefix */
 static int run_prefix(const char *path, const char **rest)
 {
     char *end;
@@ -412,7 +412,7 @@ done:
     return status;
 }
 
-/* a subtree that holds more than the model understands: its parts, joined */
+/* a subtree that the model can't resolve as a whole: its parts, combined */
 static Status cut_joined(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
 {
     Expr *args = NEW_ARRAY(Expr, syntax->count);

@@ -1,4 +1,5 @@
-/* session_freedoms.c: virtual joints among the branches are held against trees of real edges */
+/* session_freedoms.c: compares trees that have virtual joints among their branches with trees of
+ * real edges */
 #include "session/session_impl.h"
 
 #include "simulate/analyse/freedoms.h"

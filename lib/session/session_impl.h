@@ -17,10 +17,10 @@
 
 #include <string.h>
 
-/* Values of parameters when a run began; lives as long as the run. */
+/* Values of parameters at the start of a run; lives as long as the run. */
 typedef struct ParameterValues {
     const Model *model; /* for parameters made later */
-    LIST(int) places;   /* by numbers of symbols: plus 1; 0 where none is kept */
+    LIST(int) places;   /* by numbers of symbols: index plus 1; 0: not stored */
     LIST(Expr) symbols;
     LIST(double) values;
 } ParameterValues;
@@ -85,8 +85,8 @@ static inline Room session_room(const Statement *s)
 
 /* the public error of a status: returns what the public function returns */
 ct_status session_report(Status status, const Diag *diag, ct_error *error);
-/* At the beginning of each call of cotree.h that may allocate: where memory ends the session is as
- * it was, and the call returns `failure`. */
+/* At the start of each call of cotree.h that may allocate: when out of memory, the session is
+ * unchanged and the call returns `failure`. */
 #define SESSION_CALL(session, failure)                                                             \
     TRANSACTION(failure);                                                                          \
     session_enter(session)
@@ -107,8 +107,8 @@ void session_remark_result(ct_session *session, const Result *result);
 
 /* (session_import.c) The whole of a file that a statement names. */
 MUST_USE Status session_read_file(ct_session *session, const Syntax *name, Text *out, Diag *diag);
-/* (session_change.c) What changed the model since model_begin_group() is one step from now on, or
- * taken back. */
+/* (session_change.c) Changes of the model since model_begin_group() become one undo step, or are
+ * undone. */
 void session_end_group(ct_session *session, int group, const char *called, uint64_t revision,
                        bool keep);
 /* the model is no longer what it was at that revision */
@@ -121,8 +121,7 @@ MUST_USE Status session_system_of(ct_session *session, NetworkForm form, bool ha
                                   System **out, Diag *diag);
 /* the same to be run: of a large model numbers of parts are parameters there */
 MUST_USE Status session_running(ct_session *session, System **out, Diag *diag);
-/* The equations that are shown: those of the trees as they are, also where a run takes a network
- * in state form. */
+/* The equations to show: those of the present trees, even if runs use a network in state form. */
 MUST_USE Status session_shown(ct_session *session, System **out, Diag *diag);
 /* the equations that something needs which is to be shown */
 MUST_USE Status session_prepare(ct_session *session, Need need, View *view, Diag *diag);
@@ -138,16 +137,16 @@ View session_view(const ct_session *session);
 
 /* --- trees (session_trees.c) --- */
 
-/* `tree best`: search, put the cheapest trees in place, and remark what was compared. Bounded by a
- * number of formulations and a time. E_STOPPED leaves the best so far in place. */
+/* `tree best`: search, select the cheapest trees, and add a remark on the comparison. Bounded by a
+ * number of formulations and a time. After E_STOPPED the best trees so far are selected. */
 MUST_USE Status session_best_trees(ct_session *session, Diag *diag);
-/* apply every statement of a text; the model is as far as it came */
+/* apply every statement of a text, up to the first that fails */
 MUST_USE Status session_apply_text(Model *model, const char *text, int *count, Diag *diag);
 
 /* --- virtual branches (session_freedoms.c) --- */
 
 /* Assemble in trees of real edges and in those of the system, and compare the freedoms, once a
- * revision. E_BRANCH names a virtual branch that takes some away. */
+ * revision. E_BRANCH names a virtual branch that removes some. */
 MUST_USE Status session_check_freedoms(ct_session *session, System *system,
                                        const SimulationInput *setting, Diag *diag);
 /* The same for trees just chosen, quietly: E_BRANCH, or OK, also where nothing can be assembled. */
@@ -163,7 +162,7 @@ void session_remark_free(ct_session *session);
 void run_free(Run *run);
 /* an expression of parameters as the run had them; one made since, as it is now */
 double run_number(const Run *run, Expr e);
-/* what must not come to 0 in a run, each with its event and with its value at the start */
+/* quantities that must not reach 0 in a run, each with its event and its initial value */
 typedef struct BoundWatch {
     LIST(Bound) bounds;
     LIST(Event) events;
@@ -183,13 +182,12 @@ typedef struct RunInput {
 /* to run that System */
 void run_input_make(ct_session *session, const System *system, RunInput *input);
 void run_input_go_on(RunInput *input, const Run *old); /* with the numbers of parts that that had */
-void run_input_free(RunInput *input);                  /* what it holds */
-/* A program takes part in the run: what it set before, in the run that this one goes on with, it
- * has set here. */
+void run_input_free(RunInput *input);                  /* its arrays */
+/* An embedding program takes part in the run: its settings in the continued run apply here too. */
 void run_input_host(RunInput *input, const Host *host, const Run *old);
-/* Watch where the laws of the system's parts end, in the run of this input; `old`: the one
- * that it goes on with, or NULL. Afterwards: E_SOLVER, with the part and what came to 0, where one
- * did; else the status that the run had. */
+/* Monitor the limits of the laws of the system's parts in the run of this input; `old`: the run
+ * that it continues, or NULL. Afterwards: E_SOLVER, naming the part and the quantity that reached
+ * 0, if one did; else the status of the run. */
 void watch_bounds(System *system, const Run *old, RunInput *input);
 MUST_USE Status check_bounds(const RunInput *input, ResultReader *reader, Status status,
                              Diag *diag);
@@ -202,8 +200,8 @@ MUST_USE Status session_start(ct_session *session, Run **out, Diag *diag);
 MUST_USE Status session_source(ct_session *session, Run **out, Diag *diag);
 /* the last run, with a remark where the model has changed since; the start where there is none */
 MUST_USE Status session_last_run(ct_session *session, Run **out, Diag *diag);
-/* The result of an equilibrium takes the place of initial values and guesses: guesses of every
- * coordinate, multi-turn angle and network unknown, one step of the model's history. */
+/* The result of an equilibrium replaces initial values and guesses: guesses of every coordinate,
+ * multi-turn angle and network unknown, one step of the model's history. */
 MUST_USE Status session_store_equilibrium(ct_session *session, const Run *equilibrium,
                                           const char *called, Diag *diag);
 
@@ -224,7 +222,7 @@ bool session_entry_dimension(void *session, const Syntax *call, Dimension *out);
 
 /* --- values --- */
 
-/* the SI unit of what is called so, "rad/s"; nothing where its dimension isn't known */
+/* the SI unit of the variable of that name, "rad/s"; "" if its dimension isn't known */
 void session_unit(const ct_session *session, const char *name, Text *out);
 
 /* outputs written out, also in one another: a run older than an output knows its parts */
@@ -238,7 +236,7 @@ typedef struct Leaf {
     double value; /* of a constant */
     Expr expr;    /* of a variable: over names of the user's */
     int run;      /* place in session->runs, or -1 for what a bare name means */
-    Expr symbol;  /* that stands for it in `whole` */
+    Expr symbol;  /* its placeholder in `whole` */
 } Leaf;
 
 typedef struct Formula {
@@ -293,8 +291,8 @@ MUST_USE Status spectrum_rows(ct_session *session, const Formula *formulas, int 
 MUST_USE Status session_value_at(ct_session *session, const Syntax *syntax, const double *at,
                                  double *out, Diag *diag);
 
-/* Append the unit of an expression in units of a list ("" for SI), nothing where its dimension
- * isn't known: what its value in SI is to be divided by. */
+/* Append the unit of an expression in units of a list ("" for SI), nothing if its dimension isn't
+ * known. Returns the divisor of its value in SI. */
 double session_shown_unit(const ct_session *session, const Syntax *syntax, const char *units,
                           Text *out);
 

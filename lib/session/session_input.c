@@ -136,7 +136,7 @@ Run run_input_done(RunInput *input, Result *result, ResultReader *reader)
 {
     Run run = {result, reader, input->parameters, input->host};
 
-    if (input->host != NULL) /* who took part in it has gone */
+    if (input->host != NULL) /* functions of the embedding program aren't called after the run */
         *input->host = (Host){.values = input->host->values};
     input->parameters = NULL;
     input->host = NULL;

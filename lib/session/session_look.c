@@ -5,7 +5,7 @@
 #include "present/info.h"
 #include "present/show.h"
 
-/* hands the text over, or frees it and reports what went wrong */
+/* returns the text, or frees it and reports the error */
 static ct_status finish(Status status, Text *out, const Diag *diag, char **text, ct_error *error)
 {
     if (status == OK)
@@ -131,7 +131,7 @@ ct_status ct_check(ct_session *session, char **text, ct_error *error)
     if (status == E_STOPPED)
         goto done;
     status = OK;
-    session_begin(session); /* the report holds what the start had to remark */
+    session_begin(session); /* the report contains the remarks on the initial state */
     check_print(&view, start != NULL ? start->result : NULL, why.message, &out);
 done:
     return finish(status, &out, &diag, text, error);

@@ -1,7 +1,7 @@
 /* session_model.c: a model as functions of numbers: formed, differentiated, compiled, named
  *
- * What exported code is written from (export/code.h) is compiled here instead. Programs have
- * nothing of the arena that they were made from, so neither has a ct_model. */
+ * Here the functions of exported code (export/code.h) are compiled instead. Programs don't refer to
+ * the arena that they were made from, so neither does a ct_model. */
 #include "session/session_model.h"
 
 #include "session/session_code.h"
@@ -79,7 +79,7 @@ done:
     return status;
 }
 
-/* whether the name is one of the words, which stand between blanks */
+/* whether the name is one of the words in the text, separated by blanks */
 static bool is_among(const char *words, const char *name)
 {
     const size_t length = strlen(name);

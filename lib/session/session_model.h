@@ -49,7 +49,7 @@ struct ct_model {
     LIST(int) quaternions; /* first of four */
     bool is_redundant;
     int lanes;
-    int largest; /* of what functions give, and of what is solved at once */
+    int largest; /* largest count of results of a function, or of unknowns of a group */
 };
 
 int model_function_find(const ct_model *model, const char *name);

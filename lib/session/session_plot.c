@@ -41,7 +41,7 @@ static Status read_range(ct_session *session, const Syntax *range, const Syntax 
     return OK;
 }
 
-/* which of some words, between bars, stands there; -1 and a message */
+/* which of some words, separated by bars, it is; -1 with a message */
 static int find_word(const Pair *pair, const char *words, Diag *diag)
 {
     const char *wanted = pair->value->text;
@@ -149,7 +149,7 @@ static char *measured_name(const Curve *curve)
     return text_done(&text);
 }
 
-/* the data of a table, wherever the formula keeps it */
+/* the data of a table, whatever its owner in the formula */
 static const Curve *find_curve(const Formula *formula)
 {
     const Curve *out = NULL;

@@ -33,8 +33,7 @@ static Expr *place_items(ct_session *session, const Mechanism *mechanism)
     return out;
 }
 
-/* by how much the state of that name moves, as cosine and sine; nothing: none of the mode's parts
- */
+/* the amplitude of the state of that name, as cosine and sine; 0: not part of the mode */
 static void state_in_mode(const Modes *modes, const Mode *mode, const char *name, double out[2])
 {
     out[0] = out[1] = 0;

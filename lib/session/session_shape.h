@@ -13,8 +13,8 @@ typedef struct ModeShape {
 } ModeShape;
 
 /* Of the mode of that number about an instant of a run; shape_free() in any case. Fails as
- * linearize() and modes_find() do, with E_VALUE where there is no such mode, or where it moves
- * nothing that is drawn. */
+ * linearize() and modes_find() do, with E_VALUE if there is no such mode, or it moves nothing that
+ * is drawn. */
 MUST_USE Status shape_find(ct_session *session, Run *run, double at, const Mechanism *mechanism,
                            int number, ModeShape *out, Diag *diag);
 void shape_free(ModeShape *shape);

@@ -121,7 +121,7 @@ ct_status ct_round(ct_session *session, const ct_expression *expression, const d
 
     if (!formula_may_be_rounding(syntax_of(expression), *value))
         return CT_OK;
-    /* what the call that found the value remarked stands */
+    /* remarks of the call that found the value are preserved */
     CHECK(formula_new(session, syntax_of(expression), &formula, &diag));
     if (formula_needs_run(&formula))
         CHECK(source_at(session, at, &source, &diag));

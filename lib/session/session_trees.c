@@ -177,7 +177,7 @@ done:
     return status;
 }
 
-/* a model with the joints proposed among its edges; those that it doesn't take are left out */
+/* a model with the proposed joints among its edges; those that it doesn't accept are omitted */
 static Status add_proposals(TreesSought *search, Diag *diag)
 {
     int kept = 0;

@@ -268,7 +268,7 @@ Run *formula_grid(ct_session *session, const Formula *formulas, int count, Run *
 
             if (!needs_run(leaf))
                 continue;
-            /* bare names decide; runs of several lists keep to the first */
+            /* names without a run decide; with runs of several lists the first one is used */
             if (grid == NULL || run == source)
                 grid = run;
         }
@@ -308,7 +308,7 @@ done:
     return status;
 }
 
-/* a leaf of a run along given times; an instant that the run hasn't is refused as that one */
+/* a leaf of a run along given times; an instant outside the run fails */
 static Status leaf_along(ct_session *session, const Leaf *leaf, Run *run, const double *times,
                          int rows, double *out, Diag *diag)
 {
