@@ -13,12 +13,12 @@ typedef struct ArchiveFile {
 
 typedef struct Archive {
     LIST(ArchiveFile) files;
-    bool is_plain;      /* of one file, which goes out as it is */
+    bool is_plain;      /* of one file, written without archive */
     const char *binary; /* where a binary for this machine belongs; NULL: there is no name for it */
 } Archive;
 
 void archive_free(Archive *archive); /* NULL is fine */
-/* Another file; takes `bytes`. */
+/* Add a file; takes ownership of `bytes`. */
 void archive_add(Archive *archive, const char *name, char *bytes, size_t length);
 /* The zip, or the plain file, new: the same bytes for the same files. `binary`: the one for this
  * machine; NULL: none.

@@ -65,7 +65,7 @@ static void add_sampled_step(const Code *code, Text *out)
     text_free(&count);
 }
 
-/* a step through modes, which goes over sampling instants where there are any */
+/* a step through modes, with sampling instants if there are any */
 void c_step_add_modes(const Code *code, Text *out)
 {
     static const char name[] = "int model_step(";

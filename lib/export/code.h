@@ -20,7 +20,7 @@
 
 typedef enum CodeArray { CODE_P, CODE_T, CODE_Y, CODE_S } CodeArray;
 
-typedef struct CodeInput { /* a symbol that functions are given the number of */
+typedef struct CodeInput { /* a symbol whose number is an argument of functions */
     const char *name;      /* identifier, the same in all languages; NULL for t */
     CodeArray array;
     int place; /* in it */
@@ -28,7 +28,7 @@ typedef struct CodeInput { /* a symbol that functions are given the number of */
 
 typedef struct CodeFunction {
     const char *name; /* without the prefix */
-    const char *what; /* it gives */
+    const char *what; /* meaning of the result */
     int first;        /* of its entries among the roots, row by row */
     int rows, columns;
     bool is_matrix; /* also of one column */
@@ -41,8 +41,8 @@ typedef struct CodeGroup {
     bool iterates; /* Newton: the step is added to s; else it is s */
 } CodeGroup;
 
-/* what jumps or bends where something is 0; those come first that t alone moves evenly
- * (code_live.c) */
+/* event functions, at whose zeros something jumps or has a kink; first those that are linear in t
+ * alone (code_live.c) */
 typedef struct CodeSide {
     Surface surface; /* its sign is a parameter */
     Expr call;       /* that jumps or bends there */
@@ -55,7 +55,7 @@ typedef struct CodeEvent {
     int first; /* of its values, among those of all events */
 } CodeEvent;
 
-/* what an event gives a value to */
+/* a variable that an event sets */
 typedef enum CodeLevel { CODE_COORDINATE, CODE_SPEED, CODE_STATE } CodeLevel;
 /* positions that may be held when events set others (formulate/system_build/held_coordinates.h) */
 typedef enum CodeHeldKind { CODE_GIVEN, CODE_JOINT, CODE_BODY, CODE_FRAME } CodeHeldKind;
@@ -66,7 +66,7 @@ typedef struct CodeTarget {
     int node;     /* of a position: the frame whose it is; -1 */
     int attitude; /* that it is an Euler parameter of; -1 */
     int rate;     /* of a position: the target that is its rate; -1 */
-    int turning;  /* of an attitude that is given: a component of its angular velocity; -1 */
+    int turning;  /* of a given attitude: a component of its angular velocity; -1 */
     const char *name;
 } CodeTarget;
 
@@ -79,7 +79,7 @@ typedef struct CodeLive {
     LIST(CodeTarget) targets;
     int given;         /* count of given ones, first; others: held, or rates */
     LIST(int) samples; /* states that are sampled */
-    LIST(int) held;    /* states that an importer holds: inputs */
+    LIST(int) held;    /* states that an importer sets: inputs */
     Expr *seeds;       /* the direction: 1 + ny + ns symbols, then one a model parameter */
     int seed_count;
     int tangents[2][4]; /* functions: of each group, or of what modes have in its place; by p */
@@ -153,10 +153,10 @@ typedef struct Code {
     Pool *texts;
 } Code;
 
-/* New; code_free(). Fails where a formula needs what no function is given. */
+/* New; code_free(). Fails if a formula needs a value that is no argument of functions. */
 MUST_USE Status code_new(const Exported *what, bool is_live, Code **out, Diag *diag);
-/* the same of one that is all 0 (but may be wanted live), but formulas alone: nothing is lowered,
- * there are no numbers yet */
+/* the same for an Exported that is all 0 (except for `live`), but only formulas: not lowered,
+ * without numbers */
 MUST_USE Status code_form(const Exported *what, Code *code, Diag *diag);
 void code_free(Code *code); /* NULL is fine */
 /* what is 0 where s is the solution: ns rows, of networks, motion, constraints */
@@ -175,7 +175,7 @@ void code_write_now(Code *code);
 /* The last one from now on: its number. */
 int code_add_function(Code *code, const char *name, const char *what, const Expr *entries, int rows,
                       int columns);
-/* A user's formula over what functions are given; `name` is for messages. */
+/* A user's formula in the arguments of functions; `name` is for messages. */
 MUST_USE Status code_resolve(Code *code, Expr user, Expr *out, const char *name, Diag *diag);
 
 /* --- live code (code_live.c) --- */
@@ -217,7 +217,7 @@ void code_margins(const Code *code, Expr *out);
 void code_modes_begin(const Code *code, Text *out);
 /* the rows of the mode at the start, from the values of all functions there */
 void code_modes_store(Code *code, const double *roots);
-/* E_MODEL, naming a part: a language that differentiates nothing can't solve them. O(count^3). */
+/* E_MODEL, naming a part: a language without derivatives can't solve them. O(count^3). */
 MUST_USE Status code_modes_check(const Code *code, const char *language, Diag *diag);
 void code_modes_free(CodeModes *modes);
 /* Rows [A | b] of residuals over unknowns of s from `first` on, as a function: its number. A is
@@ -244,7 +244,7 @@ typedef struct Language {
     const char *array;            /* "%s[%d]" */
     const char *matrix;           /* of two indices; NULL: row by row in one */
     const char *local, *result;   /* a line that makes a name, one that sets an entry: "%s = %s" */
-    const char *onward;           /* at the end of a line that goes on */
+    const char *onward;           /* at the end of a line that is continued */
     const char *number, *rounded; /* around a literal; around what isn't of the type; NULL */
     const char *power[3];         /* text before, between and after base and exponent */
     void (*open)(Text *out, const Code *code, const CodeFunction *function, const char *locals);

@@ -7,7 +7,7 @@
 
 #include "model/model.h"
 
-/* what stands in the place of a driver's law */
+/* the replacement of a driver's law */
 static Expr follow(Inverse *inverse, Arena *arena, const char *name, Expr law)
 {
     const Expr t = expr_symbol(arena, "t", SYMBOL_TIME), past = expr_sub(arena, t, inverse->now);
@@ -94,8 +94,8 @@ static int driven(const Code *code, int row)
     return -1;
 }
 
-/* The coordinate of each driver, where each coordinate is driven by one and its own: the motion is
- * the state then, and nothing is searched for. */
+/* The coordinate of each driver, if each coordinate has a driver of its own. Then the drivers'
+ * motion is the state, and no system has to be solved for it. */
 void code_find_direct(Code *code)
 {
     const VariableIndex *l = code->layout;

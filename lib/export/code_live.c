@@ -331,7 +331,7 @@ done:
 
 /* --- derivatives --- */
 
-/* symbols that the direction moves: t, y, s of groups that come before `most` */
+/* symbols that change along the direction: t, y, s of groups before `most` */
 static int directions(const Code *code, int most, Expr *symbols, Expr *rates)
 {
     const VariableIndex *l = code->layout;

@@ -440,7 +440,7 @@ done:
     return status;
 }
 
-/* conditions of events are 1 while they hold; those of switches change their sign */
+/* conditions of events are 1 while true; those of switches change their sign */
 static Status add_conditions(Code *code, Diag *diag)
 {
     const Model *model = code->view->model;

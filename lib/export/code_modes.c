@@ -269,8 +269,8 @@ static void scale_columns(double *rows, int n)
     }
 }
 
-/* The ideal switch whose row has the largest part in a combination of rows that is nothing: what
- * the least multipliers leave of any. */
+/* The ideal switch whose row has the largest coefficient in a zero combination of rows: the
+ * remainder of arbitrary multipliers minus the least ones. */
 static const CodeIdeal *find_dependent(const Code *code, int n)
 {
     double *left = NEW_ARRAY(double, n), *least = NEW_ARRAY(double, n);

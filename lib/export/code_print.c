@@ -9,7 +9,7 @@
 #include <string.h>
 
 enum {
-    LONGEST_PART = 72, /* letters of what stands inside something else */
+    LONGEST_PART = 72, /* letters of an inlined value */
     LONGEST_ARGUMENT = 24,
     WIDTH = 100, /* of a line; Fortran allows 132 */
     EXACT = 17
@@ -116,7 +116,7 @@ static const LoweredValue *value_of(const Printing *pr, uint32_t v)
     return &pr->code->lowered.values.at[v];
 }
 
-/* the number of a derived parameter that is given here; -1: it is none */
+/* the number of a derived parameter; -1: it is none */
 static int given(const Printing *pr, uint32_t v)
 {
     return pr->is_derived ? -1 : pr->code->derived[v];
@@ -160,7 +160,7 @@ static void set_part(Printing *pr, uint32_t v, Text *text, Binding binding, bool
     pr->parts[v] = (CodePrintPart){text_done(text), binding, is_exact};
 }
 
-/* where its number comes from: "y[3]" */
+/* the text of its argument: "y[3]" */
 static void source(const Printing *pr, const CodeInput *input, Text *out)
 {
     static const char *const arrays[] = {"p", "t", "y", "s"};

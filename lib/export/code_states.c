@@ -1,8 +1,8 @@
-/* code_states.c: states about the start, and what the session's own equations make of them
+/* code_states.c: states near the initial state, and their values by the session's own equations
  *
- * What is solved for comes from the equations of a run (simulate/equations/motion.h), which share
- * no elimination with the exported code; sums over the entries of each function from a program of
- * their own. */
+ * Reference solutions are computed by the equations of a run (simulate/equations/motion.h), which
+ * share no elimination with the exported code. Sums over the entries of each function are computed
+ * by a separate program. */
 #include "export/code.h"
 
 #include "algebra/kkt.h"
@@ -20,7 +20,7 @@ enum { TRIES = 60, MOST_NUMBERS = 6000, WEIGHTS = 7 };
 #define NEARER    0.8   /* after a state that the equations have no solution at */
 #define ONE_RANK  1e-9  /* rows of Phi_u closer than that to others repeat them */
 #define MARGIN    2e-3  /* of a loss, over ALLOWED: some ten roundings an entry */
-#define ALLOWED   1e-12 /* of sizes: how far off a check lets numbers be */
+#define ALLOWED   1e-12 /* relative to sizes: tolerance of a check */
 #define TOLERANCE 1e-13
 
 typedef struct CodeStates {

@@ -181,7 +181,7 @@ static void write_start(Description *d, double value)
     text_char(d->out, '"');
 }
 
-/* causality, variability, initial; of version 2 the start stands with the type */
+/* causality, variability, initial; in version 2 the start value is with the type */
 static void write_kind(Description *d, const Described *v)
 {
     const char *causality = v->is_output ? "output" : "local";
@@ -270,8 +270,8 @@ static void write_variables(Description *d)
 
 /* --- what depends on what --- */
 
-/* The formula of a function's entry over states alone: which of them. False: what is solved for
- * stands in it, too, so that it may depend on all. */
+/* Which states a function's entry depends on. False: it contains solved variables too, so that it
+ * may depend on all. */
 static bool write_dependencies(Description *d, const char *function, int row)
 {
     const Code *code = d->code;

@@ -102,7 +102,7 @@ void import_make_name(Import *import, const char *name)
     (void)names_add(import->scope->names, name);
 }
 
-/* a letter, then letters, digits and _: n before what begins otherwise, _ for the rest */
+/* a letter, then letters, digits and _: an n before other first characters, _ for the rest */
 static const char *make_legal(Import *import, const char *name)
 {
     enum { LONGEST = 200 };
@@ -196,7 +196,7 @@ static void end_line(Import *import, int line)
     LIST_PUSH(import->from, line);
 }
 
-/* what stands in a comment or a remark stands in one line, whatever its bytes are */
+/* text in a comment or a remark is one line, whatever its bytes are */
 static void add_plain(Text *out, const char *text)
 {
     enum { LONGEST = 300 };

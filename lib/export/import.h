@@ -13,15 +13,15 @@
 /* names of a part of the file that has its own, as a subsystem; the file's parameters are known
  * there, too */
 typedef struct ImportScope {
-    Names *names;            /* that are taken, ours */
+    Names *names;            /* names in use, ours */
     Names *keys;             /* a kind and a name of the file */
     LIST(const char *) ours; /* by key */
 } ImportScope;
 
 typedef struct Import {
     const char *file;   /* as the user calls it */
-    bool is_alone;      /* the statements make a model of their own: it may be given a title */
-    bool ignores_case;  /* names of the file that differ in nothing else are one */
+    bool is_alone;      /* the statements make a complete model, which may have a title */
+    bool ignores_case;  /* names of the file that differ only in case are one */
     Pool *pool;         /* of all that its reader makes */
     Names *verbs;       /* words that no parameter has */
     ImportScope whole;  /* names of the file, */
@@ -58,7 +58,7 @@ const char *import_known(const Import *import, char kind, const char *name);
  * parts aren't nested. */
 void import_enter(Import *import, ImportScope *scope);
 void import_return(Import *import);
-void import_scope_free(ImportScope *scope); /* what it holds */
+void import_scope_free(ImportScope *scope); /* its arrays */
 /* a text that lives as long as the import */
 const char *import_text(Import *import, const char *format, ...) PRINTF(2, 3);
 /* a number as it is written in statements, exact */
@@ -66,13 +66,13 @@ const char *import_number(Import *import, double value);
 /* Add a statement made from that line of the file. False: it doesn't read, and was left out as a
  * part. */
 bool import_add(Import *import, int line, const char *format, ...) PRINTF(3, 4);
-/* what the file calls its model, in a comment where the model has other parts; NULL: nothing */
+/* the file's name of its model, in a comment if the model has other parts; NULL: none */
 void import_title(Import *import, int line, const char *title);
 void import_comment(Import *import, int line, const char *format, ...) PRINTF(3, 4);
 /* what has to be known about what was made: a comment and a remark */
 void import_remark(Import *import, int line, const char *format, ...) PRINTF(3, 4);
-/* Something of the file has no statement: it goes into a comment and a remark. A part is what the
- * model isn't whole without. */
+/* Report an element of the file without equivalent statement, in a comment and a remark. A part is
+ * an element without which the model is incomplete. */
 void import_leave(Import *import, int line, bool is_part, const char *what, const char *format, ...)
     PRINTF(5, 6);
 /* the message about a file that is refused */

@@ -1,6 +1,6 @@
-/* import_spice.c: a netlist of SPICE, its subcircuits, and what is for the simulator
+/* import_spice.c: a netlist of SPICE, its subcircuits, and simulator commands
  *
- * A .subckt is a subsystem, with names of its own, and comes before what calls it. */
+ * A .subckt is a subsystem, with names of its own, and is written before its calls. */
 #include "export/spice_impl.h"
 
 #include <ctype.h>
@@ -225,7 +225,7 @@ static void spice_free(Spice *s)
 
 enum { DEEPEST = 50 }; /* subcircuits in one another, or that call one another */
 
-/* cards between .subckt and .ends are those of a subcircuit; the netlist keeps the others */
+/* cards between .subckt and .ends belong to a subcircuit, the others to the netlist */
 static Status part_cards(Spice *whole, Cards *cards)
 {
     Spice *s = whole;
@@ -281,7 +281,7 @@ static Status write_ports(Spice *s)
     return status;
 }
 
-/* A terminal is where something stands: a source of no current, where nothing else does. */
+/* A terminal needs a component: a source of zero current if there is no other. */
 static void close_ports(Spice *s)
 {
     for (int i = 0; i < spice_port_count(s); i++) {
@@ -296,7 +296,7 @@ static void close_ports(Spice *s)
 
 static Status define(Spice *s, int depth);
 
-/* the subcircuits that its cards call come before it */
+/* the subcircuits that its cards call are written before it */
 static Status define_used(Spice *s, int depth)
 {
     Status status = OK;

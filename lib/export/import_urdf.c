@@ -509,7 +509,7 @@ static bool is_xacro(const Element *element)
     return false;
 }
 
-/* nothing is read of a text that a program has to make a robot of first */
+/* a text that a preprocessor has to convert first (xacro) isn't read */
 static Status refuse_xacro(Urdf *u, const Element *root)
 {
     for (const Element *e = root; e != NULL;) {

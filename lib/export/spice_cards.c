@@ -10,7 +10,7 @@ bool spice_is(const char *a, const char *b)
     return strcasecmp(a, b) == 0;
 }
 
-/* where a comment begins at the end of a line: `;`, `//`, or ` $` */
+/* start of a comment at the end of a line: `;`, `//`, or ` $` */
 static size_t before_comment(const char *line, size_t length)
 {
     for (size_t i = 0; i < length; i++)
@@ -67,7 +67,7 @@ static void write_title(Import *import, const char *line, size_t length)
     import_title(import, 1, pool_text(import->pool, line, length));
 }
 
-/* Lines to cards; the first is the title. What stands between .control and .endc are commands. */
+/* Lines to cards; the first is the title. Lines between .control and .endc are commands. */
 void cards_read(Import *import, const char *text, size_t length, Cards *out)
 {
     bool commands = false;
@@ -121,7 +121,7 @@ bool card_is_key(const Card *card, int i)
     return i + 1 < card->words.count && card->words.at[i + 1][0] == '=';
 }
 
-/* value of the key from word `first` on; NULL: it isn't given */
+/* value of the key from word `first` on; NULL: none */
 const char *card_key(const Card *card, int first, const char *name)
 {
     for (int i = first; i + 2 < card->words.count; i++)

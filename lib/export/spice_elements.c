@@ -34,7 +34,7 @@ static const char *name_of_card(Spice *s, const Card *card)
     return import_name(s->import, SPICE_PART, card->words.at[0]);
 }
 
-/* --- parameters: those that one speaks of come before it --- */
+/* --- parameters: those that one refers to precede it --- */
 
 /* those of a card, from word `first` on */
 void spice_read_parameters(Spice *s, const Card *card, int first)
@@ -122,8 +122,8 @@ void spice_write_initial(Spice *s, int line, const char *variable, SpiceValue v)
 
 /* --- R, C, L --- */
 
-/* The model, the value and nothing else may stand without a key after the nodes, but for the second
- * coefficient of tc=. False: the element is left out. */
+/* Only the model, the value and the second coefficient of tc= may follow the nodes without a key.
+ * False: the element is omitted. */
 static bool read_positions(Spice *s, const Card *card, const char *type, const DeviceModel **model,
                            const char **value)
 {
@@ -360,7 +360,7 @@ static const SpiceKey diode_model_keys[] = {
     {"trs2", REFUSED_UNLESS_ZERO, "rs= over the temperature"},
     {NULL, REFUSED, NULL}};
 
-/* area, which may stand without a key, times m */
+/* area, which needs no key, times m */
 static bool read_area(Spice *s, const Card *card, SpiceValue *out)
 {
     const char *area = card_key(card, 4, "area");
@@ -469,7 +469,7 @@ static void write_switch(Spice *s, const Card *card)
                spice_node(s, card->words.at[2]), controlled, threshold.text, on.alone, off.alone);
 }
 
-/* V, I: [DC] value, AC value phase, a function of time; which is what it gives from t = 0 on */
+/* V, I: [DC] value, AC value phase, a function of time; which is its value from t = 0 on */
 static void write_source(Spice *s, const Card *card)
 {
     const char *verb = tolower((unsigned char)card->words.at[0][0]) == 'v' ? "vsource" : "isource";
