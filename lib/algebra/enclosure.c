@@ -125,7 +125,7 @@ static double largest_row(const double complex *a, int n)
         for (int j = 0; j < n; j++)
             sum += cabs(a[i * n + j]);
         if (!(sum <= largest) && !isnan(largest))
-            largest = sum; /* a NaN stays */
+            largest = sum; /* NaN is preserved */
     }
     return largest;
 }
@@ -205,7 +205,7 @@ static bool turn_left(const Enclosure *e)
             column[k] = fmax(column[k], e->turn_right[i * n + k]);
         }
         if (!(sum <= widest) && !isnan(widest))
-            widest = sum; /* a NaN stays */
+            widest = sum; /* NaN is preserved */
     }
     for (int i = 0; i < n && widest < 0.1; i++)
         for (int k = 0; k < n; k++)

@@ -417,7 +417,7 @@ static void bound_skew(Modal *m, const Residuals *r, const double *x, BoundedMat
                 ROUNDED * (m->skew[i * n + k] + fabs(r->gram[i * n + k])) + (i == k ? 2 * UNIT : 0);
             sum += m->skew[i * n + k];
         }
-        if (!(sum <= m->skewed) && !isnan(m->skewed)) /* a NaN stays */
+        if (!(sum <= m->skewed) && !isnan(m->skewed)) /* NaN is preserved */
             m->skewed = sum;
     }
     MEM_FREE(entries, v);

@@ -11,8 +11,8 @@
  * diagonal: scale[i] a[i][j]/scale[j] is balanced (Parlett and Reinsch 1969). `size`: n x n. */
 void matrix_balance(const double *size, int n, double *scale);
 
-/* (I - v v^T beta) at, entries from..n-1 of it, `stride` apart: a reflection where beta is 2/v^T v
- */
+/* (I - v v^T beta) at, for entries from..n-1 of it, with that stride: a reflection if beta is
+ * 2/v^T v */
 void dd_reflect(DoubleDouble *at, int n, int stride, int from, const DoubleDouble *v,
                 DoubleDouble beta);
 
