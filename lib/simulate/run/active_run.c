@@ -1,4 +1,4 @@
-/* active_run.c: a run as long as it goes, and what it hands over at its end */
+/* active_run.c: a run while it proceeds, and the result that it returns at its end */
 #include "simulate/run/active_run.h"
 
 #include "base/random.h"
@@ -9,15 +9,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define POOL    1024 /* bytes: a chunk of names and times */
-#define OPEN    0.03 /* of what was stored: a balance that is open by so much is told, */
-#define MANY    100  /* where it is more than so many tolerances in states leave of energy */
-#define WORK    10   /* and so many of them all the time of work: */
-#define ROUNDED 0.1  /* of what is missing: work that may be what rounding makes of it */
-#define PLACES  16   /* rows at which these are looked at, */
-#define BESIDE  4    /* with so many errors */
+#define POOL    1024 /* bytes: size of a chunk of names and times */
+#define OPEN    0.03 /* of the stored energy: a larger error of the balance is reported, */
+#define MANY    100  /* where it exceeds so many times the energy of tolerances in states */
+#define WORK    10   /* and of their power, over the time of the run: */
+#define ROUNDED 0.1  /* of the error: least work whose rounding may explain it */
+#define PLACES  16   /* rows at which these are evaluated, */
+#define BESIDE  4    /* with so many perturbations each */
 
-/* --- made and freed --- */
+/* --- construction and destruction --- */
 
 ActiveRun *active_run_new(RunKind kind, System *system, const SimulationInput *setting)
 {
@@ -76,7 +76,7 @@ static const char *keep_text(Result *result, const char *text)
     return pool_text(result->pool, text, strlen(text));
 }
 
-/* the manner, whose names are the setting's, with names of its own */
+/* copy the manner, whose names are the setting's, with its names */
 static void keep_manner(const ActiveRun *r, const SimulationInput *setting)
 {
     Result *result = r->result;
@@ -151,7 +151,7 @@ void active_run_finish(ActiveRun *r, const SimulationInput *setting, Result **ou
     active_run_free(r);
 }
 
-/* --- on its way --- */
+/* --- during the run --- */
 
 Status active_run_open_phase(ActiveRun *r, Phase *phase, const SimulationInput *setting, Diag *diag)
 {
@@ -211,7 +211,7 @@ static Status ask_energies(Phases *phases, const Phase *phase, const void *conte
 Status active_run_prepare(ActiveRun *r, Diag *diag)
 {
     Probe *energies = NULL;
-    double values[2]; /* asked once, it is the processor's code from now on */
+    double values[2]; /* the first evaluation compiles it to machine code */
     Status status = OK;
 
     CHECK(ask_energies(r->phases, r->phase, r, &energies, diag));
@@ -230,7 +230,7 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* row i, and beside it as far as the tolerance reaches, by random signs */
+/* perturbations of row i by the tolerance, with random signs */
 static void add_beside(const ActiveRun *r, int i, uint64_t *random, Grid *out)
 {
     const Grid *grid = &r->result->grid;
@@ -250,12 +250,12 @@ static void add_beside(const ActiveRun *r, int i, uint64_t *random, Grid *out)
     mem_free(y);
 }
 
-/* what states that are off by a tolerance bring or take: */
+/* effect on the energy balance of states with an error of the tolerance: */
 typedef struct EnergyErrorFloor {
     double energy, power; /* J, W */
 } EnergyErrorFloor;
 
-/* W, of what does work; NAN where the equations have no solution */
+/* W, power of all that does work; NAN where the equations have no solution */
 static double power_at(const ActiveRun *r, const Grid *grid, int i)
 {
     const Phase *phase = r->phases->at[grid->phase[i]];
@@ -276,8 +276,7 @@ static double upper_quartile(double *values, int count)
     return values[3 * count / 4];
 }
 
-/* At some of the rows, and of these the upper quartile, since one in a hard wall tells of that
- * alone. */
+/* The upper quartile over some of the rows, since a row in a hard wall is exceptional. */
 static Status find_energy_error_floor(ActiveRun *r, EnergyErrorFloor *out, Diag *diag)
 {
     const int rows = r->result->grid.count, count = rows < PLACES ? rows : PLACES;
@@ -306,17 +305,17 @@ done:
     return status;
 }
 
-/* over the rows of a run: largest sizes */
+/* largest absolute values over the rows of a run */
 typedef struct EnergyBalance {
     double drift;        /* |E - E0 - work| */
     double stored, work; /* the larger of kinetic and potential energy; |work| */
     double time;         /* s, from the first row to the last */
 } EnergyBalance;
 
-/* Stored energy that no work accounts for can't be right, unless it is the work that isn't: of
- * large powers that cancel, as where a light part is pushed through oil, a tolerance leaves more
- * than is ever stored, and no state comes of it. What rounding leaves of powers that no state tells
- * is below the absolute tolerance, in J. */
+/* Reports stored energy that no work accounts for, unless the work is inaccurate. Work is
+ * inaccurate where large powers cancel, as where a light part is pushed through oil: errors within
+ * the tolerance are then more than the stored energy, without an effect on states. Rounding errors
+ * of powers that don't depend on states are below the absolute tolerance, in J. */
 static Status judge_balance(ActiveRun *r, EnergyBalance balance, Diag *diag)
 {
     const RunReport *monitor_report = &r->result->monitor_report;

@@ -1,4 +1,4 @@
-/* active_run.h: a run as long as it goes: the result that it fills, and what fills it */
+/* active_run.h: a run while it proceeds: its result, and the data that produce it */
 #ifndef COTREE_SIMULATE_RUN_ACTIVE_RUN_H
 #define COTREE_SIMULATE_RUN_ACTIVE_RUN_H
 
@@ -10,40 +10,39 @@ typedef struct Shares Shares;
 
 typedef struct ActiveRun {
     RunKind kind;
-    System *system; /* the whole */
-    Result *result; /* what it has found so far */
+    System *system; /* of the whole model */
+    Result *result; /* the rows and the report so far */
     Phases *phases;
-    Phase *phase;            /* in which it starts */
+    Phase *phase;            /* the phase of the start */
     double *begin;           /* y there */
     Events *events;          /* NULL: none */
     ModeSearch *mode_search; /* NULL: there are no ideal switches */
-    Probe *energies;         /* made before it goes; NULL: not yet, or no more */
+    Probe *energies;         /* made before the run; NULL: not yet, or used up */
     const Phase *energies_of;
-    Shares *shares; /* of what is stored, where switches join parts; NULL: none yet */
+    Shares *shares; /* of stored energy, where switches connect parts; NULL: none yet */
 } ActiveRun;
 
-/* New: a result of nothing, no phases yet. */
+/* New: an empty result, no phases yet. */
 ActiveRun *active_run_new(RunKind kind, System *system, const SimulationInput *setting);
 void active_run_free(ActiveRun *run); /* NULL is fine */
-/* The result, finished, and a reader with the phases (NULL: nobody reads); frees the rest. */
+/* The finished result, and a reader with the phases (NULL: not wanted); frees the rest. */
 void active_run_finish(ActiveRun *run, const SimulationInput *setting, Result **out,
                        ResultReader **reader);
 
-/* What solves the equations of a phase, as the start and the setting ask for; fails as
- * phases_open() does. */
+/* Make the solvers of a phase's equations, for the start and the setting; fails as phases_open()
+ * does. */
 MUST_USE Status active_run_open_phase(ActiveRun *run, Phase *phase, const SimulationInput *setting,
                                       Diag *diag);
-/* New, or NULL where there are none: the setting's events in the equations of a phase, going on
- * with what is recorded of earlier ones. */
+/* New: the setting's events in the equations of a phase, which continue earlier records. NULL where
+ * there are none. */
 MUST_USE Status active_run_events(ActiveRun *run, const Phase *phase, const EventRecord *earlier,
                                   int earlier_count, const SimulationInput *setting, Events **out,
                                   Diag *diag);
-/* a row of the phase that it starts in */
+/* add a row of the phase of the start */
 void active_run_add_row(ActiveRun *run, double t, const double *y);
-/* Before it goes, what its energy balance needs of the first phase: a run that is stopped has it.
- */
+/* Compile the energy balance of the first phase before the run, so that a cancelled run has it. */
 MUST_USE Status active_run_prepare(ActiveRun *run, Diag *diag);
-/* Energy balance over the rows, into the report. */
+/* Compute the energy balance over the rows, into the report. */
 MUST_USE Status active_run_balance(ActiveRun *run, Diag *diag);
 
 #endif

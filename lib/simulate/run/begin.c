@@ -1,4 +1,4 @@
-/* begin.c: how a run begins: its phases, its start, and what an earlier result hands on */
+/* begin.c: start of a run: its phases, its initial state, and data of an earlier result */
 #include "simulate/run/begin.h"
 
 #include "base/memory.h"
@@ -12,8 +12,8 @@
 
 #define START_TOLERANCE 1e-8
 
-/* What supplies a driver's motion is found in the equations of the whole, as long as no ideal
- * switch is in them. */
+/* The source of a driver's motion is searched in the equations of the whole model; this works as
+ * long as they contain no ideal switch. */
 static bool goes_through_modes(const VariableIndex *whole)
 {
     bool any_ideal = false;
@@ -46,7 +46,7 @@ done:
     return status;
 }
 
-/* the start has accelerations at all, or the network a solution */
+/* check that the initial state has accelerations, or the network a solution */
 static Status check_start(ActiveRun *r, Diag *diag)
 {
     const bool is_network = motion_ode(r->phase->motion)->is_network;
@@ -125,7 +125,7 @@ static Status copy_phases(ActiveRun *r, const Result *old, const SimulationInput
     return OK;
 }
 
-/* sums of angles go on in the turns that the start chose */
+/* whole turns of sums of angles are those of the earlier start */
 static void keep_whole_turns(ActiveRun *r, const Result *old)
 {
     for (int i = 0; i < system_whole_turns_count(r->system); i++) {

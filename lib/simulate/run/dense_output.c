@@ -1,9 +1,9 @@
 /* dense_output.c: results between their rows
  *
- * Rows may lie far apart, and no interpolation knows what happened between them. So that part of
- * the run is taken again, from the row or corner before to the one behind, whose steps are read
- * where they were asked for. Where nothing was integrated, positions are interpolated and put back
- * on constraints and drivers, which tell all. */
+ * Rows may be far apart, and interpolation doesn't know what happened between them. So that part of
+ * the run is integrated again, from the row or corner before to the one after, and its steps are
+ * interpolated at the requested times. A result that was not integrated is interpolated: positions
+ * are projected onto constraints and drivers, which determine all the rest. */
 #include "simulate/run/result_reader_impl.h"
 
 #include "base/memory.h"
@@ -12,8 +12,8 @@
 #include <math.h>
 #include <string.h>
 
-#define SAME   1e-12 /* of an output step: times that are one */
-#define TURNED 0.25  /* rad: parts of what lies between two rows, for counting turns */
+#define SAME   1e-12 /* of an output step: times closer than that are equal */
+#define TURNED 0.25  /* rad: largest angle of a part between two rows, for counting turns */
 
 /* Hermite polynomial of degree 5 through value, rate and second rate at both ends (s in 0..1),
  * and its rate */
@@ -35,12 +35,12 @@ static double cubic(double a, double a_rate, double b, double b_rate, double h, 
     return a + s * d + s * (s - 1) * ((1 - 2 * s) * d + (s - 1) * h * a_rate + s * h * b_rate);
 }
 
-/* what is known at one end of an interval in which one phase goes on */
+/* what is known at one end of an interval in which one phase holds */
 typedef struct StepEnd {
     double t;
     Phase *phase;
     const double *y, *driven;
-    bool is_sampled; /* what is due has been sampled, as in a row it is only at the start */
+    bool is_sampled; /* samples that are due are taken, as in a row only at the start */
     double *rate;    /* of y */
 } StepEnd;
 
@@ -81,7 +81,7 @@ static StepEnd corner_end(const ResultReader *reader, int corner)
                      .is_sampled = true};
 }
 
-/* The nearest ends around t, the same one twice where it is at t or behind the last row; false
+/* The nearest ends around t, twice the same where one is at t or t is after the last row; false
  * outside the run. */
 static bool find_ends(const ResultReader *reader, double t, StepEnd ends[2])
 {
@@ -138,8 +138,8 @@ static void interpolate(const StepEnd *a, const StepEnd *b, double t, double *y)
     }
 }
 
-/* References of angles at t, from those of the end before it: in parts that no angle turns far in.
- * y, from its interpolation, keeps what else it has. */
+/* References of angles at t from those of the end before it, in parts over which no angle turns
+ * far. y contains the interpolated values of everything else. */
 static void follow_turns(const StepEnd *a, const StepEnd *b, double t, double *y)
 {
     enum { MOST_PARTS = 1000000 };
@@ -164,7 +164,7 @@ static void follow_turns(const StepEnd *a, const StepEnd *b, double t, double *y
     mem_free(there);
 }
 
-/* y at t, of the phase of the ends */
+/* y at t, for the phase of the ends */
 static bool find_between(StepEnd ends[2], double t, double *y)
 {
     int length = ends[0].phase->length;
@@ -189,7 +189,7 @@ static bool find_between(StepEnd ends[2], double t, double *y)
     return sound;
 }
 
-/* --- that part of the run again --- */
+/* --- repeated integration --- */
 
 static bool is_integrated(const Result *r)
 {
@@ -197,7 +197,7 @@ static bool is_integrated(const Result *r)
            method_find(r->monitor_report.method) != NULL;
 }
 
-/* from one end to the other by the run's method, in steps as it would have taken them */
+/* from one end to the other with the method of the run and the steps that it would have taken */
 static Status go_again(ResultReader *reader, const StepEnd ends[2], const double *times, int count,
                        const CallMonitor *watch, Diag *diag)
 {
@@ -234,8 +234,8 @@ static Status fill_between(ResultReader *reader, StepEnd ends[2], const double *
     double *y;
     Status status = OK;
 
-    /* where a mode ends on a row, that row is of the next one: what lies before goes on from behind
-     */
+    /* a mode that ends at a row is followed by the next mode there: an interval before it starts
+     * after it */
     if (is_integrated(reader->result))
         return go_again(reader, ends, times, count, watch, diag);
     if (ends[0].phase != ends[1].phase)
@@ -251,7 +251,7 @@ done:
     return status;
 }
 
-/* Of rising times, those behind the first that lie before `end` with it. */
+/* The number of ascending times before `end`; the first counts in any case. */
 static int count_until(const double *times, int count, double end)
 {
     int i = 1;
@@ -296,7 +296,7 @@ Status result_reader_prepare(ResultReader *reader, const double *times, int coun
     return status == E_STOPPED ? diag_set(diag, status, "%s", ignored.message) : OK;
 }
 
-/* the row that was asked for at t; -1: none was */
+/* the stored row at t; -1: none */
 static int asked_row(const ResultReader *reader, double t)
 {
     const int row = last_row(&reader->asked, t);

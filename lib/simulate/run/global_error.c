@@ -1,4 +1,4 @@
-/* global_error.c: how far off a run is at its end, by finer runs */
+/* global_error.c: the global error of a run at its rows, from finer runs */
 #include "simulate/run/global_error.h"
 
 #include "base/memory.h"
@@ -6,13 +6,12 @@
 
 #include <math.h>
 
-#define FAR      0.3  /* rad or m: a distance that makes two runs different motions */
-#define SURE     4.0  /* a distance is told where its far end is that much more certain */
+#define FAR      0.3  /* rad or m: two runs with a larger distance are different motions */
+#define SURE     4.0  /* ratio of distance and its own error from which on it is reported */
 #define NEAR     30.0 /* tolerances of a finer run: its own error may be as large */
-#define COARSEST 1e-8 /* the tolerance that fixed steps are held against a part of */
-#define FINER    100  /* that part of the tolerance has the run that tells how far off another is */
-/* what the distance to it is taken times, by methods that take single steps and those with a
- * history */
+#define COARSEST 1e-8 /* the tolerance of which the reference of fixed steps uses a fraction */
+#define FINER    100  /* ratio of the tolerances of a run and of its finer run */
+/* factors of the distance to it, for one-step and for multistep methods */
 #define ONE_STEP  2.0
 #define MULTISTEP 6.0
 
@@ -46,10 +45,11 @@ void global_error_events_free(ErrorEvents *events)
         events_free(events->at[i]);
 }
 
-/* --- runs beside it --- */
+/* --- finer runs --- */
 
-/* The largest difference of (q, u, x) at times that both grids have, of the one from row `first`
- * on; events lie at times of their own, and one that a switch falls on may be of either phase. */
+/* The largest difference of (q, u, x) at times that both grids contain, of the first one from row
+ * `first` on. Rows of events are at times of their own, and a row at a switch may belong to either
+ * phase. */
 static double largest_difference(const ActiveRun *r, const Grid *a, int first, const Grid *b)
 {
     double largest = 0;
@@ -68,23 +68,22 @@ static double largest_difference(const ActiveRun *r, const Grid *a, int first, c
     return largest;
 }
 
-/* a run that is nearer to the motion than the one in question */
+/* a run that is closer to the exact motion than the one in question */
 typedef struct FinerRun {
     Grid grid;
-    const Method *method; /* that it came to */
+    const Method *method; /* that it used at its end */
 } FinerRun;
 
-/* Whether the errors of a method fall with the tolerance as they should: where steps are fixed they
- * don't, and where it has a history they hardly do. */
+/* Whether the errors of a method decrease with the tolerance: with fixed steps they don't, and with
+ * a multistep method they hardly do. */
 static bool answers_to_tolerance(const Method *method)
 {
     return method == NULL || (!method->has_history && !method->has_fixed_step);
 }
 
-/* Options of the first finer run, of the second, finer than that, and so on: a part of the
- * tolerance. What else may have bounded the `steps` of a run by the same method (0: it is by
- * another) is halved with it, or the finer one might take the same steps. Whether there are such
- * options. */
+/* Options of the first finer run, of the second, which is finer, and so on: a fraction of the
+ * tolerance. Other limits of the `steps` of a run by the same method (0: by another) are halved
+ * too, or the finer run might take the same steps. Returns whether there are such options. */
 static bool finer_options(const RunOptions *options, int64_t steps, int which, RunOptions *out)
 {
     const double part = pow(FINER, which), mean = options->duration / (double)steps;
@@ -97,7 +96,7 @@ static bool finer_options(const RunOptions *options, int64_t steps, int which, R
     return which == 1 || options->rtol >= RUN_LEAST_RTOL * part;
 }
 
-/* `events` are as they were at its start; the caller frees the grid, also when it fails */
+/* `events` have the states of its start; the caller frees the grid, also when it fails */
 static Status run_finer(ActiveRun *r, const SimulationInput *setting, const RunOptions *options,
                         const Method *method, Events *events, double from, FinerRun *out,
                         Diag *diag)
@@ -115,7 +114,7 @@ static Status run_finer(ActiveRun *r, const SimulationInput *setting, const RunO
     return status;
 }
 
-/* the largest number that two runs are compared in */
+/* the largest number that the comparison of two runs contains */
 static double largest_number(const ActiveRun *r, const Grid *grid)
 {
     double largest = 0;
@@ -126,13 +125,13 @@ static double largest_number(const ActiveRun *r, const Grid *grid)
     return largest;
 }
 
-/* Whether a run so far from a finer one may be nearer to the motion than that one is. */
+/* Whether a run at this distance from a finer one may be closer to the exact motion than that. */
 static bool may_be_nearer(const ActiveRun *r, double off, const RunOptions *finer, const Grid *fine)
 {
     return off < NEAR * (finer->atol + finer->rtol * largest_number(r, fine));
 }
 
-/* `by` is the finer run, `why` what one failed by (NULL: none did) */
+/* report the error: `by` is the finer run, `why` the failure of a finer run (NULL: none failed) */
 static void tell(ActiveRun *r, double off, bool is_bounded, bool is_fixed, const FinerRun *by,
                  const char *why)
 {
@@ -163,7 +162,7 @@ Status global_error_estimate(ActiveRun *r, const SimulationInput *setting,
     Diag why = {0};
     Status status = OK;
 
-    if (is_fixed) { /* these mean nothing to it */
+    if (is_fixed) { /* these have no meaning for it */
         coarse.rtol = fmin(coarse.rtol, COARSEST);
         coarse.atol = fmin(coarse.atol, COARSEST);
         coarse.step = 0;

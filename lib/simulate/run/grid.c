@@ -57,7 +57,7 @@ int grid_rows(double from, double to, double every)
 
     if (from + whole * every >= to - 1e-9 * every)
         return (int)whole;
-    return (int)whole + 1; /* the end lies between two multiples */
+    return (int)whole + 1; /* the end is between two multiples */
 }
 
 double grid_time(double from, double to, double every, int rows, int k)

@@ -1,6 +1,6 @@
-/* grid.h: rows of a run, (t, y) one behind another
+/* grid.h: rows of a run, (t, y) one after another
  *
- * Rows of different phases may have y of different length: a row says which phase it is of. */
+ * Rows of different phases may have y of different length: each row has the number of its phase. */
 #ifndef COTREE_SIMULATE_RUN_GRID_H
 #define COTREE_SIMULATE_RUN_GRID_H
 
@@ -9,23 +9,23 @@
 typedef struct Grid {
     int count, room;
     double *times;
-    int *phase;         /* of a run's phases, the one that a row is of */
-    ptrdiff_t *first;   /* place of a row in `states` */
-    double *states;     /* one growing block */
-    ptrdiff_t used;     /* of it */
-    ptrdiff_t capacity; /* of it */
+    int *phase;         /* number of each row's phase among those of the run */
+    ptrdiff_t *first;   /* index of each row in `states` */
+    double *states;     /* one block that grows */
+    ptrdiff_t used;     /* entries in use */
+    ptrdiff_t capacity; /* entries allocated */
 } Grid;
 
-/* a row behind the last one; y is copied */
+/* add a row after the last one; y is copied */
 void grid_add(Grid *grid, double t, int phase, const double *y, int length);
-/* all rows of another one, of the same phases */
+/* add all rows of another one, with the same phases */
 void grid_append(Grid *grid, const Grid *more);
 double *grid_row(const Grid *grid, int row); /* y; borrowed, until a row is added */
 int grid_length(const Grid *grid, int row);  /* of y */
-void grid_free(Grid *grid);                  /* what it holds; it is empty again */
+void grid_free(Grid *grid);                  /* frees its contents; it is empty afterwards */
 
-/* Output times: number of them behind `from` up to `to`, `rows`; grid_time(k) for k = 1.. is the
- * k-th of them. They are products, so that they don't gather rounding. */
+/* Output times: the number of those after `from` up to `to`; `grid_time(k)` is the k-th for k =
+ * 1... They are products, so that rounding errors don't accumulate. */
 int grid_rows(double from, double to, double every);
 double grid_time(double from, double to, double every, int rows, int k);
 

@@ -4,12 +4,12 @@
 #include <math.h>
 #include <string.h>
 
-#define MANY         100 /* tolerances that an estimated error has to miss to be told */
-#define MOST_RESCANS 10  /* times that a step is looked over anew for what is met first in it */
-#define CAREFUL      0.5 /* of what would have been allowed behind the last switch: to begin with */
+#define MANY         100 /* tolerances: a larger error of fixed steps is reported */
+#define MOST_RESCANS 10  /* times that a step is searched again for the first event in it */
+#define CAREFUL      0.5 /* of the step that the last switch allowed: the first step */
 
-/* From here on another method: the one in use has found that stability limits its steps, or
- * rounding does, or it gets no further. */
+/* Change the method: the current one has found that stability or rounding limits its steps, or
+ * can't continue. */
 static Status hand_over(Integration *m, const Method *method, RemarkKind why, Diag *diag)
 {
     const double t = m->stepper->t, next = m->stepper->next;
@@ -21,18 +21,18 @@ static Status hand_over(Integration *m, const Method *method, RemarkKind why, Di
     m->out->method = method;
     TRY(method->start(m->stepper, t, m->y, diag));
     if (why == REMARK_STIFF)
-        m->stepper->next = next; /* until something jumps, no other is as good a guess */
+        m->stepper->next = next; /* until the next jump this is the best estimate */
     return OK;
 }
 
-/* steps up to the end of the run, if they were all as the next one; 0: not known */
+/* number of steps to the end of the run if all were as long as the next one; 0: not known */
 static double steps_ahead(const Integration *m)
 {
     return m->stepper->next > 0 ? (m->plan->to - m->stepper->t) / m->stepper->next : 0;
 }
 
-/* The accelerations stay the same, so that a stepper needn't know, except where multipliers of rows
- * are among its unknowns. */
+/* Choose rows and independent speeds anew. Accelerations don't change, so a stepper needs no
+ * restart, except where multipliers of rows are among its unknowns. */
 static Status renew(Integration *m, Diag *diag)
 {
     Stepper *s = m->stepper;
@@ -47,10 +47,10 @@ static Status renew(Integration *m, Diag *diag)
     return s->method->start(s, s->t, m->y, diag);
 }
 
-/* Where the stepper gets no further: it ends the run, with the cause, unless rounding stands in the
- * way of an explicit method that nobody named. Where large parts of stiff equations cancel rounding
- * leaves much of their rates, which such a method takes for errors; one for stiff equations damps
- * it. Unknowns of a network that its states hardly tell want to be solved together with them. */
+/* When the stepper can't continue, the run ends with the cause. Exceptions apply if the user named
+ * no method. Where large terms of stiff equations cancel, rates have large rounding errors, which
+ * an explicit method takes for its own; a method for stiff equations damps them. Unknowns of a
+ * network that its states hardly determine need to be solved for together with them. */
 static Status end_or_hand_over(Integration *m, bool is_rounding, Diag *diag)
 {
     const Method *joint = m->segment.joint;
@@ -71,14 +71,14 @@ static Status take_step(Integration *m, double end, Diag *diag)
     return m->stepper->method->step(m->stepper, end, diag);
 }
 
-/* a step that passes over nothing that acts for a short time */
+/* a step that passes over no short pulse */
 static Status seeing_step(Integration *m, double end, Diag *diag)
 {
     double when = 0, last = m->stepper->t;
     Diag ignored = {0};
     Status status = OK;
 
-    if (m->needs_restart) { /* once rows and conditions have been read from its history */
+    if (m->needs_restart) { /* after rows and conditions have been interpolated from its history */
         m->needs_restart = false;
         memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
         CHECK(m->stepper->method->start(m->stepper, last, m->y, diag));
@@ -88,7 +88,7 @@ static Status seeing_step(Integration *m, double end, Diag *diag)
     CHECK(status);
     if (!(m->stepper->t > last) || !onset_after_step(m->segment.onset, m->stepper, &when))
         return OK;
-    /* where it can't be taken back it stays: what it passed over it has seen the end of */
+    /* where it can't be shortened it is accepted: its end is after the pulse */
     if (m->stepper->method->shorten(m->stepper, when, &ignored) != OK)
         return OK;
     m->needs_restart = m->stepper->method->has_history;
@@ -96,8 +96,8 @@ done:
     return status;
 }
 
-/* What begins when a switch goes over is much alike from one to the next: how long the first step
- * behind one could have been tells how to begin behind another. */
+/* The motion after a switch is similar each time: the step that was possible after one determines
+ * the first step after the next. */
 static void learn_beginning(Integration *m)
 {
     if (m->after_event && m->plan->mode_switch != NULL)
@@ -150,21 +150,21 @@ static Status one_step(Integration *m, double end, Diag *diag)
 
 /* --- intervals between jumps --- */
 
-/* from the stepper's time to `end`, conditions in time as they are now */
+/* from the stepper's time to `end`, with the current signs of conditions in time */
 static Status integrate_interval(Integration *m, double end, Diag *diag)
 {
     const IntegrationPlan *plan = m->plan;
     double least = 4e-16 * fabs(end); /* what an event may leave of the way, too short for a step */
     Status status = OK;
 
-    transaction_stop_asking(); /* there are rows to be kept */
+    transaction_stop_asking(); /* there are rows to be stored */
     integration_begin_modes(m);
     while (end - m->stepper->t > least && !m->is_over) {
         monitor_report(plan->watch, "simulate",
                        (m->stepper->t - plan->from) / (plan->to - plan->from));
         status =
             monitor_poll(plan->watch) == OK && !m->is_stopped ? one_step(m, end, diag) : E_STOPPED;
-        /* a step that is stopped within fails in its own words */
+        /* a step that is stopped fails with errors of its own */
         if (status != OK && (monitor_poll(plan->watch) != OK || m->is_stopped))
             return diag_set(diag, E_STOPPED, "stopped at t = %.6g s",
                             m->is_stopped ? m->out->reached : m->stepper->t);
@@ -178,8 +178,8 @@ done:
     return status;
 }
 
-/* Held states at a sampling instant, where the stepper stands: once, whatever else jumps there. A
- * row at that instant is from before. */
+/* Take samples of held states at an instant, at the stepper's time: once, whatever else jumps
+ * there. A row at that instant has the values before. */
 static Status take_samples(Integration *m, double t, Diag *diag)
 {
     bool due;
@@ -199,7 +199,7 @@ static Status all_intervals(Integration *m, Diag *diag)
         double end = last ? plan->to : m->jumps.at[i].before;
 
         m->high = last ? INFINITY : end;
-        /* jumps that rounding alone tells apart are one */
+        /* jumps within rounding of each other are one */
         if (end - m->stepper->t > 1e-13 * (plan->to - plan->from)) {
             TRY(integration_go_on(m, m->stepper->t, m->stepper->y, &entered, diag));
             TRY(integrate_interval(m, fmin(end, plan->to), diag));
@@ -233,7 +233,7 @@ static Status run(Integration *m, const double *start, Diag *diag)
         TRY(integration_begin_events(m, diag));
     TRY(integration_find_jumps(m, diag));
     TRY(all_intervals(m, diag));
-    /* a row on the very end that rounding, or a switch on it, left out */
+    /* a row at the very end, which rounding, or a switch there, has left out */
     if (!m->is_over) {
         if (plan->to - m->stepper->t <= 1e-12 * (plan->to - plan->from))
             m->stepper->t = plan->to;
@@ -242,7 +242,7 @@ static Status run(Integration *m, const double *start, Diag *diag)
     return OK;
 }
 
-/* What ends before its first row behind the start keeps where it has got to. */
+/* A run that ends before its first output row after the start stores its last state as a row. */
 static void keep_reached(Integration *m, int rows_before)
 {
     const Stepper *s = m->stepper;

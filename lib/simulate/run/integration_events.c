@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#define EVENT_NOISE 1e-13 /* of a condition's largest size: too small to tell a side from */
+#define EVENT_NOISE 1e-13 /* of a condition's largest value: values below have no reliable sign */
 
 /* a row at an event's instant, unless there is one */
 static Status add_instant(Integration *m, double t, bool again, Diag *diag)
@@ -81,7 +81,7 @@ done:
     return status;
 }
 
-/* sides of all conditions where the run is, at (t, m->y) or just behind it */
+/* sides of all conditions at the current point, (t, m->y), or just after it */
 static void find_sides(Integration *m, double t, int *sides)
 {
     int timed = events_time_only(m->ev);

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#define SAME_ROW 1e-12 /* of the time between two rows: rounding alone tells instants apart */
+#define SAME_ROW 1e-12 /* of the time between two rows: instants equal within rounding */
 
 /* --- rows --- */
 
@@ -65,7 +65,7 @@ Status integration_add_rows_before(Integration *m, Diag *diag)
 
 Status integration_cut(Integration *m, double t, Diag *diag)
 {
-    TRY(add_rows_to(m, t, diag)); /* while the interpolant has its end */
+    TRY(add_rows_to(m, t, diag)); /* the interpolant is still that of the last step */
     m->stepper->method->at(m->stepper, t, m->y);
     if (!motion_project(m->segment.motion, t, m->y))
         TRY(solver_failure(diag, t, "the constraints can't be met"));

@@ -1,5 +1,5 @@
-/* integration_segment.c: from one segment of a forward run to the next: what goes with its
- * equations, and who takes over where ideal switches or surfaces ask for others */
+/* integration_segment.c: from one segment of a forward run to the next: the data that belong to its
+ * equations, and the change of equations at ideal switches or surfaces */
 #include "simulate/run/integration_impl.h"
 
 #include "algebra/linear.h"
@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-#define ROUNDS 20 /* events and ideal switches that set each other off at one instant */
-#define KEPT   64 /* surfaces, whose sides are all kept: each set of sides is a phase */
+#define ROUNDS 20 /* events and ideal switches that trigger each other at one instant */
+#define KEPT   64 /* surfaces up to which all sides are stored: each set of sides is a phase */
 
 /* --- steps --- */
 
@@ -37,7 +37,7 @@ Stepper *integration_new_stepper(Integration *m, const Method *method)
 
 /* --- segments --- */
 
-/* the surfaces of the segment, with what is known of them from segments of the same system */
+/* open the surfaces of the segment, with what is known of them from segments of the same system */
 static void open_surfaces(Integration *m)
 {
     m->surfaces = 0;
@@ -50,7 +50,7 @@ static void open_surfaces(Integration *m)
     m->chatters = NEW_ARRAY(Chatter, m->surfaces);
 }
 
-/* what goes with the equations of the segment */
+/* open the data that belong to the equations of the segment */
 void integration_open_segment(Integration *m, const Segment *segment)
 {
     const Equations *in_time = m->plan->in_time;
@@ -63,7 +63,8 @@ void integration_open_segment(Integration *m, const Segment *segment)
     m->length = motion_length(segment->motion);
     conditions = m->count;
     length = m->length;
-    /* integration_find_jumps() asks the equations of the whole, which may have more of both */
+    /* integration_find_jumps() evaluates the equations of the whole model, which may have more of
+     * both */
     if (in_time != NULL && in_time->switch_count + events_condition_count(m->ev) > conditions)
         conditions = in_time->switch_count + events_condition_count(m->ev);
     if (in_time != NULL && in_time->n + in_time->nu + in_time->nx > length)
@@ -104,7 +105,7 @@ static void add_corner(Integration *m, double t, const double *y)
         grid_add(m->plan->corners, t, m->segment.phase, y, m->length);
 }
 
-/* From here on other equations hold, with y for a state; *changed: events gave it new values. */
+/* Other equations hold from here on, with state y; *changed: events gave it new values. */
 static Status enter(Integration *m, const Segment *segment, double t, const double *y,
                     bool *changed, Diag *diag)
 {
@@ -130,13 +131,13 @@ static Status enter(Integration *m, const Segment *segment, double t, const doub
     memcpy(m->stepper->y, y, (size_t)m->length * sizeof(double));
     m->stepper->t = t;
     *changed = false;
-    /* the mode of the start is found before the events' own start */
+    /* the mode at the start is found before events are started */
     if (events_have_begun(m->ev))
         TRY(integration_resume_events(m, changed, diag));
     return OK;
 }
 
-/* what is known of the surface that condition i tells the side of */
+/* what is known of the surface that condition i belongs to */
 static bool meets(Integration *m, int i, Meeting *out)
 {
     const Guard guard = equations_guard(m->eq, i);
@@ -152,8 +153,8 @@ static bool meets(Integration *m, int i, Meeting *out)
     return near || m->surfaces <= KEPT;
 }
 
-/* The surfaces that the run stands on, and where there are few of them all others: so that no step
- * sees what is behind one. `on`: whether the segment stays on sides of any. */
+/* The surfaces that the run is on, and, where there are few, all others, so that no step evaluates
+ * the other side of one. `on`: whether the segment is on a side of any. */
 static int find_meetings(Integration *m, Meeting *at, bool *on)
 {
     int count = 0;
@@ -206,7 +207,8 @@ done:
     return status;
 }
 
-/* the segment that goes on where the stepper stands: not the last one where that is on surfaces */
+/* choose the segment that continues from the stepper's state: another one where that is on
+ * surfaces */
 Status integration_settle_surfaces(Integration *m, bool *entered, Diag *diag)
 {
     bool changed = m->surfaces > 0;

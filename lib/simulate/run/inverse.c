@@ -1,12 +1,12 @@
 /* inverse.c: efforts, currents and sources from the motion, row by row
  *
- * R = M u' + G^T lambda - F(w) = 0   in lambda (multipliers but those of drivers whose effort
- * stands elsewhere) and w: entries of x, z, efforts that F holds R' = 0 in lambda', w', with u''
- * from (Phi_u u' - gamma)' = 0 A [x'; z] - r = 0                  in what is left of z and the
- * efforts
+ *     R = M u' + G^T lambda - F(w) = 0     in lambda and w
+ *     R' = 0                               in lambda', w'
+ *     A [x'; z] - r = 0                    in the rest of z and the efforts
  *
- * Each is a problem of least squares of full rank; a rank that falls is an effort that can't work.
- */
+ * lambda: multipliers, except those of drivers whose effort is supplied elsewhere. w: entries of x
+ * and z, and efforts, in F. R' contains u'', from (Phi_u u' - gamma)' = 0. Each is a least-squares
+ * problem of full rank; where the rank is lower an effort can't produce the motion. */
 #include "simulate/run/inverse.h"
 
 #include "algebra/linear.h"
@@ -20,10 +20,10 @@
 
 #define ITERATIONS 30
 
-/* an unknown: its place in the layout, and its symbol */
+/* unknowns: index in the variable index, and symbol */
 typedef LIST(int) Unknowns;
 
-/* rows, and what they are solved for */
+/* rows, and the unknowns that they are solved for */
 typedef struct InverseProblem {
     Probe *probe;
     const Unknowns *unknowns;
@@ -36,7 +36,7 @@ typedef struct InverseRun {
     const Assembled *start;
     const VariableIndex *l;
     Unknowns forces;  /* unknowns of R: multipliers first, then w */
-    int multipliers;  /* how many of them */
+    int multipliers;  /* number of these */
     Unknowns sources; /* unknowns of the network's equations */
     Unknowns jerks;   /* u'' */
     Unknowns none;
@@ -45,8 +45,8 @@ typedef struct InverseRun {
     InverseProblem jerk;    /* (Phi_u u' - gamma)', by `jerks` */
     InverseProblem moving;  /* R' at constant `forces` */
     InverseProblem network; /* its rows, by `sources` */
-    double *values;         /* a row, laid out */
-    bool *in_use;           /* m: constraints whose multipliers are solved for at this row */
+    double *values;         /* a row, in the order of the variable index */
+    bool *in_use;           /* m: constraints whose multipliers are solved for in this row */
 } InverseRun;
 
 static bool is_symbol(Expr e, SymbolKind kind)
@@ -62,7 +62,7 @@ bool inverse_finds_states(const System *system)
     return false;
 }
 
-/* --- what is unknown --- */
+/* --- unknowns --- */
 
 static bool is_supplied_elsewhere(const System *system, int constraint)
 {
@@ -103,7 +103,7 @@ static Status sort_unknowns(InverseRun *in, Diag *diag)
         }
         LIST_PUSH(in->forces, l->x + i);
     }
-    /* the rate of a current is one of a force, and so u'' */
+    /* the rate of a current is one of a force, and needs u'' */
     if (in->by_source && l->nx > 0 && system_rough_driver(l->system, 2) != NULL) {
         (void)diag_set(diag, E_MODEL,
                        "the sources need rates of currents, and the acceleration that %s asks for "
@@ -162,7 +162,7 @@ static Expr along(const InverseRun *in, Expr e)
     return out;
 }
 
-/* of rows by unknowns; the list of rows goes */
+/* compile rows and their derivatives by unknowns; frees the list of rows */
 static Status open_problem(InverseRun *in, InverseRoots *rows, const Unknowns *unknowns,
                            InverseProblem *out, Diag *diag)
 {
@@ -208,7 +208,7 @@ static Status compile(InverseRun *in, Diag *diag)
     return open_problem(in, &rows, &in->sources, &in->network, diag);
 }
 
-/* --- numbers --- */
+/* --- solution --- */
 
 static const double *values_of(const InverseRun *in, const InverseProblem *problem)
 {
@@ -229,7 +229,7 @@ static const double *values_of(const InverseRun *in, const InverseProblem *probl
     return probe_values(problem->probe, &row);
 }
 
-/* Of redundant constraints those are in use that are the least dependent where the row stands; the
+/* Choose among redundant constraints those that are least dependent at the current row; the
  * multipliers of others are 0. */
 static void choose_rows(InverseRun *in)
 {
@@ -258,8 +258,8 @@ static bool is_solved_for(const InverseRun *in, int place)
     return row < 0 || row >= in->l->m || in->in_use[row];
 }
 
-/* The move of the unknowns that are solved for, 0 of the others, by which the rows, whose
- * values these are, come nearest to `right`. False: they are dependent. */
+/* The step of the unknowns in use, 0 for the others, that minimises the distance of the rows, whose
+ * values these are, from `right`. False: they are dependent. */
 static bool solve_in_use(const InverseRun *in, const InverseProblem *problem, const double *values,
                          const double *right, double *out)
 {
@@ -273,7 +273,7 @@ static bool solve_in_use(const InverseRun *in, const InverseProblem *problem, co
     return is_regular;
 }
 
-/* The least multipliers that give the same forces, as runs tell them; those that are supplied
+/* Multipliers of least norm that give the same forces, as in forward runs; those that are supplied
  * elsewhere have none. */
 static void spread_multipliers(InverseRun *in)
 {
@@ -312,7 +312,7 @@ static Status cant_produce(const InverseRun *in, const Unknowns *unknowns, Diag 
     return E_SINGULAR;
 }
 
-/* Newton's method: linear rows end after one step and a look. */
+/* Newton's method: linear rows take one step and a check. */
 static Status solve_rows(InverseRun *in, const InverseProblem *problem, Diag *diag)
 {
     const Unknowns *unknowns = problem->unknowns;
@@ -349,7 +349,7 @@ static Status find_rates(InverseRun *in, Diag *diag)
 {
     const VariableIndex *l = in->l;
     double *rates = NEW_ARRAY(double, in->forces.count);
-    double *jerk = in->values + l->jerk; /* 0 still */
+    double *jerk = in->values + l->jerk; /* still 0 */
     const double *values = values_of(in, &in->jerk);
     Status status = OK;
 
@@ -371,7 +371,7 @@ done:
     return status;
 }
 
-/* a row at (t, y), of which the states are found; its block into `out` */
+/* solve a row at (t, y), and find its states; its block goes into `out` */
 static Status solve_row(InverseRun *in, double t, double *y, double *out, Diag *diag)
 {
     const VariableIndex *l = in->l;
@@ -394,7 +394,7 @@ static Status solve_row(InverseRun *in, double t, double *y, double *out, Diag *
     }
     spread_multipliers(in);
     memcpy(y + l->n + l->nu, in->values + l->x, (size_t)l->nx * sizeof(double));
-    /* x', z, u', lambda, efforts stand in the layout as they do here */
+    /* x', z, u', lambda, efforts have the same order in the variable index */
     memcpy(out, in->values + l->rates, (size_t)(l->jerk - l->rates) * sizeof(double));
     return OK;
 }

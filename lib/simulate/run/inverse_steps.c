@@ -1,4 +1,4 @@
-/* inverse_steps.c: columns of unknowns in use, and their factors, which are kept as long as these
+/* inverse_steps.c: columns of unknowns in use, and their factors, which are reused as long as these
  * are the same */
 #include "simulate/run/inverse_steps.h"
 
@@ -11,12 +11,12 @@
 struct InverseSteps {
     const Residual *residual;
     int rows, unknowns;
-    bool *in_use;     /* what the rest is of */
-    int *column;      /* of an unknown, among `count`; -1: none */
-    int count;        /* -1: none asked for yet */
-    Factors *factors; /* NULL: there are more rows than columns, or fewer */
+    bool *in_use;     /* for which the rest is valid */
+    int *column;      /* of an unknown: column among `count`; -1: none */
+    int count;        /* -1: not set up yet */
+    Factors *factors; /* NULL: the matrix isn't square */
     int *start, *row; /* its pattern, by columns */
-    int *root;        /* where an entry's value stands */
+    int *root;        /* index of each entry's value among the roots */
     double *entries;
     double *found; /* count */
 };
@@ -49,7 +49,7 @@ void inverse_steps_free(InverseSteps *s)
     MEM_FREE(s->in_use, s->column, s->start, s->row, s->root, s->entries, s->found, s);
 }
 
-/* entries by columns, from those by rows */
+/* order entries by columns, from those by rows */
 static void put_entries(InverseSteps *s)
 {
     const int first = residual_first_slope(s->residual);

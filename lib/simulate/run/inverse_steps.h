@@ -1,8 +1,8 @@
-/* inverse_steps.h: Newton's steps of an inverse run, of those unknowns that a row solves for
+/* inverse_steps.h: Newton's steps of an inverse run, of the unknowns that a row solves for
  *
- * Where these are as many as the rows, factors are sparse: the legs of a robot each for itself,
- * then what joins them, so that the work rises as the number of legs. Elsewhere, and where they are
- * nearly dependent, it is least squares in full. */
+ * Each step solves J d = right. Where J is square its factors are sparse: each leg of a robot by
+ * itself, then what joins them, so that the cost is proportional to the number of legs. Otherwise,
+ * and where columns are nearly dependent, it is a dense least-squares problem. */
 #ifndef COTREE_SIMULATE_RUN_INVERSE_STEPS_H
 #define COTREE_SIMULATE_RUN_INVERSE_STEPS_H
 
@@ -12,11 +12,11 @@
 
 typedef struct InverseSteps InverseSteps;
 
-/* New; inverse_steps_free(). Borrows the residual, which has so many unknowns. */
+/* New; inverse_steps_free(). Borrows the residual, which has `unknowns` unknowns. */
 InverseSteps *inverse_steps_new(const Residual *residual, int unknowns);
 void inverse_steps_free(InverseSteps *steps); /* NULL is fine */
-/* The step d by which J d comes nearest to `right`, J from the values of all roots: of unknowns in
- * use, 0 of the others. False, and `out` as it was: they are dependent. */
+/* The step d that minimises |J d - right|, with J from the values of all roots: for unknowns in
+ * use, 0 for the others. False, with `out` unchanged: they are dependent. */
 bool inverse_step(InverseSteps *steps, const double *values, const bool *in_use,
                   const double *right, double *out);
 

@@ -1,4 +1,4 @@
-/* pace.c: a run that keeps up with the clock */
+/* pace.c: a run in real time */
 #include "simulate/run/pace.h"
 
 #include "base/clock.h"
@@ -6,15 +6,15 @@
 #include <math.h>
 #include <time.h>
 
-#define LOOK  0.02  /* s: between looks whether to stop */
-#define WHOLE 0.999 /* of a step, but for rounding */
+#define LOOK  0.02  /* s: between checks whether to stop */
+#define WHOLE 0.999 /* of a step: as long as a whole one, within rounding */
 
 static void sleep_for(double duration)
 {
     const struct timespec span = {.tv_sec = (time_t)duration,
                                   .tv_nsec = (long)(1e9 * (duration - floor(duration)))};
 
-    (void)nanosleep(&span, NULL); /* a signal ends it: whoever waits looks at the clock */
+    (void)nanosleep(&span, NULL); /* a signal ends it: the caller checks the clock */
 }
 
 Pace pace_begin(double step, double from)

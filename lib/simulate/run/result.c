@@ -1,4 +1,4 @@
-/* result.c: what is told of a run without solving anything */
+/* result.c: queries about a run that need no solution */
 #include "simulate/run/result_impl.h"
 
 #include <math.h>

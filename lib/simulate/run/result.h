@@ -1,9 +1,9 @@
-/* result.h: what a run leaves: rows, its report, how its events fared
+/* result.h: the data that a run leaves: rows, its report, the history of its events
  *
- * A Result is const once it is handed over, and outlives what integrated it. It holds coordinates,
- * speeds and network states on an output grid, and borrows its System, which the session keeps as
- * long as a result names it. Every other variable is computed from them when somebody asks, by a
- * ResultReader (result_reader.h). Several threads may have one each. */
+ * A Result is const once it is returned, and outlives the integrator. It contains coordinates,
+ * speeds and network states on an output grid, and borrows its System, which the session stores as
+ * long as a result refers to it. A ResultReader (result_reader.h) computes every other variable
+ * from them on demand. Several threads may have one each. */
 #ifndef COTREE_SIMULATE_RUN_RESULT_H
 #define COTREE_SIMULATE_RUN_RESULT_H
 
@@ -14,61 +14,62 @@
 typedef enum RunKind { RUN_START, RUN_SIMULATE, RUN_KINEMATICS, RUN_INVERSE } RunKind;
 
 typedef struct RunReport {
-    const char *method; /* that ran */
+    const char *method; /* that was used */
     double rtol, atol;
     int64_t steps, rejected;
     int64_t evaluations; /* of the right-hand side */
     int64_t factorisations;
     int64_t jacobians;
-    int64_t visits;           /* ranges of expressions that the look-ahead has found */
+    int64_t visits;           /* ranges of expressions computed in the look-ahead */
     int64_t regularised;      /* factorisations near a singular configuration */
     double singular_time;     /* first of these; NAN: none */
     double position_residual; /* largest |Phi| on the output grid */
     double velocity_residual; /* largest |Phi_u u - nu| */
-    double energy_drift;      /* largest |E - E0 - work|; NAN: no number holds it */
-    double energy_scale;      /* largest kinetic or |potential| energy, to compare */
+    double energy_drift;      /* largest |E - E0 - work|; NAN: not a finite number */
+    double energy_scale;      /* scale: largest kinetic or |potential| energy */
     double global_error;      /* of check=on, estimated, largest over grid and coordinates; NAN: not
-                                 asked, or not known */
+                                 requested, or not known */
     bool is_unresolved;       /* check=on found another motion */
     double wall;              /* s */
     double reached;           /* last time */
-    double every;             /* output step, s; 0: there is none */
-    double step;              /* fixed or largest step that was asked for, s; 0: none */
-    double most;              /* largest step that was asked for, s; 0: none */
+    double every;             /* output step, s; 0: none */
+    double step;              /* fixed or largest step that the user requested, s; 0: none */
+    double most;              /* largest step that the user requested, s; 0: none */
     bool stopped;             /* by Ctrl-C */
-    Pace pace;                /* step 0: it went as fast as it could */
+    Pace pace;                /* step 0: not in real time */
 } RunReport;
 
-/* How an event of the model fared in a run. */
+/* History of an event of the model in a run. */
 typedef struct EventRecord {
     const char *name;
-    const char *condition; /* as written */
+    const char *condition; /* as the user wrote it */
     EventAction action;
-    bool is_bound;       /* it watches where the law of a part ends */
-    bool is_known;       /* whether it holds at the end: a run that goes on needn't look */
-    bool from_start;     /* held at the start already */
+    bool is_bound;       /* it monitors the end of validity of a part's law */
+    bool is_known;       /* `holds` is known: a run that continues needn't evaluate it */
+    bool from_start;     /* it held at the start already */
     bool holds;          /* at the end */
     bool ended;          /* the run */
-    int count;           /* how often it happened */
-    const double *times; /* count, rising */
+    int count;           /* number of times it happened */
+    const double *times; /* s; count, ascending */
 } EventRecord;
 
 void result_free(Result *result); /* NULL is fine */
 RunKind result_kind(const Result *result);
 System *result_system(const Result *result);
 const RunReport *result_report(const Result *result);
-/* speeds less independent constraints, at the start of it */
+/* number of speeds minus independent constraints, at the start of it */
 int result_freedoms(const Result *result);
-/* how many full turns a sum of angles has in the run (system_whole_turns()): i of its system's, 0
- * where it isn't of it */
+/* full turns of a sum of angles in the run (system_whole_turns()): the i-th of its system; 0 where
+ * the symbol is none of it */
 int result_full_turns(const Result *result, Expr symbol);
 const Remarks *result_remarks(const Result *result);
-/* events of the model when the run was made, and earlier ones that happened before it went on */
+/* events of the model at the time of the run, and earlier ones that happened before it was
+ * continued */
 int result_event_count(const Result *result);
 EventRecord result_event(const Result *result, int i);
 int result_rows(const Result *result);
 const double *result_times(const Result *result);
-/* instants at which it may jump or bend, rising, each maybe twice */
+/* instants at which a jump or kink is possible, ascending, some of them twice */
 int result_corner_count(const Result *result);
 const double *result_corner_times(const Result *result);
 

@@ -1,4 +1,4 @@
-/* result_impl.h: a result, as what integrates fills it and a reader reads it */
+/* result_impl.h: a result, as a run fills it and a reader reads it */
 #ifndef COTREE_SIMULATE_RUN_RESULT_IMPL_H
 #define COTREE_SIMULATE_RUN_RESULT_IMPL_H
 
@@ -8,31 +8,31 @@
 #include "simulate/run/phases.h"
 #include "simulate/run/result.h"
 
-/* the equations of some of its rows: phase_new_on() makes a phase of them again */
+/* identifies the equations of some of its rows: phase_new_on() makes a phase from it again */
 typedef struct PhaseKey {
-    System *system; /* of the mode: borrowed, as that of the result is */
-    bool *closed;   /* sides of the whole's switches; NULL: it is in no mode */
+    System *system; /* of the mode: borrowed, like that of the result */
+    bool *closed;   /* states of the switches of the whole model; NULL: without modes */
     OnSurface *on;
     int on_count;
-    bool is_open; /* rows may be of it */
+    bool is_open; /* it may have rows */
 } PhaseKey;
 
 struct Result {
     RunKind kind;
-    System *system;        /* the whole */
-    Parameters parameters; /* as the run had them; later questions may bring in others */
-    LIST(PhaseKey) phases; /* as those of the run */
-    int first;             /* phase in which it starts */
+    System *system;        /* of the whole model */
+    Parameters parameters; /* of the run; later queries may add others */
+    LIST(PhaseKey) phases; /* in the order of the run's */
+    int first;             /* number of the phase of the start */
     int freedoms;
-    Manner manner;   /* its arrays are the result's, but for the watch, which is NULL */
-    Assembled start; /* of the whole */
+    Manner manner;   /* its arrays belong to the result, except for the watch, which is NULL */
+    Assembled start; /* of the whole model */
     double tolerance;
-    Grid grid;    /* rows of y */
-    Grid corners; /* where phases end and begin, two rows each */
+    Grid grid;    /* ends and starts of phases, two rows each */
+    Grid corners; /* times at which its equations change by time alone */
     Jumps jumps;  /* where its equations change at times of their own */
     Driven driven;
     LIST(EventRecord) events;
-    Pool *pool; /* of names and times in these; NULL: there are none */
+    Pool *pool; /* of names and times in these; NULL: none */
     RunReport monitor_report;
     Remarks remarks;
 };

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* --- made and freed --- */
+/* --- construction and destruction --- */
 
 ResultReader *result_reader_of_run(const Result *result, Phases *phases)
 {
@@ -16,7 +16,7 @@ ResultReader *result_reader_of_run(const Result *result, Phases *phases)
     return reader;
 }
 
-/* one of the phases that has these equations already; NULL */
+/* an existing phase with these equations; NULL */
 static Phase *find_like(const Phases *phases, const PhaseKey *key)
 {
     for (int i = 1; i < phases->count; i++) {
@@ -143,7 +143,7 @@ done:
 Status result_reader_values_along(ResultReader *reader, Expr item, const double *times, int count,
                                   const CallMonitor *watch, double *values, Diag *diag)
 {
-    const Phase *of = NULL; /* that the probe is of */
+    const Phase *of = NULL; /* phase of the probe */
     Probe *probe = NULL;
     Status status = OK;
 
@@ -166,11 +166,11 @@ done:
     return status;
 }
 
-/* --- what rounding leaves open --- */
+/* --- rounding error --- */
 
 enum { SHAKES = 3 };
 
-/* one way or the other, differently for each state and shake */
+/* plus or minus `by`, in a pattern that differs for each state and shake */
 static double shaken(double value, double by, int state, int shake)
 {
     const uint32_t mixed = ((uint32_t)state + 1) * 2654435761U ^ (uint32_t)shake * 0x85EBCA6BU;
@@ -178,7 +178,7 @@ static double shaken(double value, double by, int state, int shake)
     return (mixed >> 15 & 1) != 0 ? value + by : value - by;
 }
 
-/* A rounding of each state: of the largest that the run had of coordinates or speeds of its kind,
+/* The rounding error of each state: that of the largest coordinate or speed of its kind in the run,
  * or of this network state. */
 static void state_roundings(const Result *r, double *out)
 {
@@ -243,7 +243,7 @@ done:
     return status;
 }
 
-/* --- one question --- */
+/* --- single queries --- */
 
 Status result_values(const Result *result, const Expr *items, int count, double *out, Diag *diag)
 {

@@ -5,13 +5,13 @@
 
 #include <math.h>
 
-#define MOST_SAMPLES 1e9  /* of a run: they alone take minutes */
-#define SAME         1e-9 /* of a period: instants nearer than that are one */
+#define MOST_SAMPLES 1e9  /* in a run: these alone take minutes */
+#define SAME         1e-9 /* of a period: instants closer than that are one */
 
 typedef struct SampledState {
-    int state; /* in x */
+    int state; /* index in x */
     double period;
-    int instance; /* of an input; -1: it is none */
+    int instance; /* of an input; -1: not an input */
 } SampledState;
 
 struct Samples {
@@ -20,7 +20,7 @@ struct Samples {
     Probe *next;
     SampledState *at;
     int count;
-    Host *host; /* NULL: there is none, or no input */
+    Host *host; /* NULL: none, or there is no input */
 };
 
 static Status add_sample(Samples *s, const OwnSample *own, Parameters *parameters, Diag *diag)
@@ -115,7 +115,7 @@ static bool is_due(const SampledState *sample, double t)
     return fabs(count - round(count)) <= SAME;
 }
 
-/* what the host set an input to at that instant; NULL: nothing yet */
+/* the value that the host set for an input at that instant; NULL: none yet */
 static const HostValue *find_value(const Host *host, int instance, double t, double near)
 {
     int low = 0, high = host->values.count;
@@ -134,7 +134,7 @@ static const HostValue *find_value(const Host *host, int instance, double t, dou
     return NULL;
 }
 
-/* what an input is from t on; `items`: what the host is told */
+/* the value of an input from t on; `items`: what the host receives */
 static Status set_input(Host *host, const SampledState *sample, const char *name, double t,
                         const double *items, double *value, Diag *diag)
 {

@@ -16,9 +16,9 @@
 
 #define MOST_ROWS    20000000
 #define MOST_VALUES  2e8 /* in all rows: 1.6 GB */
-#define POINTS       4   /* between rows of a driven run, where events are looked for */
-#define TURNED       2.0 /* rad: what an angle that counts turns may go at once in a driven run, */
-#define MISSED       0.5 /* and how far off its prediction */
+#define POINTS       4   /* between rows of a driven run, at which events are checked */
+#define TURNED       2.0 /* rad: largest step of a multi-turn angle in a driven run, */
+#define MISSED       0.5 /* and largest difference from its prediction */
 #define AUTO         "auto"
 #define DEFAULT_RTOL 1e-8
 
@@ -70,7 +70,7 @@ Status run_method_find(const char *name, const char **out, Diag *diag)
     return OK;
 }
 
-/* between what rounding leaves and what says nothing of what is computed */
+/* between rounding error and a tolerance so loose that the result is meaningless */
 static Status check_rtol(double rtol, Diag *diag)
 {
     if (rtol >= RUN_LEAST_RTOL && rtol < 1)
@@ -117,8 +117,8 @@ static Status complete_options(const ActiveRun *r, const RunOptions *given, RunO
 
 /* --- forward --- */
 
-/* Steps whose work is known keep up with the clock: fixed ones, of the first such method unless
- * another is named. */
+/* Only steps of known cost can run in real time: fixed ones, of the first such method unless the
+ * user names another. */
 static Status method_in_time(const RunOptions *options, const Method **method, Diag *diag)
 {
     Text names = {0};
@@ -183,7 +183,7 @@ static void fill_report(ActiveRun *r, const IntegrationReport *integration,
     r->result->monitor_report.wall = clock_now() - began;
 }
 
-/* how much accuracy is lost there is not known: a run of check=on measures it */
+/* the loss of accuracy there is not known: a run with check=on measures it */
 static void remark_singular(ActiveRun *r)
 {
     const MotionCounts counts = counts_of(r);
@@ -201,7 +201,7 @@ static void remark_integration(ActiveRun *r, const IntegrationReport *integratio
     remark_singular(r);
 }
 
-/* Integrate a run whose start is set; what it found is kept also when that ends early. */
+/* Integrate a run whose start is set; the rows so far are stored also when it ends early. */
 static Status go(ActiveRun *r, const SimulationInput *setting, const RunOptions *given, double from,
                  bool skip_first, Diag *diag)
 {
@@ -281,7 +281,7 @@ done:
     return status;
 }
 
-/* hand out what there is, unless there is nothing */
+/* return the result, unless it is empty */
 static void give(ActiveRun *r, const SimulationInput *setting, Status status, Result **out,
                  ResultReader **reader)
 {
@@ -344,7 +344,7 @@ static Status check_driven(const ActiveRun *r, Diag *diag)
     return E_MODEL;
 }
 
-/* The next row from the last one: predicted, then projected; in halves where that fails. */
+/* The next row from the last one: predicted, then projected; in two halves where that fails. */
 static bool reach(ActiveRun *r, double from, double to, double *y, int depth)
 {
     const VariableIndex *l = r->phase->layout;
@@ -353,7 +353,7 @@ static bool reach(ActiveRun *r, double from, double to, double *y, int depth)
     double *trial = NEW_ARRAY(double, r->phase->length);
     double *rate = NEW_ARRAY(double, r->phase->length);
     double moved = 0, turned = 0;
-    /* where all is prescribed there is but one branch, wherever the search for it begins */
+    /* where everything is prescribed there is only one branch, whatever the initial guess */
     const bool has_branches =
         compiled_equations(r->phase->numbers)->prescribed == NULL || l->multi_turns > 0;
     bool sound = !has_branches || ode->rate(ode->context, from, y, rate);
@@ -377,7 +377,7 @@ static bool reach(ActiveRun *r, double from, double to, double *y, int depth)
     for (int i = variable_index_references(l); i < variable_index_references(l) + l->multi_turns;
          i++)
         turned = fmax(turned, TURNED / MISSED * fabs(trial[i] - rate[i]));
-    /* far from the prediction is perhaps another branch */
+    /* far from the prediction it may be another branch */
     sound = sound && moved < 0.1 && turned < TURNED;
     if (sound) {
         memcpy(y, trial, (size_t)r->phase->length * sizeof(double));
@@ -389,7 +389,7 @@ static bool reach(ActiveRun *r, double from, double to, double *y, int depth)
     return reach(r, from, from + h / 2, y, depth - 1) && reach(r, from + h / 2, to, y, depth - 1);
 }
 
-/* What can't be determined where the motion begins has a cause, which is named. */
+/* If the motion is already undetermined at its start, report the cause. */
 static bool is_determined_at_start(ActiveRun *r, const double *y)
 {
     Solved solved;
@@ -418,8 +418,8 @@ static Status lost(ActiveRun *r, double last, double t, const double *y, Diag *d
     return solver_failure(diag, t, "the drivers lead where the parts can't follow");
 }
 
-/* Between two instants, the later of which events are due at: the first such instant, by halves;
- * y from the earlier one to it. */
+/* Between two instants, at the later of which events are due: the first such instant, by bisection;
+ * y changes from that at the earlier one to that at it. */
 static double locate_event(ActiveRun *r, double low, double high, double *y)
 {
     double *trial = NEW_ARRAY(double, r->phase->length);
@@ -448,8 +448,8 @@ static double locate_event(ActiveRun *r, double low, double high, double *y)
     return high;
 }
 
-/* Events between two rows, looked for at points between; y from the earlier one to the later one,
- * or to where an event ends the run. */
+/* Events between two rows, checked at points between; y changes from that of the earlier row to
+ * that of the later one, or to that at an event which ends the run. */
 static Status follow_events(ActiveRun *r, double from, double to, double span, double *y,
                             bool *stop, Diag *diag)
 {
@@ -495,7 +495,7 @@ static Status positions(ActiveRun *r, const SimulationInput *setting, const RunO
         CHECK(solver_failure(diag, 0, "the start does not meet the constraints"));
     if (!is_determined_at_start(r, y))
         CHECK(lost(r, 0, 0, y, diag));
-    transaction_stop_asking(); /* there will be rows to be kept */
+    transaction_stop_asking(); /* there will be rows to be stored */
     for (int k = 0; k <= rows && !stop; k++) {
         double t = k > 0 ? grid_time(0, options->duration, options->every, rows, k) : 0;
 
@@ -507,7 +507,7 @@ static Status positions(ActiveRun *r, const SimulationInput *setting, const RunO
         else if (k > 0 && !reach(r, last, t, y, 12))
             CHECK(lost(r, last, t, y, diag));
         if (!stop &&
-            (k == 0 || r->result->monitor_report.reached < t)) /* else an event's instant */
+            (k == 0 || r->result->monitor_report.reached < t)) /* otherwise at an event's instant */
             add_position(r, t, y);
         if (k == 0 && events_count(r->events) > 0)
             stop = events_begin(r->events, 0, y);
@@ -525,7 +525,7 @@ done:
     return status;
 }
 
-/* what only an integration acts on */
+/* refuse options that only an integration uses */
 static Status refuse_idle(const RunOptions *given, Diag *diag)
 {
     const struct {
@@ -547,7 +547,7 @@ static Status refuse_idle(const RunOptions *given, Diag *diag)
     return OK;
 }
 
-/* Positions follow from the drivers; states of a network that nobody asks back from are
+/* Positions follow from the drivers; states of a network that the motion doesn't determine are
  * integrated along. */
 static Status drive(ActiveRun *r, const SimulationInput *setting, const RunOptions *given,
                     Diag *diag)
@@ -607,7 +607,7 @@ Status run_inverse(System *system, const SimulationInput *setting, const RunOpti
     driven = drive(r, setting, options, diag);
     if (driven != OK && driven != E_STOPPED && driven != E_SOLVER)
         CHECK(driven);
-    /* rows up to where it was stopped are told to their end */
+    /* the rows up to a stop are still completed */
     status = inverse_solve(r->phases, &r->result->start, rows, driven == OK ? setting->watch : NULL,
                            &r->result->driven, diag);
     if (status == E_STOPPED && rows->count > 0)

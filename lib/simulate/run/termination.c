@@ -1,5 +1,5 @@
-/* termination.c: frames that come together, drivers that lead too far, angles that lose a freedom,
- * forces without a value, rounding, growth without bound */
+/* termination.c: causes that end a run: frames that coincide, drivers beyond their range, angles
+ * that lose a freedom, undefined forces, rounding, growth without bound */
 #include "simulate/run/termination.h"
 
 #include "algebra/linear.h"
@@ -13,24 +13,24 @@
 #include <stdio.h>
 #include <string.h>
 
-#define SOON      1e-3 /* of the time that things take: no further ahead, along a straight line */
+#define SOON      1e-3 /* of the characteristic time: the distance of linear extrapolation */
 #define FIRST     1e-16
-#define STEP      0.1  /* of that: what accuracy alone would take at once */
-#define IMMINENT  1e-6 /* of the run: what happens that soon is what ends it */
-#define ENDING    1e-2 /* of what a driver's row had of its own at the start */
-#define ASIDE     1e-6 /* of the size of y: differences are derivatives */
-#define STABLE    2.5  /* explicit methods: steps times rates, at most */
-#define BLOWN_UP  1e6  /* times the size at the start: no motion is so fast */
-#define BOUNDLESS 1e3  /* times the size at the start; growing that fast, too */
+#define STEP      0.1  /* of that: a step that accuracy would allow */
+#define IMMINENT  1e-6 /* of the run: a cause within that time ends it */
+#define ENDING    1e-2 /* of the independent part of a driver's row at the start */
+#define ASIDE     1e-6 /* of the size of y: perturbation of difference quotients */
+#define STABLE    2.5  /* explicit methods: largest step times rate */
+#define BLOWN_UP  1e6  /* times the size at the start: faster than any real motion */
+#define BOUNDLESS 1e3  /* times the size at the start; and growing at that rate */
 
-/* where a run stands, and how it goes on from there */
+/* the state of a run at its end, and its extrapolation */
 typedef struct RunEnd {
     ActiveRun *run;
     Phase *phase;
     double t, span;
-    double *y, *rate, *ahead; /* ahead: y some time on */
+    double *y, *rate, *ahead; /* ahead: y extrapolated */
     double *at_start;         /* speeds and coordinates */
-    double soon;              /* s: up to here that is along a straight line */
+    double soon;              /* s: time of linear extrapolation */
 } RunEnd;
 
 static void look_ahead(const RunEnd *e, double time)
@@ -69,7 +69,7 @@ static const char *name_of(const RunEnd *e, int i)
     return system_x(e->phase->system, i - l->n - l->nu)->name;
 }
 
-/* what a part exerts some time on */
+/* the force of a part at a later time */
 static double largest_push(const RunEnd *e, Probe *probe, int count, double time, bool *is_number)
 {
     RowValues row;
@@ -87,8 +87,8 @@ static double largest_push(const RunEnd *e, Probe *probe, int count, double time
     return largest;
 }
 
-/* The part that has no value soonest, or the one that pushes hardest; both NULL where there is
- * none. */
+/* The part that becomes undefined first, or the one with the largest force; both NULL where there
+ * is none. */
 typedef struct Pushing {
     const char *without, *hardest;
     double when, most;
@@ -148,7 +148,7 @@ static bool report_meeting(RunEnd *e, Diag *diag)
                            IMMINENT * e->span, before, diag);
 }
 
-/* The first driver whose row has lost what it had of its own at the start; -1: none. */
+/* The first driver whose row has lost the independent part that it had at the start; -1: none. */
 static int driver_at_end(RunEnd *e, const Ode *ode)
 {
     const VariableIndex *l = e->phase->layout;
@@ -194,7 +194,7 @@ static bool report_leading(RunEnd *e, const Ode *ode, Diag *diag)
     return true;
 }
 
-/* Three angles of one attitude that lose a freedom here: their rates have no bound. */
+/* Three angles of one attitude lose a freedom here: their rates are unbounded. */
 static bool report_critical(RunEnd *e, Diag *diag)
 {
     const VariableIndex *l = e->phase->layout;
@@ -219,10 +219,10 @@ static bool report_critical(RunEnd *e, Diag *diag)
     return false;
 }
 
-/* way = J way over its size, which comes out; < 0: there are no rates */
+/* way = J way over its size; returns the size of the result, < 0: rates are undefined */
 static double along(const RunEnd *e, const Ode *ode, const double *from, double *way, int *most)
 {
-    const int n = e->phase->length - 1; /* work is last, and nothing follows from it */
+    const int n = e->phase->length - 1; /* work is last, and nothing depends on it */
     const double size = vector_largest(way, n);
     const double aside = ASIDE * fmax(1, vector_largest(from, n)) / size;
     double *there = NEW_ARRAY(double, n + 1), *here = NEW_ARRAY(double, n + 1);
@@ -241,9 +241,9 @@ static double along(const RunEnd *e, const Ode *ode, const double *from, double 
     return sound ? fabs(way[*most]) : -1;
 }
 
-/* The rate at which the fastest part of the motion swings or decays about a state, 1/s, where
- * numbers follow that part alone: by how rates change along themselves, and once more. 0 where it
- * grows, or nothing is known. */
+/* The rate, 1/s, at which the fastest component oscillates or decays near a state, by two steps of
+ * the power method: the derivative of rates along themselves, twice. 0 where it grows, or nothing
+ * is known. */
 static double fastest(const RunEnd *e, const Ode *ode, const double *from)
 {
     const int n = e->phase->length;
@@ -266,7 +266,8 @@ static double fastest(const RunEnd *e, const Ode *ode, const double *from)
     return isfinite(found) ? found : 0;
 }
 
-/* Fixed steps that are too long for what decays or swings fastest blow it up. */
+/* Fixed steps that are too long for the fastest decay or oscillation make the solution grow without
+ * bound. */
 static bool report_unstable(RunEnd *e, const Stepper *stepper, Diag *diag)
 {
     const double step = control_asked(&stepper->control);
@@ -282,7 +283,7 @@ static bool report_unstable(RunEnd *e, const Stepper *stepper, Diag *diag)
     memcpy(begun, e->at_start, (size_t)speeds * sizeof(double));
     rate = fastest(e, stepper->ode, begun);
     mem_free(begun);
-    /* numbers that have grown far may tell of rates that nothing had */
+    /* after strong growth the state may have rates that the motion never had */
     if (!(step * rate > STABLE))
         rate = fastest(e, stepper->ode, e->y);
     if (!(step * rate > STABLE))
@@ -296,9 +297,9 @@ static bool report_unstable(RunEnd *e, const Stepper *stepper, Diag *diag)
     return true;
 }
 
-/* Which equation limits the step: over h along the rates, y'(t + h, y + h y') - y'(t, y) is twice
- * the error of Euler's method over h, which is compared with the tolerance of each entry. -1: none
- * changes, or there are no rates ahead. */
+/* The equation that limits the step: y'(t + h, y + h y') - y'(t, y) is 2/h times the error of an
+ * Euler step h, which is compared with the tolerance of each entry. -1: no rate changes, or rates
+ * there are undefined. */
 static int find_limiting(RunEnd *e, Stepper *stepper, double h)
 {
     const VariableIndex *l = e->phase->layout;
@@ -320,7 +321,8 @@ static int find_limiting(RunEnd *e, Stepper *stepper, double h)
     return found;
 }
 
-/* The current of a coil limits the step, and at one of its ends only nonlinear laws take it. */
+/* The current of a coil limits the step, and at one of its ends only nonlinear laws take that
+ * current. */
 static bool report_uncharged(RunEnd *e, int which, Diag *diag)
 {
     const VariableIndex *l = e->phase->layout;
@@ -337,8 +339,8 @@ static bool report_uncharged(RunEnd *e, int which, Diag *diag)
     return true;
 }
 
-/* No cause is known: the equation whose error limits the step, the part that acts most, and what
- * may help. */
+/* The cause is unknown: report the equation whose error limits the step, the part with the largest
+ * force, and possible remedies. */
 static void add_limiting(RunEnd *e, Stepper *stepper, const char *hardest, Diag *diag)
 {
     const double last = e->t - stepper->before;
@@ -402,7 +404,7 @@ static void report(RunEnd *e, Stepper *stepper, bool *is_rounding, Diag *diag)
     }
 }
 
-/* There are no rates where it stands. */
+/* Rates are undefined at the current state. */
 static void report_undefined(const RunEnd *e, Diag *diag)
 {
     char before[sizeof diag->message];

@@ -1,8 +1,7 @@
-/* termination.h: why a run can't go on, in words of the user's parts
+/* termination.h: why a run can't continue, in terms of the user's parts
  *
- * Steps that get ever shorter tell no more than where. What is behind it is seen in what pushes
- * and in what grows: two frames that come together, a force without a value, what rounding leaves,
- * a solution that ends. */
+ * Ever shorter steps only show where it ends. The cause shows in forces and in growth: two frames
+ * that coincide, an undefined force, rounding error, a singularity of the solution. */
 #ifndef COTREE_SIMULATE_RUN_TERMINATION_H
 #define COTREE_SIMULATE_RUN_TERMINATION_H
 
