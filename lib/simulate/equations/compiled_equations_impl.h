@@ -16,9 +16,9 @@ struct CompiledEquations {
     Parameters *parameters;
     Probe *main, *switching, *network;
     Pattern rows, masses, maps; /* positions of the entries of Phi_u, M and N */
-    /* M. NULL: the main program computes it. Otherwise a MassMatrix computes it from the main
-     * program's roots from mass_needs on; or, where elimination needs no M, from a program of its
-     * own, once M is requested. */
+    /* M. NULL: M is symbolic, and a program computes it. Otherwise a MassMatrix does, from roots:
+     * those of the main program from mass_needs on; or, where elimination needs no M, those of
+     * `massing`, which is made once M is requested. */
     MassMatrix *mass;
     Articulated *articulated;
     Probe *massing;
@@ -69,8 +69,9 @@ void compiled_connect_mass(CompiledEquations *numbers);
 
 /* --- compiled_compile.c --- */
 
-/* The main program, and the network's where it is solved by iteration. `told` are the accelerations
- * that they compute themselves, if they do. */
+/* Compile the main program, and the network's where it is solved by iteration. The expressions
+ * passed are `eliminated_count` closed-form accelerations and what comes with them; 0: there are
+ * none. */
 MUST_USE Status compiled_compile_equations(CompiledEquations *numbers, const Expr *shown_guards,
                                            int eliminated_count, Diag *diag);
 /* M and F, where elimination does without them */

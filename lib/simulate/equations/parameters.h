@@ -20,7 +20,7 @@ typedef struct Parameters {
 
 /* with the stored values of others, and the same source of further ones */
 Parameters parameters_like(const Parameters *others);
-double parameters_value(Parameters *parameters, Expr symbol); /* kept, else asked and kept */
+double parameters_value(Parameters *parameters, Expr symbol); /* stored, else read and stored */
 /* whether one is stored, and which */
 bool parameters_kept(const Parameters *parameters, Expr symbol, double *out);
 void parameters_set(Parameters *parameters, Expr symbol, double value); /* stored from now on */

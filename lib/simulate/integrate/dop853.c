@@ -13,13 +13,13 @@
 
 #define FIRST_SEEN         5 /* first stage after stage 0 with a weight in the result */
 #define SAFETY             0.9
-#define LUCK               60.0 /* times the root of the tolerance; estimates of order 3: 1 to 60 of it */
-#define STIFF_ELEMENT_LUCK 2.0 /* the same where an element may stop conducting in the step */
+#define LUCK               60.0 /* times the root of the tolerance; order-3 estimates: 1 to 60 */
+#define STIFF_ELEMENT_LUCK 2.0  /* the same where an element may stop conducting in the step */
 #define SHRINK             (1 / 3.0)
 #define GROW               6.0
 #define PARTS_AGREE        30.0 /* tolerances: most from a step's end to that of its parts */
-#define LEAP               1.2 /* times a step that failed near a singular position, to pass it, at most; */
-#define LEAP_PAST          0.93 /* and where in a step it is at the latest, between the last two stages */
+#define LEAP               1.2  /* largest step past a singular position, over the failed one; */
+#define LEAP_PAST          0.93 /* latest place of it in a step, between the last two stages */
 
 enum {
     LEAPS = 4,        /* in succession, before steps become shorter */
