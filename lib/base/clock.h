@@ -1,4 +1,4 @@
-/* clock.h: the clock that goes forward only, whoever sets the time of day */
+/* clock.h: the monotonic clock, independent of the time of day */
 #ifndef COTREE_BASE_CLOCK_H
 #define COTREE_BASE_CLOCK_H
 

@@ -16,7 +16,7 @@
 #include <string.h>
 
 enum {
-    ALWAYS = 15, /* digits that every decimal of no more keeps */
+    ALWAYS = 15, /* decimals of up to so many digits are preserved */
     PLAIN = -4   /* least exponent that %g writes without one */
 };
 
@@ -25,7 +25,7 @@ enum {
 enum {
     BEHIND = 56, /* bits of `rest` */
     NOISE = 4,   /* of its last: more than rounding leaves */
-    FINE = 28,   /* powers of ten that 64 bits hold but for a power of two */
+    FINE = 28,   /* powers of ten whose odd part fits into 64 bits */
     FIRST = -12, /* of the coarse ones, in FINE */
     COARSE = 26
 };
@@ -138,7 +138,7 @@ static DecimalWide scale(uint64_t mantissa, int n, uint64_t *power, int *binary)
     return (DecimalWide)mantissa * *power + ((DecimalWide)mantissa * (uint64_t)whole >> 64);
 }
 
-/* floor(log10) of a normal number, or one off next to a power of ten: log2 is taken for straight
+/* floor(log10) of a normal number, or one off next to a power of ten: log2 is interpolated linearly
  * between powers of two */
 static int decimal_exponent(uint64_t bits)
 {
@@ -267,8 +267,8 @@ static inline uint64_t eight_digits(uint32_t number)
     return (twos - 10 * over_ten) << 8 | over_ten;
 }
 
-/* Digits as characters, held as a number until they are stored once, where they belong: what has
- * just been stored in parts takes long to be read whole. */
+/* Digits as characters, in an integer until they are stored once, at their place: reading as a
+ * whole what has just been stored in parts is slow. */
 typedef struct Spelled {
     DecimalWide digits; /* sixteen, the first lowest */
     char before;        /* one more, before these */

@@ -1,4 +1,4 @@
-/* diag.h: what went wrong, where in the user's text, and the way out
+/* diag.h: an error, its position in the user's text, and a hint
  *
  * A fallible function returns Status and, when it isn't OK, fills a Diag. The
  * message is written where the facts are, in the user's words; the shell adds

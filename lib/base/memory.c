@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* a table, list, arena or pool that begins with one element grows at once, which tests it */
+/* for tests: a table, list, arena or pool that starts with one element has to grow at once */
 #ifdef COTREE_SMALL
 enum { FIRST_ROOM = 1, FIRST_CHUNK = 16 };
 #else
@@ -24,7 +24,7 @@ enum { FIRST_ROOM = 8, FIRST_CHUNK = 65536 };
 
 /* --- pieces --- */
 
-/* what so many of that size take; SIZE_MAX, which nobody has, where that can't be determined */
+/* the size of so many elements; SIZE_MAX, which can't be allocated, on overflow */
 static size_t product(size_t count, size_t size)
 {
     size_t out;
@@ -106,8 +106,8 @@ typedef struct Chunk {
 struct Pool {
     Chunk *newest;
     size_t used;     /* of the newest */
-    Chunk *floor;    /* the newest when the call came to the pool, */
-    size_t floor_at; /* and what was used of it: below nothing is written anew */
+    Chunk *floor;    /* the newest chunk at the call's first use of the pool, */
+    size_t floor_at; /* and the bytes used of it: older contents aren't overwritten */
     size_t chunk_size;
     size_t held;
 };

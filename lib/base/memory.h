@@ -13,7 +13,7 @@
 
 #include <stddef.h>
 
-void *mem_new(size_t size);                 /* new, zeroed; size 0 gives a valid pointer */
+void *mem_new(size_t size);                 /* new, zeroed; a valid pointer for size 0 too */
 void *mem_array(size_t count, size_t size); /* new, zeroed */
 void *mem_grow(void *old, size_t count, size_t size); /* realloc; what is new isn't zeroed */
 char *mem_text(const char *text, size_t length);      /* new, ended by a NUL */
@@ -37,7 +37,7 @@ void mem_free_each(void *const pieces[], int count);
 #define LIST_ROOM(list, more)                                                                      \
     ((list).at = list_room((list).at, (list).count, (more), &(list).room, sizeof *(list).at))
 #define LIST_PUSH(list, ...) (LIST_ROOM(list, 1), (list).at[(list).count++] = __VA_ARGS__)
-/* the same for a list that nothing is taken off in a call that stood there before */
+/* the same for a list from which a call removes none of the older elements */
 #define LIST_APPEND(list, ...)                                                                     \
     ((list).at = list_more_room((list).at, (list).count + 1, &(list).room, sizeof *(list).at),     \
      (list).at[(list).count++] = __VA_ARGS__)
@@ -75,6 +75,6 @@ PoolMark pool_mark(const Pool *pool);
 void pool_release(Pool *pool, PoolMark mark); /* frees pieces allocated after the mark */
 /* Before `size` bytes at `at`, a piece of the pool's, are changed in place: mem_keep_part(). */
 void pool_retain(Pool *pool, void *at, size_t size);
-size_t pool_bytes(const Pool *pool); /* held from the system */
+size_t pool_bytes(const Pool *pool); /* allocated from the system */
 
 #endif

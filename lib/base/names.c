@@ -161,7 +161,7 @@ int names_add(Names *names, const char *name)
     return names->list.count - 1;
 }
 
-/* Nobody who came before stepped over the slot of the last one. */
+/* No earlier name's probe sequence passed the slot of the last one. */
 void names_trim(Names *names, int count)
 {
     mem_keep(names);

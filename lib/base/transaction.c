@@ -148,7 +148,7 @@ MemPiece *piece_new(size_t size, bool zeroed, const void *maker)
     } else {
         const size_t bytes = bytes_of(size);
 
-        /* with FAULTS what was never written is not to be taken for an address */
+        /* with FAULTS, uninitialised bytes must not look like an address */
         piece = bytes > 0 ? system_allocate(bytes, zeroed || FAULTS) : NULL;
         if (piece == NULL)
             transaction_fail();
