@@ -555,7 +555,7 @@ int spice_port_count(const Spice *subcircuit)
     return spice_first_key(&subcircuit->head, FIRST_PORT) - FIRST_PORT;
 }
 
-/* what the inside calls something; NULL: it is nothing there */
+/* the name of something inside; NULL: not defined there */
 static const char *name_inside(Spice *s, Spice *inside, char kind, const char *name)
 {
     const char *ours;
@@ -566,7 +566,7 @@ static const char *name_inside(Spice *s, Spice *inside, char kind, const char *n
     return ours;
 }
 
-/* whether the head gives the parameter a value, which a card may change */
+/* whether the head of the subcircuit defines the parameter, so that a card may change its value */
 static bool has_parameter(const Spice *subcircuit, const char *name)
 {
     const Card *head = &subcircuit->head;

@@ -20,7 +20,7 @@ typedef struct ParameterCard {
 
 /* the netlist, or a .subckt of it */
 typedef struct Spice {
-    struct Spice *outer; /* in which it stands; NULL: the netlist */
+    struct Spice *outer; /* the enclosing one; NULL: the netlist */
     Card head;           /* .subckt NAME NODE... [KEY=VALUE...] */
     const char *name;    /* of the subsystem, ours */
     LIST(struct Spice *) inner;
@@ -35,7 +35,7 @@ typedef struct Spice {
     int depth;                   /* of parameters that need others */
     SpiceTimes times;            /* of .tran */
     const Card *tran;            /* NULL: none */
-    bool uses_initial;           /* uic: it starts from given values, not from an operating point */
+    bool uses_initial;           /* uic: start from initial values, not from an operating point */
     double temperature, nominal; /* temp and tnom of the circuit, degrees Celsius */
     const char *why;             /* the last value could not be read */
     Diag *diag;
@@ -43,7 +43,7 @@ typedef struct Spice {
 
 /* a value; false: the reason is s->why */
 bool spice_read(Spice *s, const char *text, SpiceValue *out);
-/* a number given in words or, where `text` is NULL or empty, `other` */
+/* the number in a text or, if `text` is NULL or empty, `other` */
 bool spice_value_or(Spice *s, const char *text, const char *other, SpiceValue *out);
 SpiceValue spice_times(Spice *s, SpiceValue a, SpiceValue b);
 const char *spice_lower(Import *import, const char *word);
@@ -58,7 +58,7 @@ void spice_write_values(Spice *s);
  * translation are no elements from then on. */
 void spice_name_elements(Spice *s);
 void spice_write_elements(Spice *s);
-/* whether an element stands on the node, or but reads its voltage */
+/* whether an element is connected to the node, or only reads its voltage */
 bool spice_node_is_used(const Spice *s, const char *node);
 
 enum { MODEL_KEYS = 3 }; /* the first word of a model that may be a key */
@@ -74,8 +74,8 @@ typedef struct SpiceKey {
     const char *meaning; /* of what is refused */
 } SpiceKey;
 
-/* False: a key of the card changes values and isn't taken, and the element is left out. Keys
- * without effect are remarked. */
+/* False: a key of the card changes values and isn't supported; the element is omitted. Keys without
+ * effect are reported in a remark. */
 bool spice_check_keys(Spice *s, const Card *element, const Card *card, int first,
                       const SpiceKey *keys);
 

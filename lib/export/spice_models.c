@@ -1,4 +1,4 @@
-/* spice_models.c: models and keys of elements of a netlist, and what temperatures make of values
+/* spice_models.c: models and keys of elements of a netlist, and values as functions of temperature
  *
  * R, L, C over the temperature: ngspice manual, chapter 3; diodes: chapter 7. */
 #include "export/spice_impl.h"
@@ -22,7 +22,7 @@ bool spice_read(Spice *s, const char *text, SpiceValue *out)
     return spice_value(s->import, text, out, &s->why);
 }
 
-/* a number given in words or `other` */
+/* the number in a text, or `other` */
 bool spice_value_or(Spice *s, const char *text, const char *other, SpiceValue *out)
 {
     return spice_read(s, text != NULL && text[0] != '\0' ? text : other, out);
@@ -49,8 +49,8 @@ bool spice_model_value(Spice *s, const DeviceModel *model, const char *name, con
     return spice_value_or(s, card_key(model->card, MODEL_KEYS, name), other, out);
 }
 
-/* False: a key of the card changes values and isn't taken; the element is left out. Keys without
- * effect are remarked. */
+/* False: a key of the card changes values and isn't supported; the element is omitted. Keys without
+ * effect are reported in a remark. */
 bool spice_check_keys(Spice *s, const Card *element, const Card *card, int first,
                       const SpiceKey *keys)
 {

@@ -22,7 +22,7 @@ static bool is_zero(SpiceValue v)
     return v.is_number && v.number == 0;
 }
 
-/* the i-th number; `other` where it isn't given, or is 0 and that means so */
+/* the i-th number; `other` if it is missing, or is 0 and 0 means the default */
 static SpiceValue take(const SpiceSourceValues *g, int i, SpiceValue other, bool zero_is_none)
 {
     return i < g->count && !(zero_is_none && is_zero(g->at[i])) ? g->at[i] : other;
@@ -118,7 +118,7 @@ static const char *make_modulated(SpiceSourceValues *g)
         plain(g, 3).text, take(g, 4, one_over_stop(g), true).text, degrees(g, plain(g, 6)));
 }
 
-/* t of a PWL: td= shifts it, r= lets it go on from there when it has come to its end */
+/* t of a PWL: td= shifts it, r= repeats it from that time after its end */
 static const char *time_of_pieces(const SpiceSourceValues *g)
 {
     const char *time = g->times->delay.text != NULL
@@ -156,7 +156,7 @@ static const char *make_pieces(SpiceSourceValues *g)
 
 static const struct {
     const char *name;
-    int most; /* values that it takes; 0: any number */
+    int most; /* number of values; 0: any number */
     const char *(*make)(SpiceSourceValues *given);
 } sources[] = {{"sin", 6, make_sine},        {"sine", 6, make_sine},      {"pulse", 8, make_pulse},
                {"exp", 6, make_exponential}, {"sffm", 7, make_modulated}, {"pwl", 0, make_pieces}};

@@ -1,4 +1,4 @@
-/* spice_source.h: what a source of SPICE gives over time, as an expression of ours */
+/* spice_source.h: the time function of a SPICE source, as an expression of ours */
 #ifndef COTREE_EXPORT_SPICE_SOURCE_H
 #define COTREE_EXPORT_SPICE_SOURCE_H
 
@@ -11,7 +11,7 @@ typedef struct SpiceTimes {
     SpiceValue delay, repeat;
 } SpiceTimes;
 
-/* whether a word begins a function of time */
+/* whether a word starts a function of time */
 bool spice_is_source(const char *word);
 /* SIN, PULSE, PWL, EXP or SFFM of these numbers. False: the reason is `why`. */
 bool spice_source(Import *import, const char *name, const SpiceValue *values, int count,

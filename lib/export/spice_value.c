@@ -251,7 +251,7 @@ static bool read_until(Reader *r, const char *ends, Text *out)
     return good;
 }
 
-/* what stands in braces or quotes, without them; NULL: neither */
+/* the text in braces or quotes, without them; NULL: neither */
 static const char *inside(Import *import, const char *word)
 {
     const size_t length = strlen(word);

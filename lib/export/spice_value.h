@@ -5,8 +5,8 @@
 #include "export/import.h"
 
 typedef struct SpiceValue {
-    const char *text;  /* fit to stand in a product or a power */
-    const char *alone; /* the same where it stands alone */
+    const char *text;  /* in brackets if a product or a power needs them */
+    const char *alone; /* the same on its own */
     bool is_number;
     double number;
 } SpiceValue;
@@ -24,7 +24,7 @@ bool spice_value(Import *import, const char *word, SpiceValue *out, const char *
 SpiceValue spice_of(Import *import, double number);
 /* a number with its suffix, followed by letters of a unit; false: it is none */
 bool spice_number(const char *word, double *out);
-/* calls back for each name that an expression holds, in lower case */
+/* calls back for each name in an expression, in lower case */
 void spice_names(const char *word, void (*meet)(void *context, const char *name), void *context);
 
 #endif

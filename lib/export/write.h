@@ -8,7 +8,7 @@
 #include "simulate/analyse/linearize.h"
 #include "simulate/run/result_reader.h"
 
-/* Drivers whose motion is given when the code runs, of the model and equations of a view. New;
+/* Drivers whose motion is an input of the code, of the model and equations of a view. New;
  * inverse_free(). E_MODEL: there are none. */
 typedef struct Inverse Inverse;
 MUST_USE Status inverse_new(const View *view, Inverse **out, Diag *diag);
@@ -45,7 +45,7 @@ typedef struct Format {
 #include "language/formats.def"
 const Format *format_find(const char *name); /* NULL: none */
 
-/* numbers row by row, 17 digits; names quoted where they hold a comma or a quote (RFC 4180) */
+/* numbers row by row, 17 digits; names quoted if they contain a comma or a quote (RFC 4180) */
 void write_csv(Text *out, const char *const *names, const double *values, int rows, int columns,
                bool with_header);
 

@@ -1,4 +1,4 @@
-/* write_c.c: a model in C99 that is C++ too: no allocation, nothing kept between calls */
+/* write_c.c: a model in C99 that is C++ too: no allocation, no state between calls */
 #include "export/c_step.h"
 #include "export/code.h"
 #include "export/shared_text.h"
@@ -619,7 +619,7 @@ static void add_kinds(const VariableIndex *l, Text *out)
     text_add(out, "0};\n");
 }
 
-/* what goes through modes of ideal switches: after what eliminates */
+/* the code for modes of ideal switches, after that for elimination */
 static void add_modes(const Code *code, Text *out)
 {
     text_add(out,

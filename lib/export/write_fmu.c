@@ -239,7 +239,7 @@ static void write_build(Text *out)
              "  </BuildConfiguration>\n</fmiBuildDescription>\n");
 }
 
-/* Where a binary for this machine stands, by the names of the standard. */
+/* The folder of a binary for this machine, named by the standard. */
 static const char *binary_place(int version)
 {
 #if defined __linux__ && defined __x86_64__

@@ -129,7 +129,7 @@ static const char sampled_step[] =
     "        y, s = sample(p, t, y, s)\n        y, s = step_between(p, t, until - t, y, s)\n"
     "        t = until\n    return y, s\n";
 
-/* The same functions with np standing for SymPy: what they compute with are symbols then. */
+/* The same functions with SymPy in place of np: then they compute with symbols. */
 static const char symbols[] =
     "\n\ndef symbolic():\n"
     "    \"\"\"The functions as matrices of SymPy, by name, and the symbols p, t, y, s that they "

@@ -1,4 +1,4 @@
-/* xml.c: the elements of a text in XML, by expat, which takes its memory from us */
+/* xml.c: the elements of a text in XML, by expat, which uses our allocation functions */
 #include "export/xml.h"
 
 #include <expat.h>

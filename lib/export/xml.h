@@ -1,5 +1,4 @@
-/* xml.h: the elements of a text in XML, with their attributes; what stands between them is dropped
- */
+/* xml.h: the elements of a text in XML, with their attributes; text between them is ignored */
 #ifndef COTREE_EXPORT_XML_H
 #define COTREE_EXPORT_XML_H
 
@@ -17,8 +16,8 @@ typedef struct Element {
     struct Element *parent, *first, *last, *next;
 } Element;
 
-/* Read a text; *out, its root, lives as long as the import. Fails with the line where it is no
- * XML. Nothing outside of the text is read. */
+/* Read a text; *out, its root, lives as long as the import. Fails with the line number if it is no
+ * XML. External entities are not read. */
 MUST_USE Status xml_read(Import *import, const char *text, size_t length, Element **out,
                          Diag *diag);
 const char *xml_attribute(const Element *element, const char *name); /* NULL: it isn't given */
