@@ -1,6 +1,6 @@
 /* expression.c: tokens to expression trees, by recursive descent
  *
- * Each function stands under its line of the grammar. */
+ * Each function follows its line of the grammar. */
 #include "language/parser.h"
 
 #include <assert.h>
@@ -21,7 +21,7 @@ Syntax *syntax_new(Parser *parser, SyntaxKind kind, const char *text, Place plac
     return node;
 }
 
-/* Hand `node` the arguments that were put aside since there were `start`. */
+/* Move the arguments from number `start` of the stack on to `node`. */
 Status syntax_accept(Parser *parser, Syntax *node, int start)
 {
     node->count = parser->arguments.count - start;
@@ -227,7 +227,7 @@ Status parse_sum(Parser *parser, Syntax **out)
     return parse_chain(parser, ops, parse_product, out);
 }
 
-/* whether a comparison's sign comes next: ">" not before STRING */
+/* whether a comparison operator is next: ">" not before STRING */
 bool parser_sees_comparison(const Parser *parser)
 {
     static const char *const signs[] = {"<", "<=", ">=", "==", "!="};

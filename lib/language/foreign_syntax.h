@@ -11,7 +11,7 @@ typedef enum ForeignSyntaxKind {
     FOREIGN_OPERATOR  /* and, mod ..., between values */
 } ForeignSyntaxKind;
 
-/* a sentence with the way out; NULL: nothing known */
+/* a sentence with a solution; NULL: none known */
 const char *foreign_syntax_hint(ForeignSyntaxKind kind, const char *word);
 
 #endif

@@ -31,13 +31,13 @@ static const Function others[] = {
     {"spectrum", FUNCTION_FIGURE, 1, 1, NULL, false, OP_COUNT},
 };
 
-/* operators have no name to be called by; `hold` stands in equations only */
+/* operators can't be called by name; `hold` occurs in equations only */
 static bool is_called(const char *name)
 {
     return isalpha((unsigned char)name[0]) && strcmp(name, "hold") != 0;
 }
 
-/* min and max take any number from two on */
+/* min and max have two or more arguments */
 static bool folds(Op op)
 {
     return op == OP_MIN || op == OP_MAX;

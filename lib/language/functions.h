@@ -1,4 +1,4 @@
-/* functions.h: the functions that expressions may call, and what they take */
+/* functions.h: the functions that expressions may call, and their arguments */
 #ifndef COTREE_LANGUAGE_FUNCTIONS_H
 #define COTREE_LANGUAGE_FUNCTIONS_H
 

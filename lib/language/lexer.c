@@ -32,7 +32,7 @@ Lexer lexer_start(const Cursor *cursor, Pool *pool)
                    .line_start = cursor->line_start,
                    .pool = pool};
 
-    /* what some editors put before the first line */
+    /* byte order mark, which some editors write before the first line */
     if (lexer.at == 0 && strncmp(lexer.text, "\xEF\xBB\xBF", 3) == 0)
         lexer.at = 3;
     return lexer;
@@ -103,7 +103,7 @@ static void skip_blanks(Lexer *lexer)
     }
 }
 
-/* Step over one character of a string or comment, where any printable one may stand. */
+/* Skip one character of a string or comment, in which any printable one is allowed. */
 static Status step_character(Lexer *lexer, Diag *diag)
 {
     const char *c = lexer->text + lexer->at;

@@ -33,8 +33,9 @@ typedef struct Lexer {
     Token last; /* the token before, where touching matters */
 } Lexer;
 
-/* A text of statements and how far it was read; {.text = text, .line = 1} begins. What lines went
- * before is remembered, since counting them anew for each statement costs their square. */
+/* A text of statements and the read position; initialise with {.text = text, .line = 1}. The number
+ * of preceding lines is stored, because counting them again for each statement would cost quadratic
+ * time. */
 typedef struct Cursor {
     const char *text; /* borrowed */
     size_t next;      /* offset of the next statement */
@@ -61,7 +62,7 @@ MUST_USE Status lexer_finish(Lexer *lexer, Diag *diag);
 void lexer_skip_line(Lexer *lexer);
 void lexer_skip_breaks(Lexer *lexer);
 
-/* A part of a text as one line: where a "\" joined lines stands one blank. New in `pool`. */
+/* A part of a text as one line: a blank replaces "\" and its line break. New in `pool`. */
 const char *text_slice(Pool *pool, const char *text, size_t start, size_t end);
 
 /* from the start of one place to the end of another */

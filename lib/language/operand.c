@@ -1,9 +1,9 @@
-/* operand.c: what may stand between a verb and its keys: items, places, words */
+/* operand.c: operands, between a verb and its keys: items, places, words */
 #include "language/parser.h"
 
 #include <string.h>
 
-/* sum [ unit ]; a comparison stands in brackets, since ">" writes to a file */
+/* sum [ unit ]; a comparison needs brackets, because ">" writes to a file */
 Status parse_shown(Parser *parser, Syntax **out)
 {
     Status status = OK;
@@ -22,7 +22,7 @@ done:
     return status;
 }
 
-/* An item that goes on, or starts with a sign or a number: show it in brackets. */
+/* An item that is continued, or starts with a sign or a number: hint to put it in brackets. */
 static Status compound_item(Parser *parser, int start)
 {
     const Token fault = *parser_token(parser);

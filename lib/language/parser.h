@@ -44,7 +44,7 @@ bool parser_sees_stop(const Parser *parser); /* a stop word, or ">" where it wri
 
 /* E_SYNTAX "expected WHAT before/at ..." at the next token */
 Status parser_expected(const Parser *parser, const char *what);
-/* 2,5 where one value stands: a hint, and true */
+/* 2,5 in place of one value: adds a hint and returns true */
 bool parser_hint_comma(const Parser *parser);
 /* E_SYNTAX "unexpected ..." at the next token, with the hint that its kind calls for */
 Status parser_unexpected(const Parser *parser);
@@ -55,7 +55,7 @@ MUST_USE Status parser_enter(Parser *parser);
 
 /* A new node without arguments; in the parser's pool. */
 Syntax *syntax_new(Parser *parser, SyntaxKind kind, const char *text, Place place);
-/* Give a node the arguments put aside since there were `start`. Fails where the tree gets too
+/* Move the arguments from number `start` of the stack on to a node. Fails if the tree gets too
  * high. */
 MUST_USE Status syntax_accept(Parser *parser, Syntax *node, int start);
 
@@ -74,7 +74,7 @@ MUST_USE Status parse_name(Parser *parser, const Token **out); /* NAME without a
 MUST_USE Status parse_path(Parser *parser, const char **path, int *primes, Place *place);
 MUST_USE Status parse_pattern(Parser *parser, Statement *statement); /* what follows its verb */
 
-/* E_NAME where a name can't be given another meaning */
+/* E_NAME if a name is reserved */
 MUST_USE Status parser_check_reserved(const Parser *parser, const Token *name);
 
 #endif

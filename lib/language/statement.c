@@ -292,7 +292,7 @@ static Status refuse_pair(Parser *parser)
 
 /* --- an expression alone, which is printed --- */
 
-/* What follows a word that is no command: it goes on as an expression does. */
+/* Whether the tokens after a word that is no command continue an expression. */
 static bool sees_rest_of_expression(const Parser *parser)
 {
     static const char *const signs[] = {"+",  "-",  "*",  "/",  "^",  "<", ">",
@@ -387,7 +387,7 @@ static Status parse_statement(Parser *parser, Statement *statement)
 
 /* --- the text --- */
 
-/* l: the rest of the line goes to the statement as it stands */
+/* l: the rest of the line belongs to the statement unchanged */
 static bool takes_line(Lexer lexer, Verb *verb, Token *token)
 {
     return lexer_next(&lexer, token, NULL) == OK && token->kind == TOKEN_PATH &&
@@ -422,7 +422,7 @@ static void parse_line(Parser *parser, Lexer *lexer, const Verb *verb, const Tok
     lexer_skip_breaks(lexer);
 }
 
-/* The lines of a subsystem that was begun there, up to its end: that is a line of its own. */
+/* The lines of a subsystem that starts there, up to its end, which is a line of its own. */
 static Status read_body(Statement *statement, Lexer *lexer, const char *text, size_t start,
                         Diag *diag)
 {

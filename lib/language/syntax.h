@@ -59,11 +59,11 @@ typedef struct Pair { /* key=value, or `h8' = 10` of init, driver, set, event, o
 /* --- the rows of verbs: grammar, help, completion, what they change, who carries them out --- */
 
 typedef enum Room {
-    ROOM_LANGUAGE, /* the parser: stands before another verb, and is read with it */
+    ROOM_LANGUAGE, /* the parser: precedes another verb, and is read with it */
     ROOM_MODEL,    /* changes the model */
     ROOM_SESSION,  /* runs it */
     ROOM_CALLER,   /* whoever calls the library: the shell */
-    ROOM_LATER     /* nobody: it comes with a later version */
+    ROOM_LATER     /* none: planned for a later version */
 } Room;
 
 /* of what there was before */
@@ -78,7 +78,7 @@ typedef enum VerbChanges {
 
 /* where completion finds words that may follow a verb or a key, in addition to values */
 typedef enum Offers {
-    OFFERS_VALUES, /* nothing of its own */
+    OFFERS_VALUES, /* no words of its own */
     OFFERS_TOPICS,
     OFFERS_HELP,
     OFFERS_BLOCKS,
@@ -100,7 +100,7 @@ typedef enum Offers {
 typedef struct VerbKey {
     const char *name;
     Offers offers;
-    const char *words; /* that it takes, between '|' */
+    const char *words; /* accepted words, separated by '|' */
 } VerbKey;
 
 typedef enum VerbGroup {
@@ -193,7 +193,7 @@ typedef struct Statement {
 /* How a text is read. */
 typedef struct SyntaxOptions {
     bool shortened; /* verbs may be shortened while unambiguous (at the prompt) */
-    bool whole;     /* a subsystem goes up to its end; else its lines are statements of their own */
+    bool whole;     /* a subsystem is one statement; else each of its lines */
 } SyntaxOptions;
 
 /* Read the next statement of a text; at its end the cursor is strlen(text). *out and the failures
@@ -231,10 +231,10 @@ const char *verb_key(const Verb *verb, int i); /* 0, 1, ...; NULL at the end */
 const char *pattern_word(char letter);
 void verb_usage(Text *text, const Verb *verb);          /* one line */
 bool word_is_reserved(const char *word, size_t length); /* energy of energy.total ... */
-bool name_is_reserved(const char *name);  /* or run1 ...: can't be given another meaning */
-const char *group_title(VerbGroup group); /* "Mechanical components" ... */
+bool name_is_reserved(const char *name);                /* or run1 ...: can't be redefined */
+const char *group_title(VerbGroup group);               /* "Mechanical components" ... */
 
-/* OK, or E_MISSING at the verb or key of a statement that comes with a later version. */
+/* OK, or E_MISSING at the verb or key of a statement that is planned for a later version. */
 MUST_USE Status statement_check_version(const Statement *statement, Diag *diag);
 
 #endif

@@ -74,7 +74,7 @@ static Status add_operand(Parser *parser, Statement *statement, ParseOperand *pa
     return add_signed(parser, statement, parse, 0);
 }
 
-/* the same where one has to stand, not a key; `what` it is */
+/* the same, required, and not a key; `what` names it */
 static Status add_needed(Parser *parser, Statement *statement, ParseOperand *parse,
                          const char *what)
 {
@@ -157,7 +157,7 @@ static Status read_value(Parser *parser, Statement *statement)
     return add_needed(parser, statement, parse_expression, "a value");
 }
 
-/* V: as many as the component takes without their keys */
+/* V: as many as the component accepts without keys */
 static Status read_values_maybe(Parser *parser, Statement *statement)
 {
     const Component *row = statement->row.component;

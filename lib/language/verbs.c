@@ -1,7 +1,7 @@
-/* verbs.c: the rows of verbs: those of the tables, and those that components give
+/* verbs.c: the rows of verbs: those of the tables, and those derived from components
  *
- * A component's verb is read off its row: its places and values are the pattern, its
- * params the keys, its help the help. */
+ * A component's verb follows from its row: its places and values are the pattern, its params the
+ * keys, its help the help. */
 #include "language/verbs.h"
 
 #include "component/component.h"
