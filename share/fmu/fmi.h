@@ -30,7 +30,7 @@ enum {
 static const char *const categories[] = {"logEvents", "logStatusWarning", "logStatusDiscard",
                                          "logStatusError", "logStatusFatal"};
 
-/* the instance, if the function may be called where it stands */
+/* the instance, if the function may be called in its present state */
 static Fmu *allowed(FmiInstance instance, unsigned modes, const char *function)
 {
     Fmu *fmu = (Fmu *)instance;
@@ -93,7 +93,7 @@ FUNCTION(FMI(Reset), (FmiInstance instance))
     return FMI(OK);
 }
 
-/* where the importer's experiment begins */
+/* start time of the importer's experiment */
 static void begin_at(Fmu *fmu, FmiBoolean hasTolerance, double tolerance, double start)
 {
     if (hasTolerance && tolerance > 0)

@@ -11,7 +11,7 @@ enum { ROUNDS = 100 };  /* in which one event may set off others */
 #define LATEST    1e-3  /* s: later than that nothing was found there */
 #define SAME      1e-9  /* of a period: sampling instants that can't be distinguished */
 #define DRIFT     10.0  /* of the tolerance: how far a state may leave the constraints */
-#define PROJECTED 1e-12 /* how near it is put */
+#define PROJECTED 1e-12 /* accuracy of the projection */
 #define NEAR      1e-9  /* of 1 + |t|: how far ahead sides of ideal switches are looked for, */
 #define FURTHEST  1e-5  /* and where they don't change, though a margin has ended */
 #define ROUNDING                                                                                   \
@@ -138,7 +138,7 @@ FmuStatus fmu_set(Fmu *fmu, unsigned reference, double value)
     if (reference >= FMU_VARIABLES)
         return fmu_fail(fmu, FMU_ERROR, "no variable has that value reference", reference);
     if (is_input && now->mode == FMU_CONTINUOUS) {
-        now->y[at - FMU_FIRST_STATE] = value; /* nothing happens before event mode */
+        now->y[at - FMU_FIRST_STATE] = value; /* no event before event mode */
         now->is_solved = 0;
         return FMU_OK;
     }
@@ -543,7 +543,7 @@ static void put_sides(Fmu *fmu)
     model_prepare(fmu->now.p);
 }
 
-/* how far the state of networks goes that goes furthest; which */
+/* the largest change of a network state; which */
 static double jump_of(const FmuNumbers *now, const double *was, int *which)
 {
     double most = 0;
@@ -560,8 +560,8 @@ static double jump_of(const FmuNumbers *now, const double *was, int *which)
     return most;
 }
 
-/* States onto the mode; fails where that takes an impulse that nothing gives or takes, but for what
- * diodes that are found late have gone beyond 0. */
+/* Make the states consistent with the mode. Fails if that needs an impulse that no element can
+ * supply, except for the amount by which late detected diodes have passed 0. */
 static FmuStatus meet(Fmu *fmu, double beyond, int *moved)
 {
     FmuNumbers *now = &fmu->now;

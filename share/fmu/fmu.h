@@ -1,8 +1,8 @@
-/* fmu.h: an instance of a model that goes through events by itself
+/* fmu.h: an instance of a model that handles events by itself
  *
- * What the functions of either version of the interface (fmi2.c, fmi3.c) have in common. All that
- * changes is in one piece of memory without pointers, FmuNumbers: so a state is a copy of it, and
- * instances know nothing of each other. */
+ * The common part of both versions of the interface (fmi2.c, fmi3.c). All variable data is in one
+ * struct without pointers, FmuNumbers: so a saved state is a copy of it, and instances are
+ * independent. */
 #ifndef FMU_H
 #define FMU_H
 
@@ -13,7 +13,7 @@
 /* what functions return, as both versions number it */
 typedef enum FmuStatus { FMU_OK, FMU_WARNING, FMU_DISCARD, FMU_ERROR, FMU_FATAL } FmuStatus;
 
-/* what an importer may call depends on where it stands */
+/* the permitted calls depend on the state of the instance */
 typedef enum FmuMode {
     FMU_INSTANTIATED = 1,
     FMU_INITIALISING = 2,
@@ -40,7 +40,7 @@ enum {                                           /* numbers in each array */
 };
 
 typedef struct FmuNumbers {
-    int mode, instant; /* where the importer stands; how often it has taken a sample */
+    int mode, instant; /* state of the instance; number of sampling instants so far */
     int has_start;     /* events have been looked at */
     int is_solved;     /* s belongs to t and y */
     int is_changed;    /* parameters or states were set since events were looked at last */
@@ -49,7 +49,7 @@ typedef struct FmuNumbers {
     double next;    /* event of time; HUGE_VAL: none */
     double step;    /* of the integrator; 0: not known */
     double rhythm;  /* s: over which what follows time bends little; 0: not known */
-    double sampled; /* when samples were taken last */
+    double sampled; /* time of the last samples */
     double tolerance;
     double p[MODEL_P + 1];
     double y[MODEL_Y + 1];
@@ -64,7 +64,7 @@ typedef struct Fmu {
     FmuNumbers kept; /* of fmu_look_behind() */
     int is_cosimulation, is_logging;
     int may_return_early; /* from a step that an event ends, in version 3 */
-    int has_no_state;     /* an error has left nothing to go on with */
+    int has_no_state;     /* an error has left no valid state */
     char *name;
     void (*logger)(void); /* of the version's type, called by fmu_log() */
     void *environment;
@@ -114,7 +114,8 @@ FmuStatus fmu_mark_open(Fmu *fmu, const unsigned *unknowns, size_t count, double
 
 /* --- events --- */
 
-/* Lets happen what happens here; *moved: states have changed. Sets the time of the next event. */
+/* Execute the events at this instant; *moved: states have changed. Sets the time of the next
+ * event. */
 FmuStatus fmu_events(Fmu *fmu, int *moved);
 /* Set new values of the chosen targets, positions first; after these the speeds have to meet the
  * constraints too. Fails if the constraints aren't met or leave other values undetermined
@@ -137,7 +138,7 @@ void fmu_look_ahead(Fmu *fmu, int is_new);
 
 /* From now on to `end`; where an event stops the run it ends there. */
 FmuStatus fmu_advance(Fmu *fmu, double end);
-/* The same of an importer's step, which begins where the last one ended. */
+/* The same for an importer's step, which starts where the last one ended. */
 FmuStatus fmu_do_step(Fmu *fmu, double from, double step);
 /* first derivatives of outputs by time */
 FmuStatus fmu_output_rates(Fmu *fmu, const unsigned *references, size_t count, const int *orders,

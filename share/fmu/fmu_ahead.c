@@ -1,15 +1,15 @@
-/* fmu_ahead.c: what time moves between events, as sources do
+/* fmu_ahead.c: search for events that time causes, as by sources
  *
- * States may change slowly while sources go to and fro, and an importer's steps know of states
- * alone: the next event comes before much bends, and within the first short time that something is
- * on its other side, states as they are. */
+ * States may change slowly while sources oscillate, and an importer chooses steps by the states
+ * alone. So the next time event is set before event functions bend much, and within the first short
+ * interval in which one of them changes its sign for constant states. */
 #include "fmu.h"
 
 enum { LOOKS = 60, LOOKED = 64, PIECES = 16 }; /* of a look ahead: halvings, nearer, places */
 #define UNSEEN   1e-9 /* of the largest of them: what of an indicator rounding may be */
 #define BENT     0.05 /* of what changes: how far it may bend between places */
 #define SHORTEST 1e-9 /* of 1 + |t| */
-#define LONGEST  1e3  /* likewise: where nothing follows time, a step could double for ever */
+#define LONGEST  1e3  /* likewise: without any function of time a step could double for ever */
 
 /* indicators later on, states as they are */
 static int indicators_ahead(Fmu *fmu, double t, double ahead, double *out)

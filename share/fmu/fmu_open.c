@@ -1,4 +1,4 @@
-/* fmu_open.c: what nothing determines, of outputs
+/* fmu_open.c: outputs that depend on undetermined directions
  *
  * Their derivatives are marked. */
 #define FMU_TABLES
@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define OPEN 1e-7 /* of what an output moves by: less of it follows what nothing determines */
+#define OPEN 1e-7 /* of the change of an output: a smaller undetermined part counts as 0 */
 
 /* Directions that the equations don't determine are shared out by a rule, to the least or to equal
  * values. Outputs that depend on them have no derivatives: NAN, and a warning. */

@@ -2,15 +2,15 @@
  *
  * RODAS of Hairer and Wanner (1996, IV.7), of order 4 with an error estimate of order 3 and dense
  * output: L-stable, so that stiff networks cost no more than others, with exact derivatives. Each
- * step ends on the constraints. Where something changes its sign within a step the step is taken
- * again, just to there. */
+ * step ends on the constraints. If an event function changes its sign within a step, the step is
+ * repeated up to that instant. */
 #include "fmu.h"
 
 #include <string.h>
 
 enum { STAGES = 6, TRIES = 40, MOST_STEPS = 2000000 };
 #define GAMMA  0.25
-#define STRICT 0.1  /* of the tolerance: error of a step, so that a whole run keeps it */
+#define STRICT 0.1  /* of the tolerance: error of a step, so that a whole run meets it */
 #define SMALL  0.01 /* of the tolerance: what counts for states near 0 */
 #define SAFETY 0.9
 #define SHRINK 0.2
@@ -81,7 +81,7 @@ static void put(Fmu *fmu, double t, const double *y)
     fmu_set_states(fmu, y);
 }
 
-/* rates and derivatives at its beginning */
+/* rates and derivatives at its start */
 static FmuStatus begin(Fmu *fmu, const Step *step)
 {
     double dy[FMU_STATES + 1], out[MODEL_Y + 1];
@@ -228,7 +228,7 @@ static double error_of(const Fmu *fmu, const Step *step)
 
 /* --- what changes its sign --- */
 
-/* the first that has another sign than that it stands on; -1: none; -2: not known */
+/* the first whose sign differs from the stored one; -1: none; -2: not known */
 static int crossed(Fmu *fmu, double t, const double *y)
 {
     double at[FMU_INDICATORS + 1];

@@ -16,8 +16,8 @@ enum { MOST_STAGES = 500 }; /* to new positions */
 #define DEPENDENT 1e-8      /* of a row: what is left where it follows from others */
 #define STAGE     0.2       /* m or rad: so far positions go at a time */
 
-/* What targets of a level lack, and constraints, which come first; the largest, of 1 and what is
- * compared. */
+/* Residuals of constraints, first, and of the targets of a level; returns the largest, relative to
+ * 1 and the compared values. */
 static double find_lacks(Fmu *fmu, int level, const int *target, const double *values, int count,
                          double *lack)
 {
@@ -181,9 +181,9 @@ static int follows(const int *chosen, const double *values, int k)
     return fmu_level[k] == FMU_COORDINATE && count == 4 && is_largest;
 }
 
-/* Give targets of a level their values: states as they are, then whatever else has to change, by
- * the least. Speeds change together; `by_mass`: as a blow along the targets does. Whether all is
- * met. */
+/* Set targets of a level to their values: target states directly, then the least change of other
+ * states that is needed. Speeds change together; `by_mass`: as by an impulse along the targets.
+ * Returns whether all are met. */
 static int put_level(Fmu *fmu, int level, int by_mass, const int *chosen, const double *values)
 {
     FmuNumbers *now = &fmu->now;
@@ -274,7 +274,7 @@ static void gather(Fmu *fmu, const int *of, Gathered *g, double *a)
     }
 }
 
-/* Unknowns that no row ties to what is given can't be moved by it. */
+/* Unknowns that no row couples to given ones aren't changed by these. */
 static void find_near(const Gathered *g, const double *a, int *is_near)
 {
     int i, r, more = 1;
@@ -383,8 +383,8 @@ static void decide(Fmu *fmu, const int *chosen, Decision *out)
     keep_attitudes(of, out->keeps);
 }
 
-/* The target that is the rate which target k keeps: of an attitude that is given as a whole its
- * angular velocity, in its own axes. */
+/* The target that is the rate of target k: for a completely given attitude its angular velocity, in
+ * its own axes. */
 static int rate_of(const int *chosen, int k)
 {
     int i, count = 0;
