@@ -1,4 +1,4 @@
-/* autosave.c: what is typed and not saved, kept where it outlives the session */
+/* autosave.c: unsaved statements, in a file that outlives the session */
 #include "autosave.h"
 
 #include "copy.h"
@@ -30,7 +30,7 @@ struct Autosave {
     char *in; /* last folder written to the file; NULL */
     Written *written;
     int count, room;
-    int first;     /* the step that stands first */
+    int first;     /* the first step in the file */
     int settled;   /* number of the last step that is saved; 0: none */
     time_t synced; /* when it was last seen to that the file is on the disk */
     bool failed;   /* it was reported that nothing can be stored */
@@ -170,7 +170,7 @@ static int number_of(const ct_session *session, int step)
     return number;
 }
 
-/* nothing to lose: no model, or the one that was saved */
+/* no unsaved statements: no model, or the saved one */
 static bool is_settled(const Autosave *unsaved, const ct_session *session)
 {
     const int count = ct_step_count(session);
@@ -179,7 +179,7 @@ static bool is_settled(const Autosave *unsaved, const ct_session *session)
            number_of(session, count - 1) == unsaved->settled;
 }
 
-/* Cut off what was undone; what is left of the file begins as the model does. */
+/* Truncate undone statements; the rest of the file is a prefix of the model's statements. */
 static bool cut(Autosave *unsaved, const ct_session *session)
 {
     const int steps = ct_step_count(session);
@@ -197,7 +197,7 @@ static bool cut(Autosave *unsaved, const ct_session *session)
     }
     unsaved->count = count;
     free(unsaved->in);
-    unsaved->in = NULL; /* its line may be among what goes */
+    unsaved->in = NULL; /* its line may be removed too */
     return ftruncate(unsaved->file, unsaved->written[count - 1].end) == 0 &&
            lseek(unsaved->file, 0, SEEK_END) >= 0;
 }
@@ -311,7 +311,7 @@ static int count_statements(int file)
     return count;
 }
 
-/* Whether it is one that no session holds; then it is ours. */
+/* Whether no session locks the file; then we have locked it. */
 static bool take(const char *folder, const char *name, Leftover *leftover)
 {
     struct stat info;

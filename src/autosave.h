@@ -35,7 +35,7 @@ typedef struct Leftover {
 
 /* All of them, the newest first; new array. */
 Leftover *autosave_find(int *count);
-/* Let go of one; the file goes too with `remove`. */
+/* Unlock the file, and delete it with `remove`. */
 void autosave_drop(Leftover *leftover, bool remove);
 void autosave_drop_all(Leftover *leftovers, int count, bool remove);
 /* the folder that names in the statements below such a comment line are meant from; NULL: it is

@@ -57,8 +57,8 @@ static void write_curves(FILE *out, const Response *response, int offset)
     fputc('\n', out);
 }
 
-/* The first of some steps that gives an axis no more than six parts. What spans less than a step is
- * left to gnuplot. */
+/* The first of some steps that divides an axis into at most six parts. For a span of less than a
+ * step gnuplot chooses. */
 static void write_axis(FILE *out, const Response *response, int first, const double steps[6])
 {
     double least = INFINITY, most = -INFINITY;
@@ -79,8 +79,8 @@ static void write_axis(FILE *out, const Response *response, int first, const dou
 
 /* --- margins --- */
 
-/* Where column j comes to `level`, going down: the frequency between rows, on the logarithmic axis,
- * and the other column there. False where it never does. */
+/* The first downward crossing of `level` by column j: the frequency, interpolated between rows on
+ * the logarithmic axis, and the other column there. False if there is none. */
 static bool find_crossing(const Response *response, int j, double level, int other,
                           double *frequency, double *value)
 {

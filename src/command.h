@@ -1,4 +1,4 @@
-/* command.h: the verbs that the shell carries out itself, as a table
+/* command.h: the table of the verbs that the shell executes itself
  *
  * Grammar and help of every verb are in the library, which also defines whether the shell executes
  * it. Each row here is in the file that implements the verb. Output goes to `out`, and from there
@@ -14,7 +14,7 @@ typedef struct Call {
     ct_session *session; /* the shell's */
     const ct_statement *statement;
     FILE *out;
-    int columns; /* of the screen that `out` goes to; 0: it goes to a file or a pipe */
+    int columns; /* width of the screen that `out` is shown on; 0: a file or a pipe */
 } Call;
 
 typedef ct_status CommandFunction(Call *call, ct_error *error);
@@ -23,7 +23,7 @@ enum {
     WRITES = 1,    /* sees to `> "file"` itself */
     FORGOTTEN = 2, /* is not for history and recording */
     UNPAGED = 4,   /* prints what fits the screen as it is */
-    OWN = 8        /* is the shell's alone: the session has nothing to remark */
+    OWN = 8        /* concerns only the shell: the session has no remarks */
 };
 
 typedef struct Command {
@@ -41,7 +41,7 @@ void write_text(FILE *out, const char *text);
 /* Write a csv to the destination of the statement. For `>>` the file must have the same header, and
  * the rows are appended without it. */
 ct_status csv_rows(const Call *call, const char *text, const char **rows, ct_error *error);
-/* the word, name or string that stands as operand i; NULL */
+/* the word, name or string that is operand i; NULL: none */
 const char *call_word(const Call *call, int i);
 
 /* by file, each ended by a row without a verb */

@@ -1,7 +1,7 @@
 /* command_draw.c: `draw` and `animate`: the linear graph and the mechanism
  *
- * The library draws; what it hands over is text for a terminal, a finished file, or commands for
- * gnuplot where a picture of dots or a window is wanted. */
+ * The library draws. It returns text for a terminal, a finished file, or, for a bitmap or a window,
+ * commands for gnuplot. */
 #include "copy.h"
 #include "drawing.h"
 #include "file.h"
@@ -149,7 +149,7 @@ static int line_count(const char *text)
     return count;
 }
 
-/* Wait, unless Ctrl-C comes; false then. Another signal, as of a new size, cuts it short. */
+/* Wait, unless Ctrl-C comes; false then. Another signal, as of a new size, ends the wait early. */
 static bool wait_for(double seconds)
 {
     struct timespec rest = {(time_t)seconds, (long)((seconds - (double)(time_t)seconds) * 1e9)};

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* print what the library gave, and free it */
+/* print a text of the library, and free it */
 static ct_status put(Call *call, ct_status status, char *text)
 {
     if (status == CT_OK)

@@ -1,4 +1,4 @@
-/* command_run.c: commands that run a model, and the numbers that come out */
+/* command_run.c: commands that run a model, and output of numbers */
 #include "command.h"
 #include "copy.h"
 #include "file.h"
@@ -71,7 +71,8 @@ static void name_printed(Printed *line, const ct_expression *expression)
 
 enum { NUMBER_SIZE = 64 };
 
-/* A number in words: no reader should take the root of a negative number for one. The length. */
+/* Write a number, with a word for NaN and infinity, so that readers don't take the root of a
+ * negative number for a value. Returns the length. */
 static int write_number(char out[NUMBER_SIZE], int digits, double value)
 {
     if (!isfinite(value))
@@ -269,9 +270,10 @@ static void label_columns(const Call *call, const ct_expression *const *items, i
 }
 
 #define FAR_BELOW                                                                                  \
-    1e-9 /* of the largest value in a column: smaller ones are held against rounding */
+    1e-9 /* relative to the largest value in a column: smaller ones are compared with rounding     \
+          * errors */
 
-/* 0 in the place of what rounding alone made; of a column of nothing else, everywhere */
+/* Replace values due to rounding alone by 0; in a column that has no others, all */
 static ct_status round_column(const Call *call, const ct_expression *item,
                               const TableColumns *table, int column, ct_error *error)
 {
@@ -389,7 +391,7 @@ static ct_status command_table(Call *call, ct_error *error)
 
 /* --- export --- */
 
-/* What is no text goes to a file as it is. */
+/* Binary data is written to a file unchanged. */
 static ct_status write_archive(Call *call, const ct_archive *archive, ct_error *error)
 {
     char *binary = NULL, *bytes = NULL;

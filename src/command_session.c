@@ -233,7 +233,7 @@ static ct_status recover(Call *call, Leftover *leftover, ct_error *error)
     remark("recovered: %d statement%s, the last of %s", leftover->statements,
            leftover->statements == 1 ? "" : "s", leftover->when);
 
-    /* the file goes when this session keeps the same */
+    /* the file is deleted after this session has recorded the same statements */
     autosave_drop(leftover, autosave_is_kept(shell->unsaved));
     return CT_OK;
 }

@@ -13,7 +13,7 @@
 
 typedef struct PictureFormat {
     const char *extension; /* "" for a window */
-    const char *terminal;  /* gnuplot's; the first that it has is taken */
+    const char *terminal;  /* gnuplot's; the first available one is used */
     const char *options;
     double unit; /* of its size, a px */
 } PictureFormat;
@@ -85,9 +85,9 @@ int drawing_dash(int i)
     return 1 + i / COLORS;
 }
 
-/* Between double quotes a backslash begins an escape, a backquote a command of a system's shell and
- * an @ the name of a macro, before anything else is looked at: what isn't harmless everywhere goes
- * by its number. In single quotes two primes in a row can't be determined from one. */
+/* In double quotes, gnuplot first interprets a backslash as an escape, a backquote as a shell
+ * command and an @ as a macro. So characters that aren't harmless everywhere are written as octal
+ * codes. In single quotes two quotes in a row can't be distinguished from one. */
 void write_quoted(FILE *out, const char *text)
 {
     fputc('"', out);
@@ -124,7 +124,7 @@ static void write_warnings(const Shell *shell, char *warnings)
     free(warnings);
 }
 
-/* Set the terminal, draw, and take what is printed. */
+/* Set the terminal, draw, and read the printed output. */
 static ct_status draw_on(Call *call, const Drawing *drawing, const char *terminal, const char *path,
                          char **printed, ct_error *error)
 {
@@ -136,7 +136,7 @@ static ct_status draw_on(Call *call, const Drawing *drawing, const char *termina
     if (path != NULL) {
         fputs("set output ", paper.out);
 
-        /* a name that begins with a bar would be a program */
+        /* a name that starts with a bar would be a program */
         char *safe = copy_format("%s%s", path[0] == '/' ? "" : "./", path);
 
         write_quoted(paper.out, safe);

@@ -15,12 +15,12 @@ typedef struct Drawing {
     const void *of; /* what is drawn */
     const char *title;
     double width, height; /* px; 0: as plots are */
-    double interval;      /* s between pictures of one that moves; 0: it stands */
+    double interval;      /* s between pictures of an animation; 0: a single picture */
 } Drawing;
 
 /* The file after `>`, NULL if there is none; an error unless its type is that of a picture. */
 ct_status drawing_check(const Call *call, const char **path, ct_error *error);
-/* whether what has no file goes into a window, rather than on the terminal as text */
+/* whether pictures without a file are shown in a window, rather than on the terminal as text */
 bool drawing_in_window(const Call *call);
 /* Draw, to `path` or (NULL) into a window or on the terminal. */
 ct_status drawing_make(Call *call, const Drawing *drawing, const char *path, ct_error *error);

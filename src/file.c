@@ -121,8 +121,8 @@ ct_status file_place(const char *path, char **place, ct_error *error)
     return CT_OK;
 }
 
-/* What takes the place of a file is on the disk before it does: or a crash of the machine leaves
- * neither. */
+/* The new file is synced to disk before it replaces the old one: otherwise a crash of the machine
+ * may lose both. */
 static bool reach_disk(const char *place)
 {
     const int file = open(place, O_RDONLY | O_CLOEXEC);
@@ -165,7 +165,7 @@ static ct_status write_all(const char *place, const char *mode, const char *path
     if (file == NULL)
         return say(error, "write", path);
 
-    /* a full disk may speak up only when the last piece goes out */
+    /* a full disk may be reported only when the last piece is written */
     bool good = fwrite(text, 1, length, file) == length && fflush(file) == 0;
     ct_status status = good ? CT_OK : say(error, "write", path);
 

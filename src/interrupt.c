@@ -17,7 +17,8 @@ static void on_interrupt(int number)
     asked = 1;
 }
 
-/* what goes on may save what it has; if it doesn't look in time, the alarm ends it */
+/* running work may save its results; if it doesn't check the flag in time, the alarm ends the
+ * program */
 static void on_end(int number)
 {
     ending = number;
@@ -36,7 +37,7 @@ static void on_continue(int number)
     continued = 1;
 }
 
-/* no SA_RESTART: a read that waits for a pipe has to come back */
+/* no SA_RESTART: a read that waits for a pipe has to return */
 static void handle(int number, void (*handler)(int))
 {
     struct sigaction action = {.sa_handler = handler};

@@ -1,8 +1,9 @@
 /* line_edit.c: a line typed at a terminal: keys, history, completion (all of readline)
  *
  * Readline runs by callbacks below a loop of ours, so that Ctrl-C can drop a half-typed line in
- * whatever state the editor is. Signals come only inside ppoll(), so none is missed. Readline
- * knows one terminal, and its callbacks carry no context: hence the one static struct. */
+ * whatever state the editor is. Signals are delivered only inside ppoll(), so none is missed.
+ * Readline supports one terminal, and its callbacks have no context: hence the one static
+ * struct. */
 #include "line_edit.h"
 
 #include "copy.h"
@@ -26,8 +27,8 @@ static struct {
     char *history_file; /* NULL: there is no place for one */
     char *line;         /* what readline handed over */
     bool done;
-    bool at_once; /* keys were waiting when the line began: they were pasted, or typed ahead */
-    int keys;     /* taken since then */
+    bool at_once; /* keys were waiting at the start of the line: pasted, or typed ahead */
+    int keys;     /* read since then */
     sigset_t wait;
     char **words; /* of the completion going on */
     size_t words_start;
@@ -53,8 +54,7 @@ static int compare_words(const void *a, const void *b)
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-/* names of files below what is typed, sorted, as a list ended by NULL, as ct_complete() gives words
- */
+/* completions of a file name, sorted, as a list ended by NULL, like the words of ct_complete() */
 static char **complete_file(const char *typed)
 {
     char **words = NULL;
@@ -72,7 +72,7 @@ static char **complete_file(const char *typed)
     return words;
 }
 
-/* length of what all words begin with */
+/* length of the common prefix of all words */
 static size_t common_length(char *const *words)
 {
     size_t length = strlen(words[0]);
@@ -116,7 +116,7 @@ static bool wants_blank(const char *word)
     return length > 0 && strchr("=(.\"'/[", word[length - 1]) == NULL;
 }
 
-/* Put in what all words share; list them when that is nothing new. */
+/* Insert the common prefix of all words; list the words if that adds nothing. */
 static void offer(char **words, size_t start, bool in_string)
 {
     size_t typed = (size_t)rl_point - start;
@@ -210,8 +210,8 @@ static bool wait_for_key(void)
     return ready > 0 && !interrupt_asked();
 }
 
-/* What the terminal puts between its marks of a paste, put in as one piece: readline's own way of
- * it makes two line ends of a carriage return with a newline. */
+/* Insert a bracketed paste as one piece: readline's own function makes two line ends of a carriage
+ * return with a newline. */
 static int on_paste(int count, int key)
 {
     static const char end[] = "\033[201~";
@@ -243,8 +243,8 @@ static int on_paste(int count, int key)
     return 0;
 }
 
-/* Without such marks a line end may come as a carriage return, which ends the line, and a newline,
- * which would be a line of its own. */
+/* Without brackets a line end may be a carriage return, which ends the line, and a newline, which
+ * would be a line of its own. */
 static int on_newline(int count, int key)
 {
     if (edit.at_once && edit.keys == 1 && rl_end == 0)
@@ -328,7 +328,7 @@ static void take_back_terminal(void)
 
 static ReadResult drop_line(void)
 {
-    /* below all of a line that takes several rows */
+    /* below a line of several rows */
     if (!RL_ISSTATE(RL_STATE_ISEARCH | RL_STATE_NSEARCH)) {
         rl_point = rl_end;
         rl_redisplay();
@@ -359,7 +359,7 @@ ReadResult line_edit_read(const char *prompt, char **line)
     interrupt_hold(&edit.wait);
     rl_callback_handler_install(prompt, on_line);
     while (!edit.done && result == READ_LINE) {
-        /* a paste may have been given up meanwhile */
+        /* a paste may have been cancelled meanwhile */
         int ready = interrupt_asked() ? 0 : ppoll(&keys, 1, NULL, &edit.wait);
 
         if (interrupt_asked())

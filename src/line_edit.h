@@ -7,10 +7,9 @@
 
 void line_edit_open(ct_session *session); /* borrowed, for completion; loads the history */
 void line_edit_close(void);
-/* READ_LINE with a new string (which holds newlines when a block was pasted), READ_END or
- * READ_CLEARED */
+/* READ_LINE with a new string (with newlines if a block was pasted), READ_END or READ_CLEARED */
 ReadResult line_edit_read(const char *prompt, char **line);
-/* Keep an entry in the history, and in its file; blank ones and repetitions aren't. */
+/* Add an entry to the history, and to its file; blank ones and repetitions are ignored. */
 void line_edit_remember(const char *entry);
 
 #endif

@@ -140,7 +140,7 @@ static int read_options(Invocation *request, int argc, char **argv)
     request->sources = check_allocated(calloc((size_t)argc + 1, sizeof *request->sources));
     opterr = 0;
 
-    /* "-" hands files over where they stand, so that they keep their order among -e */
+    /* "-" makes getopt return files in place, so that their order among -e is preserved */
     while ((option = getopt_long(argc, argv, "-:e:ikq", long_options, NULL)) != -1) {
         switch (option) {
         case 1:
@@ -183,7 +183,7 @@ static int read_options(Invocation *request, int argc, char **argv)
     for (; optind < argc; optind++)
         add_file(request, argv[optind]);
 
-    /* nothing runs when a later file isn't there */
+    /* nothing is run if a later file is missing */
     for (int i = 0; i < request->count; i++) {
         const char *name = request->sources[i].text;
 

@@ -45,7 +45,7 @@ static bool is_measured(const ct_expression *expression)
     return is_table;
 }
 
-/* Give every item its curve, and every run that is named a block. */
+/* Assign a curve to every item, and a block to every named run. */
 static void lay_out_curves(Plot *plot, const ct_statement *statement)
 {
     int bars = 0;
@@ -92,7 +92,7 @@ static void label_columns(const Call *call, PlotBlock *block, const ct_expressio
     }
 }
 
-/* Over time measured data stand where they were measured, not at the rows of the run. */
+/* Over time, measured data are plotted at their own times, not at the output points of the run. */
 static ct_status take_measured(const Call *call, const ct_expression *item, PlotBlock *block,
                                ct_error *error)
 {
@@ -185,7 +185,7 @@ static bool is_path(const Call *call, const Plot *plot)
     return out;
 }
 
-#define SEEN 0.01 /* of the largest amplitude: below it a tone is nothing to make room for */
+#define SEEN 0.01 /* relative to the largest amplitude: smaller tones don't extend the axis */
 #define ROOM 1.5  /* of the axis, times the highest frequency seen */
 
 static bool is_spectral(const PlotBlock *block)

@@ -22,7 +22,7 @@ const char *plot_label(const Plot *plot, int curve)
     return plot->blocks[c->block].labels[c->column];
 }
 
-/* That of a curve, in brackets; what isn't known is taken for that of its neighbours. */
+/* That of a curve, in brackets; an unknown one is assumed to be that of its neighbours. */
 static const char *unit_of(const Plot *plot, int curve)
 {
     const char *unit = plot_unit(plot_label(plot, curve));
@@ -250,7 +250,7 @@ typedef struct EventNames {
 } EventNames;
 
 #define LETTER   0.0085 /* a letter, as a part of the axis */
-#define ROW_HIGH 0.045  /* a row, as a part of a panel that stands alone */
+#define ROW_HIGH 0.045  /* height of a row relative to a single panel */
 
 static EventNames names_over(const Plot *plot)
 {
@@ -400,7 +400,7 @@ static void write_scales(FILE *out, const Plot *plot)
         fputs("set size ratio -1\n", out);
 }
 
-/* whether gnuplot writes that curve's axis with powers of ten, which take room */
+/* whether gnuplot labels that curve's axis with powers of ten, which need space */
 static bool has_powers(const Plot *plot, int i)
 {
     const PlotCurve *curve = &plot->curves[i];
@@ -448,7 +448,7 @@ void plot_write(FILE *out, const Drawing *drawing)
             write_quoted(out, drawing->title);
             fputs(" noenhanced", out);
         }
-        /* the panels' axes of time stand above one another */
+        /* the panels' axes of time are aligned */
         fprintf(out, "\nset lmargin %d\nset rmargin %d\n", margin_for(plot, false),
                 right > 0 ? right : 3);
     }

@@ -19,7 +19,7 @@ static void close_one(int *file)
     *file = -1;
 }
 
-/* in the child: the pipes become its standard streams; errno goes back when exec fails */
+/* in the child: the pipes become its standard streams; errno is returned if exec fails */
 static void become(char *const argv[], int in, int out, int err, int report)
 {
     setpgid(0, 0);
@@ -94,7 +94,7 @@ bool process_lives(Process *process)
     return process->pid > 0;
 }
 
-/* Take down what is there to read; false at the end of the stream. */
+/* Read the available data; false at the end of the stream. */
 static bool take(int file, OutputBuffer *paper)
 {
     char piece[8192];
@@ -105,7 +105,7 @@ static bool take(int file, OutputBuffer *paper)
     return got > 0 || (got < 0 && (errno == EINTR || errno == EAGAIN));
 }
 
-/* whether the text ends with the marked line; what stands before may lack its end of line */
+/* whether the text ends with the marked line; the text before may lack its end of line */
 static bool is_marked(OutputBuffer *paper, const char *mark)
 {
     size_t length = mark != NULL ? strlen(mark) : 0;
@@ -154,7 +154,7 @@ ct_status process_exchange(Process *process, const char *input, size_t length, c
                                   {err_open ? process->err : -1, POLLIN, 0},
                                   {length > 0 ? process->in : -1, POLLOUT, 0}};
 
-        /* a signal may come just before: look again now and then */
+        /* a signal may be delivered just before: check again at intervals */
         if (poll(files, 3, 50) <= 0)
             continue;
         if (files[0].revents != 0)

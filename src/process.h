@@ -22,9 +22,9 @@ ct_status process_start(Process *process, char *const argv[], ct_error *error);
 /* Whether it still runs; reaps it when not. */
 bool process_lives(Process *process);
 
-/* Write `input`, and take down what comes back, until both its streams end with `mark` and
- * an end of line (NULL: until both end, the input being closed). The marks are left out.
- * CT_STOPPED after Ctrl-C; CT_FAILED when it ended before the marks. */
+/* Write `input`, and read the output until both streams end with `mark` and an end of line (NULL:
+ * close the input and read until both end). The marks are removed. CT_STOPPED after Ctrl-C;
+ * CT_FAILED when it ended before the marks. */
 ct_status process_exchange(Process *process, const char *input, size_t length, const char *mark,
                            OutputBuffer *out, OutputBuffer *err, ct_error *error);
 

@@ -20,7 +20,7 @@ struct Reader {
     int line;         /* of the last physical line */
     bool returned;    /* it ended with a carriage return, to which a newline belongs */
     char *pasted;     /* a block with newlines, typed as one; NULL */
-    size_t pasted_at; /* what was taken of it */
+    size_t pasted_at; /* bytes of it read so far */
 };
 
 Reader *reader_of_file(FILE *file, const char *name)
@@ -257,7 +257,7 @@ static ReadResult read_logical(Reader *reader, const char *prefix, OutputBuffer 
             result = fail_long(error);
     } while (more && result == READ_LINE);
 
-    /* a backslash on the last line of all: what stands before it is the statement */
+    /* a backslash on the very last line: the text before it is the statement */
     return result == READ_END && count > 0 ? READ_LINE : result;
 }
 

@@ -1,8 +1,7 @@
 /* reader.h: logical lines, from a file, a pipe, a string or the prompt
  *
- * A physical line that ends with a backslash goes on in the next one, unless the backslash
- * stands in a comment. Lines may end as elsewhere, with a carriage return alone or before the
- * newline. */
+ * A physical line that ends with a backslash is continued in the next one, unless the backslash is
+ * in a comment. Lines may also end with a carriage return alone or before the newline. */
 #ifndef COTREE_SRC_READER_H
 #define COTREE_SRC_READER_H
 
@@ -19,7 +18,7 @@ typedef enum ReadResult {
     READ_FAILED
 } ReadResult;
 
-Reader *reader_of_file(FILE *file, const char *name); /* the file is given, unless it is stdin */
+Reader *reader_of_file(FILE *file, const char *name); /* owns the file from then on, unless stdin */
 Reader *reader_of_text(const char *text, const char *name); /* borrowed */
 Reader *reader_of_prompt(void);                             /* line_edit.h must be open */
 void reader_free(Reader *reader);

@@ -79,8 +79,8 @@ static bool has_statement(const char *text, const char *word)
     }
 }
 
-/* Where a script goes on after a definition whose first line failed, its lines aren't the model's.
- */
+/* If a script continues after a definition whose first line failed, the definition's lines must not
+ * be added to the model. */
 static ct_status run_or_drop_line(Shell *shell, const Origin *origin, const char *text)
 {
     const bool opened = ct_defining(shell->session) != NULL;
@@ -102,7 +102,7 @@ static ct_status run_or_drop_line(Shell *shell, const Origin *origin, const char
     return CT_OK;
 }
 
-/* A file ends the definitions that it begins; -e and the prompt may go on. */
+/* The end of a file ends the definitions that it started; -e and the prompt may continue them. */
 static ct_status end_of_lines(Shell *shell, const Reader *reader, const Origin *origin, bool opened)
 {
     ct_error error;

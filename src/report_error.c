@@ -1,11 +1,11 @@
-/* report_error.c: errors and remarks on standard error: where, the line, a caret, the way out
+/* report_error.c: errors and remarks on standard error: position, line, caret, hint
  *
  *     arm.ct:3:1: error: unknown command 'plto'
  *         plto h8
  *         ^~~~
  *         hint: did you mean 'plot'?
  *
- * At the prompt the line stands there already: the caret goes right under it. */
+ * At the prompt the line is on the screen already: the caret is printed under it. */
 #include "report_error.h"
 
 #include "terminal.h"

@@ -4,7 +4,7 @@
 
 #include "cotree.h"
 
-/* What a piece of text is and where it came from. */
+/* Name and position of a piece of text. */
 typedef struct Origin {
     const char *name; /* of the file, "-e", "<stdin>"; NULL: typed at the prompt */
     int line;         /* of the first physical line of the text; from 1 */
@@ -14,7 +14,7 @@ typedef struct Origin {
 
 /* Fill `error` and return CT_FAILED; no place, no hint. */
 ct_status error_set(ct_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
-/* add the way out */
+/* add a hint */
 void error_hint(ct_error *error, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /* Show an error in a logical line (its physical lines joined by newlines). */

@@ -15,7 +15,7 @@ static const char HEAD[] = "# saved by cotree, unedited: ";
 enum { NUMBER = 16, LONGEST = 120 }; /* hexadecimal digits of the checksum; length of such a line */
 
 typedef struct Kind {           /* of files that are ours */
-    const char *verb, *operand; /* that writes them, and what it takes before the file */
+    const char *verb, *operand; /* that writes them, and its operand before the file */
     const char *head;           /* the first line, up to its number */
     size_t length;
 } Kind;
@@ -30,7 +30,7 @@ static uint64_t hash(uint64_t from, const char *text, size_t length)
 
 static const uint64_t EMPTY = UINT64_C(14695981039346656037); /* hash of no text */
 
-/* whether the file begins with our line, and its number is that of what follows */
+/* whether the file starts with our line, with the right checksum of the rest */
 static bool is_ours(FILE *file, const Kind *kind)
 {
     char line[LONGEST] = "", wanted[NUMBER + 2], piece[4096];

@@ -1,8 +1,8 @@
-/* shell.c: how a statement is carried out
+/* shell.c: execution of statements
  *
- * A line is read statement by statement. What a command prints is collected first and goes to the
- * screen, the pager or a file when the command has succeeded; so a statement that fails prints
- * nothing but its error. */
+ * A line is read statement by statement. Output of a command is collected first and written to the
+ * screen, the pager or a file when the command has succeeded; so a failing statement prints only
+ * its error. */
 #include "shell.h"
 
 #include "command.h"
@@ -89,7 +89,7 @@ void shell_close(Shell *shell)
     ct_session_free(shell->session);
 }
 
-/* --- what was printed goes where it belongs --- */
+/* --- output to its destination --- */
 
 static const char *find_redirect(const ct_statement *statement)
 {
@@ -129,7 +129,7 @@ static ct_status write_on_screen(Shell *shell, const char *text, size_t length, 
 
 /* --- one statement --- */
 
-/* what the model takes, or nobody */
+/* a statement of the model; others have no command */
 static ct_status build(Shell *shell, const ct_statement *statement, ct_error *error)
 {
     if (find_redirect(statement) != NULL)
@@ -185,7 +185,7 @@ static void write_remarks(const Shell *shell)
     }
 }
 
-/* Keep an accepted statement, in the history and the recording. */
+/* Add an accepted statement to the history and the recording. */
 static ct_status keep(Shell *shell, const ct_statement *statement, ct_error *error)
 {
     const char *text = ct_statement_text(statement);
@@ -235,7 +235,7 @@ static ct_status carry_out(Shell *shell, const ct_statement *statement, ct_error
     return status;
 }
 
-/* --- what takes a statement or a line of its own --- */
+/* --- verbs that precede a statement or need a line of their own --- */
 
 static ct_status command_time(Call *call, ct_error *error)
 {

@@ -17,7 +17,7 @@ typedef struct Shell {
     Progress progress;
     Gnuplot *gnuplot;  /* NULL until something is drawn */
     FILE *record;      /* NULL: nothing is recorded */
-    Autosave *unsaved; /* NULL: what is typed isn't kept */
+    Autosave *unsaved; /* NULL: statements aren't recorded */
     char **history;    /* accepted statements */
     int history_count;
     char *last_plot;    /* the statement that drew last; NULL */
@@ -29,7 +29,7 @@ typedef struct Shell {
     bool unicode;
     int depth;      /* of files within files */
     int stopped_at; /* line at which a script ended early */
-    int failed; /* statements in scripts that failed, and those whose expectation did not hold */
+    int failed;     /* failed statements in scripts, and failed expectations */
     int unmet;
     int unsolved;     /* of the statements that failed: those whose computation did */
     bool is_unsolved; /* the last one that failed */

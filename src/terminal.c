@@ -1,4 +1,4 @@
-/* terminal.c: what the terminal is like: its size, and how wide text stands on it */
+/* terminal.c: properties of the terminal: its size, and the width of text */
 #include "terminal.h"
 
 #include <langinfo.h>
