@@ -1,8 +1,8 @@
 /* abbreviate.h: long expressions written over named subexpressions
  *
- * What occurs more than once, or is too long for one line, gets a name; the expressions
- * and the definitions of the names are then short. Built in the arena that is given;
- * definitions stand in an order in which each uses earlier ones only. */
+ * A subexpression that occurs more than once, or is too long for one line, gets a name; the
+ * expressions and the definitions of the names are then short. Built in the caller's arena.
+ * Definitions are ordered so that each uses earlier ones only. */
 #ifndef COTREE_PRESENT_ABBREVIATE_H
 #define COTREE_PRESENT_ABBREVIATE_H
 
@@ -21,11 +21,11 @@ typedef struct Abbreviated {
 } Abbreviated;
 
 typedef struct Abbreviation {
-    Expr *roots; /* one each of those given */
+    Expr *roots; /* one for each root of the caller */
     LIST(Abbreviated) definitions;
 } Abbreviation;
 
-/* O(nodes). Holds are looked through. Free with abbreviation_free(). */
+/* O(nodes). Holds are ignored. Free with abbreviation_free(). */
 Abbreviation abbreviate(Arena *arena, const Expr *roots, int count, const Naming *naming);
 void abbreviation_free(Abbreviation *abbreviation);
 

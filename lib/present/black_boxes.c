@@ -1,4 +1,4 @@
-/* black_boxes.c: the graph with boxes in it, and where ports stand at their border */
+/* black_boxes.c: the graph with boxes, and the positions of ports at their borders */
 #include "present/black_boxes.h"
 
 #include <math.h>
@@ -145,7 +145,7 @@ void black_boxes_part(const BlackBoxes *boxes, Point *places, Point *size)
             if (other >= 0) {
                 room.x += boxes->boxes.at[other].half.x;
                 room.y += boxes->boxes.at[other].half.y;
-            } else if (b.x < a.x) { /* names of nodes stand right of them */
+            } else if (b.x < a.x) { /* names of nodes are right of them */
                 room.x += LETTER * NAME_TEXT * text_width(graph_node(boxes->graph, node)->name);
             }
             factor = fmax(factor, fmin((room.x + GAP) / fmax(fabs(a.x - b.x), 1e-6),
@@ -170,7 +170,7 @@ void black_boxes_part(const BlackBoxes *boxes, Point *places, Point *size)
 
 /* --- the border --- */
 
-/* A way along what is free of the border, from the upper right corner as the clock goes. */
+/* A path along the free parts of the border, clockwise from the upper right corner. */
 typedef struct LabelSide {
     double way;
     int port;

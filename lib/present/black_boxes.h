@@ -1,8 +1,9 @@
-/* black_boxes.h: instances of subsystems as boxes with their ports at the border, among all that
- * stands outside of them
+/* black_boxes.h: instances of subsystems as boxes with their ports at the border, in the graph of
+ * the other elements
  *
- * What is drawn is one graph of all domains: the nodes of the terminal graph and a node for each
- * box, the edges outside and one from each box to where a port of it attaches. */
+ * The picture shows one graph of all domains. Its nodes are those of the terminal graph and one for
+ * each box; its edges are those outside and one from each box to each node to which a port
+ * attaches. */
 #ifndef COTREE_PRESENT_BLACK_BOXES_H
 #define COTREE_PRESENT_BLACK_BOXES_H
 
@@ -12,7 +13,7 @@
 typedef struct BlackBox {
     int use;
     Point half; /* of its width and height, px */
-    Point free; /* of what ports may stand on of them, away from the corners */
+    Point free; /* of the part of the border for ports, away from the corners */
 } BlackBox;
 
 typedef struct BlackBoxes {
@@ -25,7 +26,7 @@ typedef struct BlackBoxes {
     Point *pins; /* by port: where it is at the border, from the middle of its box */
 } BlackBoxes;
 
-/* What a port's edge, an edge of `graph`, stands for; NULL: an edge outside. */
+/* The port of an edge of `graph`; NULL: an edge outside. */
 const TerminalPort *black_boxes_port(const BlackBoxes *boxes, int edge);
 Domain black_boxes_domain(const BlackBoxes *boxes, int edge);
 
@@ -34,8 +35,8 @@ void black_boxes_make(const View *view, BlackBoxes *boxes);
 void black_boxes_free(BlackBoxes *boxes);
 /* Scale distances between places by one factor, until no box covers another or a node. */
 void black_boxes_part(const BlackBoxes *boxes, Point *places, Point *size);
-/* Ports stand where the border faces what they attach to, each with room for its name.
- * `places` are those of the nodes. */
+/* Ports are placed where the border faces their nodes, each with room for its name. `places` are
+ * those of the nodes. */
 void black_boxes_set_pins(BlackBoxes *boxes, const Point *places);
 /* where an edge of a port leaves its box, whose middle is `at` */
 Point black_boxes_pin(const BlackBoxes *boxes, int edge, Point at);

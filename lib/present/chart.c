@@ -19,7 +19,7 @@ typedef struct Axis {
     char texts[MOST_TICKS][TICK_TEXT];
 } Axis;
 
-/* where things stand, in cells */
+/* positions, in cells */
 typedef struct ChartSheet {
     Picture *picture;
     const Chart *chart;
@@ -47,7 +47,7 @@ static void widen(Axis *axis, double value)
     axis->high = fmax(axis->high, at);
 }
 
-/* something to draw on, where there is nothing or a constant */
+/* an interval to draw, if there are no values or a constant */
 static void open_up(Axis *axis)
 {
     if (axis->low > axis->high)
@@ -125,7 +125,7 @@ static void set_range(Axis *axis, const double range[2])
 {
     axis->low = on_axis(axis, range[0]);
     axis->high = on_axis(axis, range[1]);
-    if (!isfinite(axis->low)) /* of a logarithmic axis that was to begin at 0 */
+    if (!isfinite(axis->low)) /* a logarithmic axis that was to start at 0 */
         axis->low = axis->high - 6;
 }
 
@@ -201,7 +201,7 @@ static int widest(const Axis *axis)
     return width;
 }
 
-/* where a value stands, in dots */
+/* position of a value, in dots */
 static double place_x(const ChartSheet *sheet, double at)
 {
     const double width = (double)(sheet->right - sheet->left) * sheet->across - 1;
@@ -246,7 +246,7 @@ static void write_upright(const ChartSheet *sheet, int side)
 static void write_base(const ChartSheet *sheet)
 {
     const Chart *chart = sheet->chart;
-    int free_from = 0; /* the first column where no text stands yet */
+    int free_from = 0; /* the first column without text */
 
     put(sheet, sheet->left - 1, sheet->bottom, ANCHOR_START, sheet->unicode ? "└" : "+");
     for (int column = sheet->left; column < sheet->right; column++)
@@ -401,7 +401,7 @@ static int write_legend(const ChartSheet *sheet, int row)
 
 /* --- a chart --- */
 
-/* how much of the width ticks take, left and right */
+/* width of ticks, left and right */
 static void measure(ChartSheet *sheet, int *left, int *right)
 {
     const Chart *chart = sheet->chart;

@@ -10,7 +10,7 @@
 
 /* --- operands --- */
 
-/* the row's words stand at its first operand only */
+/* the row's words are offered at its first operand only */
 static void offer_row_words(TypedLine *line, const Verb *verb)
 {
     const bool is_first = line->before.count == 1;
@@ -132,7 +132,7 @@ static void offer_operand(TypedLine *line, const Verb *verb, int first)
         at++;
         operand++;
     }
-    /* expressions stand between commas, items and words do not */
+    /* expressions are separated by commas, items and words are not */
     if (pattern[at] != '\0' && pattern[at] != 'k' &&
         !(has_operand && strchr("eC", pattern[at]) != NULL && ends_value(line)))
         offer_letter(line, verb, pattern[at], place);
@@ -140,7 +140,7 @@ static void offer_operand(TypedLine *line, const Verb *verb, int first)
         return;
     if (has_operand && ends_value(line))
         offer_trailing(line, pattern);
-    /* keys, once nothing is missing; V and P may be skipped */
+    /* keys, if no operand is missing; V and P may be skipped */
     while (pattern[at] != '\0' && strchr("PVWIiextya@C*", pattern[at]) != NULL)
         at++;
     if (pattern[at] == 'k' || (pattern[at] == '=' && verb->component == NULL))
@@ -149,7 +149,7 @@ static void offer_operand(TypedLine *line, const Verb *verb, int first)
 
 /* --- the line --- */
 
-/* offset of the statement that the cursor stands in; false inside a string or comment */
+/* offset of the statement at the cursor; false inside a string or comment */
 static bool find_statement(const char *text, size_t cursor, size_t *start)
 {
     bool quoted = false;
@@ -215,7 +215,7 @@ static bool find_key(const TypedLine *line, char *key, size_t size, bool *is_who
     return true;
 }
 
-/* the last word is the one that the pattern's letter stands for */
+/* the last word is the one of the pattern's letter */
 static bool follows_word(const TypedLine *line, const Verb *verb, char letter)
 {
     return strchr(verb->pattern, letter) != NULL &&
@@ -278,7 +278,7 @@ static size_t number_length(const char *word)
     return isalpha((unsigned char)word[length]) ? length : 0;
 }
 
-/* where the word begins that is to be completed */
+/* start of the word to complete */
 static void find_word(TypedLine *line)
 {
     size_t skipped;

@@ -1,4 +1,4 @@
-/* complete_impl.h: a half-typed line, and the sources of what could stand at its end */
+/* complete_impl.h: an unfinished line, and the sources of completions at its end */
 #ifndef COTREE_PRESENT_COMPLETE_IMPL_H
 #define COTREE_PRESENT_COMPLETE_IMPL_H
 
@@ -18,7 +18,7 @@ typedef struct TypedLine {
 /* --- complete_offer.c --- */
 
 bool is_word_letter(char c);
-/* a word that goes on as the one typed, once; `key=` unless it is given */
+/* a word that starts with the typed one, once; `key=` unless it is already set */
 void offer(TypedLine *line, const char *word);
 void offer_key(TypedLine *line, const char *key);
 void offer_alternatives(TypedLine *line, const char *words); /* between bars */
@@ -51,8 +51,8 @@ void offer_key_value(TypedLine *line, const Verb *verb, const char *key);
 /* the row's parameter of a key: after `set` that of a part, "m1.euler"; NULL: none */
 const Param *key_param(const TypedLine *line, const Verb *verb, const char *key);
 void offer_any_unit(TypedLine *line);
-/* Units, where one may stand: those of the dimension that is wanted, as far as it is known. True:
- * nothing else may stand there. */
+/* Units, if one is allowed there: those of the expected dimension, if known. True: only a unit is
+ * allowed. */
 bool offer_units(TypedLine *line, const Verb *verb, const char *key);
 
 #endif

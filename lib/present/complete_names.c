@@ -88,7 +88,7 @@ static void offer_events(TypedLine *line)
         offer(line, model_event(line->known->model, i)->name);
 }
 
-/* what has a name of its own, and can go; what an instance holds goes with it */
+/* named elements that can be removed; the contents of an instance are removed with it */
 static void offer_removable(TypedLine *line)
 {
     const Model *model = line->known->model;
@@ -135,7 +135,7 @@ static bool is_event(const Model *model, const char *name)
     return false;
 }
 
-/* what may stand in an expression */
+/* names in an expression */
 void offer_names(TypedLine *line)
 {
     const Model *model = line->known->model;
@@ -179,7 +179,7 @@ static void offer_functions(TypedLine *line)
     char call[40];
     Function row;
     Verb verb;
-    /* spectra stand where columns of rows do */
+    /* spectra can be used as columns */
     const bool spectra = verb_find(line->before.at[0], &verb) && strchr("iI", verb.pattern[0]);
 
     for (int i = 0; function_at(i, &row); i++) {
@@ -336,7 +336,7 @@ static void offer_set(TypedLine *line)
     offer_instances(line);
 }
 
-/* what help knows, then names of the model, and units once one is begun */
+/* topics of help, then names of the model, and units after a first letter */
 void offer_help_words(TypedLine *line)
 {
     const char *word;
@@ -379,7 +379,7 @@ void offer_notations(TypedLine *line)
 }
 /* --- which of them --- */
 
-/* words that stand in other tables than the row, or are names of one kind */
+/* words from tables other than the row, or names of one kind */
 static const struct {
     void (*offer)(TypedLine *line);
     bool alone; /* instead of the row's words, not in addition */

@@ -115,8 +115,7 @@ static bool ends_number(const char *text, size_t end)
     return from < end && isdigit((unsigned char)text[text[from] == '.' ? from + 1 : from]);
 }
 
-/* Where the bracket opens that the cursor stands in, with nothing but units before it; false:
- * none. */
+/* Position of the opening bracket around the cursor, with only units between; false: none. */
 static bool find_bracket(const TypedLine *line, size_t *at)
 {
     size_t i = line->word;
@@ -156,7 +155,7 @@ static int offer_if_fits(TypedLine *line, const UnitQuery *wanted, const char *w
     return 1;
 }
 
-/* names of the table, with the prefixes that are common, or begun; how many */
+/* names of the table, with common prefixes or the typed one; returns their number */
 static int offer_fitting(TypedLine *line, const UnitQuery *wanted)
 {
     const bool is_begun = line->prefix[0] != '\0';

@@ -254,7 +254,7 @@ Status tree_cost_count(const View *view, TreeCost *cost, Diag *diag)
     return OK;
 }
 
-/* each entry takes some 30 us */
+/* each entry needs some 30 us */
 bool tree_cost_is_slight(const System *system)
 {
     enum { MOST_ENTRIES = 1000 };

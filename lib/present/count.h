@@ -30,7 +30,8 @@ MUST_USE Status tree_cost(const View *view, TreeCost *out, Diag *diag);
 MUST_USE Status tree_cost_count(const View *view, TreeCost *cost, Diag *diag);
 /* whether they are few enough for that to be done in passing */
 bool tree_cost_is_slight(const System *system);
-/* Add a choice, or renew its figures where it is in the list; its place. *cost is given. */
+/* Add a choice of trees, or update its figures if it is in the list; returns its index. Takes
+ * ownership of *cost. */
 int tree_costs_add(TreeCosts *costs, TreeCost *cost);
 void tree_costs_free(TreeCosts *costs);
 /* branches that the user can choose, for each tree; one text where both mechanical trees agree;

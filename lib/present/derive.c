@@ -1,6 +1,6 @@
-/* derive.c: how one row or entry came about, from its circuit or cutset to the terms that are left
+/* derive.c: derivation of one row or entry, from its circuit or cutset to the remaining terms
  *
- * Terms that are 0 are gathered by the reason. */
+ * Terms that are 0 are grouped by the reason. */
 #include "present/derive.h"
 #include "formulate/expanded/derivation.h"
 #include "formulate/network/network_steps.h"

@@ -10,7 +10,7 @@
 /* a constraint row, with the circuit that it was projected from */
 MUST_USE Status derive_constraint(Narrative *story, int k, bool with_circuit, Diag *diag);
 bool derive_goes_on(const View *view, int k); /* the row before has the same circuit */
-/* equations of a joint that hold in every position; `of` NULL: of all */
+/* equations of a joint that are valid in every position; `of` NULL: of all */
 void derive_dropped(Narrative *story, const char *of);
 MUST_USE Status derive_mass(Narrative *story, int row, int column, Diag *diag);
 MUST_USE Status derive_force(Narrative *story, int row, Diag *diag);

@@ -8,7 +8,7 @@ typedef struct GraphDrawing {
     const Graph *graph;
     const Tree *tree;
     Text *out;
-    Text stem; /* what stands left of the branches of the node at hand */
+    Text stem; /* text left of the branches of the present node */
 } GraphDrawing;
 
 static bool hangs_from(const Tree *tree, int child, int node)
@@ -143,8 +143,8 @@ static bool is_met(const View *view, int node)
     return graph_edges_at(view_graph(view), node, &edges) > 0;
 }
 
-/* An instance is a box with the names of its ports at its border; an arrow goes the way of a port's
- * motion or voltage. */
+/* An instance is a box with the names of its ports at its border; an arrow shows the direction of a
+ * port's motion or voltage. */
 static void dot_boxes(const View *view, const TerminalGraph *terminal, Text *out)
 {
     static const char *const ways[2][2] = {{"none", "back"}, {"forward", "both"}};

@@ -20,7 +20,7 @@ static size_t break_place(const char *rest, size_t most)
     return most;
 }
 
-/* Between two `&` a statement goes on with the very next character, be it within a name. */
+/* Between two `&` a statement continues with the next character, even within a name. */
 static void wrap_line(Text *out, const char *line, size_t length)
 {
     const size_t indent = strspn(line, " ");

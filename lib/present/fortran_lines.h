@@ -4,9 +4,9 @@
 
 #include "base/text.h"
 
-/* Break lines of more than 132 columns, from the place `from` in the text on, which begins a line:
- * statements go on after an `&`, comments in another comment (ISO/IEC 1539-1:2018, 6.3.2). Lines of
- * the preprocessor are left alone. */
+/* Break lines of more than 132 columns, from offset `from` of the text on, which is the start of a
+ * line. Statements continue after an `&`, comments in another comment (ISO/IEC 1539-1:2018, 6.3.2).
+ * Lines of the preprocessor are unchanged. */
 void fortran_wrap(Text *text, size_t from);
 
 #endif

@@ -19,7 +19,7 @@ typedef struct GraphLayout {
     Point *at;
 } GraphLayout;
 
-/* Depth first around a circle, so that no line of nodes holds them all in it. */
+/* Initial positions: depth first around a circle, so that the nodes aren't all on one line. */
 static void begin_on_circle(GraphLayout *layout)
 {
     const double radius = EDGE_LENGTH * layout->count / (2 * M_PI);
@@ -59,7 +59,7 @@ static void find_distances(GraphLayout *layout, int from, int *queue)
     }
 }
 
-/* pieces that nothing joins: as far as what is joined is at most */
+/* distance between unconnected parts: the largest within a connected one */
 static void part_pieces(GraphLayout *layout)
 {
     const int pairs = layout->count * layout->count;
@@ -96,8 +96,7 @@ static void sweep(GraphLayout *layout)
     }
 }
 
-/* how much longer edges are where many meet at few nodes, or lie side by side: their names want
- * room */
+/* how much longer edges are where many meet at few nodes, or are parallel: their names need room */
 static double stretch(const GraphLayout *layout)
 {
     static const double AT_EASE = 1.4, MOST = 1.8; /* edges a node; of the length */

@@ -1,8 +1,8 @@
 /* graph_picture.c: nodes as rings, edges as arrows: branches bold, chords thin
  *
- * Each tree has a panel; where the mechanical ones differ they stand side by side, their nodes in
- * the same places. A domain has its colour and its dashes. Before the trees of a terminal graph
- * stands what they are made of: boxes, and all domains outside of them. */
+ * Each tree has a panel; if the mechanical ones differ they are side by side, with the same
+ * positions of nodes. Each domain has its colour and dashes. Before the trees of a terminal graph
+ * is a panel with the boxes and all domains outside of them. */
 #include "present/graph_picture.h"
 
 #include "present/black_boxes.h"
@@ -40,7 +40,7 @@ typedef struct GraphPicture {
     Panel panels[TREE_KINDS + 1];
     int count;
     Point *places[TREE_KINDS + 1]; /* by panel; NULL: those of the panel before */
-    LIST(Point) names;             /* low and high corners of those that stand there */
+    LIST(Point) names;             /* low and high corners of those placed so far */
     Picture *out;
 } GraphPicture;
 
@@ -219,7 +219,7 @@ static void make_curve(Point a, Point b, double bend, Point out[BEND + 1])
     }
 }
 
-/* half the width and height of what stands at a node: a ring or a box */
+/* half the width and height of a node's shape: a ring or a box */
 static Point half_of(const GraphPicture *picture, const Panel *panel, int node)
 {
     return panel->tree == NULL && node >= picture->boxes.first
@@ -290,7 +290,7 @@ static void find_curve(const GraphPicture *picture, const Panel *panel, int e,
 
 /* --- names --- */
 
-/* by how much a text centred there covers those that stand there, px^2 */
+/* overlap of a text centred there with those placed so far, px^2 */
 static double covers(const GraphPicture *picture, Point low, Point high)
 {
     double sum = 0;
@@ -332,7 +332,7 @@ static Point place_name(GraphPicture *picture, const Point curve[BEND + 1], cons
     return (Point){best.x, best.y + 4};
 }
 
-/* where a node's name stands */
+/* position of a node's name */
 static Point node_name(const Panel *panel, int node)
 {
     const Point at = node_at(panel, node);
@@ -351,7 +351,7 @@ static void keep_node_names(GraphPicture *picture, const Panel *panel)
 
         LIST_PUSH(picture->names, ((Point){ring.x - half.x, ring.y - half.y}));
         LIST_PUSH(picture->names, ((Point){ring.x + half.x, ring.y + half.y}));
-        if (half.x > NODE_SIZE) /* its name stands in it */
+        if (half.x > NODE_SIZE) /* its name is inside it */
             continue;
 
         LIST_PUSH(picture->names, ((Point){at.x, at.y - 0.8 * NODE_TEXT}));
@@ -361,7 +361,7 @@ static void keep_node_names(GraphPicture *picture, const Panel *panel)
 
 /* --- edges and nodes on paper --- */
 
-/* from its box to where it attaches, or back: the way that its motion or voltage goes */
+/* from its box to its node, or back: the direction of its motion or voltage */
 static void draw_port(GraphPicture *picture, const Panel *panel, int e)
 {
     const Edge *edge = graph_edge(panel->graph, e);

@@ -7,12 +7,12 @@
 
 enum { PICTURE_WIDEST = 1300 }; /* px: for a screen */
 
-/* What is lit: nothing, the fundamental circuit of a chord, or the cutset of a branch. */
+/* Highlighted edges: none, the fundamental circuit of a chord, or the cutset of a branch. */
 typedef enum Lit { LIT_NOTHING, LIT_CIRCUIT, LIT_CUTSET } Lit;
 
-/* `widest`, px: panels beyond it begin a new row. picture_close() where it is OK. Fails as
- * model_trees() does; E_MISSING where there is no edge; E_NAME and E_BRANCH for an edge that isn't
- * there, or is no chord (no branch) of any tree. */
+/* `widest`, px: panels beyond it start a new row. Free with picture_close() after OK. Fails as
+ * model_trees() does; E_MISSING without edges; E_NAME for an unknown edge; E_BRANCH for one that is
+ * no chord (no branch) of any tree. */
 MUST_USE Status graph_picture(const View *view, double widest, Lit lit, const char *edge,
                               Picture *out, Diag *diag);
 

@@ -136,7 +136,7 @@ static void add_paragraphs(Text *out, const char *lines)
     }
 }
 
-/* what belongs to the verb but stands in tables of its own */
+/* entries of a verb in separate tables */
 static void add_topics(Text *out, const char *verb)
 {
     for (int i = 0; help_topic_at(i) != NULL; i++)
@@ -192,7 +192,7 @@ static bool add_function(Text *out, const char *word)
     return true;
 }
 
-/* words that variables of the whole model begin with, and functions of runs: their topic's */
+/* first words of variables of the whole model, and functions of runs: the text of their topic */
 static bool add_quantity(Text *out, const char *word)
 {
     const HelpTopic *topic = NULL;
@@ -247,7 +247,7 @@ static bool add_key(Text *out, const char *word)
     return true;
 }
 
-/* the only word that begins so; NULL: none does, or several do */
+/* the only word with that prefix; NULL: none, or several */
 static const char *spelled_out(const char *word)
 {
     const char *candidate, *found = NULL;
@@ -338,7 +338,7 @@ bool help_word(int i, const char **word)
     Verb verb;
     int topics = 0;
 
-    /* what is there; pages of what comes later are found by those who know its name */
+    /* existing features; pages of planned ones are found by name only */
     for (int v = 0; verb_at(v, &verb); v++)
         if (verb.room != ROOM_LATER && i-- == 0) {
             *word = verb.name;
@@ -361,7 +361,7 @@ bool help_word(int i, const char **word)
     return false;
 }
 
-/* a word that goes on as the one typed, else the nearest */
+/* a word that starts with the typed one, else the nearest */
 const char *help_suggest(const char *word)
 {
     Suggest suggest = suggest_for(word);

@@ -1,7 +1,7 @@
 /* help.h: help, reference and completion, from the rows of verbs, components and topics
  *
- * Nothing here knows a verb or a component by name; text that belongs to no row
- * (units, the counting rule ...) is a help topic with a row of its own. */
+ * No code here refers to a verb or a component by name; text that belongs to no row (units, the
+ * counting rule ...) is a help topic with a row of its own. */
 #ifndef COTREE_PRESENT_HELP_H
 #define COTREE_PRESENT_HELP_H
 
@@ -13,20 +13,20 @@ typedef struct HelpTopic {
     const char *name;
     const char *brief;
     void (*write)(Text *out); /* the text after the brief line */
-    const char *page;         /* verb on whose page it stands too; NULL */
+    const char *page;         /* verb whose page includes it too; NULL */
 } HelpTopic;
 
 const HelpTopic *help_topic_at(int i); /* 0, 1, ... until NULL */
 const HelpTopic *help_topic_find(const char *name);
 
-/* Append what there is about `word` (NULL or "": the overview); false, with nothing appended,
- * where the word is unknown. */
+/* Append the help on `word` (NULL or "": the overview); false, with nothing appended, if the word
+ * is unknown. */
 bool help_print(Text *out, const char *word);
-/* every line about a word, a line each; nothing where there is none */
+/* every line about a word, one line each; nothing if there is none */
 void help_apropos(Text *out, const char *word);
 /* every word that help knows, once: 0, 1, ...; false at the end */
 bool help_word(int i, const char **word);
-/* what variables of the model as a whole begin with, "energy": 0, 1, ...; NULL at the end */
+/* first words of variables of the model as a whole, "energy": 0, 1, ...; NULL at the end */
 const char *whole_name(int i);
 const char *whole_member(int i, int k); /* its k-th, "kinetic"; NULL at the end */
 const char *help_suggest(const char *word);
@@ -42,7 +42,7 @@ void reference_words(Text *out);
 typedef struct KeyText {
     const char *name;
     const char *unit;     /* "" none */
-    const char *fallback; /* "" must be given */
+    const char *fallback; /* "": required */
     const char *meaning;
 } KeyText;
 /* the i-th key of a component, as text */
@@ -58,8 +58,8 @@ typedef struct KnownName {
     void *context;
 } KnownName;
 
-/* Words that may stand at `cursor` of the line: sorted as they should be offered. *start is the
- * offset of the word that they complete. */
+/* Words that are allowed at `cursor` of the line, in the order in which they should be offered.
+ * *start is the offset of the word that they complete. */
 typedef LIST(char *) Words;
 void complete_line(const KnownName *known, const char *line, size_t cursor, size_t *start,
                    Words *out);

@@ -20,7 +20,7 @@ static const char *const conventions[] = {
     [FAMILY_FORCE] = "acts on the tip, reversed on the tail; pulling together is negative",
 };
 
-/* of what stands between terminals, in the words of its domain */
+/* of a part between terminals, in the terms of its domain */
 static void add_convention(Text *out, const View *view, const Component *row)
 {
     Text line = {0};

@@ -1,4 +1,4 @@
-/* latex_lines.c: formulas of LaTeX on lines that a page holds
+/* latex_lines.c: formulas of LaTeX broken to the width of a page
  *
  * Widths are those of Computer Modern, roughly, a digit's as unit. A formula is cut before the
  * signs of its sums; where a cut lies between \left( and \right), the pair is closed and opened
@@ -13,7 +13,7 @@
 
 /* digits */
 #define BINARY 2.45 /* a sign between terms with its spaces */
-#define SCRIPT 0.7  /* size of what stands raised or lowered */
+#define SCRIPT 0.7  /* size of superscripts and subscripts */
 
 /* of room on a line that a cut leaves sooner than lie in a bracket, in one of a function */
 enum { GROUP = 24, CALL = 100 };
@@ -31,7 +31,7 @@ static bool is_command(const char *at, const char *name)
 
 static double command_width(const char **at)
 {
-    /* letters stand upright, and take about their own width */
+    /* letters are upright, and about as wide as others */
     static const char *const words[] = {"sin",  "cos",  "tan", "arcsin", "arccos", "arctan", "sinh",
                                         "cosh", "tanh", "exp", "ln",     "log",    "min",    "max"};
     /* commands without width of their own; their argument is counted */
@@ -63,7 +63,7 @@ static double command_width(const char **at)
     return is_command(name, "quad") ? 2 : 1.1;
 }
 
-/* of the next thing that TeX would take as one */
+/* of the next token or group of TeX */
 static double atom_width(const char **at)
 {
     const char c = **at;
@@ -166,7 +166,7 @@ typedef struct LatexPiece {
 
 typedef LIST(LatexPiece) LatexLinesPieces;
 
-/* a formula cut before the signs of its sums that stand in no group */
+/* a formula cut before the signs of its sums outside of groups */
 static LatexLinesPieces cut(const char *formula)
 {
     LatexLinesPieces pieces = {0};
@@ -203,7 +203,7 @@ static LatexLinesPieces cut(const char *formula)
     return pieces;
 }
 
-/* the first piece of the next line, where a line begins with piece `from` */
+/* the first piece of the next line, if a line starts with piece `from` */
 static int line_end(const LatexLinesPieces *pieces, int from, double room)
 {
     double width = pieces->at[from].width, best_score = -1e300;

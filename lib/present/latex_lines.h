@@ -1,10 +1,10 @@
-/* latex_lines.h: formulas of LaTeX on lines that a page holds, and text among them */
+/* latex_lines.h: formulas of LaTeX broken to the width of a page, with text between them */
 #ifndef COTREE_PRESENT_LATEX_LINES_H
 #define COTREE_PRESENT_LATEX_LINES_H
 
 #include "base/text.h"
 
-/* About how wide a formula comes out, in digits of its size; text width of an article: 69. */
+/* The approximate width of a formula, in widths of a digit; text width of an article: 69. */
 double latex_width(const char *formula);
 
 /* The formula in rows of an align, broken before + and -, outside brackets rather than inside.

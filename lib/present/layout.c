@@ -72,7 +72,7 @@ static size_t line_end(const char *s, int width, Brackets open)
     return columns <= width ? strlen(s) : best > 0 ? best : emergency > 0 ? emergency : strlen(s);
 }
 
-/* a line that starts inside brackets stands a little to the right of one that doesn't */
+/* a line that starts inside brackets is indented a little more than others */
 static int bracket_indent(const Brackets *open)
 {
     const int depth = open->score / GROUP;

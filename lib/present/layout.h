@@ -20,10 +20,10 @@ typedef struct Page {
 void layout_formula(Text *out, const Page *page, const char *lead, const char *body);
 
 /* Words between blanks, wrapped; later lines are indented to the end of the lead. Line ends in
- * `words` are kept. */
+ * `words` are preserved. */
 void layout_words(Text *out, int columns, const char *lead, const char *words);
 
-/* The same of items between commas, which hold together: "a 1, b 0.2 (3 deg)". */
+/* The same for items separated by commas, which aren't broken: "a 1, b 0.2 (3 deg)". */
 void layout_items(Text *out, int columns, const char *lead, const char *items);
 int layout_widest_item(const char *items);
 

@@ -200,7 +200,7 @@ static void widen(const Mechanism *mechanism, const double *values, double *forc
     }
 }
 
-/* what holds every frame and every arrow's end, above it the title and below it the scales */
+/* the area of all frames and ends of arrows, with the title above and the scales below */
 static void lay_out_sheet(Mechanism *mechanism, const double *values, int rows)
 {
     const char *title = model_title(mechanism->view->model);

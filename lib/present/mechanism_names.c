@@ -41,7 +41,7 @@ static double size_of(const Name *name)
     return is_body(name) ? BODY_TEXT : OTHER_TEXT;
 }
 
-/* The point that a name belongs to; false: there is nothing to be seen of it. */
+/* The point that a name belongs to; false: it isn't visible. */
 static bool find_point(const Sheet *sheet, const Name *name, Point *out)
 {
     const Mechanism *mechanism = sheet->mechanism;
@@ -107,7 +107,7 @@ typedef struct Looks {
     Point *points; /* instants x names; NAN: not seen */
     Box *boxes;    /* of the names that have chosen */
     Picture *pictures;
-    Box **shapes; /* of each picture's shapes, what holds them */
+    Box **shapes; /* bounding boxes of each picture's shapes */
 } Looks;
 
 /* does the segment have a point in the box? (Liang and Barsky 1984) */
@@ -128,7 +128,7 @@ static bool crosses(const Box *box, Point a, Point b)
     return from <= to;
 }
 
-/* what a text takes */
+/* box of a text */
 static Box box_of_text(const Shape *shape, Point at)
 {
     const double width = LETTER * shape->size * text_width(shape->text);

@@ -12,7 +12,7 @@ static Point plus(Point a, double s, Point d)
     return (Point){a.x + s * d.x, a.y + s * d.y};
 }
 
-/* a direction of length 1, and of what is seen end on the one given instead */
+/* a direction of length 1; for a vector normal to the sheet, the given one instead */
 static Point unit(Point d, Point instead)
 {
     const double length = hypot(d.x, d.y);
@@ -71,7 +71,7 @@ static Freedom freedom_of(const Instance *joint, const View *view)
     return out;
 }
 
-/* what stands on the ground, hatched */
+/* a hatched support on the ground */
 static void draw_footing(Sheet *sheet, Point at)
 {
     const Ink ink = {.stroke = INK_SOFT, .width = 1.2};
@@ -87,7 +87,7 @@ static void draw_footing(Sheet *sheet, Point at)
             (Point[]){{at.x + 5.0 * i, at.y + down}, {at.x + 5.0 * i - 5, at.y + down + 5}}, 2);
 }
 
-/* the line that a slider goes along, hatched where it is fixed in the ground */
+/* the line of a slider, hatched if it is fixed to the ground */
 static void draw_rail(Sheet *sheet, Point tail, Point tip, Point d, bool grounded)
 {
     const Ink ink = {.stroke = INK_SOFT, .width = 1.4, .dash = grounded ? DASH_NONE : DASH_CENTRE};
@@ -353,7 +353,7 @@ void sheet_load(Sheet *sheet, const Load *load)
                     moment[2] * mechanism->axes[2][2]);
 }
 
-/* --- what stands in the corners --- */
+/* --- in the corners --- */
 
 static void draw_triad(Sheet *sheet, Point at)
 {

@@ -1,8 +1,8 @@
 /* named_laws.c: laws of parts that equations call by name
  *
- * Equations are sums in which a law has lost its outline: its terms stand among others, or have
- * merged with their like. A sum that holds a multiple of the law's longest term, c T, is
- * sum - c law + c name, where that is shorter. */
+ * Equations are sums in which a law can't be recognised: its terms are mixed with others, or merged
+ * with like terms. A sum that contains a multiple of the law's longest term, c T, becomes sum - c
+ * law + c name, if that is shorter. */
 #include "present/named_laws.h"
 
 #include <string.h>
@@ -10,7 +10,7 @@
 typedef struct Call {
     Expr law, longest; /* of the values that the equations are written in; the longest of its terms
                         */
-    Expr symbol;       /* what stands for it: D1.law(D1.v) */
+    Expr symbol;       /* its replacement: D1.law(D1.v) */
 } Call;
 
 static char *written(const LawView *view, Expr e)
@@ -36,7 +36,7 @@ static Expr longest_term(Expr law)
     return longest;
 }
 
-/* what stands for e, over what became of its arguments */
+/* the replacement of e, with replaced arguments */
 static Expr call_by_name(Arena *arena, Expr e, void *context)
 {
     const Call *call = context;

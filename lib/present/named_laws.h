@@ -20,9 +20,9 @@ typedef struct LawDefinition {
 } LawDefinition;
 typedef LIST(LawDefinition) LawDefinitions;
 
-/* Put calls into `roots`, and what they call into `out`, in the order of the parts; nothing where
- * there are no equations. Free with named_laws_free(). O(nodes) for each part with such a law.
- */
+/* Replace laws by calls in `roots`, and add the definitions to `out`, in the order of the parts;
+ * nothing without equations. Free with named_laws_free(). O(nodes) for each part with such a
+ * law. */
 void named_laws(const LawView *view, Expr *roots, int count, LawDefinitions *out);
 void named_laws_free(LawDefinitions *laws);
 

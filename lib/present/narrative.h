@@ -28,8 +28,8 @@ const char *narrative_node(const View *view, int node);
 /* "r(h9)": a variable of an edge */
 void narrative_add_variable(Text *out, const View *view, const char *letter, bool is_vector,
                             int edge);
-/* The order in which a person writes a sum: as it comes, or from its end, or from the middle on, so
- * that it begins with a plus where there is one. */
+/* The order in which a person writes a sum: as it is, or from its end, or from the middle on, so
+ * that it starts with a plus if there is one. */
 typedef struct SumOrder {
     int first, step, count;
 } SumOrder;

@@ -1,8 +1,8 @@
-/* picture.h: a drawing as a list of shapes on a sheet, whoever writes it
+/* picture.h: a drawing as a list of shapes on a sheet, independent of the output format
  *
- * Who draws adds shapes, in px, x to the right and y down; later ones lie over earlier ones of the
- * same depth. The writers know nothing of what is drawn: SVG, characters, gnuplot's commands, TikZ.
- */
+ * The caller adds shapes, in px, x to the right and y down; later ones cover earlier ones of the
+ * same depth. The writers (SVG, characters, gnuplot's commands, TikZ) don't depend on the
+ * subject. */
 #ifndef COTREE_PRESENT_PICTURE_H
 #define COTREE_PRESENT_PICTURE_H
 
@@ -13,7 +13,7 @@ typedef enum Dash { DASH_NONE, DASH_LONG, DASH_DOTS, DASH_CENTRE } Dash;
 
 typedef struct Ink {
     const char *stroke; /* "#rrggbb"; NULL: no line */
-    const char *fill;   /* NULL: nothing inside */
+    const char *fill;   /* NULL: not filled */
     double width;       /* of the line, px */
     Dash dash;
 } Ink;
@@ -42,14 +42,14 @@ typedef struct Picture {
     double width, height;
     LIST(Point) points;
     LIST(Shape) shapes;
-    const char *what; /* of the shapes that come */
+    const char *what; /* of the following shapes */
     double depth;
     Pool *pool;
 } Picture;
 
 void picture_open(Picture *picture, double width, double height);
 void picture_close(Picture *picture);
-/* What the shapes that come belong to, for those who read the file: "body m1". */
+/* The subject of the following shapes, for readers of the file: "body m1". */
 void picture_of(Picture *picture, const char *what, const char *name);
 void picture_line(Picture *picture, Ink ink, const Point *points, int count);
 void picture_area(Picture *picture, Ink ink, const Point *points, int count);
@@ -67,7 +67,8 @@ const char *picture_tint(int i);
 
 /* --- writers --- */
 
-/* Frames of one film take equal times; `seconds` is that of the whole. One picture stands. */
+/* Frames of an animation have equal durations; `seconds` is that of the whole. A single picture
+ * doesn't move. */
 typedef struct Animation {
     const Picture *pictures;
     const double *times; /* s, of the motion; NULL: not shown */
@@ -77,7 +78,7 @@ typedef struct Animation {
 } Animation;
 
 void picture_svg(const Animation *film, Text *out);
-/* a page that plays by itself, with nothing from outside */
+/* a page that plays the animation, without external files */
 void picture_html(const Animation *film, Text *out);
 /* on a screen of characters: braille where it has Unicode */
 void picture_characters(const Picture *picture, int columns, int rows, bool unicode, Text *out);

@@ -89,7 +89,7 @@ void picture_gnuplot(const Picture *picture, Text *out)
         if (picture->shapes.at[i].kind == SHAPE_TEXT)
             write_label(out, picture, &picture->shapes.at[i]);
 
-    /* a picture of nothing is one, too */
+    /* an empty picture is allowed, too */
     text_add(out, "plot NaN notitle");
     for (int i = 0; i < picture->shapes.count; i++)
         if (picture->shapes.at[i].kind != SHAPE_TEXT)

@@ -155,7 +155,7 @@ static const char STYLE[] =
     "nav{display:flex;gap:.8rem;align-items:center}"
     "nav input{flex:1}</style>\n";
 
-/* the clock goes by the time that has passed, so a slow machine leaves frames out */
+/* frames follow the elapsed time, so a slow machine skips frames */
 static const char SCRIPT[] =
     "const frames = document.querySelectorAll('.frame'), slider = document.getElementById('at'),\n"
     "      button = document.getElementById('play'), shown = document.getElementById('time');\n"

@@ -67,7 +67,7 @@ static void write_shape(Text *out, const Picture *picture, const Shape *shape, d
     text_add(out, ";\n");
 }
 
-/* What a shape belongs to stands above it as a remark. */
+/* The subject of a shape is a comment above it. */
 void picture_tikz(const Picture *picture, double width, double height, Text *out)
 {
     const double scale = fmin(LARGEST, fmin(width / picture->width, height / picture->height));

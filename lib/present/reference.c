@@ -184,7 +184,7 @@ static void add_man(Text *out, const char *text)
     const char *from = text;
 
     for (; *text != '\0'; text++) {
-        /* a line may not begin with a request */
+        /* a line must not start with a request of roff */
         if ((*text == '.' || *text == '\'') && (text == from || text[-1] == '\n'))
             text_add(out, "\\&");
         if (*text == '\\')

@@ -367,8 +367,8 @@ static Status unknown_topic(const Operand *operand, Status status, Diag *diag)
     return status;
 }
 
-/* A name that stands for no formula, or for itself alone: a part, a frame, a parameter, a
- * coordinate that the trees leave independent. */
+/* A name without a formula, or whose formula is itself: a part, a frame, a parameter, an
+ * independent coordinate. */
 static bool is_mere_name(const View *view, const Syntax *syntax)
 {
     Expr user, e;

@@ -8,7 +8,7 @@
 
 typedef enum Need {
     NEED_MODEL,
-    NEED_SYSTEM,  /* equations as the trees give them */
+    NEED_SYSTEM,  /* equations by the trees */
     NEED_RUNNING, /* equations as a run evaluates them */
     NEED_CODE,    /* these, and the assembled start */
     NEED_RUN,     /* the last run; equations too */
@@ -39,7 +39,7 @@ typedef struct Selection {
     int number_count;
     const char *const *names;
     int name_count;
-    bool is_open;           /* instances of subsystems, whose ports else stand for them */
+    bool is_open;           /* show the inside of instances of subsystems, not only their ports */
     const char *level;      /* "velocity", "acceleration" or NULL */
     const Syntax *item;     /* BEHIND_ENTRY; NULL: all */
     const Syntax *items[2]; /* BEHIND_ITEMS; NULL: none */
@@ -98,7 +98,7 @@ LinearMatrix linear_matrix(const Linear *linear, char letter);
 void linear_print(const View *view, const Linear *linear, Text *out);
 ShowFunction show_linear, show_transfer, show_state;
 ShowFunction show_symbolic_transfer, show_thevenin, show_norton;
-/* E_MISSING where there is nothing linear, or no input or output of it */
+/* E_MISSING without a linearisation, or without inputs or outputs of it */
 MUST_USE Status linear_check_pairs(const Linear *linear, Diag *diag);
 /* a number of which `error` is open: six digits, or those that are known, one at least */
 void linear_known(Text *out, double value, double error);
@@ -118,7 +118,7 @@ MUST_USE Status show_expression(const View *view, const Syntax *syntax, int numb
 
 /* a run's report: what ran, its work, residuals and energy; without its remarks */
 void report_print(Text *out, const Result *result, const char *name);
-/* the same in a line: how far it came, its work, its drift */
+/* the same in one line: final time, work, drift */
 void report_line(Text *out, const Result *result, const char *name);
 
 #endif

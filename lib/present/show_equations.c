@@ -43,7 +43,7 @@ static void add_freedom(Text *out, const View *view)
     mem_free(names);
 }
 
-/* "no mass matrix: nothing in the model can move", where that is so */
+/* "no mass matrix: nothing in the model can move", if that is true */
 static bool says_nothing_moves(Text *out, const View *view, const char *what)
 {
     const bool is_still = system_nu(view->system) == 0 && system_m(view->system) == 0;
@@ -316,7 +316,7 @@ static Status push_right(const View *view, ShownEquation *equation, Block block,
     return OK;
 }
 
-/* The equation goes to the others where all went well, else away. */
+/* Add the equation to the others after success, else free it. */
 static Status push_equation(EquationList *equations, ShownEquation *equation, Status status)
 {
     if (status == OK) {
@@ -500,7 +500,7 @@ done:
     return status;
 }
 
-/* In programs, what is no variable needs a name that the model has not given */
+/* in programs, an expression needs a name that the model doesn't use */
 static char *free_name(const View *view, int number)
 {
     const char *name;
@@ -521,7 +521,7 @@ static char *free_name(const View *view, int number)
 static char *left_side(const View *view, const Syntax *syntax, Expr user, Expr e, int number)
 {
     char *written, *name;
-    bool is_itself; /* nothing is computed: x = x is no statement */
+    bool is_itself; /* no computation: x = x is no statement */
 
     if (view_kind(view) == NOTATION_TYPESET)
         return view_expression(view, user);

@@ -347,7 +347,7 @@ static Status show_signs(const View *view, const Selection *selection, bool circ
     return OK;
 }
 
-/* whether a name stands in a text, between blanks */
+/* whether a text contains a name, separated by blanks */
 static bool holds_name(const char *text, const char *name)
 {
     const size_t length = strlen(name);
@@ -376,7 +376,7 @@ static void report_ports(const View *view, Text *out, size_t from)
     text_free(&seen);
 }
 
-/* Rows of edges outside all subsystems: what is inside stands there as ports. */
+/* Rows of edges outside all subsystems; ports represent the edges inside. */
 static Status show_rows(const View *view, const Selection *selection, bool circuits, Text *out,
                         Diag *diag)
 {

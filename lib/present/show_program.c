@@ -9,7 +9,7 @@ typedef struct ProgramListing {
     int hoisted;                    /* of parameters alone */
     int position, velocity, solved; /* with t and q; u and x; what is solved for */
     int asked;                      /* of M and F, if they are requested separately */
-    int rates;                      /* of rates alone, which then take the place of the others */
+    int rates;                      /* of rates alone, which then replace the others */
 } ProgramListing;
 
 static ProgramListing work_of(const CompiledEquations *numbers)
@@ -95,7 +95,7 @@ static void add_kept(const View *view, Text *out, const Equations *eq, const Pro
     }
 }
 
-/* With all rows in use: those that others repeat are known when a run begins. */
+/* With all rows in use: redundant ones are known only at the start of a run. */
 static Status eliminate(const View *view, const Equations *eq, Diag *diag)
 {
     const char *const *independent;

@@ -256,7 +256,7 @@ Status show_symbolic_transfer(const View *view, const Selection *selection, Text
 
 /* --- equivalents of what is seen between two terminals --- */
 
-/* what is put there: sources of a current (Thevenin) and a voltage (Norton), by domain */
+/* test sources: of a current (Thevenin) and a voltage (Norton), by domain */
 static const struct {
     const char *through, *across;
 } test_sources[DOMAIN_COUNT] = {

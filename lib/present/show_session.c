@@ -179,7 +179,7 @@ static void add_step(Table *table, const RunReport *monitor_report)
     }
 }
 
-/* how well it kept up with the clock */
+/* how well it followed the clock in real time */
 static void add_pace(Table *table, const Pace *pace)
 {
     if (!(pace->step > 0))

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-/* A matrix of symbols: its name in text and in latex, and what stands at its sides. */
+/* A matrix of symbols: its name in text and in LaTeX, and the labels at its sides. */
 typedef struct Matrix {
     const char *name, *latex;
     const Expr *at;

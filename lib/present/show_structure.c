@@ -1,8 +1,8 @@
-/* show_structure.c: sizes, blocks, and where M, the Jacobian and the network are not zero
+/* show_structure.c: sizes, blocks, and the nonzero patterns of M, the Jacobian and the network
  *
- * Each instance of a subsystem is a block: rows and columns stand block by block, what joins the
- * instances last. So M is block diagonal and the Jacobian bordered, as far as the ports' motion is
- * prescribed. */
+ * Each instance of a subsystem is a block: rows and columns are ordered block by block, those that
+ * couple instances last. So M is block diagonal and the Jacobian bordered, as far as the ports'
+ * motion is prescribed. */
 #include "present/show.h"
 
 #include <string.h>
@@ -142,7 +142,8 @@ static void add_counts(Table *table, const Lines *speeds, const Lines *rows, con
     table_cellf(table, "%d", lines_of(network, instance));
 }
 
-/* whose equations an instance took over, itself or with the one around it; false: nobody's */
+/* the instance whose equations were reused for this one, by itself or with the enclosing one;
+ * false: none */
 static bool taken_from(const System *system, int instance, Text *out)
 {
     const Instanced *own = system_instanced(system, instance);

@@ -72,8 +72,8 @@ static double scale_of_zero(const Transfer *t, const Root *zero)
     return least;
 }
 
-/* Whether a root wants a mark. What a pole decides is where it stands from 0, however near; a zero
- * of an error as small as SLIGHT does what it would at 0. */
+/* Whether a root needs a mark. For a pole only its side of 0 matters, however near; a zero whose
+ * error is at most SLIGHT behaves like one at 0. */
 static bool wants_mark(const Transfer *t, const Root *root)
 {
     const bool is_zero = root >= t->zero && root < t->zero + t->zeros;
@@ -159,7 +159,7 @@ static void add_left_out(Table *table, const Transfer *t)
     text_free(&text);
 }
 
-/* coefficients of many fast roots may be beyond what numbers hold */
+/* coefficients of many fast roots may overflow */
 static bool has_coefficients(const Transfer *t)
 {
     for (int i = 0; i <= t->zeros; i++)

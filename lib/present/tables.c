@@ -42,7 +42,7 @@ static void cubic(const Curve *curve, int i, double *out)
     out[3] = (m[i + 1] - m[i]) / (6 * h);
 }
 
-/* ppval() goes on with the last cubic: outside the value is that of the end, a derivative 0 */
+/* ppval() continues the last cubic: outside, the value must be that of the end, a derivative 0 */
 static void print_matlab(Text *out, Expr symbol, int order)
 {
     const Curve *curve = expr_data(symbol);

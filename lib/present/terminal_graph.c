@@ -68,7 +68,8 @@ static void take_edges(Collapse *c)
     }
 }
 
-/* Where the way from the datum to a port enters the inside; -1: it comes from outside. */
+/* Where the path from the datum to a port enters the inside; -1: it reaches the port from
+ * outside. */
 static int entry_of(const Collapse *c, const Tree *tree, int use, int node)
 {
     int edge = tree_parent_edge(tree, node);

@@ -1,9 +1,9 @@
 /* terminal_graph.h: the linear graph with each instance of a subsystem as the edges of its ports
  *
- * What is inside an instance is left out; a port is an edge, called leg1.B, to the node where it
- * attaches. One whose motion or voltage the inside gives is a branch wherever the way
- * to it leads through the inside, from where that way enters; any other is a chord from the datum.
- */
+ * The inside of an instance is omitted; a port is an edge, named leg1.B, to the node where it
+ * attaches. If the inside determines its motion or voltage, it is a branch wherever the path to it
+ * leads through the inside, from the node where that path enters. Any other port is a chord from
+ * the datum. */
 #ifndef COTREE_PRESENT_TERMINAL_GRAPH_H
 #define COTREE_PRESENT_TERMINAL_GRAPH_H
 
@@ -13,7 +13,7 @@
 typedef struct TerminalPort {
     int use, node;    /* of the new graph; a datum too */
     const char *name; /* "B"; the model's */
-    bool gives;       /* its motion or voltage comes from the inside, */
+    bool gives;       /* the inside determines its motion or voltage, */
     bool takes;       /* from outside; of a frame the place can do one and the attitude the other */
 } TerminalPort;
 

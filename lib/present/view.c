@@ -90,7 +90,7 @@ char *view_name(const Syntax *syntax)
  * after one. All lines of a block start after its widest left side. */
 enum { LATEX_LEFT = 10, LATEX_LINE = 55 };
 
-/* a long left side has its lines to itself, and the relation begins one of its own */
+/* a long left side has lines of its own, and the relation starts a new one */
 static void add_latex(Text *out, const char *left, const char *relation, const char *right)
 {
     const double width = latex_width(left);
@@ -136,7 +136,7 @@ static void add_line(Text *out, const View *view, const char *lead, const char *
                   relation != NULL ? right : "", relation != NULL ? "\n" : "");
         return;
     case NOTATION_READ:
-        /* lines that go on stand below the right side, where the left one is short */
+        /* continuation lines are below the right side if the left one is short */
         if (relation != NULL && text_width(lead) + text_width(left) <= SHORT_LEFT) {
             text_addf(&body, "%s%s%s", lead, left, relation);
             layout_formula(out, &page, body.at, right);
@@ -193,7 +193,7 @@ char *view_entry_name(const View *view, const char *text, const char *letter, in
     return text_done(&name);
 }
 
-/* a prefix that begins no name of the user's followed by digits */
+/* a prefix with which no name of the user starts, followed by digits */
 static const char *free_prefix(const Model *model)
 {
     static const char *const prefixes[] = {"w", "v", "z", "w_"};
@@ -314,7 +314,7 @@ static void print_laws(Text *out, const View *view, const LawDefinitions *laws, 
     }
 }
 
-/* what picks the turn of an angle, where terms hold such */
+/* the selection of the turn of an angle, if terms contain one */
 static void print_turns(Text *out, const View *view, const Expr *terms, int count)
 {
     Text names = {0}, words = {0};
@@ -435,7 +435,7 @@ void view_equations(Text *out, const View *view, EquationList *equations)
         names = abbreviate(model_arena(view->model), terms, count, &naming);
         scatter(equations, names.roots);
     }
-    /* programs want data and names before they are used, readers names afterwards */
+    /* programs need data and names before their use, readers names afterwards */
     tables_print(out, view->page.notation, "", terms, count);
     if (view_kind(view) == NOTATION_SOURCE)
         print_definitions(out, view, &names);

@@ -42,8 +42,8 @@ bool view_is_mechanical(const View *view);
 /* "2 states, 1 algebraic unknown", what there is of the network; "no unknowns" */
 void view_network(Text *out, const System *system);
 
-/* "2 degrees of freedom" where they are known or nothing constrains them, else the difference "n -
- * m = 1": redundant constraints make it less than what is free */
+/* "2 degrees of freedom" if they are known or there are no constraints, else the difference "n - m
+ * = 1", which redundant constraints make too small */
 void view_freedoms(Text *out, const System *system, int freedoms);
 
 /* what the user called it: "mass(1,2)", "(h8 - s11)"; new string */
@@ -60,8 +60,8 @@ typedef struct ViewTerm {
 } ViewTerm;
 
 typedef struct ShownEquation {
-    char *lead; /* what stands before it in text: "h9  x:  "; given; NULL: nothing */
-    char *name; /* the left side, where it isn't a sum; given; NULL */
+    char *lead; /* text before it: "h9 x: "; owned; NULL: none */
+    char *name; /* the left side, if it isn't a sum; owned; NULL */
     LIST(ViewTerm) left;
     LIST(ViewTerm) right; /* no terms: 0 */
 } ShownEquation;
@@ -86,7 +86,7 @@ double view_unit(const View *view, const char *si, Text *out);
 /* The value in SI of a variable or parameter, with a unit where it has one: "30 deg". */
 void view_quantity(const View *view, const char *name, double value, int digits, Text *out);
 
-/* begin and end of what latex aligns; nothing in other notations */
+/* begin and end of an alignment in LaTeX; nothing in other notations */
 void view_open(Text *out, const View *view);
 void view_close(Text *out, const View *view);
 
