@@ -10,7 +10,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-#define DOUBLE_DOUBLE_ROUNDING 0x1p-104 /* what an operation rounds away, relative */
+#define DOUBLE_DOUBLE_ROUNDING 0x1p-104 /* relative rounding error of an operation */
 
 typedef struct DoubleDouble {
     double high, low;

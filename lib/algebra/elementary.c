@@ -135,7 +135,7 @@ static void sincos_far(double x, double *sine, double *cosine);
 
 enum { DIGITS = 7 }; /* 224 bits of 2 / pi are enough for any double */
 
-/* |x| * 2 / pi: whole quarters of a turn (mod 4), and what is left, half a quarter at most */
+/* |x| * 2 / pi: whole quarters of a turn (mod 4), and the remainder, half a quarter at most */
 static unsigned far_quarters(double x, DoubleDouble *left)
 {
     int exponent;

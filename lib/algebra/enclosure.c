@@ -59,7 +59,7 @@ static bool invert(Enclosure *e)
     return sound;
 }
 
-/* --- what is left --- */
+/* --- the remainder --- */
 
 /* value k is the conjugate of the one before */
 static bool is_mirror(const Enclosure *e, int k)
@@ -191,7 +191,7 @@ static void turn_right(const Enclosure *e, const double *size, const double *rea
     }
 }
 
-/* Z: (1 + W)^-1 - 1 on top of what `left` misses as an inverse; false: not bounded */
+/* Z: (1 + W)^-1 - 1 plus the error of `left` as an inverse; false: not bounded */
 static bool turn_left(const Enclosure *e)
 {
     const int n = e->n;

@@ -15,7 +15,7 @@ typedef struct Enclosure {
     double complex *value; /* conjugate ones exactly, the one above the real axis first */
     double complex *right; /* vectors as columns, of length 1 */
     double complex *left;  /* as rows: the inverse of `right`, nearly */
-    double *error;         /* each disc of this radius about a value holds one eigenvalue */
+    double *error;         /* each disc of this radius about a value contains one eigenvalue */
     /* true vectors are X (1 + W) and (1 + Z) Y, |W| and |Z| being these at most */
     double *turn_right, *turn_left; /* n x n */
 } Enclosure;

@@ -16,8 +16,8 @@ Gram *gram_new(const double *matrix, int m, int nu, const double *norm);
 Gram *gram_of_columns(const Pattern *pattern, const double *values, const double *norm);
 void gram_free(Gram *gram);
 double gram_largest(const Gram *gram); /* on the diagonal */
-/* Where no diagonal entry is more than 1: how much rounding moves the eigenvalues of what is
- * factored, at most. */
+/* Where no diagonal entry is more than 1: an upper bound of the change of the factored matrix'
+ * eigenvalues by rounding. */
 double gram_rounding(const Gram *gram);
 /* Factor J J^T + added 1, without exchanges. False when a pivot isn't more than `least` times its
  * diagonal entry, or the watch requests a stop. */

@@ -12,7 +12,7 @@
 
 #include <math.h>
 
-#define SAFE    4     /* times what rounding may do */
+#define SAFE    4     /* times the rounding error */
 #define NOTHING 1e-10 /* of the largest row: rounding alone */
 #define LARGE   1e100 /* squares of more, or less than its inverse, lose digits or are none */
 

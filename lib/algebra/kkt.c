@@ -36,7 +36,7 @@
 #define LOST          1e-11 /* d / p that may be rounding for a good part */
 #define NO_MASS       1e-12 /* a pivot of M over its diagonal that may be rounding, */
 #define UNSOLVABLE    1e-14 /* and least over largest of all that is */
-#define LEAST_MASS    1e-9  /* of the heaviest: what is less borrows from its neighbours */
+#define LEAST_MASS    1e-9  /* of the heaviest: smaller masses are taken from neighbours */
 #define SWEEPS        2     /* of refinement at least, */
 #define MOST_SWEEPS   30    /* and as long as each leaves less than */
 #define CONTRACTION   0.3   /* of the last correction: epsilon suppresses what is slower */
@@ -253,7 +253,7 @@ static double rest_of_group(const Kkt *kkt, int group, const double *phi_u)
     return triangular_rest(kkt->groups, group, phi_u, kkt->sizes.square, kkt->sizes.norm);
 }
 
-/* what is left of rows by the columns of their groups alone, 1 at most; 0: there are no groups */
+/* remainder of rows by the columns of their groups alone, 1 at most; 0: there are no groups */
 static double rest_of_groups(const Kkt *kkt, const double *phi_u)
 {
     double least = 1;
@@ -518,8 +518,8 @@ static bool mass_is_regular(const Kkt *kkt)
     return regular;
 }
 
-/* The least d / p, 1 at most; NAN counts as 0. Of a speed of the border, which rows before it have
- * made stiff: what is left of its pivot. */
+/* The least d / p, 1 at most; NAN counts as 0. For a speed of the border, to which earlier rows
+ * have added: the remainder of its pivot. */
 static double least_angle(const Kkt *kkt)
 {
     const double *pivots = ldl_pivots(kkt->factors), *taken = ldl_taken(kkt->factors);
@@ -552,7 +552,7 @@ static bool factor_held(Kkt *kkt)
     return ldl_factor(kkt->factors, reference, kkt->watch);
 }
 
-/* whether a speed has no mass at all, as what turns a point has none */
+/* whether a speed has no mass at all, such as a rotation of a point mass */
 static bool lacks_mass(const Kkt *kkt)
 {
     const double *diagonal = ldl_entries(kkt->factors);

@@ -39,7 +39,7 @@ bool kkt_is_factored(const Kkt *kkt);
 double kkt_products(const Kkt *kkt);
 /* of the last kkt_factor(): whether a singular configuration is so near that epsilon is there */
 bool kkt_is_regularised(const Kkt *kkt);
-/* relative size of what rounding may leave of speeds and accelerations there; 0: as elsewhere */
+/* relative size of the rounding errors of speeds and accelerations there; 0: as elsewhere */
 double kkt_rounding_error(const Kkt *kkt);
 /* How independent the rows are, without M: the root of the least of those pivots, 1 at most. It
  * falls to 0 as the distance to a singular configuration does. */
@@ -66,7 +66,7 @@ bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const doub
 /* M du + G^T lambda = top, G du = bottom. `top` may be NULL for 0; du may be `top`. */
 void kkt_solve(Kkt *kkt, const double *top, const double *bottom, double *du, double *lambda);
 /* du of the same with top 0, where it corrects something much larger, or is corrected itself: not
- * refined for what rounding leaves in its last digits. */
+ * refined for rounding errors in its last digits. */
 void kkt_correct(Kkt *kkt, const double *bottom, double *du);
 
 #endif

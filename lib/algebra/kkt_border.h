@@ -28,7 +28,7 @@ typedef struct KktPlaces {
 /* The largest number of rows of a speed outside the border; NO_BORDER where elimination without
  * border needs fewer products. O(log m) orders are tried. */
 int kkt_border(const KktPlaces *places);
-/* The class of speeds and then of rows; late[k]: rows that come last in any case. */
+/* The class of speeds and then of rows; late[k]: rows that are last in any case. */
 void kkt_classes(const KktPlaces *places, int border, const bool *late, int *class);
 /* number of products of a factorisation; with a border, of that of the geometry too */
 double kkt_order_products(const LdlOrder *order, int border);

@@ -10,7 +10,7 @@
 
 #define NO_ENTRY 1e-12 /* of the largest of its row: rounding */
 
-#define LEAST_REACH 1e-9 /* of the largest: what is less is rounding */
+#define LEAST_REACH 1e-9 /* relative to the largest: smaller values are rounding */
 #define LEAST_NORM  1e-3 /* likewise */
 
 KktSizes kkt_sizes_new(const Pattern *rows)
@@ -155,8 +155,8 @@ static void find_largest(const KktPlaces *places, const int *place, const double
     }
 }
 
-/* From neighbours that have mass to those that have at most `least`; whether more of them have some
- * now. What rounding leaves of a 0 is no neighbour. */
+/* Assign masses from neighbours to speeds that have at most `least`; returns whether more of them
+ * have a mass now. An entry that is a rounding error of 0 makes no neighbour. */
 static bool borrow_once(const KktPlaces *places, const int *place, const double *entries,
                         double least, const double *largest, double *room, double *mass)
 {

@@ -15,7 +15,7 @@
 typedef struct KktSizes {
     const Pattern *rows; /* positions of the entries of G, one column for each row; borrowed */
     double *reach;       /* of speeds: the largest entry so far */
-    double *square;      /* that, or what counts at least, squared: R^2; 0: not measured yet */
+    double *square;      /* that, or the least that counts, squared: R^2; 0: not measured */
     double *norm;        /* of rows: the largest norm squared so far, columns over R */
     double *most;        /* of rows: the largest p so far (kkt.c) */
     double *kept;
@@ -35,8 +35,8 @@ static inline double kkt_sizes_reference(const KktSizes *sizes, int row, double 
 {
     return sizes->most[row] > least ? sizes->most[row] : least;
 }
-/* whether each of the pivots is more than this part of its row's p, the largest so far with
- * `taken`, and no p is less than what counts at least */
+/* whether each of the pivots exceeds this fraction of its row's largest p so far, `taken` included,
+ * and no p is below the least size that counts */
 bool kkt_sizes_are_sound(KktSizes *sizes, const double *pivot, const double *taken, const int *rows,
                          int m, double part);
 /* Save the present sizes; restore the saved ones. */

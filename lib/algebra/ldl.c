@@ -30,7 +30,7 @@ struct Ldl {
 
 /* --- the order --- */
 
-/* pivots[k]: the unknown that comes k-th */
+/* pivots[k]: the k-th unknown in the order */
 static void choose_pivots(int n, const int *class, int entries, const int *row, const int *column,
                           int *pivots)
 {
@@ -84,9 +84,9 @@ static void place_entries(LdlOrder *o, int entries, const int *row, const int *c
     o->start[0] = 0;
 }
 
-/* Row k of L into its columns: up the elimination tree from each entry of column k. `parent` of
- * those met here becomes k where they had none. next[j]: where column j goes on; `below` NULL: they
- * are counted. */
+/* Row k of L into its columns: up the elimination tree from each entry of column k. A visited node
+ * without `parent` gets k as parent. next[j]: the next free index of column j; `below` NULL: only
+ * count. */
 static void put_row(const LdlOrder *o, int k, int *parent, int *seen, int *next, int *below)
 {
     seen[k] = k;
@@ -220,7 +220,7 @@ double *ldl_entries(Ldl *ldl)
     return ldl->entries;
 }
 
-/* row k of L from what is left of y, which becomes 0 again */
+/* row k of L from the remaining y, which becomes 0 again */
 static double find_row(Ldl *ldl, int k)
 {
     const LdlOrder *o = ldl->order;

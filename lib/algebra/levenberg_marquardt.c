@@ -157,7 +157,7 @@ static void take(Least *l)
     evaluate(l, l->next, l->trial, false);
 }
 
-/* what the linear model promises to be left after the step */
+/* the residual after the step predicted by the linear model */
 static double promised(const Least *l)
 {
     double sum = 0;

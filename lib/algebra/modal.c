@@ -21,7 +21,7 @@
 #define UNIT     0x1p-53
 #define SMALL    0.1     /* a correction of first order that is one */
 #define ROUNDED  1.01    /* margin for the rounding of the bounds themselves */
-#define PRODUCTS 0x1p-95 /* what the wide sums round away: n^2 2^-104 up to n = 4000, in part */
+#define PRODUCTS 0x1p-95 /* of double-double sums, n^2 2^-104 up to n = 4000, in part */
 
 enum { CORRECTIONS = 2, MOST = 4000 /* n, that bounds allow for */ };
 
@@ -90,7 +90,7 @@ static double *sizes(const double *a, int count)
     return out;
 }
 
-/* errors of entries with what wide sums round away */
+/* errors of entries, including rounding of double-double sums */
 static double *entry_errors(BoundedMatrix m, int count)
 {
     double *out = NEW_ARRAY(double, count);
@@ -102,7 +102,7 @@ static double *entry_errors(BoundedMatrix m, int count)
 
 /* --- vectors in doubles --- */
 
-/* symmetric parts, and what is found of them */
+/* symmetric parts, and results from them */
 typedef struct Vectors {
     int n;
     const double *mass, *stiffness;
@@ -150,7 +150,7 @@ static void follow_still(const Vectors *v, const Coordinates *c, const double *l
     cholesky_backward(l, c->still, out);
 }
 
-/* what solve_others() works on: both matrices of those that meet stiffness, scaled */
+/* input of solve_others(): both matrices of the coordinates with stiffness, scaled */
 typedef struct Pencil {
     int m;
     gsl_matrix *stiffness, *mass, *vector;
@@ -379,7 +379,7 @@ static void correct(const Modal *m, const Residuals *r)
 
 /* --- bounds --- */
 
-/* what X^T R may be off by: |X|^T (|R| rounded + |dK| |X| + |dM| |X| |L|) */
+/* error bound of X^T R: |X|^T (|R| rounded + |dK| |X| + |dM| |X| |L|) */
 static void bound_beside(const Modal *m, const Residuals *r, const double *x, BoundedMatrix mass,
                          BoundedMatrix stiffness, double *out)
 {

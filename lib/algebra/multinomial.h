@@ -49,7 +49,7 @@ Multinomial *multinomial_scaled(const Multinomial *p, const mpz_t factor);
 Multinomial *multinomial_over(const Multinomial *p, const mpz_t divisor); /* which divides p */
 /* p/q, NULL where q does not divide p (Monagan and Pearce 2007, by a heap) */
 Multinomial *multinomial_quotient(const Multinomial *p, const Multinomial *q);
-/* q where factor q^n = p is what p is known to be: as multinomial_quotient(), never NULL */
+/* q with factor q^n = p, if p is known to have that form: as multinomial_quotient(), never NULL */
 Multinomial *multinomial_exact(const Multinomial *p, const Multinomial *q);
 Multinomial *multinomial_slope(const Multinomial *p, int variable);
 /* the coefficients of the powers of some variables (bit 1 << v), one for each product of them that

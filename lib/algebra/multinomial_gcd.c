@@ -171,7 +171,7 @@ static Multinomial *simple_content(const Multinomial *p)
     return out;
 }
 
-/* p over what divides it; p is freed */
+/* p over a divisor; p is freed */
 static Multinomial *divided(Multinomial *p, Multinomial *by)
 {
     Multinomial *out = multinomial_is(by, 1) ? p : multinomial_exact(p, by);
@@ -235,7 +235,7 @@ static Multinomial *primitive_in(Multinomial *p, int variable)
 
 /* --- after Euclid --- */
 
-/* b's first coefficient in the variable, so often as needed, times a, less what b divides */
+/* pseudo-remainder: b's leading coefficient, as often as needed, times a, less a multiple of b */
 static Multinomial *pseudo_remainder(Multinomial *a, const Multinomial *b, int variable)
 {
     Ring *ring = a->ring;
@@ -285,8 +285,7 @@ static Multinomial *euclid(const Multinomial *p, const Multinomial *q, int varia
         a = b;
         b = rest;
     }
-    /* what is left is 0, or free of the variable: then only the contents have something in common
-     */
+    /* the remainder is 0, or free of the variable: then only the contents have a common divisor */
     if (b->count > 0) {
         multinomial_free(a);
         a = multinomial_small(ring, 1);

@@ -121,7 +121,7 @@ static void apply(const Pivoted *p, int k, const int *filled, int count, double 
         x[filled[i]] -= part * v[filled[i]];
 }
 
-/* E_STOPPED leaves the rest as it is. O(rows columns least), less for what is 0. */
+/* E_STOPPED leaves the rest unchanged. O(rows columns least), less for entries that are 0. */
 static Status factor(Pivoted *p, double threshold, const CallMonitor *watch)
 {
     double *square = NEW_ARRAY(double, p->columns); /* of the remainder of each column, */

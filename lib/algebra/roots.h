@@ -1,4 +1,4 @@
-/* roots.h: eigenvalues, poles and zeros with what they are known to */
+/* roots.h: eigenvalues, poles and zeros with error bounds */
 #ifndef COTREE_ALGEBRA_ROOTS_H
 #define COTREE_ALGEBRA_ROOTS_H
 
@@ -20,9 +20,8 @@ typedef struct Root {
  */
 bool root_is_doubtful(const Root *root);
 
-/* `value` within `error` as a root, what can't be distinguished from 0 being 0, which is as much
- * farther off
- */
+/* `value` within `error` as a root. A part that can't be distinguished from 0 becomes 0, and its
+ * size is added to the error */
 Root root_make(double complex value, double error);
 
 /* Mean of those that can't be distinguished: count roots with their errors, of which `value` holds

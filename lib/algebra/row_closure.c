@@ -8,7 +8,7 @@
 
 #define NOTHING 1e-11 /* of a row, in m or rad by unknown: it doesn't move */
 enum { SWEEPS = 2 };  /* of scaling */
-#define UNNEEDED 1e-8 /* in the sum that it is, what rounding leaves of others */
+#define UNNEEDED 1e-8 /* coefficients below this in a row's sum are rounding errors */
 
 /* Unknowns brought to units in which they move rows by like sizes, rows to size 1 last. */
 static void scale(double *a, int unknowns, int count)

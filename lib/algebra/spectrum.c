@@ -56,7 +56,7 @@ typedef struct Grouping {
     int count;
     double complex mean; /* of these, as disturbed, */
     double spread;       /* from which none is farther */
-    int power;           /* j: what follows is about N_j */
+    int power;           /* j: the following fields are for N_j */
     double *size; /* |N_j| (size x size); NULL: only the sum of |lambda_k - mu|^j |x_k| |y_k^T|
                    * that bounds it */
     const double *open; /* how far off x_k y_k^T may be, in balanced states; NULL: nowhere */
@@ -87,7 +87,7 @@ static void apply_terms(const Grouping *g, const double *v, double *out)
     }
 }
 
-/* and what vectors leave open of it */
+/* and its error by those of the vectors */
 static void add_open(const Grouping *g, const double *v, double *out)
 {
     const int n = g->part->size;
@@ -232,7 +232,7 @@ static double complex moved_by(const SpectrumPart *part, int k, const double *di
     return moved;
 }
 
-/* what the method rounds, which has the scaled matrix as a whole before it */
+/* rounding error of the method, relative to the scaled matrix as a whole */
 static double method_error(const SpectrumPart *part, const double *block, const double *scale,
                            int k)
 {
@@ -583,7 +583,7 @@ static void shrink(DoubleDoubleComplex *x, int n)
             x[i] = dd_ctimes(x[i], dd_of(ldexp(1, -ilogb(largest))));
 }
 
-/* Carry x on into a part that root k's acts on: (lambda - A) x = what acts on it. */
+/* Extend x to a block on which that of root k acts: (lambda - A) x = the coupling terms. */
 static void carry_on(const Spectrum *s, const SpectrumPart *part, int k, DoubleDoubleComplex *x)
 {
     const int m = part->size;

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_ROWS = 6, MOST_OWN = 24 }; /* of a group: those of a joint, and what one body has */
+enum { MOST_ROWS = 6, MOST_OWN = 24 }; /* of a group: rows of a joint, and speeds of one body */
 
 typedef LIST(int) TriangularIndices;
 

@@ -163,7 +163,7 @@ static void invert(VerifiedSolve *s)
     mem_free(x);
 }
 
-/* |B^-1| |dB| v, dB with what elimination rounds */
+/* |B^-1| |dB| v, dB including rounding errors of elimination */
 static void apply_change(const void *context, const double *v, double *out)
 {
     const VerifiedSolve *s = context;
@@ -237,7 +237,7 @@ void verified_solve_solve(const VerifiedSolve *s, const double *right, const dou
 {
     const int n = s->n;
     DoubleDouble *x = NEW_ARRAY(DoubleDouble, n);
-    double *left = NEW_ARRAY(double, n); /* what each equation may be off by */
+    double *left = NEW_ARRAY(double, n); /* error bound of each equation */
 
     for (int i = 0; i < n; i++)
         x[i] = dd_of(right[s->row[i]]);
