@@ -29,7 +29,7 @@ typedef struct Finder {
     uint32_t *order; /* instructions, operands before users */
     uint32_t ordered;
     int parts, blocks; /* blocks are numbered up to that */
-    int *block;        /* of values of stages before; in the stage, of what is not mixed */
+    int *block;        /* of values of earlier stages; in the stage, of values that aren't mixed */
     int *again;        /* of mixed values that are of one block again; NO_BLOCK: they join */
     int *root;
     bool *is_last;
@@ -91,7 +91,7 @@ static void find_order(Finder *f)
     mem_free(is_there);
 }
 
-/* --- what reads which block --- */
+/* --- blocks of operands --- */
 
 static void find_blocks(Finder *f, int stage)
 {
@@ -170,7 +170,7 @@ static int block_again(Finder *f, uint32_t v, int stage)
     return block;
 }
 
-/* One round; true: what joins has grown, so that others may follow from it that didn't. */
+/* One round; true: more operations combine blocks, so that others may depend on these now. */
 static bool find_joining(Finder *f, int stage)
 {
     bool has_grown = false;
@@ -209,7 +209,7 @@ static bool find_again(Finder *f, int stage)
     return true;
 }
 
-/* --- what it is worth --- */
+/* --- cost and benefit --- */
 
 static int phase_of(const Finder *f, uint32_t v)
 {

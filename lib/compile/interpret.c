@@ -150,7 +150,7 @@ static void run_sines_abreast(const OpcodeRun *run, const uint32_t *operand, dou
                               ABREAST);
 }
 
-/* what a row of opcodes.def computes: sums and products all at once, functions one by one */
+/* the operation of a row of opcodes.def: sums and products all at once, functions one by one */
 #define ABREAST_0(...)                                                                             \
     do {                                                                                           \
         const Eight a = at[operand[0]], b = at[operand[second]], c = at[operand[third]];           \

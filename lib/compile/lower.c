@@ -16,7 +16,7 @@ typedef struct LowerLevel {
     int next;
 } LowerLevel;
 
-/* What a function of ops.def is done by; without a row: CODE_CALL + op. */
+/* The opcode of a function of ops.def; without a row: CODE_CALL + op. */
 static const struct {
     Op op;
     Opcode code;
@@ -343,7 +343,7 @@ static void lower_below(Lowering *low, Expr root)
     LIST_FREE(stack);
 }
 
-/* what was there is known on */
+/* earlier values remain known */
 static void make_known(Lowering *low, uint32_t count)
 {
     Signed *known;

@@ -1,7 +1,7 @@
 /* lower.h: expressions as a list of binary operations
  *
- * What a Program is scheduled from, and what code for other programs is written from: each value
- * once, operands before users, so that both compute the same. */
+ * Programs are scheduled, and code for other programs is written, from this list: each value once,
+ * operands before users. So both compute the same. */
 #ifndef COTREE_COMPILE_LOWER_H
 #define COTREE_COMPILE_LOWER_H
 
@@ -18,7 +18,7 @@ typedef enum Opcode {
     CODE_SINCOS, /* two consecutive results */
     CODE_CALL,   /* followed by the functions of ops.def */
     CODES = CODE_CALL + OP_COUNT,
-    CODE_INPUT,    /* what follows is a value without an instruction; args[0]: which */
+    CODE_INPUT,    /* the following are values without an instruction; args[0]: which */
     CODE_CONSTANT, /* args[0], args[1]: the bits of the double */
     CODE_COSINE,   /* the second result of the SINCOS args[0] */
     CODE_ABSORBED  /* a product that became part of an instruction */
@@ -32,7 +32,7 @@ typedef struct LoweredValue {
 
 typedef struct Lowered {
     LIST(LoweredValue) values;  /* inputs first */
-    LIST(const Curve *) tables; /* borrowed; what data is as a value is its place here */
+    LIST(const Curve *) tables; /* borrowed; the value of data is its index here */
     Expr *inputs;               /* the caller's, then the parameters that were found */
     int input_count;
     uint32_t *roots; /* values */

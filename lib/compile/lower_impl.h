@@ -1,4 +1,4 @@
-/* lower_impl.h: what lower.c and lowered.c share */
+/* lower_impl.h: shared parts of lower.c and lowered.c */
 #ifndef COTREE_COMPILE_LOWER_IMPL_H
 #define COTREE_COMPILE_LOWER_IMPL_H
 

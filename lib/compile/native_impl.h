@@ -1,4 +1,4 @@
-/* native_impl.h: what the files that make native code share
+/* native_impl.h: shared parts of the files that generate native code
  *
  * The instructions of a stage are ordered so that results are used soon and calls are gathered
  * (native_steps.c). Then registers are allocated and bytes emitted (native_registers.c). */

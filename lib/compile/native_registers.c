@@ -372,7 +372,7 @@ static void emit_store(Registers *r, const NativeStep *step)
 
 /* --- functions --- */
 
-/* what native code calls for a function without an array of its own */
+/* called by native code for a function without an array version */
 static void native_function(const double *arguments, double *results, int count, int code,
                             Curve *const *tables, int width)
 {
@@ -469,7 +469,7 @@ static void emit_step(Registers *r, NativeStep step, const Program *program)
     bind(r, to, step.result);
 }
 
-/* what is used no more leaves its register and its place in the frame */
+/* values not used again free their registers and places in the frame */
 static void forget(Registers *r, const NativeStep *step)
 {
     const Home first_spill = FRAME | r->steps->frame;

@@ -50,7 +50,7 @@ static bool is_call(Opcode code)
     }
 }
 
-/* --- what is known of slots --- */
+/* --- slots --- */
 
 static const uint32_t *operands_of(const StepMaker *m, uint32_t slot)
 {
@@ -272,7 +272,7 @@ static void add_instruction(StepMaker *m, uint32_t slot)
     add_handover(m, slot);
 }
 
-/* a slot of the section, with what it needs; functions are there */
+/* emit a slot of the section, with its operands; functions are already emitted */
 static void add_with_operands(StepMaker *m, uint32_t slot, int section)
 {
     LIST_PUSH(m->stack, slot);
@@ -306,7 +306,7 @@ static Opcode called(Opcode code)
     return code == CODE_SIN || code == CODE_COS ? CODE_SINCOS : code;
 }
 
-/* a first argument, and the slot of what is called */
+/* a first argument, and the slot of the call */
 typedef struct Called {
     uint32_t argument, slot;
 } Called;

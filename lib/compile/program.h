@@ -31,11 +31,11 @@ Stage stage_of(Expr e);                 /* the latest of its symbols' */
 typedef struct Program Program;
 typedef struct Workspace Workspace;
 
-/* Compile.
+/* Compile roots to a program.
  *
- * roots what is to be computed, borrowed from an arena that may die afterwards inputs the symbols
- * that the caller sets, in any order, each once out new; program_free(). Nothing that no root needs
- * is in it.
+ * roots   expressions to compute, borrowed from an arena that may be freed afterwards
+ * inputs  the symbols that the caller sets, in any order, each once
+ * out     new; free with program_free(). It computes only what the roots need.
  *
  * Fails with E_NAME when a root holds a symbol that is no input, naming it. O(nodes) and no
  * recursion. */
@@ -73,7 +73,7 @@ void workspace_free(Workspace *workspace); /* NULL is fine */
 /* Before the first run. Code is made when it has paid: after some hundred evaluations, more of a
  * short program. */
 void workspace_choose(Workspace *workspace, Evaluator evaluator);
-/* who computes what may run at the same time, borrowed; NULL: the caller alone */
+/* threads for parts that may run at the same time, borrowed; NULL: the caller's alone */
 void workspace_share(Workspace *workspace, Threads *threads);
 /* The caller expects so many runs of all stages: if they pay for native code, it is generated in
  * the first. */
@@ -87,8 +87,8 @@ void workspace_run(Workspace *workspace, Stage from, Stage to);
 void workspace_run_joined(Workspace *workspace);
 /* The values of the roots, in order; a root's is current once its stage was run. Borrowed. */
 const double *workspace_roots(const Workspace *workspace);
-/* How far the roots of the last run may be off, every stage being current: by what was rounded on
- * the way, and where the inputs are off by `input_errors`. No bound: INFINITY or NAN. */
+/* Error bounds of the roots of the last run, with every stage current: from rounding, and from
+ * errors of the inputs up to `input_errors`. No bound: INFINITY or NAN. */
 void workspace_errors(const Workspace *workspace, const double *input_errors, double *root_errors);
 /* how far a number may be from the one that was meant: half a unit in its last place, 0 for one of
  * few digits in binary */

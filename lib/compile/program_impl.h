@@ -1,4 +1,4 @@
-/* program_impl.h: what the files of lib/compile share
+/* program_impl.h: shared parts of the files of lib/compile
  *
  * Roots are lowered to values (lower.c), values are put into stages and runs
  * (schedule.c). A workspace (workspace.c) runs through them (interpret.c), or has native code made
@@ -58,7 +58,7 @@ void program_schedule(Program *program, Lowered *lowered, const ProgramBlocks *b
 
 /* --- program.c --- */
 
-/* The program of what is lowered, which that is used up by: new, program_free(). */
+/* Make the program of a lowering and free the lowering; new, program_free(). */
 Program *program_of(Lowered *lowered, const ProgramBlocks *blocks);
 
 /* the value whose instruction computes this one */

@@ -21,7 +21,7 @@ typedef struct Slope {
 /* All is borrowed during the call. */
 typedef struct ResidualOrder {
     Arena *arena;      /* of all; derivatives are formed there */
-    const Expr *roots; /* what is to be computed */
+    const Expr *roots; /* expressions to compute */
     int root_count;
     int row_count;        /* so many of them, the first, are rows: they are differentiated */
     const Expr *unknowns; /* by these symbols, each once */
@@ -29,7 +29,7 @@ typedef struct ResidualOrder {
     const Expr *inputs; /* symbols that the caller sets, without parameters */
     int input_count;
     ProgramBlocks blocks;                     /* of these inputs; a parameter is of none */
-    Expr (*put)(const void *context, Expr e); /* what is compiled for a root or slope; NULL: it */
+    Expr (*put)(const void *context, Expr e); /* compiled for a root or slope; NULL: itself */
     const void *context;
     const CallMonitor *watch; /* may be NULL */
 } ResidualOrder;

@@ -177,7 +177,7 @@ static void bound_run(const Program *program, const OpcodeRun *run, const double
 
 double number_error(double value)
 {
-    /* what was written with few digits in binary was meant so */
+    /* a number with few binary digits is assumed to be exact */
     return value * 0x1p20 == rint(value * 0x1p20) && fabs(value) < 0x1p32 ? 0
                                                                           : UNIT / 2 * fabs(value);
 }

@@ -1,11 +1,10 @@
 /* schedule.c: orders values into a tape in which equal operations are adjacent
  *
- * A product that only one sum of its stage needs is fused with it, two roundings as
- * before. Then, stage by stage, list scheduling: of the operations whose operands are
- * there, those of the most frequent opcode make the next run, and what becomes ready
- * on the way joins it. Where blocks stand apart (independent_blocks.c) so does each section of a
- * stage. O(values
- * * opcodes) at worst, O(values) where runs are long. */
+ * A product that only one sum of its stage needs is fused with it, with two roundings as before.
+ * Then list scheduling, stage by stage: of the operations whose operands are computed, those of the
+ * most frequent opcode form the next run, and operations that become ready in it join it. Where
+ * blocks are separated (independent_blocks.c), each section of a stage is scheduled by itself.
+ * O(values opcodes) at worst, O(values) where runs are long. */
 #include "compile/program_impl.h"
 
 #include <assert.h>

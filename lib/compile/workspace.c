@@ -1,4 +1,4 @@
-/* workspace.c: the numbers of one evaluation, and by what they are computed */
+/* workspace.c: the numbers of one evaluation, and the choice of how to compute them */
 #include "compile/native.h"
 #include "compile/program_impl.h"
 

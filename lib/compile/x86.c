@@ -14,7 +14,7 @@ typedef struct Form {
     bool wide;      /* VEX.W; always with EVEX */
     int length;     /* bytes of memory that are read or written */
     int mask;       /* of EVEX; 0: all */
-    bool zero;      /* what the mask leaves out is 0 */
+    bool zero;      /* masked-out elements are 0 */
 } Form;
 
 enum { PREFIX_66 = 1, PREFIX_F2 = 3 };
