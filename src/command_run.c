@@ -269,7 +269,8 @@ static void label_columns(const Call *call, const ct_expression *const *items, i
     }
 }
 
-#define FAR_BELOW 1e-9 /* of a column's largest value: compare smaller ones with rounding */
+#define FAR_BELOW                                                                                  \
+    1e-9 /* of the largest value in a column: smaller ones are compared with rounding */
 
 /* Replace values due to rounding alone by 0; in a column that has no others, all */
 static ct_status round_column(const Call *call, const ct_expression *item,
