@@ -27,8 +27,8 @@ void kkt_sizes_free(KktSizes *sizes);        /* its arrays */
 void kkt_sizes_see(KktSizes *sizes, const double *phi_u, const int *rows, int m);
 /* and norms of the rows, once they do. */
 void kkt_sizes_measure(KktSizes *sizes, const double *phi_u, const int *rows, int m);
-/* Update size[] (one number for each row), the largest p so far of each row in use. Returns the
- * least p that counts as other than 0. */
+/* Update the largest p so far of each row in use by size[] (one number for each of them). Returns
+ * the least p that counts as other than 0. */
 double kkt_sizes_store_most(KktSizes *sizes, const int *rows, int m, const double *size);
 /* that or the least of p, for a row */
 static inline double kkt_sizes_reference(const KktSizes *sizes, int row, double least)

@@ -17,8 +17,8 @@ MUST_USE Status rank_rows(const double *matrix, int m, int nu, double threshold,
 MUST_USE Status rank_columns(const Pattern *pattern, const double *values, double threshold,
                              const CallMonitor *watch, int *rank, int *order);
 
-/* The `count` rows that are the least dependent on each other, rising; the number reported is their
- * rank_ratio(). O(nu m count). */
+/* The `count` rows that are the least dependent on each other, rising; returns their rank_ratio().
+ * O(nu m count). */
 double rank_choose(const double *matrix, int m, int nu, int count, int *rows);
 /* Least over largest pivot of some rows, brought to unit size first: how independent they are.
  * O(nu count^2). */
