@@ -72,8 +72,9 @@ void compiled_connect_mass(CompiledEquations *numbers);
 /* Compile the main program, and the network's where it is solved by iteration. The expressions
  * passed are `eliminated_count` closed-form accelerations and what comes with them; 0: there are
  * none. */
-MUST_USE Status compiled_compile_equations(CompiledEquations *numbers, const Expr *shown_guards,
-                                           int eliminated_count, Diag *diag);
+MUST_USE Status compiled_compile_equations(CompiledEquations *numbers,
+                                           const Expr *eliminated_symbols, int eliminated_count,
+                                           Diag *diag);
 /* M and F, where elimination does without them */
 MUST_USE Status compiled_compile_mass(CompiledEquations *numbers, Diag *diag);
 

@@ -132,8 +132,8 @@ static bool may_be_nearer(const ActiveRun *r, double off, const RunOptions *fine
 }
 
 /* report the error: `by` is the finer run, `why` the failure of a finer run (NULL: none failed) */
-static void tell(ActiveRun *r, double off, bool is_bounded, bool is_fixed, const FinerRun *by,
-                 const char *why)
+static void report_global_error(ActiveRun *r, double off, bool is_bounded, bool is_fixed,
+                                const FinerRun *by, const char *why)
 {
     r->result->monitor_report.is_unresolved = !is_bounded;
     if (is_bounded)
@@ -181,7 +181,8 @@ Status global_error_estimate(ActiveRun *r, const SimulationInput *setting,
         is_doubtful = !is_bounded || may_be_nearer(r, off, &finer, &runs[i].grid);
     }
     if (status == OK || status == E_SOLVER)
-        tell(r, off, is_bounded, is_fixed, &runs[0], status == OK ? NULL : why.message);
+        report_global_error(r, off, is_bounded, is_fixed, &runs[0],
+                            status == OK ? NULL : why.message);
     else if (diag != NULL)
         *diag = why;
     for (int i = 0; i < COUNT(runs); i++)
