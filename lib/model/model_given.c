@@ -336,7 +336,6 @@ static Status add_block(State *state, const Use *use, Place place, Diag *diag)
     block->coord_rotation = pool_alloc(state->pool, sizeof *block->coord_rotation * count);
     memcpy(block->coord, equations->moving, sizeof *block->coord * count);
     part_draft_commit(&draft, "block");
-    pool_retain(state->pool, equations, sizeof *equations);
     equations->block = block;
     for (int f = 0; f < equations->frame_count; f++)
         add_frame(state, use, equations->frames[f], block->head, f);
@@ -350,7 +349,6 @@ static void add_equation(State *state, BlockEquations *equations, BlockEquation 
     BlockEquation *equation = pool_alloc(state->pool, sizeof *equation);
 
     *equation = of;
-    pool_retain(state->pool, equations, sizeof *equations);
     if (equations->last != NULL) {
         pool_retain(state->pool, equations->last, sizeof *equations->last);
         equations->last->next = equation;
@@ -538,7 +536,7 @@ Status given_allows(State *state, int use, const Statement *s, Diag *diag)
         s->kind == STATEMENT_VERB && (s->row.component != NULL || s->row.number == VERB_use);
 
     if (is_part && equations->first == NULL && !equations->has_parts) {
-        pool_retain(state->pool, equations, sizeof *equations);
+        state_retain_equations(state, use);
         equations->has_parts = true;
     }
     if (is_part ? equations->first == NULL : !verb_gives(s) || !equations->has_parts)
@@ -553,6 +551,7 @@ Status given_add(State *state, int use, const Statement *s, const Statement *fro
 {
     BlockEquations *equations = state->uses.at[use].equations;
 
+    state_retain_equations(state, use);
     if (equations->free_count > 0 && equations->block == NULL)
         TRY(add_block(state, &state->uses.at[use], from->place, diag));
     switch (s->row.number) {

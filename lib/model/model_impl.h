@@ -110,13 +110,14 @@ typedef enum ChangeKind {
     CHANGED_CHOICE, /* of a tree */
     CHANGED_INDEPENDENT,
     CHANGED_SETUP,
+    CHANGED_EQUATIONS, /* of a use */
     ADDED_START,
     REMOVED_START
 } ChangeKind;
 
 typedef struct Change {
     ChangeKind kind;
-    int at; /* number of the line, definition, part, tree or start */
+    int at; /* number of the line, definition, part, tree, use or start */
     union {
         Line line;
         Definition definition;
@@ -124,6 +125,7 @@ typedef struct Change {
         Choice *choice; /* owned, as are the two below */
         NameList *independent;
         Setup *setup;
+        const BlockEquations *equations; /* of the pool */
         StartEntry start;
     } was;
 } Change;
@@ -228,6 +230,7 @@ void state_retain_definition(State *state, int definition);
 void state_retain_choice(State *state, TreeKind kind);
 void state_retain_independent(State *state);
 void state_retain_values(State *state, int part, Value *values); /* their old values */
+void state_retain_equations(State *state, int use);
 /* index of the starts by name, from number `first` on (model_start.c) */
 void starts_index(State *state, int first);
 /* sets the index of the start of one name; -1: none */

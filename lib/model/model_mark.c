@@ -3,6 +3,7 @@
  * Most statements only add parts, names and lines to the ends of lists. A mark of the lengths is
  * enough to undo that. What a statement changes in place is stored with its old value, in the order
  * of the changes. A state that replaced another owns that one, which then no longer changes. */
+#include "model/model_given.h"
 #include "model/model_impl.h"
 
 #include <assert.h>
@@ -54,6 +55,17 @@ void state_retain_definition(State *state, int definition)
 void state_retain_values(State *state, int part, Value *values)
 {
     keep(state, CHANGED_VALUES, part)->was.values = values;
+}
+
+/* lines are only added to equations, so that their list up to now suffices */
+void state_retain_equations(State *state, int use)
+{
+    BlockEquations *equations = state->uses.at[use].equations;
+    BlockEquations *copy = pool_alloc(state->pool, sizeof *copy);
+
+    pool_retain(state->pool, equations, sizeof *equations);
+    *copy = *equations;
+    keep(state, CHANGED_EQUATIONS, use)->was.equations = copy;
 }
 
 static void copy_names(NameList *to, const NameList *from)
@@ -164,6 +176,16 @@ static void restore_start(State *state, int at, const StartEntry *was)
     state->starts.at[at] = *was;
 }
 
+static void restore_equations(State *state, BlockEquations *equations, const BlockEquations *was)
+{
+    pool_retain(state->pool, equations, sizeof *equations);
+    *equations = *was;
+    if (equations->last == NULL)
+        return;
+    pool_retain(state->pool, equations->last, sizeof *equations->last);
+    equations->last->next = NULL;
+}
+
 static void restore(State *state, Change *change)
 {
     switch (change->kind) {
@@ -187,6 +209,9 @@ static void restore(State *state, Change *change)
         break;
     case CHANGED_SETUP:
         restore_setup(state, change->was.setup);
+        break;
+    case CHANGED_EQUATIONS:
+        restore_equations(state, state->uses.at[change->at].equations, change->was.equations);
         break;
     case ADDED_START:
         state->starts.count--;

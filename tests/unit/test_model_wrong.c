@@ -359,6 +359,32 @@ static void a_tree_that_the_graph_outgrew_is_refused_later(void)
     model_free(model);
 }
 
+/* of several equations in one line, the first were kept when a later one was refused */
+static void a_wrong_line_of_a_definition_leaves_its_equations(void)
+{
+    static const char *const refused[] = {"give B.x = s, B.Ron = 0", "unknown q, s",
+                                          "unknown s, B", "give B.x = s, B.x = 2*s",
+                                          "body m mass=1"};
+    Model *model = model_of("scene planar\n");
+    Model *direct = model_of("scene planar\nsubsystem slide frames=[B]\nunknown s\n"
+                             "internal 2*s'' + B.fx\ngive B.x = s, B.y = 0, B.theta = 0\nend\n");
+    Diag diag = {0};
+    char *wanted = model_save(direct), *saved;
+
+    EXPECT(apply_text(model, "subsystem slide frames=[B]\nbody", &diag) != OK);
+    EXPECT(apply_text(model, "body m mass=[1, 2]", &diag) != OK);
+    EXPECT(apply_text(model, "unknown s\ninternal 2*s'' + B.fx", &diag) == OK);
+    for (int i = 0; i < COUNT(refused); i++)
+        EXPECT(apply_text(model, refused[i], &diag) != OK);
+    EXPECT(apply_text(model, "give B.x = s, B.y = 0, B.theta = 0\nend", &diag) == OK);
+    saved = model_save(model);
+    EXPECT_TEXT(saved, wanted);
+    mem_free(saved);
+    mem_free(wanted);
+    model_free(direct);
+    model_free(model);
+}
+
 int main(void)
 {
     RUN(wrong_statements_say_why_and_change_nothing);
@@ -367,5 +393,6 @@ int main(void)
     RUN(an_empty_model_refuses_too);
     RUN(a_scene_that_what_was_said_forbids_is_refused);
     RUN(a_tree_that_the_graph_outgrew_is_refused_later);
+    RUN(a_wrong_line_of_a_definition_leaves_its_equations);
     return test_end();
 }
