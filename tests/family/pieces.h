@@ -19,7 +19,7 @@
 #define RANK       1e-13 /* of the largest eigenvalue: none */
 #define EXACT      1e-9  /* of the largest source: what is certain of a voltage */
 
-#define ROUNDING 1e-12 /* of the largest source */
+#define ROUNDING 1e-12 /* of the largest source, or of the terms of a sum */
 
 enum { ENTRIES = ROOM + 12, LEVELS = 64, KEPT_MODES = 48, INSTANT = 28 /* a level: no time */ };
 
@@ -352,13 +352,29 @@ static double excess_of(const Pieces *o, int i, const bool *closed, double volts
     return closed[i] ? -excess : excess;
 }
 
+/* What rounding may make of that. An open diode may be closed too late by so many of the source's
+ * volts; a closed one has to open by less, of what its own voltage sums: where a leak pushes it
+ * back, that is smaller by Ron/Roff than what it blocks when open. */
+static double excess_rounding(const Pieces *o, int i, const bool *closed,
+                              double volts[ROOM + 1][ENTRIES], const double *z)
+{
+    const Part *p = &o->net->part[i];
+    double terms = p->least;
+
+    if (!closed[i])
+        return ROUNDING * o->largest;
+    for (int k = 0; k < o->size; k++)
+        terms += (fabs(volts[p->plus][k]) + fabs(volts[p->minus][k])) * fabs(z[k]);
+    return ROUNDING * fmin(terms, o->largest);
+}
+
 /* a diode that isn't on the side that its voltage asks for; -1: none */
 static int wrong_diode(const Pieces *o, const bool *closed, double volts[ROOM + 1][ENTRIES],
                        const double *z)
 {
     for (int i = 0; i < o->net->count; i++)
         if (o->net->part[i].kind == DIODE &&
-            excess_of(o, i, closed, volts, z) > ROUNDING * o->largest)
+            excess_of(o, i, closed, volts, z) > excess_rounding(o, i, closed, volts, z))
             return i;
     return -1;
 }
