@@ -10,7 +10,7 @@
 
 /* clang-format off */
 static const Param params[] = {
-    {"length",             PARAM_SCALAR, "m",     NULL, "along x of the root frame, undeformed", 0},
+    {"length",             PARAM_SCALAR, "m",     NULL, "along x of the undeformed root frame", 0},
     {"mass_per_length",    PARAM_SCALAR, "kg/m",  NULL, "mass per length", ALONG},
     {"inertia_per_length", PARAM_LIST,   "kg*m",  "",   "of the section per length: planar one number, spatial [Jx, Jy, Jz]; none: Euler-Bernoulli", ALONG},
     {"EA",                 PARAM_SCALAR, "N",     "0",  "axial stiffness", ALONG},
@@ -18,8 +18,9 @@ static const Param params[] = {
     {"EIz",                PARAM_SCALAR, "N*m^2", "0",  "bending stiffness about z, of v", ALONG},
     {"GJ",                 PARAM_SCALAR, "N*m^2", "0",  "torsional stiffness", ALONG},
     {"modes",              PARAM_LIST,   "1",     NULL, "numbers of shapes: planar [axial, y], spatial [axial, y, z, torsion]", 0},
-    {"basis",              PARAM_WORD,   NULL,    "legendre|taylor|chebyshev", "polynomials that the shapes are", 0},
-    {"stiffening",         PARAM_WORD,   NULL,    "full|linear|off", "what bending shortens: all of it, to first order in the shapes, or nothing", 0},
+    {"basis",              PARAM_WORD,   NULL,    "legendre|taylor|chebyshev", "polynomials of the shapes", 0},
+    {"stiffening",         PARAM_WORD,   NULL,    "full|linear|off", "effect of the shortening by bending: full, to first order in the "
+                                                                     "shapes, or none", 0},
     {"damping",            PARAM_LIST,   NULL,    "",   "[alpha, beta]: -(alpha M0 + beta K) q' on the shapes", 0},
     {"load",               PARAM_LAWS,   "N/m",   "0",  "force per length, ground axes", ALONG},
     EULER_PARAM,
@@ -255,14 +256,13 @@ const Component component_beam = {
     .positive = "length",
     .check = check,
     .doubt = doubt,
-    .help = "Makes an elastic beam and the frame of its name, at its root. It stretches, bends and "
-            "twists by shapes that are polynomials along it, with coordinates u1 .. (axial), v1 .. "
-            "(along y), w1 .. (along z) and phi1 .. (twist); the root is placed as a body is. "
-            "Bending shortens the axis, which stiffens a beam that spins; stiffening=linear keeps "
-            "that to first order in the shapes, off leaves it out. Frames on it are arms with at=: "
-            "arm tip b1 at=L. Mass, stiffness and load may vary along it as polynomials of x, the "
-            "place: "
-            "EIz=100*(1 - x/2)^3.",
+    .help = "Makes an elastic beam and a frame of the same name at its root. Its extension, "
+            "bending and torsion are sums of polynomials along the beam (shapes), with the "
+            "coordinates u1 .. (axial), v1 .. (along y), w1 .. (along z) and phi1 .. (torsion). "
+            "The root is positioned like a body. Bending shortens the axis, which stiffens a "
+            "spinning beam; stiffening=linear takes this to first order in the shapes, off "
+            "omits it. Frames on the beam are arms with at=: arm tip b1 at=L. Mass, stiffness "
+            "and load may be polynomials of x, the position along the beam: EIz=100*(1 - x/2)^3.",
     .example = "scene planar\nbeam b1 length=1 mass_per_length=2 EIz=100 modes=[0, 2]\n"
                "weld w1 ground b1\narm tip b1 at=1\nforce F1 tip [0, 1]\nequilibrium\n"
                "print tip.y",

@@ -20,8 +20,8 @@ static const Param body_params[] = {
 
 static const Param arm_params[] = {
     {"position", PARAM_VECTOR,   "m", "0", "of the new frame's origin, in the axes of the frame it starts from", POSITIONAL},
-    {"at",       PARAM_SCALAR,   "m", "0", "on a beam: the place along it, from its root", 0},
-    {"rotation", PARAM_ROTATION, "1", "1", "how the new frame is turned: z(90 deg)*x(a) about z, then about the new x", 0},
+    {"at",       PARAM_SCALAR,   "m", "0", "on a beam: the position along it, from its root", 0},
+    {"rotation", PARAM_ROTATION, "1", "1", "rotation of the new frame: z(90 deg)*x(a) about z, then about the new x", 0},
 };
 /* clang-format on */
 
@@ -147,11 +147,11 @@ const Component component_body = {
     .check = body_check,
     .doubt = body_doubt,
     .help =
-        "Makes a rigid body and the frame of its name, at the mass centre. In the graph it is an "
-        "edge from ground to that frame. As a branch it brings absolute coordinates (planar: "
-        "x y theta; spatial: x y z and Euler parameters q0 q1 q2 q3, or with euler= three angles "
-        "a1 a2 a3, which have a singular attitude), as a chord its motion follows from the joints. "
-        "Mass and moments of inertia may be 0, and about no axis negative.",
+        "Makes a rigid body and a frame of the same name at its mass centre. In the graph it is "
+        "an edge from ground to that frame. As a branch it has absolute coordinates (planar: x "
+        "y theta; spatial: x y z and Euler parameters q0 q1 q2 q3, or with euler= three angles "
+        "a1 a2 a3, which have a singular attitude). As a chord its motion follows from the "
+        "joints. Mass and moments of inertia may be 0; no moment of inertia may be negative.",
     .example = "scene planar\ngravity [0, -9.81]\nbody ball mass=0.2 inertia=1e-4\n"
                "init ball.vx = 3, ball.vy = 4\nsimulate 1\nprint ball.x, ball.y",
     .see = "arm gravity force revolute",
@@ -184,8 +184,8 @@ const Component component_arm = {
     .rotation = BRANCH_ALWAYS,
     .preference = 0,
     .steps = arm_steps,
-    .help = "Makes the frame of its name, at a fixed position and, with rotation=, in a fixed "
-            "attitude against the frame it starts from. Joints and forces act on such frames. Arms "
+    .help = "Makes a frame at a fixed position and, with rotation=, in a fixed attitude "
+            "relative to the frame it starts from. Joints and forces act on such frames. Arms "
             "are branches of every tree.",
     .example = "scene planar\ngravity [0, -9.81]\nbody rod mass=1 inertia=1/12\n"
                "arm tip rod [1/2, 0]\narm pin rod [-1/2, 0]\nrevolute h1 ground pin\n"

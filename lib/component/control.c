@@ -87,16 +87,16 @@ Status block_check(const Instance *instance, Diag *diag)
 
 /* clang-format off */
 static const Param input_params[] = {
-    {"period",  PARAM_SCALAR, "s", NULL, "from one instant at which it is set to the next", 0},
-    {"initial", PARAM_SCALAR, "V", "0",  "until a program sets it", 0},
+    {"period",  PARAM_SCALAR, "s", NULL, "time between two values", 0},
+    {"initial", PARAM_SCALAR, "V", "0", "the value until a program sets one", 0},
 };
 static const Param gain_params[] = {
     {"of", PARAM_LAW, NULL, NULL, "the input, any expression", 0},
-    {"k",  PARAM_LAW, NULL, NULL, "what it is multiplied by", 0},
+    {"k",  PARAM_LAW, NULL, NULL, "the factor", 0},
     BLOCK_PARAMS,
 };
 static const Param sum_params[] = {
-    {"of", PARAM_LIST_LAWS, NULL, NULL, "what is added: [a.v, -b.v]", 0},
+    {"of", PARAM_LIST_LAWS, NULL, NULL, "the summands: [a.v, -b.v]", 0},
     BLOCK_PARAMS,
 };
 static const Param integrator_params[] = {
@@ -114,7 +114,7 @@ static const Param lag_params[] = {
 };
 
 static const Member input_members[] = {
-    {"held", "V", "what it was set to last", 1},
+    {"held", "V", "the value that was set last", 1},
 };
 static const Member plain_members[] = {
     BLOCK_MEMBERS,
@@ -196,11 +196,11 @@ const Component component_input = {
     .members = input_members,
     .member_count = COUNT(input_members),
     .positive = "period",
-    .help = "A voltage source that a program sets which runs the model by the library "
-            "(ct_simulate): at multiples of the period it is asked for a value, which is held to "
-            "the next one. A controller or an interface to other hardware is tried so. In the "
-            "shell nobody sets it: it keeps the initial value. In an FMU it is an input, which the "
-            "importer sets when it likes.",
+    .help = "A voltage source whose value is set by a program that runs the model with the "
+            "library (ct_simulate). The program is asked for a value at multiples of the "
+            "period; the value is held until the next multiple. This serves to test a "
+            "controller or an interface to other hardware. In the shell the source keeps its "
+            "initial value. In an FMU it is an input, which the importer may set at any time.",
     .example = "input U1 a 0 period=10 ms initial=2\nresistor R1 a 0 1 kohm\nsimulate 1\n"
                "print R1.i",
     .see = "gain pid vsource",
@@ -330,9 +330,9 @@ const Component component_integrator = {
     .members = state_members,
     .member_count = COUNT(state_members),
     .check = plain_check,
-    .help = "A voltage source whose rate is k times its input; initial= is where it starts. With "
-            "limits=[lo, hi] it stops there until its input turns round. With period= it is "
-            "sampled: it grows by period*k times the input at each instant.",
+    .help = "A voltage source whose rate is k times its input; initial= is its first value. "
+            "With limits=[lo, hi] it stops at a limit until its input changes sign. With "
+            "period= it is sampled: it grows by period*k times the input at each instant.",
     .example = "vsource V1 a 0 cos(10*t)\nintegrator c1 b 0 of=a.v k=10\n"
                "simulate 1\nprint c1.v, sin(10)",
     .see = "lag gain pid",
@@ -379,9 +379,8 @@ const Component component_lag = {
     .member_count = COUNT(state_members),
     .positive = "T",
     .check = plain_check,
-    .help = "A voltage source that follows k times its input with the time constant T: T*x' + x = "
-            "k*of. initial= is where it starts, limits=[lo, hi] cut its output, and with period= "
-            "it is sampled.",
+    .help = "A first-order lag: a voltage source with T*x' + x = k*of. initial= is its first "
+            "value, limits=[lo, hi] limit its output, and with period= it is sampled.",
     .example = "vsource V1 a 0 1\nlag c1 b 0 of=a.v k=3 T=0.1\nsimulate 0.1\n"
                "print c1.v, 3*(1 - exp(-1))",
     .see = "integrator transfer gain",

@@ -60,9 +60,9 @@ const Component component_vcvs = {
     .terminal_count = 4,
     .terminal_usage = " PLUS MINUS C D",
     .relation = vcvs_relation,
-    .help = "Its voltage is gain times that of terminal C against terminal D, whatever the "
-            "current: an amplifier. Nothing flows into C and D; other components hold them. The "
-            "gain may be an expression.",
+    .help = "Its voltage is gain times the voltage of terminal C relative to terminal D, "
+            "whatever the current: an amplifier. No current flows into C and D; other "
+            "components have to determine their voltages. The gain may be an expression.",
     .example = "vsource V1 in 0 0.1*sin(100*t)\nvcvs E1 out 0 in 0 gain=50\n"
                "resistor R1 out 0 1 kohm\nsimulate 0.1\nprint max(E1.v), rms(R1.i)",
     .see = "vccs ccvs opamp vsource",
@@ -90,8 +90,9 @@ const Component component_vccs = {
     .terminal_usage = " PLUS MINUS C D",
     .relation = vccs_relation,
     .help = "Its current, from plus to minus inside, is gain times the voltage of terminal C "
-            "against terminal D: a transistor's transconductance. Nothing flows into C and D; "
-            "other components hold them. The gain, in siemens, may be an expression.",
+            "relative to terminal D: a transistor's transconductance. No current flows into C "
+            "and D; other components have to determine their voltages. The gain, in siemens, "
+            "may be an expression.",
     .example = "vsource V1 in 0 0.1\nvccs G1 0 out in 0 gain=20 mS\nresistor R1 out 0 1 kohm\n"
                "capacitor C1 out 0 1 uF\ninit C1.v = 0\nsimulate 0.01\nprint out.v",
     .see = "vcvs cccs isource",
@@ -116,8 +117,8 @@ const Component component_ccvs = {
     .translation = BRANCH_MAY,
     .preference = 10,
     .relation = ccvs_relation,
-    .help = "Its voltage is gain times a current elsewhere, which of= names: of=R1.i. The gain, in "
-            "ohm, may be an expression.",
+    .help = "Its voltage is gain times the current of another component, named by of=R1.i. The "
+            "gain, in ohm, may be an expression.",
     .example = "vsource V1 a 0 5\nresistor R1 a b 10 ohm\ninductor L1 b 0 20 mH\n"
                "ccvs H1 c 0 of=R1.i gain=100\nresistor R2 c 0 50 ohm\ninit L1.i = 0\n"
                "simulate 0.02\nprint H1.v, R2.i",
@@ -143,8 +144,8 @@ const Component component_cccs = {
     .translation = BRANCH_MAY,
     .preference = 50,
     .relation = cccs_relation,
-    .help = "Its current, from plus to minus inside, is gain times a current elsewhere, which of= "
-            "names: of=R1.i. The gain may be an expression.",
+    .help = "Its current, from plus to minus inside, is gain times the current of another "
+            "component, named by of=R1.i. The gain may be an expression.",
     .example = "vsource V1 a 0 1\nresistor R1 a 0 1 kohm\ncccs F1 0 b of=R1.i gain=100\n"
                "resistor R2 b 0 50 ohm\nsimulate 0.01\nprint R2.i, b.v",
     .see = "ccvs vccs isource",
@@ -171,9 +172,9 @@ const Component component_sensor = {
     .translation = BRANCH_MAY,
     .preference = 10,
     .relation = sensor_relation,
-    .help = "Its voltage is gain times a variable, and what it measures doesn't feel it: the angle "
-            "or position of a joint (h8), its rate (h8', a tachometer), the position of a point "
-            "(r5.x), a force (h9.fx), a current (R1.i). An expression stands in brackets.",
+    .help = "Its voltage is gain times a variable, without an effect on what it measures: the "
+            "angle or position of a joint (h8), its rate (h8', a tachometer), the position of a "
+            "point (r5.x), a force (h9.fx), a current (R1.i). An expression needs brackets.",
     .example = "scene planar\nbody wheel mass=1 inertia=0.02\nrevolute h1 ground wheel\n"
                "actuator a1 h1 torque=0.1\nsensor v1 h1 a 0 gain=2\nsensor v2 h1' b 0 gain=0.1\n"
                "resistor R1 a 0 1 kohm\ninit h1 = 0, h1' = 0\nsimulate 1\nprint v1.v, v2.v, R1.i",

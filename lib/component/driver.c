@@ -8,15 +8,15 @@
 
 /* clang-format off */
 static const Param driver_params[] = {
-    {"value", PARAM_LAW, "m|rad", NULL, "what the coordinate follows: an expression of t and parameters", 0},
+    {"value", PARAM_LAW, "m|rad", NULL, "the prescribed coordinate: an expression of t and parameters", 0},
 };
 
 static const Member driver_members[] = {
-    {"effort", NULL, "force or torque that the driver takes, along the coordinate", 0},
+    {"effort", NULL, "force or torque that the driver needs, along the coordinate", 0},
 };
 
 static const Param coupler_params[] = {
-    {"value", PARAM_LAW, "m|rad", NULL, "what the coordinate is: an expression of other joints' coordinates", 0},
+    {"value", PARAM_LAW, "m|rad", NULL, "the coordinate: an expression of other joints' coordinates", 0},
 };
 
 static const Member coupler_members[] = {
@@ -44,9 +44,9 @@ const Component component_driver = {
     .prescribed = prescribed,
     .members = driver_members,
     .member_count = COUNT(driver_members),
-    .help = "Makes a coordinate of a joint or a body follow an expression of t. Its effort is the "
-            "force or torque that this takes. With by= another coordinate or a source supplies "
-            "the motion instead, in inverse runs.",
+    .help = "Prescribes the coordinate of a joint or a body as an expression of t. Its effort "
+            "is the force or torque that this needs. With by= another coordinate or a source "
+            "produces the motion instead, in inverse runs.",
     .example = "scene planar\ngravity [0, -9.81]\nbody rod mass=1 inertia=1/12\n"
                "arm pin rod [-1/2, 0]\nrevolute h1 ground pin\ndriver D1 h1 = 2*pi*t\n"
                "inverse 1 every=0.1\nprint D1.effort",
@@ -68,11 +68,12 @@ const Component component_coupler = {
     .members = coupler_members,
     .member_count = COUNT(coupler_members),
     .help =
-        "Ties the coordinate of a joint to those of other joints, without play or elasticity: "
-        "gears (coupler C1 h2 = -20/60*h1), a rack (s = 0.03*h1), a differential "
-        "(h3 = (h1 + h2)/2), a cam (s = table(\"cam.csv\", h1)). One freedom less for each. Its "
-        "effort acts on the coordinate, and what follows from it on the others; it does no "
-        "work. The bearings are the joints': they feel what acts on their own coordinate.",
+        "Makes the coordinate of a joint a function of those of other joints, without play or "
+        "elasticity: gears (coupler C1 h2 = -20/60*h1), a rack (s = 0.03*h1), a differential "
+        "(h3 = (h1 + h2)/2), a cam (s = table(\"cam.csv\", h1)). Each coupler removes one "
+        "degree of freedom. Its effort acts on the coordinate, and the corresponding efforts on "
+        "the others; in total it does no work. The reactions of each joint include the "
+        "effort on its own coordinate.",
     .example = "scene planar\nbody a inertia=1 mass=1; body b inertia=3 mass=1\n"
                "revolute h1 ground a; revolute h2 ground b\ncoupler C1 h2 = -h1/2\n"
                "actuator T1 h1 torque=7\nsimulate 1\nprint h1, h2, C1.effort",

@@ -20,10 +20,10 @@ static const Param coupling_params[] = {
     {"M", PARAM_SCALAR, "H", "0", "or the mutual inductance", 0},
 };
 static const Param vsource_params[] = {
-    {"value", PARAM_LAW, "V", NULL, "voltage, of t, parameters and variables", POSITIONAL | GIVES_SOURCE},
+    {"value", PARAM_LAW, "V", NULL, "voltage, an expression of t, parameters and variables", POSITIONAL | GIVES_SOURCE},
 };
 static const Param isource_params[] = {
-    {"value", PARAM_LAW, "A", NULL, "current, of t, parameters and variables", POSITIONAL | GIVES_SOURCE},
+    {"value", PARAM_LAW, "A", NULL, "current, an expression of t, parameters and variables", POSITIONAL | GIVES_SOURCE},
 };
 
 static const Member capacitor_members[] = {
@@ -109,8 +109,8 @@ const Component component_capacitor = {
     .members = capacitor_members,
     .member_count = COUNT(capacitor_members),
     .positive = "C",
-    .help = "A capacitor between two terminals; its charge is C*v. C may be an expression, also of "
-            "its own voltage: C0/(1 + C1.v/0.7). Its voltage is a state that init may give.",
+    .help = "A capacitor between two terminals; its charge is C*v. C may be an expression, also "
+            "of its own voltage: C0/(1 + C1.v/0.7). Its voltage is a state; init may set it.",
     .example = "resistor R1 a 0 1 kohm\ncapacitor C1 a 0 1 uF\ninit C1.v = 5\nsimulate 0.002\n"
                "print C1.v, C1.q",
     .see = "resistor inductor init",
@@ -138,8 +138,8 @@ const Component component_inductor = {
     .members = inductor_members,
     .member_count = COUNT(inductor_members),
     .positive = "L",
-    .help = "An inductor between two terminals; its flux linkage is L*i. L may be an expression, "
-            "also of its own current. Its current is a state that init may give.",
+    .help = "An inductor between two terminals; its flux linkage is L*i. L may be an "
+            "expression, also of its own current. Its current is a state; init may set it.",
     .example = "vsource E1 a 0 12\nresistor R1 a b 2 ohm\ninductor L1 b 0 50 mH\ninit L1.i = 0\n"
                "simulate 0.1\nprint L1.i, L1.flux",
     .see = "resistor capacitor init",
@@ -208,11 +208,11 @@ const Component component_coupling = {
     .stores = coupling_stores,
     .couples = "inductor",
     .check = coupling_check,
-    .help = "Two inductors on one core: each one's flux holds M times the current of the other, "
-            "where M = k*sqrt(L1*L2), or is given. Both currents count from plus to minus inside; "
-            "a negative k turns one winding round. Any number of pairs may be coupled, as "
-            "long as coils can be: M stays below sqrt(L1*L2), and the matrix of all L and M is "
-            "positive definite.",
+    .help = "Couples two inductors on one core: the flux of each contains M times the current "
+            "of the other, where M = k*sqrt(L1*L2) or M is given. Both currents are positive "
+            "from plus to minus inside; a negative k reverses one winding. Any number of pairs "
+            "may be coupled, as long as coils can be: M stays below sqrt(L1*L2), and the matrix "
+            "of all L and M is positive definite.",
     .example = "vsource V1 a 0 10*sin(314*t)\nresistor R1 a b 1 ohm\ninductor L1 b 0 0.4 H\n"
                "inductor L2 c 0 0.1 H\ncoupling K1 L1 L2 k=0.98\nresistor R2 c 0 50 ohm\n"
                "init L1.i = 0, L2.i = 0\nsimulate 0.1\nprint max(L1.v), max(L2.v)",
@@ -239,9 +239,8 @@ const Component component_vsource = {
     .translation = BRANCH_MAY,
     .preference = 10,
     .relation = vsource_relation,
-    .help =
-        "A voltage of plus against minus, whatever the current: any expression of t, parameters "
-        "and other variables, so that it is also a controller.",
+    .help = "A voltage of plus relative to minus, whatever the current: any expression of t, "
+            "parameters and other variables, so that it can also be a controller.",
     .example = "vsource E1 a 0 10*sin(100*t)\nresistor R1 a b 5 ohm\ninductor L1 b 0 20 mH\n"
                "simulate 0.1\nprint E1.i, a.v",
     .see = "isource resistor motor",

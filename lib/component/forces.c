@@ -8,19 +8,19 @@
 /* clang-format off */
 static const Param force_params[] = {
     {"force", PARAM_LAWS, "N", NULL, "components along x, y (and z)", POSITIONAL | GIVES_LOAD},
-    {"in",    PARAM_WORD, NULL, "ground|body", "whose axes the components are in", 0},
+    {"in",    PARAM_WORD, NULL, "ground|body", "axes of the components", 0},
 };
 
 static const Param torque_params[] = {
     {"torque", PARAM_MOMENT, "N*m", NULL, "planar one number, spatial components along x, y, z", POSITIONAL | GIVES_LOAD},
-    {"in",     PARAM_WORD, NULL, "ground|body", "whose axes the components are in", 0},
+    {"in",     PARAM_WORD, NULL, "ground|body", "axes of the components", 0},
 };
 
 static const Param spring_params[] = {
     {"k",      PARAM_SCALAR, "N/m|N*m",     NULL, "stiffness", 0},
     {"length", PARAM_SCALAR, "m|rad",       "0",  "of the relaxed spring between two frames", 0},
-    {"rest",   PARAM_SCALAR, "m|rad",       "0",  "coordinate at which a spring on a joint is relaxed", 0},
-    {"d",      PARAM_SCALAR, "N*s/m|N*m*s", "0",  "damping beside the spring", 0},
+    {"rest",   PARAM_SCALAR, "m|rad",       "0", "coordinate at which a spring on a joint is relaxed", 0},
+    {"d",      PARAM_SCALAR, "N*s/m|N*m*s", "0", "damping in parallel with the spring", 0},
 };
 
 static const Param damper_params[] = {
@@ -68,9 +68,9 @@ const Component component_force = {
     .params = force_params,
     .param_count = COUNT(force_params),
     .wrench = force_wrench,
-    .help = "A force on the origin of a frame, components in ground axes or, with in=body, in "
-            "those of the frame. Each component may use t, parameters and other variables; "
-            "a multiple of an acceleration, as in 3 - 2*m1.x'', is inertia, 2 kg here.",
+    .help = "A force on the origin of a frame, with components in ground axes or, with in=body, "
+            "in those of the frame. Each component may use t, parameters and other variables. A "
+            "multiple of an acceleration, as in 3 - 2*m1.x'', is inertia, 2 kg here.",
     .example = "scene planar\nbody m1 mass=2 inertia=0.1\nforce F1 m1 [3*sin(2*t), -m1.vy]\n"
                "simulate 1\nprint m1.x",
     .see = "torque gravity actuator",
@@ -161,9 +161,9 @@ const Component component_spring = {
     .member_count = COUNT(effort_members),
     .check = spring_check,
     .help =
-        "Between two frames: the force along their line on the tip is -(k*(distance - length) + "
-        "d*rate); positive pushes the tip away. On a joint: -(k*(coordinate - rest) + d*rate), "
-        "on its tip, a torque where the coordinate is an angle.",
+        "Between two frames: the force on the tip along their line is -(k*(distance - length) + "
+        "d*rate); a positive force pushes the tip away. On a joint: -(k*(coordinate - rest) + "
+        "d*rate) on its tip, a torque if the coordinate is an angle.",
     .example =
         "scene planar\nbody m1 mass=1 inertia=0\nprismatic s1 ground m1 axis=x\n"
         "spring k1 s1 k=40 rest=0.2\narm wall ground [-1, 0]\nspring k2 wall m1 k=10 length=1\n"
@@ -187,8 +187,8 @@ const Component component_damper = {
     .effort = damper_effort,
     .members = effort_members,
     .member_count = COUNT(effort_members),
-    .help = "The force on the tip is -d times the rate of the distance between two frames, or of "
-            "the joint's coordinate (a torque where that is an angle).",
+    .help = "The force on the tip is -d times the rate of the distance between two frames, or "
+            "of the joint's coordinate (a torque if that is an angle).",
     .example = "scene planar\nbody m1 mass=1 inertia=0\nprismatic s1 ground m1 axis=x\n"
                "damper d1 s1 d=2\ninit s1' = 1\nsimulate 1\nprint s1', d1.effort",
     .see = "spring actuator",
@@ -238,10 +238,10 @@ const Component component_actuator = {
     .member_count = COUNT(effort_members),
     .check = actuator_check,
     .help =
-        "Between two frames: force= along their line, positive pushes the tip away from the "
-        "tail. On a joint: force= on a slide, torque= on a hinge, positive the way that the "
-        "coordinate counts. Any expression of t, parameters and variables: force=-5*sign(s1') is "
-        "dry friction, which also holds at rest.",
+        "Between two frames: force= along their line; a positive force pushes the tip away from "
+        "the tail. On a joint: force= on a slide, torque= on a hinge, positive in the direction "
+        "of the coordinate. It may be any expression of t, parameters and variables: "
+        "force=-5*sign(s1') is dry friction, which also holds at rest.",
     .example = "scene planar\nbody wheel mass=1 inertia=0.1\nrevolute h1 ground wheel\n"
                "actuator a1 h1 torque=2*(1 - h1) - 0.5*h1'\nsimulate 5\nprint h1, a1.effort",
     .see = "spring motor force",

@@ -14,7 +14,7 @@ static const Param valve_params[] = {
     {"R",    PARAM_LAW,    "Pa*s/m^3",   "0",  "pressure per flow while it is open, of laminar flow", 0},
     {"k",    PARAM_LAW,    "Pa*s^2/m^6", "0",  "pressure per flow squared while it is open: k*q*|q|", 0},
     {"when", PARAM_LAW,    NULL,         NULL, "condition under which it is open", 0},
-    {"Roff", PARAM_SCALAR, "Pa*s/m^3",   "0",  "pressure per flow of what leaks through it closed; 0: nothing does", 0},
+    {"Roff", PARAM_SCALAR, "Pa*s/m^3",   "0", "pressure per flow of the leakage while it is closed; 0: no leakage", 0},
 };
 static const Param tank_params[] = {
     {"A",   PARAM_SCALAR, "m^2",    "0",    "area of the surface; C = A/(rho*g)", 0},
@@ -115,10 +115,11 @@ const Component component_pipe = {
     .preference = 30,
     .relation = pipe_relation,
     .check = pipe_check,
-    .help = "A pipe or an orifice between two terminals: p = R*q of laminar flow, k*q*|q| of "
-            "turbulent flow, or the sum of both; an orifice of area a has k = density/2/(c*a)^2 "
-            "with c about 0.6. k alone has no slope where the flow turns; a small R beside it "
-            "smooths that. R and k may be expressions of t and of variables, also of its own.",
+    .help = "A pipe or an orifice between two terminals: p = R*q for laminar flow, k*q*|q| for "
+            "turbulent flow, or the sum of both. An orifice of area a has k = density/2/(c*a)^2 "
+            "with c about 0.6. With k alone the slope is zero where the flow reverses; a small "
+            "R in addition removes that. R and k may be expressions of t and of variables, also "
+            "of its own.",
     .example = "tank T1 a 0 A=0.5\npipe P1 a 0 k=5e8\ninit T1.p = 10 kPa\nsimulate 60\n"
                "print T1.p, P1.flow",
     .see = "tank valve inertance pump",
@@ -168,7 +169,7 @@ const Component component_tank = {
     .family = FAMILY_SCALAR,
     .domain = DOMAIN_HYDRAULIC,
     .places = PLACES_TERMINALS,
-    .brief = "open tank, or anything that holds volume by pressure: q = C*p'",
+    .brief = "open tank, or any volume that depends on pressure: q = C*p'",
     .params = tank_params,
     .param_count = COUNT(tank_params),
     .translation = BRANCH_MAY,
@@ -177,11 +178,11 @@ const Component component_tank = {
     .members = tank_members,
     .member_count = COUNT(tank_members),
     .check = tank_check,
-    .help = "Liquid with a free surface of area A: its pressure at the bottom is rho*g times the "
-            "level, so that q = C*p' with C = A/(rho*g); water and 9.81 m/s^2 if nothing else is "
-            "said. C= gives the volume per pressure directly, of a gas spring or of the liquid's "
-            "own compressibility (volume/bulk modulus). The second terminal is 0. Its pressure is "
-            "a state that init may give.",
+    .help = "Liquid with a free surface of area A. Its pressure at the bottom is rho*g times "
+            "the level, so that q = C*p' with C = A/(rho*g); the defaults are water and 9.81 "
+            "m/s^2. C= sets the volume per pressure directly, as for a gas spring or the "
+            "liquid's own compressibility (volume/bulk modulus). The second terminal is 0. Its "
+            "pressure is a state; init may set it.",
     .example = "pump U1 a 0 flow=1e-3\ntank T1 a 0 A=0.5\npipe P1 a 0 R=1e7\ninit T1.p = 0\n"
                "simulate 300\nprint T1.p, T1.volume, P1.flow",
     .see = "pipe pump inertance init",
@@ -208,8 +209,8 @@ const Component component_inertance = {
     .members = inertance_members,
     .member_count = COUNT(inertance_members),
     .positive = "I",
-    .help = "The liquid in a pipe has to be accelerated: p = I*q' with I = density*length/area. "
-            "Its flow is a state that init may give.",
+    .help = "The inertia of the liquid in a pipe: p = I*q' with I = density*length/area. Its "
+            "flow is a state; init may set it.",
     .example = "tank T1 a 0 A=0.01\ninertance I1 a b I=1e7\npipe P1 b 0 R=2e6\n"
                "init T1.p = 10 kPa, I1.flow = 0\nsimulate 5\nprint I1.flow, T1.p",
     .see = "pipe tank init",
@@ -249,11 +250,10 @@ const Component component_valve = {
     .preference = 30,
     .relation = valve_relation,
     .check = valve_check,
-    .help = "A pipe while the condition when= holds, with R, k or both as of pipe; while it does "
-            "not, nothing flows, or with Roff= what leaks. R and k may be expressions of t and of "
-            "variables. The condition compares time, "
-            "parameters and variables; the instants at which it changes are located. "
-            "when=V1.p > 0 makes valve V1 a check valve.",
+    .help = "A pipe while the condition when= holds, with R, k or both as for pipe. Otherwise "
+            "nothing flows, or with Roff= the leakage. R and k may be expressions of t and of "
+            "variables. The condition compares time, parameters and variables; a run locates "
+            "the instants at which it changes. when=V1.p > 0 makes valve V1 a check valve.",
     .example = "pump U1 a 0 pressure=2e5\nvalve V1 a b R=1e8 when=t > 1\ntank T1 b 0 C=1e-8\n"
                "init T1.p = 0\nsimulate 5\nprint V1.flow, T1.p",
     .see = "pipe pump tank",
@@ -300,11 +300,11 @@ const Component component_pump = {
     .preference = 10,
     .relation = pump_relation,
     .check = pump_check,
-    .help = "With pressure= it holds the pressure of its first terminal against the second, "
-            "whatever flows; with flow= it gives that flow to the first terminal and takes it from "
-            "the second, whatever the pressure, and as flow is counted from plus to minus inside, "
-            "U1.flow is then minus the value. Either is any expression of t, parameters and other "
-            "variables.",
+    .help = "With pressure= it sets the pressure of its first terminal relative to the second, "
+            "whatever the flow. With flow= it supplies that flow to the first terminal and "
+            "takes it from the second, whatever the pressure; as flow is positive from plus to "
+            "minus inside, U1.flow is then minus the value. Both may be any expression of t, "
+            "parameters and other variables.",
     .example = "pump U1 a 0 flow=1e-4*(1 + sin(10*t))\npipe P1 a b R=1e9\ntank T1 b 0 C=1e-9\n"
                "pipe P2 b 0 R=5e9\ninit T1.p = 0\nsimulate 10\nprint U1.p, U1.flow, T1.p",
     .see = "pipe tank valve cylinder",
@@ -349,10 +349,10 @@ const Component component_cylinder = {
     .members = cylinder_members,
     .member_count = COUNT(cylinder_members),
     .check = cylinder_check,
-    .help = "A piston on the coordinate s of a slide: it takes the flow area*s' at its first "
-            "terminal, and the pressure of that against the second pushes the tip with area*p "
-            "along the coordinate. A piston with two sides is two cylinders: the one that pushes "
-            "back stands on the same slide with its terminals exchanged.",
+    .help = "A piston on the coordinate s of a slide. It takes the flow area*s' at its first "
+            "terminal. The pressure of this terminal relative to the second pushes the tip with "
+            "area*p along the coordinate. A double-acting piston is two cylinders: the second "
+            "acts on the same slide, with its terminals exchanged.",
     .example = "scene planar\ngravity [0, -9.81]\nbody load mass=500 inertia=1\n"
                "prismatic s1 ground load axis=y\npump U1 a 0 pressure=20e5\npipe P1 a b R=1e10\n"
                "cylinder Y1 s1 b 0 area=30e-4\ninit s1 = 0, s1' = 0\nsimulate 1\n"

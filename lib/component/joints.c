@@ -50,9 +50,9 @@ const Component component_revolute = {
     .preference = 10,
     .steps = turn_steps,
     .help =
-        "Lets the tip turn against the tail about one axis fixed in the tail. The coordinate is "
-        "the angle, positive about the axis (right hand); it carries the joint's name, or "
-        "that of coord=. Reactions: three forces, two moments.",
+        "Allows the tip to turn relative to the tail about one axis fixed in the tail. The "
+        "coordinate is the angle, positive about the axis (right hand); its name is that of the "
+        "joint, or that of coord=. Reactions: three forces, two moments.",
     .example = "scene planar\ngravity [0, -9.81]\nbody rod mass=1 inertia=1/12\n"
                "arm pin rod [-1/2, 0]\nrevolute h1 ground pin coord=phi\n"
                "init phi = -60 deg\nsimulate 1\nprint phi, h1.fx",
@@ -81,8 +81,9 @@ const Component component_prismatic = {
     .preference = 10,
     .steps = slide_steps,
     .help =
-        "Lets the tip slide against the tail along one axis fixed in the tail, without turning. "
-        "The coordinate is the distance along the axis. Reactions: two forces, three moments.",
+        "Allows the tip to slide relative to the tail along one axis fixed in the tail, without "
+        "turning. The coordinate is the distance along the axis. Reactions: two forces, three "
+        "moments.",
     .example = "scene planar\nbody cart mass=2 inertia=1\nprismatic s1 ground cart axis=x\n"
                "spring k1 s1 k=50 rest=0.1\ninit s1 = 0\nsimulate 1\nprint s1, s1'",
     .see = "revolute cylindrical spring",
@@ -113,9 +114,9 @@ const Component component_cylindrical = {
     .rotation = BRANCH_MAY,
     .preference = 10,
     .steps = sleeve_steps,
-    .help = "Lets the tip slide along one axis fixed in the tail and turn about it, each by "
-            "itself. Coordinates s, the distance, and theta, the angle. Reactions: two forces, "
-            "two moments.",
+    .help = "Allows the tip to slide along one axis fixed in the tail and to turn about it, "
+            "independently. Coordinates: s, the distance, and theta, the angle. Reactions: two "
+            "forces, two moments.",
     .example = "gravity [0, 0, -9.81]\nbody sleeve mass=0.5 inertia=[1e-3, 1e-3, 2e-3]\n"
                "cylindrical c1 ground sleeve axis=z\nspring k1 c1.s k=40\n"
                "init c1.s = 0, c1.theta = 0, c1.theta' = 3\nsimulate 1\nprint c1.s, c1.theta",
@@ -150,10 +151,9 @@ const Component component_planarjoint = {
     .rotation = BRANCH_MAY,
     .preference = 10,
     .steps = plane_steps,
-    .help =
-        "Lets the tip shift in a plane fixed in the tail and turn about its normal. Coordinates "
-        "s1 s2 along two axes across the normal (x and y for z, in circle for the others) and "
-        "theta about it. Reactions: one force, two moments.",
+    .help = "Allows the tip to move in a plane fixed in the tail and to turn about its normal. "
+            "Coordinates: s1 s2 along two axes in the plane (x and y for the normal z, cyclically "
+            "for the others) and theta about the normal. Reactions: one force, two moments.",
     .example = "scene planar\ngravity [0, -9.81]\nbody disk mass=1 inertia=0.1\n"
                "planarjoint p1 ground disk\ninit p1.s1' = 1, p1.theta' = 2\n"
                "simulate 1\nprint p1.s1, p1.s2, p1.theta",
@@ -177,8 +177,9 @@ const Component component_weld = {
     .rotation = BRANCH_MAY,
     .preference = 10,
     .steps = weld_steps,
-    .help = "Keeps the tip's frame on the tail's, position and attitude. It has no coordinate; "
-            "unlike an arm it may be a chord, and its force and moment can be asked for.",
+    .help = "Joins the tip's frame to the tail's in position and attitude. It has no "
+            "coordinate. Unlike an arm it may be a chord, and its force and moment are "
+            "available.",
     .example = "scene planar\ngravity [0, -9.81]\nbody rod mass=1 inertia=1/12\n"
                "arm left rod [-1/2, 0]\narm right rod [1/2, 0]\nbody bob mass=0.3 inertia=0\n"
                "revolute h1 ground left\nweld w1 right bob\ninit h1 = 0\nsimulate 1\n"

@@ -53,7 +53,7 @@ const Component component_universal = {
     .family = FAMILY_JOINT,
     .domain = DOMAIN_MECHANICAL,
     .places = PLACES_FRAMES,
-    .brief = "cross: a turn about one axis, then about another square to it",
+    .brief = "cross: a turn about one axis, then about another perpendicular to it",
     .params = cross_params,
     .param_count = COUNT(cross_params),
     .coords = cross_coords,
@@ -64,9 +64,10 @@ const Component component_universal = {
     .preference = 10,
     .steps = cross_steps,
     .check = cross_check,
-    .help = "Lets the tip turn about an axis fixed in the tail (angle a1), then about one fixed in "
-            "the cross, hence in the tip (angle a2). Where both angles are zero the frames "
-            "coincide. Reactions: three forces, and the moment about the third axis of the cross.",
+    .help = "Allows the tip to turn about an axis fixed in the tail (angle a1), then about one "
+            "fixed in the cross and in the tip (angle a2). If both angles are zero, the frames "
+            "coincide. Reactions: three forces, and the moment about the third axis of the "
+            "cross.",
     .example = "gravity [0, 0, -9.81]\nbody rod mass=1 inertia=[1/12, 1/12, 1e-4]\n"
                "arm top rod [0, 0, 1/2]\nuniversal u1 ground top axes=[x, y]\n"
                "init u1.a1 = 0.3, u1.a2 = 0.1\nsimulate 1\nprint u1.a1, u1.a2",
@@ -96,13 +97,13 @@ const Component component_spherical = {
     .rotation = BRANCH_MAY,
     .preference = 10,
     .steps = ball_steps,
-    .help = "Holds the origins of two frames together and lets the tip turn as it likes. "
-            "Coordinates: Euler parameters q0 q1 q2 q3, scalar part first, tip to tail, or with "
-            "euler=zxz and its kin angles a1 a2 a3 of three turns. Sequences that end as they "
-            "begin (zxz) are singular where a2 is 0 or half a turn, the others (zyx) where it is "
-            "a quarter of a turn; Euler parameters nowhere. Angles of a chord are read off its "
-            "attitude, a1 and a3 within half a turn of 0, and a2 from 0 to half a turn (zxz) or "
-            "within a quarter of a turn (zyx). Reactions: three forces.",
+    .help = "Joins the origins of two frames and allows every rotation of the tip. Coordinates: "
+            "Euler parameters q0 q1 q2 q3, scalar part first, tip to tail, or with euler=zxz "
+            "and similar sequences three angles a1 a2 a3. Sequences with equal first and last "
+            "axes (zxz) are singular where a2 is 0 or half a turn, the others (zyx) where it is "
+            "a quarter of a turn; Euler parameters have no singularity. Angles of a chord "
+            "follow from its attitude: a1 and a3 within half a turn of 0, and a2 from 0 to half "
+            "a turn (zxz) or within a quarter of a turn (zyx). Reactions: three forces.",
     .example = "gravity [0, 0, -9.81]\nbody top mass=15 inertia=[0.3, 0.5, 0.3]\n"
                "arm P top [0, -1, 0]\nspherical b1 ground P\ninit top.wy = 150\n"
                "simulate 0.1\nprint top.x, top.y, top.z",
@@ -127,9 +128,10 @@ const Component component_free_joint = {
     .preference = 10,
     .steps = free_steps,
     .check = attitude_check,
-    .help = "Leaves the tip free against the tail. As a branch it gives coordinates of one frame "
-            "relative to another: x y z in the axes of the tail and Euler parameters q0 q1 q2 q3, "
-            "or with euler= angles a1 a2 a3 (planar: x y theta); as a chord it enforces nothing.",
+    .help = "Allows every motion of the tip relative to the tail. As a branch it has the "
+            "coordinates of one frame relative to another: x y z in the axes of the tail and "
+            "Euler parameters q0 q1 q2 q3, or with euler= angles a1 a2 a3 (planar: x y theta). "
+            "As a chord it constrains nothing.",
     .example = "scene planar\nbody ship mass=100 inertia=10\nbody boat mass=1 inertia=0.1\n"
                "free f1 ship boat\ntree ship f1\ninit f1.x = 5, f1.x' = -1\nsimulate 1\n"
                "print f1.x, boat.x",

@@ -22,16 +22,16 @@
 
 /* clang-format off */
 static const Param pd_params[] = {
-    {"ref",    PARAM_LAW,    NULL, NULL, "what is wanted, any expression", ALIKE},
-    {"of",     PARAM_LAW,    NULL, NULL, "what is measured, any expression", ALIKE},
+    {"ref",    PARAM_LAW,    NULL, NULL, "the reference, any expression", ALIKE},
+    {"of",     PARAM_LAW,    NULL, NULL, "the measured value, any expression", ALIKE},
     {"Kp",     PARAM_LAW,    NULL, NULL, "output per error, ref - of", 0},
     {"Kd",     PARAM_LAW,    NULL, NULL, "output per rate of the error", 0},
     {"filter", PARAM_SCALAR, "s",  "0",  "time constant of the rate", 0},
     BLOCK_PARAMS,
 };
 static const Param pid_params[] = {
-    {"ref",     PARAM_LAW,    NULL, NULL, "what is wanted, any expression", ALIKE},
-    {"of",      PARAM_LAW,    NULL, NULL, "what is measured, any expression", ALIKE},
+    {"ref",     PARAM_LAW,    NULL, NULL, "the reference, any expression", ALIKE},
+    {"of",      PARAM_LAW,    NULL, NULL, "the measured value, any expression", ALIKE},
     {"Kp",      PARAM_LAW,    NULL, NULL, "output per error, ref - of", 0},
     {"Ki",      PARAM_LAW,    NULL, NULL, "output per integral of the error", 0},
     {"Kd",      PARAM_LAW,    NULL, "0",  "output per rate of the error", 0},
@@ -42,18 +42,18 @@ static const Param pid_params[] = {
 static const Param transfer_params[] = {
     {"of",  PARAM_LAW,  NULL, NULL, "the input, any expression", 0},
     {"num", PARAM_LIST, NULL, NULL, "coefficients of the numerator, highest power first", 0},
-    {"den", PARAM_LIST, NULL, NULL, "those of the denominator", 0},
+    {"den", PARAM_LIST, NULL, NULL, "coefficients of the denominator", 0},
     BLOCK_PARAMS,
 };
 
 static const Member pd_members[] = {
-    {"filtered", NULL, "the error behind the filter, with filter=", 1},
+    {"filtered", NULL, "the filtered error, with filter=", 1},
     {"previous", NULL, "the error at the last sampling instant, with period=", 1},
     BLOCK_MEMBERS,
 };
 static const Member pid_members[] = {
     {"integral", NULL, "integral of the error", 1},
-    {"filtered", NULL, "the error behind the filter, with filter=", 1},
+    {"filtered", NULL, "the filtered error, with filter=", 1},
     {"previous", NULL, "the error at the last sampling instant, with period=", 1},
     BLOCK_MEMBERS,
 };
@@ -235,9 +235,9 @@ const Component component_pd = {
     .member_count = COUNT(pd_members),
     .check = pid_check,
     .help = "A voltage source of Kp*e + Kd*e', where e = ref - of. Both ref and of may be any "
-            "expression, and need a derivative: one that jumps is refused. With filter=T the rate "
-            "is that of a first-order lag, (e - f)/T with T*f' = e - f, and jumps may be; f starts "
-            "at 0. limits=[lo, hi] cut the output, and with period= it is sampled.",
+            "expression with a derivative; one that jumps is refused. With filter=T the rate is "
+            "that of a first-order lag, (e - f)/T with T*f' = e - f, and e may jump; f starts "
+            "at 0. limits=[lo, hi] limit the output, and with period= it is sampled.",
     .example = "scene planar\nbody arm1 mass=1 inertia=0.02\nrevolute h1 ground arm1\n"
                "pd c1 a 0 ref=1 - exp(-5*t) of=h1 Kp=20 Kd=2\nmotor M1 h1 a 0 R=1 Kt=0.2\n"
                "init h1 = 0, h1' = 0\nsimulate 5\nprint h1, c1.v",
@@ -260,11 +260,11 @@ const Component component_pid = {
     .members = pid_members,
     .member_count = COUNT(pid_members),
     .check = pid_check,
-    .help = "A voltage source of Kp*e + Ki*I + Kd*e', where e = ref - of and I' = e; the rate as "
-            "for pd, with filter= where e may jump. With limits=[lo, hi] the output y is cut, and "
-            "the integral doesn't wind up: I' = e + (y - u)/Kp, where u is the output uncut, so "
-            "that it comes back with the time constant Kp/Ki. With period= it is sampled: I grows "
-            "by period*I' at each instant.",
+    .help = "A voltage source of Kp*e + Ki*I + Kd*e', where e = ref - of and I' = e. The rate "
+            "is that of pd; with filter= e may jump. limits=[lo, hi] limit the output y, "
+            "without integral windup: I' = e + (y - u)/Kp, where u is the output before the "
+            "limits, so that the integral returns with the time constant Kp/Ki. With period= it "
+            "is sampled: I grows by period*I' at each instant.",
     .example = "scene planar\ngravity [0, -9.81]\nbody arm1 mass=1 inertia=0.02\n"
                "arm p arm1 [-0.2, 0]\nrevolute h1 ground p\n"
                "pid c1 a 0 ref=step(t) of=h1 Kp=40 Ki=60 Kd=8 filter=0.01 limits=[-24, 24]\n"
@@ -444,11 +444,11 @@ const Component component_transfer = {
     .members = transfer_members,
     .member_count = COUNT(transfer_members),
     .check = transfer_check,
-    .help = "A voltage source that answers its input by num(s)/den(s); coefficients are numbers or "
-            "parameters, the highest power first: num=[2, 3] den=[1, 3, 2] is (2*s + 3)/(s^2 + "
-            "3*s + 2). It has a state for each power of the denominator, c1.x1 and its "
-            "derivatives x2 and so on (controllable canonical form), and starts at rest. A "
-            "numerator of higher degree is refused. limits=[lo, hi] cut the output, and with "
+    .help = "A voltage source with the transfer function num(s)/den(s). The coefficients are "
+            "numbers or parameters, the highest power first: num=[2, 3] den=[1, 3, 2] is (2*s + "
+            "3)/(s^2 + 3*s + 2). It has a state for each power of the denominator, c1.x1 and "
+            "its derivatives x2 and so on (controllable canonical form), and starts at rest. A "
+            "numerator of higher degree is refused. limits=[lo, hi] limit the output, and with "
             "period= it is sampled, by the trapezoidal rule.",
     .example = "vsource V1 a 0 1\ntransfer c1 b 0 of=a.v num=[2, 3] den=[1, 3, 2]\nsimulate 2\n"
                "print c1.v, 1.5 - exp(-2) - exp(-4)/2",

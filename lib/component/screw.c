@@ -54,10 +54,11 @@ const Component component_screw = {
     .steps = screw_steps,
     .members = screw_members,
     .member_count = COUNT(screw_members),
-    .help = "Lets the tip turn about an axis fixed in the tail and shifts it by the pitch for each "
-            "turn. The coordinate is theta, the angle; s, the shift, follows from it. A screw is a "
-            "branch of both trees or of none. Reactions: three forces, of which the axial one "
-            "carries the moment -pitch/(2 pi) of itself about the axis, and two moments.",
+    .help = "Allows the tip to turn about an axis fixed in the tail, and shifts it by the pitch "
+            "for each turn. The coordinate is theta, the angle; s, the shift, follows from it. "
+            "A screw is a branch of both trees or of none. Reactions: three forces and two "
+            "moments; the axial force also causes the moment -pitch/(2 pi) times itself about "
+            "the axis.",
     .example = "gravity [0, 0, -9.81]\nbody nut mass=0.2 inertia=[1e-4, 1e-4, 2e-4]\n"
                "screw s1 ground nut pitch=10 mm axis=z\nshow coordinates",
     .see = "cylindrical revolute prismatic",

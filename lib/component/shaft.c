@@ -10,7 +10,7 @@ static const Param flywheel_params[] = {
 };
 static const Param shaft_params[] = {
     {"k", PARAM_SCALAR, "N*m/rad",   "0", "torque per twist; 0: a damper alone", 0},
-    {"d", PARAM_SCALAR, "N*m*s/rad", "0", "torque per rate, beside the spring", 0},
+    {"d", PARAM_SCALAR, "N*m*s/rad", "0", "torque per rate, in parallel with the spring", 0},
 };
 static const Param gear_params[] = {
     {"ratio", PARAM_SCALAR, "1", NULL, "turns of the first shaft for one of the second", 0},
@@ -19,14 +19,14 @@ static const Param torquesource_params[] = {
     {"value", PARAM_LAW, "N*m", NULL, "torque on the first terminal, of t, parameters and variables", POSITIONAL | GIVES_SOURCE},
 };
 static const Param speedsource_params[] = {
-    {"value", PARAM_LAW, "rad/s", NULL, "rate of the first terminal against the second", POSITIONAL | GIVES_SOURCE},
+    {"value", PARAM_LAW, "rad/s", NULL, "rate of the first terminal relative to the second", POSITIONAL | GIVES_SOURCE},
 };
 
 static const Member flywheel_members[] = {
     {"momentum", "N*m*s", "angular momentum, J*w", 2},
 };
 static const Member shaft_members[] = {
-    {"twist", "rad", "turn of plus against minus, from where it is relaxed", 2},
+    {"twist", "rad", "twist of plus relative to minus, from the relaxed position", 2},
 };
 /* clang-format on */
 
@@ -51,8 +51,9 @@ const Component component_flywheel = {
     .members = flywheel_members,
     .member_count = COUNT(flywheel_members),
     .positive = "J",
-    .help = "An inertia that turns with its first terminal; the second is 0. Its rate is a state "
-            "that init may give. On the terminal of a shaftend it joins the inertia of the joint.",
+    .help = "An inertia that turns with its first terminal; the second is 0. Its rate is a "
+            "state; init may set it. On the terminal of a shaftend it adds to the inertia of "
+            "the joint.",
     .example = "torquesource T1 a 0 2\nflywheel J1 a 0 J=0.5\nshaft d1 a 0 d=0.1\n"
                "init J1.w = 0\nsimulate 10\nprint J1.w, J1.momentum",
     .see = "shaft gear shaftend init",
@@ -87,9 +88,9 @@ const Component component_shaft = {
     .members = shaft_members,
     .member_count = COUNT(shaft_members),
     .check = scalar_check_spring,
-    .help = "A torsion spring k with a damper d beside it between two terminals; without k it is "
-            "a damper or a viscous bearing. Its state is the torque where there is no damping and "
-            "the twist where there is; init may give either.",
+    .help = "A torsion spring k with a parallel damper d between two terminals; without k it is "
+            "a damper or a viscous bearing. Its state is the torque if there is no damping, "
+            "else the twist; init may set either.",
     .example = "flywheel J1 a 0 J=0.1\nshaft k1 a b k=100 d=0.05\nflywheel J2 b 0 J=0.2\n"
                "init J1.w = 10, J2.w = 0, k1.twist = 0\nsimulate 1\nprint J1.w, J2.w, k1.torque",
     .see = "flywheel gear rod",
@@ -151,10 +152,10 @@ const Component component_gear = {
     .members = gear_members,
     .member_count = COUNT(gear_members),
     .check = gear_check,
-    .help = "Ties the rate of A against B to ratio times that of C against D and passes torque "
-            "without loss; B and D are the housing, mostly 0. Its edges are g1.p and g1.s, with "
-            "p.w = ratio*s.w and s.torque = -ratio*p.torque. An inertia J behind it acts as "
-            "J/ratio^2 on the first shaft.",
+    .help = "The rate of A relative to B is ratio times that of C relative to D, and torque is "
+            "transmitted without loss. B and D are the housing, usually 0. Its edges are g1.p "
+            "and g1.s, with p.w = ratio*s.w and s.torque = -ratio*p.torque. An inertia J on the "
+            "second shaft acts as J/ratio^2 on the first.",
     .example = "torquesource T1 a 0 1\nflywheel J1 a 0 J=0.01\ngear g1 a 0 b 0 ratio=5\n"
                "flywheel J2 b 0 J=1\ninit J1.w = 0\nsimulate 1\nprint J1.w, J2.w, g1.s.torque",
     .see = "flywheel shaft shaftend",
@@ -171,9 +172,9 @@ const Component component_torquesource = {
     .translation = BRANCH_MAY,
     .preference = 50,
     .relation = scalar_through_source,
-    .help = "Gives the torque to its first terminal and takes it from the second, whatever the "
-            "rate: any expression of t, parameters and other variables. As torque is counted from "
-            "plus to minus inside, T1.torque is minus the value.",
+    .help = "Supplies the torque to its first terminal and takes it from the second, whatever "
+            "the rate: any expression of t, parameters and other variables. As torque is "
+            "positive from plus to minus inside, T1.torque is minus the value.",
     .example = "torquesource T1 a 0 3*sin(2*t)\nflywheel J1 a 0 J=0.2\ninit J1.w = 0\n"
                "simulate 3\nprint J1.w, T1.power",
     .see = "speedsource flywheel",
@@ -190,8 +191,8 @@ const Component component_speedsource = {
     .translation = BRANCH_MAY,
     .preference = 10,
     .relation = scalar_across_source,
-    .help = "Turns its first terminal against the second at a given rate, whatever the torque: any "
-            "expression of t, parameters and other variables.",
+    .help = "Turns its first terminal relative to the second at a given rate, whatever the "
+            "torque: any expression of t, parameters and other variables.",
     .example = "speedsource W1 a 0 100 rpm\nshaft k1 a b k=50\nflywheel J1 b 0 J=0.2\n"
                "init J1.w = 0, k1.torque = 0\nsimulate 1\nprint J1.w, W1.torque",
     .see = "torquesource shaft",
@@ -215,9 +216,9 @@ const Component component_shaftend = {
     .effort = scalar_through_on_joint,
     .relation = scalar_rate_of_joint,
     .check = shaftend_check,
-    .help = "The rate of its first terminal against the second is that of the joint's angle, and "
-            "the torque that the shaft gives to it turns the tip of the joint, and the tail the "
-            "other way.",
+    .help = "The rate of its first terminal relative to the second is that of the joint's "
+            "angle. The torque that the shaft supplies acts on the tip of the joint, and the "
+            "opposite torque on the tail.",
     .example = "scene planar\nbody arm1 mass=1 inertia=0.2\nrevolute h1 ground arm1\n"
                "shaftend Z1 h1 a 0\ngear g1 b 0 a 0 ratio=10\nflywheel J1 b 0 J=0.001\n"
                "torquesource T1 b 0 0.5\ninit h1 = 0, h1' = 0\nsimulate 1\n"

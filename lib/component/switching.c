@@ -12,16 +12,16 @@
 
 /* clang-format off */
 static const Param diode_params[] = {
-    {"Is",   PARAM_LAW, "A",   "0", "saturation current: makes it exponential", 0},
+    {"Is",   PARAM_LAW, "A",   "0", "saturation current; makes the diode exponential", 0},
     {"n",    PARAM_LAW, "1",   "1", "emission coefficient, with Is=", 0},
     {"Ron",  PARAM_LAW, "ohm", "0", "resistance above the forward voltage; 0 if not given", 0},
-    {"Roff", PARAM_LAW, "ohm", "0", "resistance below it, with Ron=; nothing flows if not given", 0},
-    {"Vf",   PARAM_LAW, "V",   "0", "forward voltage, from which on it conducts; not with Is=", 0},
+    {"Roff", PARAM_LAW, "ohm", "0", "resistance below it, with Ron=; no current if not given", 0},
+    {"Vf",   PARAM_LAW, "V",   "0", "forward voltage, above which it conducts; not with Is=", 0},
 };
 static const Param switch_params[] = {
-    {"when", PARAM_LAW, NULL,  NULL, "the condition that closes it, as t > 0.1 or h8 < 0", 0},
+    {"when", PARAM_LAW, NULL,  NULL, "the condition that closes it, such as t > 0.1 or h8 < 0", 0},
     {"Ron",  PARAM_LAW, "ohm", "0",  "resistance when it is closed", 0},
-    {"Roff", PARAM_LAW, "ohm", "0",  "resistance when it is open; nothing flows if not given", 0},
+    {"Roff", PARAM_LAW, "ohm", "0", "resistance when it is open; no current if not given", 0},
 };
 /* clang-format on */
 
@@ -137,7 +137,7 @@ const Component component_diode = {
     .family = FAMILY_SCALAR,
     .domain = DOMAIN_ELECTRICAL,
     .places = PLACES_TERMINALS,
-    .brief = "diode: exponential, of two straight lines, or ideal",
+    .brief = "diode: exponential, piecewise linear, or ideal",
     .params = diode_params,
     .param_count = COUNT(diode_params),
     .translation = BRANCH_MAY,
@@ -147,12 +147,12 @@ const Component component_diode = {
     .check = diode_check,
     .help =
         "Conducts from plus to minus. With Is= it is exponential, i = Is*(exp(v/(n*Vt)) - 1) "
-        "with Vt = k*T/q = 25.865 mV at 27 degrees Celsius, and a leakage of 1 pA a volt. With "
-        "Ron= (and Roff=, Vf=) it is "
-        "made of two straight lines that meet at the forward voltage Vf. With neither it is "
-        "ideal: no current backwards, no voltage (or Vf) forwards. Runs locate where it starts and "
-        "ceases to conduct. An ideal one then makes another tree, with other states: what is "
-        "stored goes on from there, and can't jump.",
+        "with Vt = k*T/q = 25.865 mV at 27 degrees Celsius, and a leakage of 1 pA per volt. "
+        "With Ron= (and Roff=, Vf=) it is piecewise linear: two straight lines that meet at the "
+        "forward voltage Vf. With neither it is ideal: no reverse current, no forward voltage "
+        "(or Vf). Runs locate the instants where it starts and ceases to conduct. The tree of "
+        "an ideal diode changes there, and the states with it. Stored quantities carry over, "
+        "and can't jump.",
     .example = "# bridge rectifier\nvsource V1 a b 10*sin(314*t)\ndiode D1 a p\ndiode D2 b p\n"
                "diode D3 0 a\ndiode D4 0 b\ncapacitor C1 p 0 1 mF\nresistor R1 p 0 100 ohm\n"
                "init C1.v = 0\nsimulate 0.06\nprint p.v",
@@ -201,12 +201,12 @@ const Component component_switch = {
     .preference = 30,
     .relation = switch_relation,
     .check = switch_check,
-    .help = "Closed while the condition holds, open while it doesn't. The condition is of time "
-            "(when=t > 0.1), of variables (when=C1.v > 5), or of both (&&, ||, !). With Ron= and "
-            "Roff= it is one or the other resistance; without them it is ideal: no voltage when "
-            "closed, no current when open. Runs locate where it switches. An ideal one then makes "
-            "another tree, with other states; a voltage or current that is stored can't jump, so a "
-            "coil needs a diode for its current where a switch opens.",
+    .help = "Closed while the condition holds, open otherwise. The condition may contain time "
+            "(when=t > 0.1), variables (when=C1.v > 5), or both (&&, ||, !). With Ron= and "
+            "Roff= it is one resistance or the other; without them it is ideal: no voltage when "
+            "closed, no current when open. Runs locate the instants of switching. The tree of "
+            "an ideal switch changes there, and the states with it. A stored voltage or current "
+            "can't jump, so a coil needs a diode for its current where a switch opens.",
     .example =
         "# buck converter\nvsource V1 a 0 12\nswitch S1 a b when=t*50e3 - floor(t*50e3) < 0.4\n"
         "diode D1 0 b\ninductor L1 b c 100 uH\ncapacitor C1 c 0 22 uF\nresistor R1 c 0 5\n"

@@ -15,11 +15,11 @@ static const Param heatsource_params[] = {
     {"value", PARAM_LAW, "W", NULL, "heat flow into the first terminal, of t, parameters and variables", POSITIONAL | GIVES_SOURCE},
 };
 static const Param tempsource_params[] = {
-    {"value", PARAM_LAW, "K", NULL, "temperature of the first terminal against the second", POSITIONAL | GIVES_SOURCE},
+    {"value", PARAM_LAW, "K", NULL, "temperature of the first terminal relative to the second", POSITIONAL | GIVES_SOURCE},
 };
 
 static const Member heatcap_members[] = {
-    {"stored", "J", "heat that it holds, C*T", 2},
+    {"stored", "J", "stored heat, C*T", 2},
 };
 /* clang-format on */
 
@@ -46,8 +46,8 @@ const Component component_heatcap = {
     .members = heatcap_members,
     .member_count = COUNT(heatcap_members),
     .positive = "C",
-    .help = "Something that warms with the heat that flows into it; the second terminal is 0. Its "
-            "temperature is a state that init may give.",
+    .help = "The temperature of a heat capacity rises with the heat that flows into it; the "
+            "second terminal is 0. Its temperature is a state; init may set it.",
     .example = "heatsource H1 a 0 10\nheatcap C1 a 0 C=500\nheatres R1 a 0 R=2\n"
                "init C1.T = 0\nsimulate 3000\nprint C1.T, R1.heat",
     .see = "heatres heatsource tempsource init",
@@ -93,9 +93,9 @@ const Component component_heatsource = {
     .translation = BRANCH_MAY,
     .preference = 50,
     .relation = scalar_through_source,
-    .help = "Gives the heat flow to its first terminal and takes it from the second, whatever the "
-            "temperature: any expression, such as the loss R1.power of a resistor. As heat is "
-            "counted from plus to minus inside, H1.heat is minus the value.",
+    .help = "Supplies the heat flow to its first terminal and takes it from the second, "
+            "whatever the temperature: any expression, such as the loss R1.power of a resistor. "
+            "As heat is positive from plus to minus inside, H1.heat is minus the value.",
     .example = "vsource E1 e 0 10\nresistor R1 e 0 20 ohm\nheatsource H1 a 0 R1.power\n"
                "heatcap C1 a 0 C=30\nheatres R2 a 0 R=12\ninit C1.T = 0\nsimulate 1000\n"
                "print C1.T, H1.heat",
@@ -113,8 +113,8 @@ const Component component_tempsource = {
     .translation = BRANCH_MAY,
     .preference = 10,
     .relation = scalar_across_source,
-    .help = "Holds the temperature of its first terminal against the second, whatever heat flows: "
-            "any expression of t, parameters and other variables.",
+    .help = "Sets the temperature of its first terminal relative to the second, whatever the "
+            "heat flow: any expression of t, parameters and other variables.",
     .example = "tempsource T1 a 0 20 + 5*sin(t/3600)\nheatres R1 a b R=1\nheatcap C1 b 0 C=3600\n"
                "init C1.T = 20\nsimulate 7200\nprint C1.T, T1.heat",
     .see = "heatsource heatres",

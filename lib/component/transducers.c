@@ -16,8 +16,8 @@
 static const Param motor_params[] = {
     {"R",     PARAM_SCALAR, "ohm",               NULL, "resistance of the winding", 0},
     {"L",     PARAM_SCALAR, "H",                 "0",  "its inductance; 0 makes the current algebraic", 0},
-    {"Kt",    PARAM_SCALAR, "N/A|N*m/A",         "0",  "torque per current, at the motor's shaft; as Kv if not given", PAIRED},
-    {"Kv",    PARAM_SCALAR, "V*s/m|V*s/rad",     "0",  "voltage per rate, at the motor's shaft; as Kt if not given", PAIRED},
+    {"Kt",    PARAM_SCALAR, "N/A|N*m/A",         "0", "torque per current, at the motor's shaft; default: Kv", PAIRED},
+    {"Kv",    PARAM_SCALAR, "V*s/m|V*s/rad",     "0", "voltage per rate, at the motor's shaft; default: Kt", PAIRED},
     {"J",     PARAM_SCALAR, "kg|kg*m^2",         "0",  "inertia of the rotor, at the motor's shaft", 0},
     {"B",     PARAM_SCALAR, "N*s/m|N*m*s/rad",   "0",  "friction per rate, at the motor's shaft", 0},
     {"ratio", PARAM_SCALAR, "rad/m|1",           "1",  "turns of the motor's shaft for one of the joint", GEARS},
@@ -36,10 +36,10 @@ static const Param voicecoil_params[] = {
     {"L", PARAM_SCALAR, "H",         "0",  "its inductance; 0 makes the current algebraic", 0},
 };
 static const Param piezo_params[] = {
-    {"C",    PARAM_SCALAR, "F",           NULL, "capacitance of the stack held at its length", 0},
+    {"C",    PARAM_SCALAR, "F",           NULL, "capacitance of the stack at constant length", 0},
     {"d",    PARAM_SCALAR, "m/V|rad/V",   NULL, "free stroke per voltage", 0},
     {"k",    PARAM_SCALAR, "N/m|N*m/rad", NULL, "stiffness at constant voltage", 0},
-    {"rest", PARAM_SCALAR, "m|rad",       "0",  "the coordinate at which it is neither pushed nor charged", 0},
+    {"rest", PARAM_SCALAR, "m|rad",       "0", "coordinate of the relaxed, uncharged stack", 0},
 };
 
 static const Member capacitive_members[] = {
@@ -151,13 +151,13 @@ const Component component_motor = {
     .member_count = COUNT(motor_members),
     .check = motor_check,
     .help =
-        "Turns the coordinate of a joint and stands between two terminals: v = R*i + L*i' + "
-        "Kv*ratio*w, torque on the tip ratio*Kt*i - ratio^2*B*w, and ratio^2*J joins the "
-        "inertia of the joint; w is the rate of the joint. Kt, Kv, J and B are those at the "
-        "motor's own shaft. Without L the current is algebraic. On a slide without ratio= it is a "
-        "linear motor: Kt in N/A, Kv in V*s/m, J a mass in kg, B in N*s/m. With ratio=, in rad/m, "
-        "a "
-        "shaft turns there, too. M1.torque is its force on a slide, in N, and M1.force the same.",
+        "Drives the coordinate of a joint, with its winding between two terminals: v = R*i + "
+        "L*i' + Kv*ratio*w. The torque on the tip is ratio*Kt*i - ratio^2*B*w, and ratio^2*J "
+        "adds to the inertia of the joint; w is the rate of the joint. Kt, Kv, J and B are "
+        "those at the motor's own shaft. Without L the current is algebraic. On a slide without "
+        "ratio= it is a linear motor: Kt in N/A, Kv in V*s/m, J a mass in kg, B in N*s/m. With "
+        "ratio=, in rad/m, a shaft turns there, too. On a slide, M1.torque and M1.force are the "
+        "force in N.",
     .example = "scene planar\nbody wheel mass=1 inertia=0.02\nrevolute h1 ground wheel\n"
                "vsource V1 a 0 12\nmotor M1 h1 a 0 R=1 L=10 mH Kt=0.1 J=1e-4\n"
                "init h1 = 0, h1' = 0, M1.i = 0\nsimulate 1\nprint h1', M1.i, M1.torque",
@@ -242,12 +242,11 @@ const Component component_platecap = {
     .positive = "C",
     .check = platecap_check,
     .help =
-        "A capacitor whose capacitance is a law of a joint's coordinate s: its charge is "
-        "C(s)*v, and it pushes the tip along s with 1/2*dC/ds*v^2. Plates of area A are "
-        "C=eps*A/s where s is the gap, and C=eps*A/(d - s) where s counts towards the fixed "
-        "plate at d. Other variables can't stand in C, since they would do work, too. A run that "
-        "closes the gap ends there with an error; 'event closed when=d - s < 1e-6 do=stop' ends "
-        "it before.",
+        "A capacitor whose capacitance is a function of a joint's coordinate s. Its charge is "
+        "C(s)*v, and the force on the tip along s is 1/2*dC/ds*v^2. Plates of area A have "
+        "C=eps*A/s if s is the gap, and C=eps*A/(d - s) if s points towards the fixed plate at "
+        "d. C can't contain other variables, since these would do work, too. A run ends with an "
+        "error where the gap closes; 'event closed when=d - s < 1e-6 do=stop' ends it before.",
     .example = "scene planar\nbody plate mass=1e-3 inertia=0\nprismatic s ground plate axis=x\n"
                "spring k1 s k=100\ndamper d1 s d=0.1\nvsource E1 a 0 10\n"
                "resistor R1 a b 10 kohm\nplatecap C1 s b 0 C=1e-10/(1e-3 - s)\n"
@@ -292,10 +291,10 @@ const Component component_solenoid = {
     .member_count = COUNT(inductive_members),
     .positive = "L",
     .check = solenoid_check,
-    .help = "A coil whose inductance is a law of a joint's coordinate s: v = R*i + (L(s)*i)', and "
-            "it pushes the tip along s with 1/2*dL/ds*i^2, towards more inductance whatever the "
-            "sign of the current: plungers, relays, levitated balls, reluctance motors. Other "
-            "variables can't stand in L.",
+    .help = "A coil whose inductance is a function of a joint's coordinate s: v = R*i + "
+            "(L(s)*i)'. The force on the tip along s is 1/2*dL/ds*i^2, towards higher "
+            "inductance for either sign of the current: plungers, relays, levitated balls, "
+            "reluctance motors. L can't contain other variables.",
     .example = "scene planar\nbody core mass=0.05 inertia=0\nprismatic x ground core axis=x\n"
                "spring k1 x k=400\ndamper d1 x d=2\nvsource E1 a 0 6\n"
                "solenoid X1 x a 0 L=0.02*(1 + exp(x/0.01)) R=3\n"
@@ -342,8 +341,8 @@ const Component component_voicecoil = {
     .member_count = COUNT(inductive_members),
     .check = voicecoil_check,
     .help = "A coil that moves in the field of a magnet with a joint's coordinate s: v = R*i + "
-            "L*i' + K*s', and it pushes the tip along s with K*i: loudspeakers, shakers, and "
-            "without ohms and henries a plain converter. K may be an expression, also of the "
+            "L*i' + K*s'. The force on the tip along s is K*i: loudspeakers, shakers, and "
+            "without R and L an ideal converter. K may be an expression, also of the "
             "coordinate. Without L the current is algebraic.",
     .example = "# a loudspeaker\nscene planar\nbody cone mass=0.01 inertia=0\n"
                "prismatic x ground cone axis=x\nspring k1 x k=1000\ndamper d1 x d=1.5\n"
@@ -409,10 +408,10 @@ const Component component_piezo = {
     .members = capacitive_members,
     .member_count = COUNT(capacitive_members),
     .check = piezo_check,
-    .help = "A linear piezo stack along a joint's coordinate s: it pushes the tip with "
-            "k*(d*v - (s - rest)), so that d*v is its free stroke and k*d*v its blocked force, "
-            "and its charge is C*v + d*k*(s - rest). C is the capacitance when it is held; free "
-            "it is C + d^2*k, the one that data sheets give.",
+    .help = "A linear piezo stack along a joint's coordinate s. The force on the tip is k*(d*v "
+            "- (s - rest)), so that d*v is its free stroke and k*d*v its blocked force. Its "
+            "charge is C*v + d*k*(s - rest). C is the capacitance at constant length; without "
+            "load it is C + d^2*k, the value of data sheets.",
     .example = "scene planar\nbody stage mass=0.2 inertia=0\nprismatic x ground stage axis=x\n"
                "damper d1 x d=200\nvsource E1 a 0 100\nresistor R1 a b 100\n"
                "piezo P1 x b 0 C=2 uF d=0.15e-6 k=5e7\ninit x = 0, x' = 0, P1.v = 0\n"

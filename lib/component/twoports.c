@@ -14,21 +14,21 @@ static const Param gyrator_params[] = {
 };
 static const Param potentiometer_params[] = {
     {"R",  PARAM_LAW, "ohm", NULL, "resistance from end to end", 0},
-    {"at", PARAM_LAW, "1",   NULL, "where the wiper stands: 0 at A, 1 at B", 0},
+    {"at", PARAM_LAW, "1",   NULL, "position of the wiper: 0 at A, 1 at B", 0},
 };
 
 static const Member sides[] = {
-    {"p.v",     "V", "voltage of the first side, A against B", 2},
+    {"p.v",     "V", "voltage of the first side, A relative to B", 2},
     {"p.i",     "A", "current from A to B inside", 2},
     {"p.power", "W", "power taken by the first side", 0},
-    {"s.v",     "V", "voltage of the second side, C against D", 2},
+    {"s.v",     "V", "voltage of the second side, C relative to D", 2},
     {"s.i",     "A", "current from C to D inside", 2},
     {"s.power", "W", "power taken by the second side", 0},
 };
 static const Member opamp_members[] = {
     {"in.v",      "V", "voltage between the inputs: 0", 2},
     {"in.i",      "A", "current between the inputs: 0", 2},
-    {"out.v",     "V", "voltage of the output against the reference", 2},
+    {"out.v",     "V", "voltage of the output relative to the reference", 2},
     {"out.i",     "A", "current into the output", 2},
     {"out.power", "W", "power taken at the output", 0},
 };
@@ -85,10 +85,10 @@ const Component component_opamp = {
     .relation = opamp_relation,
     .members = opamp_members,
     .member_count = COUNT(opamp_members),
-    .help = "An amplifier without limits: no current flows into its inputs, and its output takes "
-            "whatever voltage against the reference makes the voltage between the inputs zero. It "
-            "needs feedback from the output to the minus input for that. Its edges are U1.in "
-            "(PLUS to MINUS) and U1.out (OUT to 0), in trees and in U1.out.v, U1.out.i.",
+    .help = "An amplifier without limits. No current flows into its inputs, and the output "
+            "voltage is such that the voltage between the inputs is zero. This needs feedback "
+            "from the output to the minus input. Its edges are U1.in (PLUS to MINUS) and U1.out "
+            "(OUT to 0), in trees and in U1.out.v, U1.out.i.",
     .example = "# inverting integrator, -1/(R C) of the input\nvsource V1 a 0 sin(10*t)\n"
                "resistor R1 a m 10 kohm\ncapacitor C1 m out 10 uF\nopamp U1 0 m out\n"
                "init C1.v = 0\nsimulate 1\nprint U1.out.v",
@@ -133,11 +133,12 @@ const Component component_transformer = {
     .members = sides,
     .member_count = COUNT(sides),
     .check = transformer_check,
-    .help = "The voltage of the first side (A against B) is n times that of the second (C against "
-            "D), the current of the second -n times that of the first: no power is lost, and "
-            "direct voltages pass as well. Its edges are T1.p and T1.s, in trees and in T1.p.v, "
-            "T1.s.i. Each side needs a way to the reference: a terminal of the second side may be "
-            "0. For a real one put resistors and inductors around it, or take 'coupling'.",
+    .help = "The voltage of the first side (A relative to B) is n times that of the second (C "
+            "relative to D), the current of the second -n times that of the first. No power is "
+            "lost, and direct voltages are transformed as well. Its edges are T1.p and T1.s, in "
+            "trees and in T1.p.v, T1.s.i. Each side needs a path to the reference: a terminal "
+            "of the second side may be 0. For a real transformer add resistors and inductors, "
+            "or use 'coupling'.",
     .example = "vsource V1 a 0 325*sin(314*t)\nresistor R1 a b 5 ohm\ntransformer T1 b 0 c 0 n=20\n"
                "resistor R2 c 0 8 ohm\nsimulate 0.1\nprint rms(T1.s.v), rms(T1.p.i)",
     .see = "coupling gyrator inductor",
@@ -185,10 +186,10 @@ const Component component_gyrator = {
     .members = sides,
     .member_count = COUNT(sides),
     .check = gyrator_check,
-    .help = "The voltage of the first side (A against B) is r times the current of the second (C "
-            "to D inside), that of the second -r times the current of the first: no power is "
-            "lost. A capacitor behind it looks like an inductor r^2*C from the front. Its edges "
-            "are G1.p and G1.s.",
+    .help = "The voltage of the first side (A relative to B) is r times the current of the "
+            "second (C to D inside), that of the second -r times the current of the first: no "
+            "power is lost. A capacitor C at the second side acts as an inductor r^2*C at the "
+            "first. Its edges are G1.p and G1.s.",
     .example = "# the capacitor behind the gyrator is an inductor of 0.1 H\nvsource V1 a 0 1\n"
                "resistor R1 a b 10 ohm\ngyrator G1 b 0 c 0 r=100\ncapacitor C1 c 0 10 uF\n"
                "init C1.v = 0\nsimulate 0.05\nprint G1.p.i",
@@ -246,9 +247,9 @@ const Component component_potentiometer = {
     .members = potentiometer_members,
     .member_count = COUNT(potentiometer_members),
     .check = potentiometer_check,
-    .help = "A resistor R from A to B with a wiper on it: R*at lies between A and the wiper, "
-            "R*(1 - at) between the wiper and B. at may be any expression, such as the angle of a "
-            "joint in turns; 0 and 1 are allowed. Its edges are P1.a and P1.b.",
+    .help = "A resistor R from A to B with a wiper: R*at is between A and the wiper, R*(1 - at) "
+            "between the wiper and B. at may be any expression, such as the angle of a joint in "
+            "turns; 0 and 1 are allowed. Its edges are P1.a and P1.b.",
     .example = "vsource V1 a 0 10\npotentiometer P1 a w 0 R=10 kohm at=0.5 + 0.4*sin(t)\n"
                "resistor R1 w 0 100 kohm\nsimulate 10 every=0.1\nprint w.v, min(w.v), max(w.v)",
     .see = "resistor sensor",

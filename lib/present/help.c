@@ -205,7 +205,10 @@ static bool add_quantity(Text *out, const char *word)
         topic = help_topic_find("functions");
     if (topic == NULL)
         return false;
-    text_addf(out, "%s - stands in the topic '%s'\n\n", word, topic->name);
+    text_addf(out,
+              "%s - see the topic '%s'\n"
+              "\n",
+              word, topic->name);
     topic->write(out);
     return true;
 }
@@ -241,7 +244,11 @@ static bool add_key(Text *out, const char *word)
     }
     if (verbs.length == 0)
         return false;
-    text_addf(out, "%s - a word of these; 'help' of one explains what it means there\n\n", word);
+    text_addf(out,
+              "%s - a keyword of these statements; 'help' of one explains its meaning "
+              "there\n"
+              "\n",
+              word);
     layout_words(out, HELP_WIDTH, "  ", verbs.at);
     text_free(&verbs);
     return true;
@@ -269,7 +276,9 @@ static void add_overview(Text *out)
     char lead[64];
 
     text_add(out, "'help WORD' explains a verb, a component or a topic, 'apropos WORD' finds "
-                  "words.\nThe Tab key completes what is half typed.\n\n");
+                  "words.\n"
+                  "The Tab key completes the word at the cursor.\n"
+                  "\n");
     for (int i = 0; verb_at(i, &verb) || names.length > 0; i++) {
         const bool more = verb_at(i, &verb);
 
@@ -291,8 +300,8 @@ static void add_overview(Text *out)
     layout_words(out, HELP_WIDTH, "  ", names.at);
     layout_words(
         out, HELP_WIDTH, "",
-        "A tour in the manual, 'info cotree', goes from an empty session to a plot, then to a "
-        "motor arm; its chapter 'Teaching' holds lessons with exercises and their solutions.");
+        "The manual, 'info cotree', has a tour from an empty session to a plot, then to a motor "
+        "arm; its chapter 'Teaching' has lessons with exercises and their solutions.");
     text_free(&names);
 }
 

@@ -15,11 +15,11 @@ static void write_units(Text *out)
     const char *name;
 
     layout_words(out, TOPIC_WIDTH, "",
-                 "One unit may stand directly behind a number or vector (5 mm, 30 deg, 10 kohm, "
-                 "60 rpm), with an SI prefix or without; a compound one stands in brackets (1 "
-                 "[kN/m], [0, -9.81] [m/s^2]). Values are held in SI; a plain number is taken as "
-                 "SI. In a list of plot, print, table and export, brackets behind an item show it "
-                 "in that unit: print h8 [deg].");
+                 "A unit may directly follow a number or vector (5 mm, 30 deg, 10 kohm, 60 "
+                 "rpm), with or without an SI prefix. A compound unit needs brackets (1 [kN/m], "
+                 "[0, -9.81] [m/s^2]). Values are stored in SI; a plain number is taken as SI. "
+                 "In a list of plot, print, table and export, brackets after an item select its "
+                 "unit: print h8 [deg].");
     text_char(out, '\n');
     for (int i = 0; (name = unit_name(i)) != NULL; i++) {
         Text dimension = {0}, factor = {0};
@@ -58,22 +58,20 @@ static void write_functions(Text *out)
     text_char(out, '\n');
     layout_words(
         out, TOPIC_WIDTH, "",
-        "Angles are in radians. step is 0 below 0 and 1 from there on, ramp(x) is "
-        "x*step(x), if(c, a, b) is a where c holds and else b; unwrap(y, x, a) is the "
-        "angle of (x, y) as atan2(y, x) gives it, but in the turn in which it is nearest "
-        "to a. Of time: pulse(t, low, "
-        "high, delay, rise, fall, width, period), pwl(t, t0, v0, t1, v1, ...). "
-        "table(\"file.csv\", x, column) is a smooth curve through the data of a file: the "
-        "first column is x, another is picked by its number or its name in quotes, the "
-        "second if none is; a head such as h [deg] sets the unit of what is below; outside the "
-        "data the value stays that of the end; a number "
-        "behind the column asks for that derivative by x. Over the "
-        "last run, of the motion and not of its rows: min(x) max(x) mean(x) rms(x) final(x) "
-        "period(x), "
-        "first(condition), settling(x, band); 'keep' makes parameters of them; spectrum(x) is for "
-        "'plot' and 'table'. Entries of the "
-        "equations: mass(1,2), forces(1), lambda(1). Operators: + - * / ^, < <= > >= == "
-        "!= && || !; a prime is a time derivative (h8', h8'').");
+        "Angles are in radians. step(x) is 0 for x < 0 and 1 otherwise, ramp(x) is x*step(x), "
+        "and if(c, a, b) is a if c holds and b otherwise. unwrap(y, x, a) is the angle atan2(y, "
+        "x) plus the full turns that bring it nearest to a. Functions of time: pulse(t, low, "
+        "high, delay, rise, fall, width, period), pwl(t, t0, v0, t1, v1, ...).\n"
+        "table(\"file.csv\", x, column) is a smooth curve through the data of a file. The first "
+        "column is x. The third argument selects another column, by its number or its name in "
+        "quotes; the default is the second. A head such as h [deg] sets the unit of its column. "
+        "Outside the data the value is that of the nearest end. A number after the column "
+        "selects that derivative with respect to x.\n"
+        "Functions of the last run, of the continuous motion and not of its rows: min(x) max(x) "
+        "mean(x) rms(x) final(x) period(x), settling(x, band), first(condition); 'keep' defines "
+        "parameters with them. spectrum(x) is for 'plot' and 'table'. Entries of the equations: "
+        "mass(1,2), forces(1), lambda(1). Operators: + - * / ^, < <= > >= == != && || !. A "
+        "prime is a time derivative (h8', h8'').");
 }
 
 static void write_pairs(Text *out, const char *const (*rows)[2], int count)
@@ -143,15 +141,16 @@ static void write_counting(Text *out)
 {
     layout_words(
         out, TOPIC_WIDTH, "",
-        "A sum of n terms is n-1 additions, a product of n factors n-1 multiplications. x^k with a "
-        "whole k > 1 is k-1 multiplications. Each call of a function is one function, a "
-        "power that isn't whole too. A coefficient other than 1 and -1 is a factor. Negation is "
-        "free, a division counts as a multiplication. Operations inside the arguments of "
-        "functions count. Matrices are counted over all their entries, both triangles. The first "
-        "three figures are those of the entries as 'show' writes them, nothing shared; the others "
-        "those of what a run evaluates, where each common subexpression is computed once, also one "
-        "that is only a part of several sums or products, and a sine or cosine of a sum of angles "
-        "follows from those of the parts where a block needs these anyway.");
+        "A sum of n terms is n-1 additions, a product of n factors n-1 multiplications. x^k "
+        "with an integer k > 1 is k-1 multiplications. Each call of a function counts as one "
+        "function, and so does a power with another exponent. A coefficient other than 1 and -1 "
+        "is a factor. Negation is free, a division counts as a multiplication. Operations in "
+        "the arguments of functions count. Both triangles of symmetric matrices count. The "
+        "first three figures are those of the entries as 'show' writes them, without sharing. "
+        "The others are those of the program that a run evaluates. It computes each common "
+        "subexpression once, also if it is only a part of several sums or products. It computes "
+        "the sine or cosine of a sum of angles from those of the parts if a block needs these "
+        "anyway.");
 }
 
 static void write_variables(Text *out)
@@ -159,7 +158,7 @@ static void write_variables(Text *out)
     /* clang-format off */
     static const char *const rows[][2] = {
         {"h8  h8'  h8''", "a joint's coordinate, its speed and acceleration"},
-        {"m1.x  r5.vy", "motion of a body or frame, ground axes"},
+        {"m1.x  r5.vy", "motion of a body or frame, in the axes of ground"},
         {"h9.fx  h9.tz", "force and moment of a joint on its tip; capitals: axes of its tail"},
         {"R1.v  R1.i  M7.torque", "of circuits and transducers; a.v is a terminal's potential"},
         {"energy.kinetic  .potential  .total", "of the whole model, J"},
@@ -175,9 +174,10 @@ static void write_variables(Text *out)
     write_pairs(out, rows, COUNT(rows));
     text_char(out, '\n');
     layout_words(out, TOPIC_WIDTH, "",
-                 "A bare name means the last run. 'at T' takes an instant of it; without, a value "
-                 "is that of its end or, when an initial value or the model changed later, of the "
-                 "assembled start. 'info NAME' lists the members of a component.");
+                 "A bare name refers to the last run. 'at T' selects an instant of it. Without "
+                 "'at', the value is that at its end or, if an initial value or the model "
+                 "changed later, that at the assembled start. 'info NAME' lists the members of "
+                 "a component.");
 }
 
 static void write_topics(Text *out)
@@ -199,9 +199,9 @@ static void write_keys(Text *out)
     Table table = table_for("ll");
     /* clang-format off */
     static const char *const rows[][2] = {
-        {"Tab", "complete the word; twice: show what fits"},
-        {"Ctrl-C", "leave the line, or stop what is going on and keep what was computed"},
-        {"Ctrl-D", "leave, on an empty line"},
+        {"Tab", "complete the word; twice: list what fits"},
+        {"Ctrl-C", "leave the line, or stop a computation and keep its results so far"},
+        {"Ctrl-D", "exit, on an empty line"},
         {"Ctrl-R", "search the history"},
         {"Up, Down", "earlier and later lines"},
     };
@@ -219,24 +219,24 @@ static void write_language(Text *out)
 {
     layout_words(
         out, TOPIC_WIDTH, "",
-        "One statement a line; ';' separates statements, '#' starts a comment, a line goes on "
-        "after '\\' at its end. KEYWORD NAME PLACE... VALUE key=value... builds; other keywords "
-        "ask or run. NAME = expr makes a parameter, f(x) = expr a law. > \"file\" behind a "
-        "statement that prints writes there, >> appends. Keywords may be shortened at the prompt, "
-        "never in a script. Upper and lower case differ.");
+        "One statement per line; ';' separates statements, '#' starts a comment, '\\' at the "
+        "end continues a line. KEYWORD NAME PLACE... VALUE key=value... adds a component; other "
+        "keywords query or compute. NAME = expr defines a parameter, f(x) = expr a law. > "
+        "\"file\" after a statement that prints writes to the file, >> appends. Keywords may be "
+        "shortened at the prompt, never in a script. Names are case-sensitive.");
 }
 
 /* clang-format off */
 static const HelpTopic topics[] = {
-    {"language",  "how statements are written",                 write_language,  NULL},
-    {"units",     "units of numbers, and how they are written", write_units,     NULL},
+    {"language", "the syntax of statements",                 write_language,  NULL},
+    {"units", "units of numbers, and their syntax", write_units,     NULL},
     {"functions", "functions and operators of expressions",     write_functions, NULL},
     {"variables", "what can be printed, plotted and expected",  write_variables, NULL},
-    {"topics",    "what show can show",                         write_topics,    NULL},
+    {"topics", "the topics of show",                         write_topics,    NULL},
     {"methods",   "integration methods of simulate",            write_methods,   "simulate"},
     {"notations", "notations of show",                          write_notations, "show"},
-    {"formats",   "what export writes",                         write_formats,   "export"},
-    {"imports",   "what import reads",                          write_imports,   "import"},
+    {"formats", "the formats of export",                         write_formats,   "export"},
+    {"imports", "the formats of import",                          write_imports,   "import"},
     {"counting",  "the rule by which operations are counted",   write_counting,  "count"},
     {"keys",      "keys at the prompt",                         write_keys,      NULL},
 };

@@ -336,8 +336,8 @@ static const double nodes[] = {0.5 - ROOT15 / 10, 0.5, 0.5 + ROOT15 / 10, 1};
 
 const Method method_gauss = {
     .name = "symplectic",
-    .brief = "Gauss collocation of order 6, fixed steps (step=, else one a row) that read the same "
-             "backwards: the energy of long conservative runs doesn't creep away; controls no "
+    .brief = "Gauss collocation of order 6, fixed steps (step=, else one per row), "
+             "time-reversible: the energy of long conservative runs doesn't drift; controls no "
              "error, and reports that",
     .create = create,
     .destroy = stepper_free,

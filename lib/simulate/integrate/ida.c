@@ -409,8 +409,8 @@ const Method method_ida = {
     .name = "ida",
     .short_part = 0.1,
     .brief =
-        "IDA on the equations as they stand, sparse: for networks. Mechanisms in the stabilised "
-        "index-2 form, as a check: near singular positions it fails; rows are projected",
+        "IDA on the implicit equations, sparse: for networks. Mechanisms in the stabilised "
+        "index-2 form, as a check: it fails near singular positions; rows are projected",
     .create = create,
     .destroy = destroy,
     .start = start,
