@@ -1,5 +1,5 @@
-/* A controller that has its torques from the model that it steers: an arm of two links with a load
- * is brought to two angles. The model is formed once, at the start; the loop allocates nothing. */
+/* A controller that computes its torques with the model: it moves an arm of two links with a load
+ * to two angles. The model is formed once, at the start; the loop allocates nothing. */
 #include <cotree.h>
 
 #include <stdio.h>
@@ -11,7 +11,7 @@ static const char arm[] = "scene planar; gravity [0, -9.81]\n"
                           "revolute h1 ground r1; revolute h2 r2 r3\n"
                           "actuator a1 h1 torque=T1; actuator a2 h2 torque=T2\n";
 
-/* the model of a text of statements that build it; NULL: the error tells why there is none */
+/* the model that the statements of a text build; NULL: error has the reason */
 static ct_model *model_of(const char *text, ct_error *error)
 {
     ct_session *session = ct_session_new(NULL);
@@ -34,7 +34,7 @@ static ct_model *model_of(const char *text, ct_error *error)
     return model;
 }
 
-/* T = M a - F, F at no torque */
+/* T = M a - F, with F at zero torque */
 static void find_torques(const ct_model *model, ct_evaluator *plan, double *p, const double *y)
 {
     static const double goal[2] = {0.8, -0.5}, t = 0;
@@ -63,7 +63,7 @@ int main(void)
         return 1;
     }
     plan = ct_evaluator_new(model);
-    plant = ct_evaluator_new(model); /* one thread would do with one */
+    plant = ct_evaluator_new(model); /* one evaluator would be enough for one thread */
     ct_model_start(model, p, y, s);
     for (int k = 0; plan != NULL && plant != NULL && k < 300000; k++) {
         const double t = 1e-5 * k;
@@ -72,7 +72,7 @@ int main(void)
             find_torques(model, plan, p, y);
         if (ct_rates(plant, p, &t, y, s, rates) != CT_OK)
             return 1;
-        for (int i = 0; i < 2; i++) { /* speeds first, then angles by the new ones */
+        for (int i = 0; i < 2; i++) { /* first speeds, then angles from the new speeds */
             y[2 + i] += 1e-5 * rates[2 + i];
             y[i] += 1e-5 * y[2 + i];
         }

@@ -1,5 +1,5 @@
-/* A pendulum in libcotree: build it, choose its tree, run it, and read what came of it. Ctrl-C
- * stops the run, which keeps what it has. */
+/* A pendulum in libcotree: build it, choose its tree, run it, and read the results. Ctrl-C
+ * stops the run, which keeps its results so far. */
 #include <cotree.h>
 
 #include <inttypes.h>
@@ -20,7 +20,7 @@ static bool is_stopped(void *context)
     return interrupted != 0;
 }
 
-/* carry out statements: the model takes what builds, ct_run() what runs */
+/* carry out statements: ct_apply() changes the model, ct_run() computes */
 static ct_status carry_out(ct_session *session, const char *text, ct_error *error)
 {
     ct_cursor cursor = {.text = text, .line = 1};
@@ -54,7 +54,7 @@ static ct_status value_of(ct_session *session, const char *question, double *out
     return status;
 }
 
-/* the largest of a column of the run's table */
+/* the largest value of a column of the run's table */
 static ct_status print_largest(ct_session *session, ct_error *error)
 {
     double *values, largest = 0;

@@ -1,5 +1,6 @@
-/* An optimiser that calls a model a million times: which length and which damping has a pendulum
- * that swings as one did? Eight candidates about the best one so far swing at once. */
+/* An optimiser that calls a model a million times: it finds the length and the damping of a
+ * pendulum from a measured swing. Eight candidates about the best one so far are evaluated at once.
+ */
 #include <cotree.h>
 
 #include <math.h>
@@ -30,7 +31,7 @@ static ct_status build(ct_session *session, const char *text, ct_error *error)
     return status;
 }
 
-/* y and s of all lanes, one step on, by the classical Runge-Kutta method */
+/* advance y and s of all lanes by one step of the classical Runge-Kutta method */
 static void step(ct_evaluator *e, const double *p, double *y, double *s)
 {
     static const double weight[4] = {1, 2, 2, 1}, part[4] = {0.5, 0.5, 1, 0}, t[LANES];
@@ -39,7 +40,8 @@ static void step(ct_evaluator *e, const double *p, double *y, double *s)
     for (int i = 0; i < STATES * LANES; i++)
         at[i] = y[i];
     for (int k = 0; k < 4; k++, calls++) {
-        (void)ct_rates(e, p, t, at, s, rates); /* what has no solution is NAN, and never best */
+        (void)ct_rates(e, p, t, at, s,
+                       rates); /* without a solution the rates are NAN, and never the best */
         for (int i = 0; i < STATES * LANES; i++) {
             sum[i] += weight[k] * rates[i] / 6;
             at[i] = y[i] + STEP * part[k] * rates[i];
@@ -64,7 +66,7 @@ static void swing(const ct_model *model, ct_evaluator *e, const double *p, doubl
     }
 }
 
-/* the sum of squares in which each lane differs from what was measured */
+/* the sum of squared differences of each lane from the measured values */
 static void compare(const double *angle, const double *measured, double *sum)
 {
     for (int lane = 0; lane < LANES; lane++) {
@@ -74,7 +76,7 @@ static void compare(const double *angle, const double *measured, double *sum)
     }
 }
 
-/* p of all lanes about the best: along both parameters and across */
+/* p of all lanes about the best: along both parameters and diagonally */
 static void surround(const double *best, const double *span, double *p)
 {
     static const int way[LANES][2] = {{1, 0}, {-1, 0}, {0, 1},  {0, -1},
@@ -103,7 +105,7 @@ int main(void)
     ct_session_free(session);
     e = ct_evaluator_new(model);
     for (int i = 0; i < 2 * LANES; i++)
-        p[i] = i < LANES ? 0.5 : 0.05; /* what is to be found again */
+        p[i] = i < LANES ? 0.5 : 0.05; /* the values to find */
     swing(model, e, p, measured);
     ct_model_start(model, best, NULL, NULL);
     while (span[0] > 1e-8) {

@@ -1,5 +1,5 @@
-/* A controller in the loop: a rod is brought upright from below by a torque that this program sets
- * a hundred times a second, of what it is told then; the run ends once the rod stands. */
+/* A controller in the loop: this program sets a torque a hundred times a second, from the measured
+ * angle and rate, and swings a hanging rod up. The run ends once the rod stands upright. */
 #include <cotree.h>
 
 #include <math.h>
@@ -14,10 +14,10 @@ static const char rod[] =
 typedef struct Controller {
     double goal;  /* rad */
     double sum;   /* of errors, rad*s */
-    int standing; /* rows on end */
+    int standing; /* consecutive rows */
 } Controller;
 
-/* the torque from this instant to the next, 40 N*m at most */
+/* the torque up to the next instant, at most 40 N*m */
 static bool control(void *context, const char *name, double t, const double *values, double *torque)
 {
     Controller *c = context;

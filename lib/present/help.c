@@ -86,7 +86,7 @@ static void add_members(Text *out, const Component *row)
         table_cell(&table, member->meaning);
     }
     if (table.cells.count > 0) {
-        text_add(out, "\nCan be asked for:\n");
+        text_add(out, "\nVariables:\n");
         table_wrap(out, &table, 2, HELP_WIDTH);
     }
     table_free(&table);

@@ -76,7 +76,7 @@ static void add_texinfo_members(Text *out, const Component *row)
     bool is_open = false;
 
     for (int i = 0; (member = component_member(row, false, i)) != NULL; i++) {
-        text_addf(out, "%s@code{", i == 0 ? "\nCan be asked for: " : ", ");
+        text_addf(out, "%s@code{", i == 0 ? "\nVariables: " : ", ");
         add_texinfo(out, member->name);
         text_char(out, '}');
         if (member->unit != NULL && strcmp(member->unit, "1") != 0) {
