@@ -1,17 +1,21 @@
-/* markov_parameters.c: c A^k b of doubles, computed exactly */
+/* markov_parameters.c: c A^k b of doubles, computed exactly
+ *
+ * In integers of so many words that the sums fit, in two's complement. Entries of A^k b may be
+ * larger: what they carry beyond the last word is a multiple of a power of 2 that exceeds the range
+ * of the sums, and leaves no trace in these. */
 #include "algebra/markov_parameters.h"
 
-#include "algebra/double_double.h"
 #include "base/memory.h"
 
 #include <float.h>
+#include <gmp.h>
 #include <limits.h>
+#include <math.h>
 #include <stdint.h>
 
 enum {
-    MOST_PRIMES = 2048,
-    LARGEST = INT_MAX, /* the first prime, 2^31 - 1: products fit into 64 bits */
-    PRIME_BITS = 30,   /* least number of bits of each prime */
+    MOST_BITS = 61440, /* of a sum */
+    WORD = 64,         /* bits of one */
     DIGITS = 53
 };
 
@@ -22,70 +26,14 @@ typedef struct Whole {
 } Whole;
 
 struct MarkovParameters {
-    int n, primes, power; /* v is A^power b */
+    int n, words, power; /* v is A^power b */
     Whole *a, *b, *c;
     int a_at, b_at, c_at; /* their least powers of 2 */
-    uint32_t *prime;
-    uint32_t *left; /* n x n: A modulo one prime */
-    uint32_t *v;    /* primes x n: A^power b */
-    uint32_t *next; /* n */
-    uint32_t *rest; /* primes: of the sum */
-    int32_t *digit; /* primes: of the sum, to the bases of the primes */
+    mp_limb_t *v, *next;  /* n x words */
+    mp_limb_t *sum;       /* words */
 };
 
-/* --- arithmetic modulo p --- */
-
-static uint32_t times(uint32_t a, uint32_t b, uint32_t p)
-{
-    return (uint32_t)((uint64_t)a * b % p);
-}
-
-static uint32_t plus(uint32_t a, uint32_t b, uint32_t p)
-{
-    return (uint32_t)(((uint64_t)a + b) % p);
-}
-
-static uint32_t power(uint32_t a, uint32_t exponent, uint32_t p)
-{
-    uint32_t out = 1;
-
-    for (; exponent > 0; exponent >>= 1) {
-        out = (exponent & 1) != 0 ? times(out, a, p) : out;
-        a = times(a, a, p);
-    }
-    return out;
-}
-
-static uint32_t rest_of(int64_t whole, uint32_t p)
-{
-    const int64_t rest = whole % (int64_t)p;
-
-    return (uint32_t)(rest < 0 ? rest + (int64_t)p : rest);
-}
-
-/* of x in units of 2^least */
-static uint32_t rest_of_whole(Whole x, int least, uint32_t p)
-{
-    return x.whole == 0 ? 0 : times(rest_of(x.whole, p), power(2, (uint32_t)(x.at - least), p), p);
-}
-
-static bool is_prime(uint32_t p)
-{
-    for (uint32_t k = 2; k * k <= p && k < 1U << 16; k++)
-        if (p % k == 0)
-            return false;
-    return true;
-}
-
-/* the largest below 2^31 */
-static void find_primes(uint32_t *prime, int count)
-{
-    uint32_t p = LARGEST;
-
-    for (int i = 0; i < count; p--)
-        if (is_prime(p))
-            prime[i++] = p;
-}
+_Static_assert(GMP_NUMB_BITS == WORD, "GMP uses whole words");
 
 /* --- doubles as whole numbers --- */
 
@@ -113,6 +61,27 @@ static int wholes_of(const double *x, int count, Whole **out)
         least = x[i] != 0 && (*out)[i].at < least ? (*out)[i].at : least;
     }
     return least < INT_MAX ? least : 0;
+}
+
+/* --- sums --- */
+
+/* sum += v x, in units of 2^least; modulo 2^(64 words) */
+static void add_product(mp_limb_t *sum, const mp_limb_t *v, int words, Whole x, int least)
+{
+    const int by = x.whole != 0 ? x.at - least : 0, first = by / WORD, shift = by % WORD;
+    const uint64_t size = (uint64_t)(x.whole < 0 ? -x.whole : x.whole);
+    const mp_limb_t part[] = {size << shift, shift > 0 ? size >> (WORD - shift) : 0};
+
+    for (int k = 0; k < COUNT(part); k++) {
+        const mp_size_t left = words - first - k;
+
+        if (part[k] == 0 || left <= 0)
+            continue;
+        if (x.whole > 0)
+            (void)mpn_addmul_1(sum + first + k, v, left, part[k]);
+        else
+            (void)mpn_submul_1(sum + first + k, v, left, part[k]);
+    }
 }
 
 /* of a product, from above */
@@ -166,21 +135,17 @@ MarkovParameters *markov_parameters_new(const double *a, const double *b, const 
     r->b_at = wholes_of(b, n, &r->b);
     r->c_at = wholes_of(c, n, &r->c);
     bits = most_bits(r, a, b, c, count);
-    if (!(bits <= (double)PRIME_BITS * MOST_PRIMES)) {
+    if (!(bits <= MOST_BITS)) {
         markov_parameters_free(r);
         return NULL;
     }
-    r->primes = 1 + (int)bits / PRIME_BITS;
-    r->prime = NEW_ARRAY(uint32_t, r->primes);
-    r->left = NEW_ARRAY(uint32_t, n * n);
-    r->v = NEW_ARRAY(uint32_t, r->primes * n);
-    r->next = NEW_ARRAY(uint32_t, n);
-    r->rest = NEW_ARRAY(uint32_t, r->primes);
-    r->digit = NEW_ARRAY(int32_t, r->primes);
-    find_primes(r->prime, r->primes);
-    for (int k = 0; k < r->primes; k++)
-        for (int i = 0; i < n; i++)
-            r->v[k * n + i] = rest_of_whole(r->b[i], r->b_at, r->prime[k]);
+    r->words = 1 + (int)bits / WORD;
+    r->v = NEW_ARRAY(mp_limb_t, n * r->words);
+    r->next = NEW_ARRAY(mp_limb_t, n * r->words);
+    r->sum = NEW_ARRAY(mp_limb_t, r->words);
+    r->sum[0] = 1;
+    for (int i = 0; i < n; i++)
+        add_product(r->v + (ptrdiff_t)i * r->words, r->sum, r->words, r->b[i], r->b_at);
     return r;
 }
 
@@ -188,81 +153,59 @@ void markov_parameters_free(MarkovParameters *r)
 {
     if (r == NULL)
         return;
-    MEM_FREE(r->a, r->b, r->c, r->prime, r->left, r->v, r->next, r->rest, r->digit, r);
+    MEM_FREE(r->a, r->b, r->c, r->v, r->next, r->sum, r);
 }
 
-/* --- the sums --- */
+/* --- the parameters --- */
 
-/* v := A^steps v modulo one prime */
-static void step(const MarkovParameters *r, int steps, uint32_t p, uint32_t *v)
+/* v := A v */
+static void step(MarkovParameters *r)
 {
     const int n = r->n;
+    mp_limb_t *before = r->v;
 
-    for (int i = 0; i < n * n; i++)
-        r->left[i] = rest_of_whole(r->a[i], r->a_at, p);
-    for (int s = 0; s < steps; s++) {
-        for (int i = 0; i < n; i++) {
-            uint32_t sum = 0;
+    for (int i = 0; i < n; i++) {
+        mp_limb_t *sum = r->next + (ptrdiff_t)i * r->words;
 
-            for (int j = 0; j < n; j++)
-                if (r->left[i * n + j] != 0 && v[j] != 0)
-                    sum = plus(sum, times(r->left[i * n + j], v[j], p), p);
-            r->next[i] = sum;
-        }
-        for (int i = 0; i < n; i++)
-            v[i] = r->next[i];
+        mpn_zero(sum, r->words);
+        for (int j = 0; j < n; j++)
+            add_product(sum, before + (ptrdiff_t)j * r->words, r->words, r->a[i * n + j], r->a_at);
+        transaction_worked((ptrdiff_t)n * r->words);
     }
+    r->v = r->next;
+    r->next = before;
+    r->power++;
 }
 
-/* Write the digits d of the sum d_0 + p_0 (d_1 + p_1 (d_2 ...)), -p/2 < d < p/2, from the
- * remainders; how many there are. */
-static int find_digits(const MarkovParameters *r)
+/* an integer as a double times 2^exponent */
+static double rounded(mp_limb_t *sum, int words, int *exponent)
 {
-    int count = 0;
+    const bool is_negative = sum[words - 1] >> (WORD - 1) != 0;
+    int last = words - 1, shift = 0;
+    uint64_t head;
 
-    for (int k = 0; k < r->primes; k++) {
-        const uint32_t p = r->prime[k];
-        uint32_t known = 0, base = 1, digit;
-
-        for (int i = k - 1; i >= 0; i--)
-            known = plus(times(known, r->prime[i] % p, p), rest_of(r->digit[i], p), p);
-        for (int i = 0; i < k; i++)
-            base = times(base, r->prime[i] % p, p);
-        digit = times(plus(r->rest[k], p - known, p), power(base, p - 2, p), p);
-        r->digit[k] = (int32_t)((int64_t)digit - (digit > p / 2 ? (int64_t)p : 0));
-        count = digit != 0 ? k + 1 : count;
-    }
-    return count;
+    if (is_negative)
+        (void)mpn_neg(sum, sum, words);
+    while (last > 0 && sum[last] == 0)
+        last--;
+    for (head = sum[last]; head != 0 && head >> (WORD - 1) == 0; head <<= 1)
+        shift++;
+    if (shift > 0 && last > 0)
+        head |= sum[last - 1] >> (WORD - shift);
+    /* bits below decide where the head is halfway between doubles */
+    if (last > 0 && mpn_scan1(sum, 0) < (mp_bitcnt_t)WORD * (mp_bitcnt_t)last - (mp_bitcnt_t)shift)
+        head |= 1;
+    *exponent += WORD * last - shift;
+    return is_negative ? -(double)head : (double)head;
 }
 
 double markov_parameters_value(MarkovParameters *r, int k, int *exponent)
 {
-    const int n = r->n, steps = k - r->power;
-    DoubleDouble sum = dd_of(0);
-    int count, at = r->b_at + r->c_at + k * r->a_at;
-
-    for (int i = 0; i < r->primes; i++) {
-        const uint32_t p = r->prime[i];
-        uint32_t *v = r->v + (ptrdiff_t)i * n;
-
-        if (steps > 0)
-            step(r, steps, p, v);
-        r->rest[i] = 0;
-        for (int j = 0; j < n; j++)
-            r->rest[i] = plus(r->rest[i], times(rest_of_whole(r->c[j], r->c_at, p), v[j], p), p);
-    }
-    r->power = k;
-    count = find_digits(r);
-    for (int i = 0; i < count; i++)
-        sum = dd_add(dd_of(r->digit[i]), i > 0 ? dd_div(sum, dd_of(r->prime[i - 1])) : dd_of(0));
-    for (int i = 0; i + 1 < count; i++) {
-        sum = dd_times(sum, ldexp(r->prime[i], -PRIME_BITS));
-        at += PRIME_BITS;
-        if (fabs(sum.high) > 1) {
-            sum = dd_times(sum, 0x1p-1);
-            at++;
-        }
-    }
-    *exponent = at;
-    return dd_double(sum);
+    while (r->power < k)
+        step(r);
+    mpn_zero(r->sum, r->words);
+    for (int j = 0; j < r->n; j++)
+        add_product(r->sum, r->v + (ptrdiff_t)j * r->words, r->words, r->c[j], r->c_at);
+    *exponent = r->b_at + r->c_at + k * r->a_at;
+    return rounded(r->sum, r->words, exponent);
 }
