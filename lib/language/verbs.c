@@ -229,8 +229,8 @@ const char *group_title(VerbGroup group)
         [GROUP_ELECTRICAL] = "Electrical and mechatronic components",
         [GROUP_VARIABLES] = "Variables and subsystems",
         [GROUP_TREES] = "Trees",
-        [GROUP_LOOK] = "Looking",
-        [GROUP_RUN] = "Running",
+        [GROUP_LOOK] = "Queries",
+        [GROUP_RUN] = "Runs and results",
         [GROUP_SESSION] = "Sessions",
     };
     return titles[group];
