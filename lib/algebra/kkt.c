@@ -39,7 +39,9 @@
 #define LEAST_MASS    1e-9  /* of the heaviest: smaller masses are taken from neighbours */
 #define SWEEPS        2     /* of refinement at least, */
 #define MOST_SWEEPS   30    /* and as long as each leaves less than */
-#define CONTRACTION   0.3   /* of the last correction: epsilon suppresses what is slower */
+#define CONTRACTION   0.3   /* of the last correction: epsilon suppresses what is slower, */
+#define DRIVEN_SWEEPS 300   /* and where rows determine all speeds, as drivers do, */
+#define PERSISTENT    0.9   /* what is much slower */
 #define ROUNDING      1e-15
 /* Pivots of G G^T over the norm of their row: less than DETERMINED, the row isn't left to its own
  * speeds; with a new order those are that have FIRMLY more. Both are beyond NEAR. */
@@ -730,14 +732,16 @@ static double refine_once(Kkt *kkt)
 
 static void refine(Kkt *kkt, int least, double enough)
 {
+    const bool is_driven = kkt->m == kkt->nu;
+    const double contraction = is_driven ? PERSISTENT : CONTRACTION;
     double before = INFINITY;
 
     weigh(kkt);
-    for (int sweep = 0; sweep < MOST_SWEEPS; sweep++) {
+    for (int sweep = 0; sweep < (is_driven ? DRIVEN_SWEEPS : MOST_SWEEPS); sweep++) {
         const double size = refine_once(kkt);
 
         if (size <= enough * size_of(kkt, kkt->answer) ||
-            (sweep + 1 >= least && !(size < CONTRACTION * before)))
+            (sweep + 1 >= least && !(size < contraction * before)))
             break;
         before = size;
     }
