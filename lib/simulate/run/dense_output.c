@@ -12,8 +12,10 @@
 #include <math.h>
 #include <string.h>
 
-#define SAME   1e-12 /* of an output step: times closer than that are equal */
-#define TURNED 0.25  /* rad: largest angle of a part between two rows, for counting turns */
+#define SAME        1e-12 /* of an output step: times closer than that are equal */
+#define TURNED      0.25  /* rad: largest angle of a part between two rows, for counting turns */
+#define MISSED      0.1   /* m or rad: farther from what was interpolated may be another branch */
+#define PROJECTIONS 4     /* more, with factors of their own, where one isn't enough */
 
 /* Hermite polynomial of degree 5 through value, rate and second rate at both ends (s in 0..1),
  * and its rate */
@@ -164,6 +166,26 @@ static void follow_turns(const StepEnd *a, const StepEnd *b, double t, double *y
     mem_free(there);
 }
 
+/* Project y. Near a singular position Newton's method with one factorisation converges slowly: it
+ * begins anew where it got to, unless that is far away, perhaps on another branch. */
+static bool project_between(const Phase *phase, double t, double *y)
+{
+    const size_t bytes = (size_t)phase->length * sizeof(double);
+    double *first = NEW_ARRAY(double, phase->length), moved = 0;
+    bool sound;
+
+    memcpy(first, y, bytes);
+    sound = motion_project(phase->motion, t, y);
+    for (int again = 0; again < PROJECTIONS && !sound && moved < MISSED; again++) {
+        sound = motion_project(phase->motion, t, y);
+        for (int i = 0; i < phase->layout->n; i++)
+            if (!(fabs(y[i] - first[i]) <= moved))
+                moved = fabs(y[i] - first[i]);
+    }
+    mem_free(first);
+    return sound && moved < MISSED;
+}
+
 /* y at t, for the phase of the ends */
 static bool find_between(StepEnd ends[2], double t, double *y)
 {
@@ -183,7 +205,7 @@ static bool find_between(StepEnd ends[2], double t, double *y)
         interpolate(&ends[0], &ends[1], t, y);
         if (ends[0].phase->layout->multi_turns > 0)
             follow_turns(&ends[0], &ends[1], t, y);
-        sound = motion_project(ends[0].phase->motion, t, y);
+        sound = project_between(ends[0].phase, t, y);
     }
     mem_free(rates);
     return sound;
