@@ -408,9 +408,8 @@ const Method method_ida = {
     SUNDIALS_METHOD,
     .name = "ida",
     .short_part = 0.1,
-    .brief =
-        "IDA on the implicit equations, sparse: for networks. Mechanisms in the stabilised "
-        "index-2 form, as a check: it fails near singular positions; rows are projected",
+    .brief = "IDA on the implicit equations, sparse: for networks. Mechanisms in the stabilised "
+             "index-2 form, as a check: it fails near singular positions; rows are projected",
     .create = create,
     .destroy = destroy,
     .start = start,
