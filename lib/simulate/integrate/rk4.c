@@ -100,9 +100,8 @@ static const double nodes[] = {0.5, 1};
 
 const Method method_rk4 = {
     .name = "rk4",
-    .brief =
-        "classical Runge-Kutta, fixed steps (step=, else one per row), shorter steps where a "
-        "stiff term sets in; controls no error, and reports that; projects after each step",
+    .brief = "classical Runge-Kutta, fixed steps (step=, else one per row), shorter steps where a "
+             "stiff term sets in; controls no error, and reports that; projects after each step",
     .create = create,
     .destroy = stepper_free,
     .start = fixed_start,
