@@ -36,8 +36,6 @@ libcore_la_SOURCES += \
   lib/algebra/modal_groups.c \
   lib/algebra/multinomial.c \
   lib/algebra/multinomial.h \
-  lib/algebra/multinomial_gcd.c \
-  lib/algebra/multinomial_impl.h \
   lib/algebra/pattern.c \
   lib/algebra/pattern.h \
   lib/algebra/polynomial.c \

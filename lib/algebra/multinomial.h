@@ -1,10 +1,12 @@
-/* multinomial.h: polynomials in several variables over unbounded integers (GMP)
+/* multinomial.h: polynomials in several variables over unbounded integers (FLINT)
  *
  * All polynomials belong to a Ring, which has a fixed count of variables and bounds the work. The
  * ring records the first result beyond the bound, or a stop; later results are valid objects
  * without meaning. After the last operation the caller checks ring_status() once. Every polynomial
  * returned is new and immutable, and lives until multinomial_free() or the end of its ring.
- * Variable 0 is first in the order of terms. */
+ * Variable 0 is first in the order of terms.
+ *
+ * A ring lives within one call of the library, and a thread has one at a time: exact_memory.h. */
 #ifndef COTREE_ALGEBRA_MULTINOMIAL_H
 #define COTREE_ALGEBRA_MULTINOMIAL_H
 
@@ -12,7 +14,6 @@
 #include "base/memory.h"
 
 #include <gmp.h>
-#include <stdint.h>
 
 typedef struct Ring Ring;
 typedef struct Multinomial Multinomial;
@@ -36,7 +37,8 @@ bool multinomial_is_number(const Multinomial *p); /* zero too */
 bool multinomial_is(const Multinomial *p, long value);
 bool multinomial_equal(const Multinomial *p, const Multinomial *q);
 int multinomial_terms(const Multinomial *p);
-const mpz_t *multinomial_factor(const Multinomial *p, int term); /* the integer of a term */
+/* the integer of a term, until the next call with the ring */
+const mpz_t *multinomial_factor(const Multinomial *p, int term);
 int multinomial_power(const Multinomial *p, int term, int variable);
 int multinomial_degree(const Multinomial *p, int variable); /* of zero: 0 */
 bool multinomial_is_negative(const Multinomial *p);         /* its first term is */
@@ -45,19 +47,13 @@ bool multinomial_is_negative(const Multinomial *p);         /* its first term is
 
 Multinomial *multinomial_sum(const Multinomial *p, const Multinomial *q, int sign); /* p + sign q */
 Multinomial *multinomial_times(const Multinomial *p, const Multinomial *q);
-Multinomial *multinomial_scaled(const Multinomial *p, const mpz_t factor);
-Multinomial *multinomial_over(const Multinomial *p, const mpz_t divisor); /* which divides p */
-/* p/q, NULL where q does not divide p (Monagan and Pearce 2007, by a heap) */
+/* p/q, NULL where q does not divide p */
 Multinomial *multinomial_quotient(const Multinomial *p, const Multinomial *q);
 /* q with factor q^n = p, if p is known to have that form: as multinomial_quotient(), never NULL */
 Multinomial *multinomial_exact(const Multinomial *p, const Multinomial *q);
-Multinomial *multinomial_slope(const Multinomial *p, int variable);
-/* the coefficients of the powers of some variables (bit 1 << v), one for each product of them that
- * occurs, the highest first */
-void multinomial_coefficients(const Multinomial *p, uint64_t variables, MultinomialList *out);
 Multinomial *multinomial_coefficient(const Multinomial *p, int variable, int power);
 
-/* --- factors (multinomial_gcd.c) --- */
+/* --- factors --- */
 
 /* with a positive first term */
 Multinomial *multinomial_gcd(const Multinomial *p, const Multinomial *q);
@@ -66,10 +62,5 @@ Multinomial *multinomial_gcd(const Multinomial *p, const Multinomial *q);
  * variables has no more. */
 void multinomial_split(const Multinomial *p, MultinomialList *out);
 void multinomials_free(MultinomialList *list); /* with its polynomials */
-
-enum {
-    RING_VARIABLES = 64, /* at most */
-    RING_DEGREE = 127    /* of a variable, at most */
-};
 
 #endif

@@ -6,6 +6,10 @@
 
 #include "../random.h"
 #include "algebra/multinomial.h"
+#include "base/transaction.h"
+
+#include <flint/fmpz.h>
+#include <limits.h>
 
 enum { VARIABLES = 11, MOST = 5000, ROUNDS = 60 }; /* more than a word of powers */
 
@@ -156,7 +160,7 @@ static void squares_and_products_are_seen(void)
 static void what_is_beyond_the_bound_is_remembered(void)
 {
     Ring *ring = ring_new(VARIABLES, 20, NULL);
-    Multinomial *sum = multinomial_small(ring, 1), *x;
+    Multinomial *sum = multinomial_small(ring, 1);
 
     for (int v = 0; v < VARIABLES; v++)
         sum = multinomial_sum(sum, multinomial_variable(ring, v), 1);
@@ -165,13 +169,97 @@ static void what_is_beyond_the_bound_is_remembered(void)
     EXPECT(ring_status(ring) == E_MEMORY);
     EXPECT(multinomial_failed(sum));
     ring_free(ring);
-    /* and a power that no byte holds */
-    ring = ring_new(VARIABLES, MOST, NULL);
-    x = multinomial_variable(ring, 9);
-    for (int i = 0; i < 8; i++)
+}
+
+/* x^512 - y^512 over x - y */
+static void powers_have_no_bound(void)
+{
+    Ring *ring = ring_new(2, MOST, NULL);
+    Multinomial *x = multinomial_variable(ring, 0), *y = multinomial_variable(ring, 1);
+    Multinomial *by = multinomial_sum(x, y, -1), *quotient;
+
+    for (int i = 0; i < 9; i++) {
         x = multinomial_times(x, x);
-    EXPECT(ring_status(ring) == E_MEMORY);
+        y = multinomial_times(y, y);
+    }
+    quotient = multinomial_quotient(multinomial_sum(x, y, -1), by);
+    EXPECT(multinomial_degree(x, 0) == 512);
+    EXPECT(quotient != NULL && multinomial_terms(quotient) == 512);
+    EXPECT(ring_status(ring) == OK);
     ring_free(ring);
+}
+
+/* Euclid's algorithm needs more terms on the way than the bound allows */
+static void a_factor_of_long_polynomials_is_found(void)
+{
+    Ring *ring = ring_new(VARIABLES, 20000, NULL);
+
+    for (int k = 0; k < 10; k++) {
+        Multinomial *g = draw(ring, 20, VARIABLES), *p, *q, *common;
+
+        p = multinomial_times(multinomial_times(g, draw(ring, 20, VARIABLES)), g);
+        q = multinomial_times(g, draw(ring, 20, VARIABLES));
+        common = multinomial_gcd(p, q);
+        EXPECT(multinomial_terms(common) > 1 && multinomial_quotient(common, g) != NULL);
+    }
+    EXPECT(ring_status(ring) == OK);
+    ring_free(ring);
+}
+
+/* --- leaving in the middle --- */
+
+static bool asks_no_more(void *context)
+{
+    int *left = context;
+
+    return (*left)-- == 0;
+}
+
+/* terms of a factor, found in a call that is left when it asks the n-th time; -1: it was left */
+static int terms_found(int n, uint64_t seed)
+{
+    Multinomial *g, *p, *q, *common;
+    Ring *ring;
+    int left, terms;
+
+    TRANSACTION(-1);
+    left = n;
+    transaction_ask(asks_no_more, &left);
+    state = seed;
+    ring = ring_new(VARIABLES, 20000, NULL);
+    g = draw(ring, 20, 4);
+    p = multinomial_times(multinomial_times(g, draw(ring, 20, 4)), g);
+    q = multinomial_times(g, draw(ring, 20, 4));
+    common = multinomial_gcd(p, q);
+    terms = ring_status(ring) == OK ? multinomial_terms(common) : 0;
+    ring_free(ring);
+    return terms;
+}
+
+static void a_call_that_is_left_does_no_harm(void)
+{
+    const int terms = terms_found(INT_MAX, 1);
+    fmpz_t own, copy; /* as the embedding program has */
+    int left = 0;
+
+    fmpz_init(own);
+    fmpz_init(copy);
+    fmpz_set_ui(own, 3);
+    fmpz_pow_ui(own, own, 1000);
+    fmpz_set(copy, own);
+    EXPECT(terms > 1);
+    for (int n = 0; terms_found(n, 1) < 0; n++) {
+        EXPECT(terms_found(INT_MAX, 1) == terms);
+        fmpz_mul_ui(own, own, 7);
+        left++;
+    }
+    EXPECT(left > 5);
+    for (int i = 0; i < left; i++)
+        fmpz_divexact_ui(own, own, 7);
+    EXPECT(fmpz_equal(own, copy));
+    fmpz_clear(own);
+    fmpz_clear(copy);
+    flint_cleanup();
 }
 
 int main(void)
@@ -182,5 +270,8 @@ int main(void)
     RUN(factors_multiply_to_the_whole);
     RUN(squares_and_products_are_seen);
     RUN(what_is_beyond_the_bound_is_remembered);
+    RUN(powers_have_no_bound);
+    RUN(a_factor_of_long_polynomials_is_found);
+    RUN(a_call_that_is_left_does_no_harm);
     return test_end();
 }

@@ -11,6 +11,7 @@
 
 enum {
     MOST_TERMS = 20000, /* of a polynomial: far more than anybody reads */
+    MOST_POWER = 127,   /* of a variable or a sum, as it is written */
     DEEPEST = 60,       /* of nested sums and products that are multiplied out */
     SAMPLES = 2         /* points at which a pivot with functions is evaluated */
 };
@@ -56,13 +57,13 @@ static Multinomial *product_of(Multinomial *a, Multinomial *b)
     return out;
 }
 
-/* the integer power of a fraction's base, within what a ring supports; 0: it is none */
+/* the integer power of a fraction's base that is multiplied out; 0: it is none */
 static int whole_power(Expr e)
 {
     int64_t num, den;
 
     return expr_kind(e) == EXPR_POWER && expr_rational_parts(expr_arg(e, 1), &num, &den) &&
-                   den == 1 && num >= -RING_DEGREE && num <= RING_DEGREE
+                   den == 1 && num >= -MOST_POWER && num <= MOST_POWER
                ? (int)num
                : 0;
 }
