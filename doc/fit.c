@@ -1,6 +1,5 @@
 /* An optimiser that calls a model a million times: it finds the length and the damping of a
- * pendulum from a measured swing. Eight candidates about the best one so far are evaluated at once.
- */
+ * pendulum from a measured swing. It evaluates eight candidates about the best one at once. */
 #include <cotree.h>
 
 #include <math.h>
