@@ -7,8 +7,8 @@
  * contracts only while D turn^2 h^3 is below 1. Beyond that Newton's method uses J at each stage,
  * (A^-1/h x 1 - diag(J_1, J_2, J_3)) delta = f - A^-1/h z. The error is that of their embedded
  * formula of order 3, filtered by (g/h - J)^-1 so that stiff components don't dominate it. Between
- * its ends a step is interpolated by the collocation polynomial, whose error the step control
- * bounds as well. */
+ * its ends a step is interpolated by the collocation polynomial and an estimate of its error, which
+ * the step control bounds as well. */
 #include "simulate/integrate/shifted.h"
 
 #include "algebra/linear.h"
@@ -25,7 +25,7 @@
 #define SHRINK     0.125
 #define GROW       5.0
 #define CONTRACTS  1e-3 /* below this contraction a Jacobian is reused */
-#define READ       30   /* tolerances: error between steps, which doesn't add up */
+#define READ       30   /* tolerances: error of the cubic between steps, which doesn't add up */
 #define SETTLED    1e-9 /* of the run: shorter transients may be left unresolved */
 
 /* of s (s - c1) (s - c2) (s - 1): slopes at 0 and 1, and largest value between */
@@ -76,7 +76,8 @@ typedef struct Radau {
     bool fresh;      /* the Jacobian is that at `old` */
     bool is_linear;  /* the equations are linear: it remains valid until a restart */
     double step;     /* of the last step */
-    double *slope;   /* n: of its polynomial, at its end */
+    double *slope;   /* n: of its cubic, at its end */
+    double *fourth;  /* n: y(4)/24 in it, estimated; 0 after a start */
     double contraction;
     bool was_rejected;
     /* for Newton's method with a Jacobian at each stage; NULL until that is needed */
@@ -107,6 +108,7 @@ static Stepper *create(const Ode *ode, const Control *control)
     r->column = stepper_numbers(&r->base, all);
     r->part = stepper_numbers(&r->base, 3 * n);
     r->slope = stepper_numbers(&r->base, n);
+    r->fourth = stepper_numbers(&r->base, n);
     r->shifted = shifted_new(ode, &r->base.counts);
     return &r->base;
 }
@@ -443,19 +445,23 @@ static double error_at_end(Radau *r, double h)
     return scaled_norm(r, r->error, 1) / stepper_rounding_error(&r->base);
 }
 
-/* Error of the cubic that interpolates the step, in units of the tolerance. The embedded formula
- * hardly detects stiff components, which are accurate at the stages for any step. Between these the
- * error of the cubic is y(4)/24 s (s - c1) (s - c2) (s - 1) h^4, and y(4) is the difference of the
- * slopes of two cubics where they meet. */
+/* Error of the cubic through the start of the step and its stages, in units of the tolerance. The
+ * embedded formula hardly detects stiff components, which are accurate at the stages for any step.
+ * Between these the error of the cubic is y(4)/24 s (s - c1) (s - c2) (s - 1) h^4, and y(4) is the
+ * difference of the slopes of two cubics where they meet. */
 static double reading_error(Radau *r, double h)
 {
     const double meet = ENDS * r->step * r->step * r->step + BEGINS * h * h * h;
 
-    if (r->step == 0)
+    if (r->step == 0) {
+        memset(r->fourth, 0, (size_t)r->n * sizeof(double));
         return 0;
+    }
     compare_embedded(r, r->slope, h);
-    for (int i = 0; i < r->n; i++)
-        r->error[i] = r->error[i] * BETWEEN * h * h * h * h / meet;
+    for (int i = 0; i < r->n; i++) {
+        r->fourth[i] = -r->error[i] / meet;
+        r->error[i] = r->fourth[i] * BETWEEN * h * h * h * h;
+    }
     return scaled_norm(r, r->error, 1) / stepper_rounding_error(&r->base);
 }
 
@@ -597,12 +603,13 @@ static Status step(Stepper *stepper, double end, Diag *diag)
     return OK;
 }
 
-/* the cubic through the start of the step and its three stages, the last of them projected */
+/* the cubic through the start of the step and its three stages, the last of them projected, and its
+ * error by y(4) */
 static void at(Stepper *stepper, double t, double *y)
 {
     Radau *r = (Radau *)stepper;
     double s = r->step > 0 ? (t - r->base.before) / r->step : 1;
-    double basis[3];
+    double basis[3], quartic;
 
     if (r->step == 0 || t == r->base.t) {
         memcpy(y, r->base.y, (size_t)r->all * sizeof(double));
@@ -614,9 +621,10 @@ static void at(Stepper *stepper, double t, double *y)
             if (l != k)
                 basis[k] *= (s - nodes[l]) / (nodes[k] - nodes[l]);
     }
-    for (int i = 0; i < r->all; i++)
+    quartic = s * (s - nodes[0]) * (s - nodes[1]) * (s - 1) * pow(r->step, 4);
+    for (int i = 0; i < r->n; i++)
         y[i] = r->old[i] + basis[0] * r->z[i] + basis[1] * r->z[r->all + i] +
-               basis[2] * (r->base.y[i] - r->old[i]);
+               basis[2] * (r->base.y[i] - r->old[i]) + quartic * r->fourth[i];
     for (int i = r->n; i < r->all; i++) { /* quadratures have no stages */
         double dy = r->base.y[i] - r->old[i], h = r->step;
 
