@@ -283,3 +283,8 @@ FAMILIES += family_thermostats
 family_thermostats_SOURCES = tests/family/family_thermostats.c tests/family/family.h \
 	tests/family/script.h tests/random.h tests/unit/session_kit.h tests/unit/test.h
 family_thermostats_LDADD = libcotree.la $(unit_ldadd)
+
+FAMILIES += family_stiff
+family_stiff_SOURCES = tests/family/family_stiff.c tests/family/family.h tests/family/implicit_euler.h \
+	tests/family/script.h tests/random.h tests/unit/session_kit.h tests/unit/test.h
+family_stiff_LDADD = libcotree.la $(unit_ldadd)

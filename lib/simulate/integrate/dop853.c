@@ -131,6 +131,7 @@ static Stepper *create(const Ode *ode, const Control *control)
     d->new = stepper_numbers(&d->base, d->all);
     d->stage_point = stepper_numbers(&d->base, d->all);
     d->scale = stepper_numbers(&d->base, d->all);
+    d->peak = stepper_numbers(&d->base, d->n);
     return &d->base;
 }
 
@@ -167,19 +168,18 @@ static void take_back(Dop853 *d)
 /* Whether the step just taken ends where its parts end; checked where output between its ends is
  * read. When a step passes over a corner, as a wall that is met and left within it, its error
  * estimate is meaningless and may be small by chance, but its parts end elsewhere. */
-static bool parts_agree(Dop853 *d)
+static bool parts_agree(Dop853 *d, double error)
 {
-    const int stiff = d->stiff, calm = d->calm;
+    const Stiffness before = d->stiffness;
     const bool is_stiff = d->base.is_stiff;
 
-    dop853_watch_stiffness(d, d->step);
+    dop853_watch_stiffness(d, d->step, error);
     if (!d->base.is_read)
         return true;
     dop853_make_dense(d);
     if (!(d->parted > PARTS_AGREE * d->rounding_error))
         return true;
-    d->stiff = stiff;
-    d->calm = calm;
+    d->stiffness = before;
     d->base.is_stiff = is_stiff;
     take_back(d);
     return false;
@@ -257,7 +257,7 @@ static bool take_step(Dop853 *d, double h, double t, bool is_choosy, double *err
     }
     if (estimate <= 1 && !settle(d, t, h))
         return false;
-    *error = estimate <= 1 && !parts_agree(d) ? HUGE_VAL : estimate;
+    *error = estimate <= 1 && !parts_agree(d, estimate) ? HUGE_VAL : estimate;
     return *error <= 1;
 }
 

@@ -35,6 +35,13 @@ typedef struct DensePart {
     double *terms[DENSE_TERMS];
 } DensePart;
 
+/* steps since the last series of calm ones (dop853_stiff.c) */
+typedef struct Stiffness {
+    int steps;  /* that stability limits */
+    double sum; /* of h |L| of those whose accuracy a fast component limits */
+    int calm;   /* in series: neither */
+} Stiffness;
+
 /* All arrays belong to the stepper and are freed with it. */
 typedef struct Dop853 {
     Stepper base;
@@ -51,7 +58,8 @@ typedef struct Dop853 {
     double rounding[STAGES];      /* of rates at each stage, not 0 near a singular position; */
     double rounded;               /* the largest since an error was last estimated */
     bool was_rejected;
-    int stiff, calm; /* numbers of steps above and below the boundary */
+    Stiffness stiffness;
+    double *peak; /* n: the largest |y'| of recent steps */
 } Dop853;
 
 /* a term of a weighted sum of stages */
@@ -89,10 +97,10 @@ void dop853_choose_scale(Dop853 *d, const double *a, const double *b);
 double dop853_norm(const Dop853 *d, const double *v);
 double dop853_product(const Dop853 *d, const double *v, const double *w);
 
-/* Counts the step of h just taken as stiff or calm, and sets base.is_stiff and base.swings. It
- * reads `stage_point` of stage 11, before any dense output is made. Mostly no evaluations; five
+/* Counts the step of h just taken as stiff or calm, and sets base.is_stiff and base.is_oscillatory.
+ * `error`: its estimate, in tolerances. It reads `stage_point` of stage 11, before any dense output is made. Mostly no evaluations; five
  * where stiff steps have become many. */
-void dop853_watch_stiffness(Dop853 *d, double h);
+void dop853_watch_stiffness(Dop853 *d, double h, double error);
 
 /* allocate a part of the dense output, unless that is done */
 void dop853_reserve_room(Dop853 *d, DensePart *part);

@@ -1,8 +1,16 @@
-/* dop853_stiff.c: whether stability, not accuracy, limits the steps of dop853, and by which
- * eigenvalues
+/* dop853_stiff.c: whether fast components that the solution doesn't follow limit the steps of
+ * dop853, and by which eigenvalues
  *
- * The indicator is that of Hairer and Wanner (Solving ODE II, IV.2): h |f(a) - f(b)| / |a - b| for
- * the two points at the end of a step is above 6.1 in step after step when stability limits them.
+ * With L an eigenvalue of largest size, the quotient h |f(a) - f(b)| / |a - b| of the two points at
+ * the end of a step estimates h |L|. It is above 6.1 in step after step when stability limits them
+ * (Hairer and Wanner, Solving ODE II, IV.2).
+ *
+ * With tight tolerances accuracy limits them before that. A component L (z - g(t)) that has decayed
+ * has errors in proportion to powers of h L, not of h times the rate of g, so that h |L| remains at
+ * 1 to 6. Then y' changes in a step by a small part of its size. The step that radau would take is
+ * in proportion to rtol^(1/4) of the time in which y' changes, so that it needs fewer evaluations
+ * where that part is below SMOOTH rtol^(1/4).
+ *
  * Products with the Jacobian show whether the limiting component decays or oscillates: backward
  * differentiation is no help against oscillation. */
 #include "simulate/integrate/dop853_impl.h"
@@ -12,6 +20,11 @@
 #define STIFF_BOUNDARY 6.1
 #define STIFF_COUNT    15
 #define CALM_COUNT     6
+#define FAST           1.0  /* h |L| of a component that may limit accuracy */
+#define FAST_SUM       40   /* of h |L| over such steps: time in which it decays */
+#define LIMITED        1e-2 /* tolerances: a smaller error doesn't limit the step */
+#define SMOOTH         2.0  /* see above; measured with a viscous knife edge */
+#define MEMORY         0.9  /* factor of the largest |y'| from step to step */
 #define DIFFERENCE     1e-7 /* of y, for a derivative */
 
 /* J w by a difference along w, J the Jacobian at the new point */
@@ -67,7 +80,8 @@ static bool is_oscillatory(Dop853 *d)
     return 0.25 * a * a + b < 0 && a * a < -2 * b;
 }
 
-void dop853_watch_stiffness(Dop853 *d, double h)
+/* h |L| of the step just taken */
+static double fastest_rate(const Dop853 *d, double h)
 {
     double rates = 0, points = 0;
 
@@ -78,14 +92,49 @@ void dop853_watch_stiffness(Dop853 *d, double h)
         rates += dk * dk;
         points += dy * dy;
     }
-    if (points > 0 && h * sqrt(rates / points) > STIFF_BOUNDARY) {
-        d->calm = 0;
-        if (++d->stiff >= STIFF_COUNT) {
-            d->base.is_stiff = true;
-            d->base.is_oscillatory = is_oscillatory(d);
-            d->stiff = 0;
-        }
-    } else if (++d->calm >= CALM_COUNT) {
-        d->stiff = 0;
+    return points > 0 ? h * sqrt(rates / points) : 0;
+}
+
+/* The largest part of itself by which an entry of y' has changed in the step just taken, among
+ * entries that y' changes by more than a tolerance. The size of an entry is the largest in recent
+ * steps, since it may pass through 0. */
+static double rate_change(Dop853 *d, double h)
+{
+    double most = 0;
+
+    for (int i = 0; i < d->n; i++) {
+        const double before = d->k[0][i], after = d->k[ROW_END][i];
+        const double change = fabs(after - before);
+
+        d->peak[i] = fmax(MEMORY * d->peak[i], fmax(fabs(before), fabs(after)));
+        if (h * change > d->scale[i])
+            most = fmax(most, change / d->peak[i]);
     }
+    return most;
+}
+
+static void count_stiff_step(Dop853 *d, double h, double error)
+{
+    const double fast = fastest_rate(d, h), change = rate_change(d, h);
+
+    if (fast > STIFF_BOUNDARY)
+        d->stiffness.steps++;
+    else if (fast > FAST && error > LIMITED && change < SMOOTH * sqrt(sqrt(d->base.control.rtol)))
+        d->stiffness.sum += fast;
+    else {
+        if (++d->stiffness.calm >= CALM_COUNT)
+            d->stiffness = (Stiffness){0};
+        return;
+    }
+    d->stiffness.calm = 0;
+}
+
+void dop853_watch_stiffness(Dop853 *d, double h, double error)
+{
+    count_stiff_step(d, h, error);
+    if (d->stiffness.steps < STIFF_COUNT && d->stiffness.sum < FAST_SUM)
+        return;
+    d->base.is_stiff = true;
+    d->base.is_oscillatory = is_oscillatory(d);
+    d->stiffness = (Stiffness){0};
 }
