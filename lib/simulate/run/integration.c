@@ -270,7 +270,8 @@ Status integrate(const IntegrationPlan *plan, const double *start, Grid *grid,
                      .rows = plan->times != NULL ? plan->time_count
                                                  : grid_rows(plan->from, plan->to, plan->every),
                      .root = ROOT_ANY,
-                     .switched_since = -INFINITY};
+                     .switched_since = -INFINITY,
+                     .slow_since = -INFINITY};
     const int rows_before = grid->count;
     Status status = OK;
 

@@ -52,6 +52,8 @@ typedef struct Integration {
     bool has_restarted;    /* the stepper, after a jump */
     int switches;          /* in quick succession */
     double switched_since; /* s: time of the first of them */
+    int slow_switches;     /* the same for a longer part of the run */
+    double slow_since;
     double missed;         /* largest estimated error of a fixed step, in tolerances */
     double missed_at;      /* s */
     bool is_stopped;       /* by the receiver of rows */

@@ -16,6 +16,8 @@
 #define ZENO_EVENTS 100
 #define ZENO_EACH   10   /* of every condition, which all may go over at one instant */
 #define ZENO_SPAN   1e-9 /* of the run */
+#define SLOW_EVENTS 5000 /* in a longer part of the run, which would take many minutes at that pace */
+#define SLOW_SPAN   1e-5
 
 /* Whether h is short beside the last step or the run, and no state goes further along the slope in
  * it than errors may: where a problem is stiff the slope is steep beside any motion. */
@@ -191,7 +193,11 @@ static Status check_pace(Integration *m, int i, Diag *diag)
         m->switched_since = m->stepper->t;
         m->switches = 0;
     }
-    if (++m->switches <= ZENO_EVENTS + ZENO_EACH * m->count)
+    if (m->stepper->t - m->slow_since > SLOW_SPAN * span) {
+        m->slow_since = m->stepper->t;
+        m->slow_switches = 0;
+    }
+    if (++m->switches <= ZENO_EVENTS + ZENO_EACH * m->count && ++m->slow_switches <= SLOW_EVENTS)
         return OK;
     if (integration_is_of_event(m, i))
         return events_are_stuck(m->ev, i - m->eq->switch_count, m->stepper->t, diag);
