@@ -1,28 +1,9 @@
-/* component.c: finds rows, values and members; helpers for joint primitives */
+/* component.c: finds values and members of a row; helpers for joint primitives */
 #include "component/component_rows.h"
 
 #include <assert.h>
 #include <math.h>
 #include <string.h>
-
-static const Component *const rows[] = {
-#define TYPE(id) &component_##id,
-#include "component/types.def"
-#undef TYPE
-};
-
-const Component *component_at(int i)
-{
-    return i >= 0 && i < COUNT(rows) ? rows[i] : NULL;
-}
-
-const Component *component_find(const char *name)
-{
-    for (int i = 0; i < COUNT(rows); i++)
-        if (strcmp(rows[i]->name, name) == 0)
-            return rows[i];
-    return NULL;
-}
 
 int component_param(const Component *row, const char *name)
 {

@@ -1,5 +1,5 @@
 libcore_la_SOURCES += \
-	lib/component/component.c lib/component/component.h \
+	lib/component/component.c lib/component/component.h lib/component/component_table.c \
 	lib/component/component_rows.h lib/component/types.def \
 	lib/component/attitude.c lib/component/beam.c lib/component/beam.h lib/component/beam_axis.c \
 	lib/component/beam_graded.c lib/component/beam_graded.h lib/component/beam_inertia.c lib/component/beam_rotary.c \
