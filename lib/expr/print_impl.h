@@ -101,6 +101,7 @@ bool integer_power(char text[64], int64_t value);
 /* Digits of a double that the parser reads as that double. */
 void double_text(char text[64], double value);
 
+void print_with(Text *out, Expr e, const Dialect *dialect);
 void print_tree(Text *out, Expr e);
 
 #endif

@@ -13,7 +13,7 @@ static void node_line(Text *out, Expr e, int number, bool again)
         [EXPR_POWER] = "power", [EXPR_PRODUCT] = "product", [EXPR_SUM] = "sum"};
 
     if (e->count == 0) {
-        expr_print(out, e, NOTATION_TEXT);
+        print_with(out, e, &dialect_text);
         text_char(out, '\n');
         return;
     }
