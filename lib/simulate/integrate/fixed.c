@@ -56,7 +56,7 @@ static Status give_up(FixedStepper *f, Diag *diag)
         return solver_failure(diag, f->base.t, "the equations have no solution one step on");
     (void)solver_failure(diag, f->base.t, f->reason);
     diag_hint(diag, "step=%.1g or less; or method=%s, whose steps that doesn't limit", h / 4,
-              method_for((MethodNeed){.stiff = true})->name);
+              method_radau.name);
     return E_SOLVER;
 }
 

@@ -126,8 +126,7 @@ static const char *reason_of(const Sundials *s, int code)
  * position is nearly singular. */
 static void hint_at_way_out(Diag *diag)
 {
-    diag_hint(diag, "method=%s may get further; so may a coarser rtol=",
-              method_for((MethodNeed){.stiff = true})->name);
+    diag_hint(diag, "method=%s may get further; so may a coarser rtol=", method_radau.name);
 }
 
 Status sundials_failure(Sundials *s, int code, Diag *diag)
