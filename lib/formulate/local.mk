@@ -41,6 +41,7 @@ libcore_la_SOURCES += \
 	lib/formulate/dynamics/reactions.h lib/formulate/dynamics/redundancy.c \
 	lib/formulate/dynamics/sections.c lib/formulate/dynamics/sections.h \
 	lib/formulate/dynamics/shapes.c lib/formulate/dynamics/shapes.h \
+	lib/formulate/expanded/block_entry.c lib/formulate/expanded/block_entry.h \
 	lib/formulate/expanded/counting.c lib/formulate/expanded/derivation.c \
 	lib/formulate/expanded/derivation.h lib/formulate/expanded/derivation_impl.h \
 	lib/formulate/expanded/embedded.c lib/formulate/expanded/embedded.h \

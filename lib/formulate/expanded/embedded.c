@@ -29,7 +29,7 @@ static Expr phi_entry(System *system, int k, int j, Diag *diag, Status *status)
     Expr entry = expr_int(system->arena, 0);
 
     if (*status == OK)
-        *status = show_entry(system, BLOCK_JACOBIAN, k, j, &entry, diag);
+        *status = expanded_entry(system, BLOCK_JACOBIAN, k, j, &entry, diag);
     return entry;
 }
 
@@ -183,15 +183,6 @@ static Status partition(System *system, Partition *part, Diag *diag)
     return choose(system, part, diag);
 }
 
-int embedded_rows(const System *system)
-{
-    int rows = system->kinematics->u.count;
-
-    for (int k = 0; k < system->constraints->rows.count; k++)
-        rows -= system->constraints->rows.at[k].kind != ROW_DRIVER;
-    return rows > 0 ? rows : 0;
-}
-
 /* the speed that a row of the embedded equations belongs to */
 static int independent_speed(const System *system, const Partition *part, int row)
 {
@@ -232,13 +223,13 @@ static Status project(System *system, int row, Block block, int column, Expr *ou
 
     CHECK(partition(system, &part, diag));
     independent = independent_speed(system, &part, row);
-    CHECK(show_entry(system, block, independent, column, &sum, diag));
+    CHECK(expanded_entry(system, block, independent, column, &sum, diag));
     for (int i = 0; i < part.m; i++) {
         Expr ratio = follow(system, &part, i, independent, diag, &status);
         Expr entry;
 
         CHECK(status);
-        CHECK(show_entry(system, block, part.dependent[i], column, &entry, diag));
+        CHECK(expanded_entry(system, block, part.dependent[i], column, &entry, diag));
         sum = expr_add(system->arena, sum, expr_mul(system->arena, ratio, entry));
     }
     *out = sum;

@@ -6,7 +6,6 @@
 
 MUST_USE Status embedded_mass(System *system, int row, int column, Expr *out, Diag *diag);
 MUST_USE Status embedded_force(System *system, int row, int column, Expr *out, Diag *diag);
-int embedded_rows(const System *system); /* they exclude drivers */
 /* the effort of the only driver of a system with one freedom, in q, u and u' */
 MUST_USE Status embedded_effort(System *system, const Row *driver, Expr *out, Diag *diag);
 

@@ -5,6 +5,7 @@
  * both forms are tried, and M multiplied out as well. The run uses the cheapest. */
 #include "formulate/expanded/equation_form.h"
 #include "formulate/dynamics/composite_mass.h"
+#include "formulate/expanded/block_entry.h"
 #include "formulate/expanded/expanded.h"
 #include "formulate/system/constraints.h"
 #include "formulate/system/dynamics.h"

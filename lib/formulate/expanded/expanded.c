@@ -9,7 +9,6 @@
 #include "formulate/dynamics/shapes.h"
 #include "formulate/expanded/derivation.h"
 #include "formulate/expanded/derivation_impl.h"
-#include "formulate/expanded/embedded.h"
 #include "formulate/kinematics/coordinate.h"
 #include "formulate/kinematics/frames.h"
 #include "formulate/kinematics/framesum.h"
@@ -392,7 +391,7 @@ static Status show_network_rhs(System *system, int row, int column, Expr *out, D
 
 typedef struct BlockRow {
     const char *name;
-    Status (*show)(System *system, int row, int column, Expr *out, Diag *diag);
+    EntryFunction *show;  /* NULL: projected (embedded.c) */
     TermsFunction *terms; /* the terms that the entry is the sum of; NULL: none that have a name */
 } BlockRow;
 
@@ -405,13 +404,22 @@ static const BlockRow blocks[BLOCK_COUNT] = {
     [BLOCK_ACCELERATION] = {"acceleration", show_acceleration, NULL},
     [BLOCK_NETWORK] = {"network", show_network, NULL},
     [BLOCK_NETWORK_RHS] = {"network_rhs", show_network_rhs, NULL},
-    [BLOCK_EMBEDDED_MASS] = {"embedded_mass", embedded_mass, NULL},
-    [BLOCK_EMBEDDED_FORCES] = {"embedded_forces", embedded_force, NULL},
+    [BLOCK_EMBEDDED_MASS] = {"embedded_mass", NULL, NULL},
+    [BLOCK_EMBEDDED_FORCES] = {"embedded_forces", NULL, NULL},
 };
 
 const char *block_name(Block block)
 {
     return blocks[block].name;
+}
+
+int embedded_rows(const System *system)
+{
+    int rows = system->kinematics->u.count;
+
+    for (int k = 0; k < system->constraints->rows.count; k++)
+        rows -= system->constraints->rows.at[k].kind != ROW_DRIVER;
+    return rows > 0 ? rows : 0;
 }
 
 void system_block_size(const System *system, Block block, int *rows, int *columns)
@@ -509,7 +517,8 @@ static Expr *entries_of(System *system, Block block, int count)
     return *entries;
 }
 
-Status show_entry(System *system, Block block, int row, int column, Expr *out, Diag *diag)
+Status entry_formed(System *system, Block block, EntryFunction *form, int row, int column,
+                    Expr *out, Diag *diag)
 {
     int rows;
     int columns;
@@ -530,7 +539,7 @@ Status show_entry(System *system, Block block, int row, int column, Expr *out, D
     if (*entry == NULL && defined_block(system, block) != NULL && !system->dynamics->writes_out)
         *entry = defined_block(system, block)[row * columns + column];
     if (*entry == NULL) {
-        TRY(blocks[block].show(system, row, column, &shown, diag));
+        TRY(form(system, row, column, &shown, diag));
         TRY(monitor_poll(system->watch));
         *entry = shown;
     }
@@ -538,14 +547,9 @@ Status show_entry(System *system, Block block, int row, int column, Expr *out, D
     return OK;
 }
 
-Status system_show(System *system, Block block, int row, int column, Expr *out, Diag *diag)
+Status expanded_entry(System *system, Block block, int row, int column, Expr *out, Diag *diag)
 {
-    system_touch(system);
-    Status status = show_entry(system, block, row, column, out, diag);
-
-    if (status == OK)
-        *out = system_plain(system, *out);
-    return status;
+    return entry_formed(system, block, blocks[block].show, row, column, out, diag);
 }
 
 Status system_terms(System *system, Block block, int row, int column, Terms *out, Diag *diag)

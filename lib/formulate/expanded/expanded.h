@@ -4,9 +4,16 @@
 
 #include "formulate/system/system.h"
 
+typedef Status EntryFunction(System *system, int row, int column, Expr *out, Diag *diag);
+
 /* false: by an estimate, entries of M and F would be too long to be expanded */
 bool expanded_fits(const System *system);
-/* an entry as shown, with symbols for full turns */
-MUST_USE Status show_entry(System *system, Block block, int row, int column, Expr *out, Diag *diag);
+int embedded_rows(const System *system); /* they exclude drivers */
+/* an entry as shown, of a block that isn't embedded, with symbols for full turns */
+MUST_USE Status expanded_entry(System *system, Block block, int row, int column, Expr *out,
+                               Diag *diag);
+/* An entry that was formed before, or that `form` forms now. */
+MUST_USE Status entry_formed(System *system, Block block, EntryFunction *form, int row, int column,
+                             Expr *out, Diag *diag);
 
 #endif

@@ -6,6 +6,7 @@
 #include "formulate/dynamics/efforts.h"
 #include "formulate/dynamics/reactions.h"
 #include "formulate/dynamics/sections.h"
+#include "formulate/expanded/block_entry.h"
 #include "formulate/expanded/embedded.h"
 #include "formulate/expanded/expanded.h"
 #include "formulate/kinematics/coordinate.h"
