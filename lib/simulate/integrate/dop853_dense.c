@@ -15,6 +15,7 @@
 
 #define DENSE_NEAR   10.0  /* from a stage to the dense output, in tolerances of a step, */
 #define DENSE_DEFECT 100.0 /* h times the defect of its slope: its error is about 1/15 of that */
+#define DENSE_MISSED 2     /* divisions in a row that don't halve the defect: enough */
 #define DENSE_LOOK   0.71  /* position in a step where it is evaluated */
 #define BLURRED      1e-10 /* rounding error of a stage next to a singular position, at least */
 
@@ -270,28 +271,36 @@ static void take_whole(Dop853 *d)
 }
 
 /* Shorter parts may be worse: their ends are not projected, and where one comes near a singular
- * position, y' there is useless. Then the number of parts with the least defect is used. */
+ * position, y' there is useless. They are no better where the defect is rounding error; but where
+ * half a step is still far beyond the stability limit, only the next division is better. The number
+ * of parts with the least defect is used. */
 void dop853_make_dense(Dop853 *d)
 {
-    double worst, last = HUGE_VAL;
+    double least;
+    int best = 1, missed = 0;
 
     d->parts = 1;
     d->parted = 0;
     make_part(d, d->step, d->base.y, &d->dense[0]);
-    worst = part_defect(d, &d->dense[0]);
-    if (worst > DENSE_DEFECT * d->rounding_error)
-        worst = mend_stages(d, &d->dense[0], worst);
-    /* shorter parts are no better where the defect is rounding error */
-    while (worst > DENSE_DEFECT * d->rounding_error && worst < 0.5 * last &&
+    least = part_defect(d, &d->dense[0]);
+    if (least > DENSE_DEFECT * d->rounding_error)
+        least = mend_stages(d, &d->dense[0], least);
+    while (least > DENSE_DEFECT * d->rounding_error && missed < DENSE_MISSED &&
            d->parts < DENSE_PARTS) {
-        last = worst;
+        double worst;
+
         d->parts *= 2;
         worst = divide_step(d, d->parts);
+        missed = worst < 0.5 * least ? 0 : missed + 1;
+        if (worst < least) {
+            least = worst;
+            best = d->parts;
+        }
     }
-    if (worst <= last || d->parts == 1)
+    if (d->parts == best)
         return;
-    d->parts /= 2;
-    if (d->parts == 1 || isnan(divide_step(d, d->parts)))
+    d->parts = best;
+    if (best == 1 || isnan(divide_step(d, best)))
         take_whole(d);
 }
 
