@@ -5,6 +5,7 @@ libcore_la_SOURCES += \
   lib/model/measure_check.c \
   lib/model/model.c \
   lib/model/model.h \
+  lib/model/model_along.c \
   lib/model/model_apply.c \
   lib/model/model_build.c \
   lib/model/model_check.c \
@@ -27,10 +28,12 @@ libcore_la_SOURCES += \
   lib/model/model_opened.c \
   lib/model/model_param.c \
   lib/model/model_terminals.c \
+  lib/model/model_reach.c \
   lib/model/model_rebuild.c \
   lib/model/model_rename.c \
   lib/model/model_rest.c \
   lib/model/model_scene.c \
+  lib/model/model_settings.c \
   lib/model/model_settings.def \
   lib/model/model_start.c \
   lib/model/model_store.c \

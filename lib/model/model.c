@@ -38,7 +38,7 @@ Model *model_new(void)
 {
     Arena *arena = arena_new();
 
-    return model_around(arena, state_new(arena));
+    return model_around(arena, state_new(arena, verb_apply));
 }
 
 Status model_fork(const Model *model, Model **out, Diag *diag)

@@ -7,7 +7,7 @@ static Apply *const verbs[VERB_COUNT] = {
 #include "language/verbs.def"
 };
 
-Status state_apply(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
+Status verb_apply(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
 {
     Status status = OK;
     Apply *apply = NULL;

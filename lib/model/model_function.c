@@ -243,52 +243,6 @@ done:
     return status;
 }
 
-/* the flexible part of a call for a deflection or section force: b1.v(x); NULL: the call is none */
-static const Instance *bent_part(const State *state, const char *text, const char **member)
-{
-    static const char *const members[] = {"u", "v", "w", "phi"};
-    const Instance *part = state_owner(state, text, member);
-
-    if (part == NULL || !instance_bends(part))
-        return NULL;
-    for (int i = 0; i < (state->planar ? 2 : COUNT(members)); i++)
-        if (strcmp(*member, members[i]) == 0)
-            return part;
-    return part->row->deforming->section(state->planar, *member) != NULL ? part : NULL;
-}
-
-const char *place_unit(const State *state, const char *text)
-{
-    const char *member;
-    const Instance *part = bent_part(state, text, &member);
-    const SectionPart *section =
-        part != NULL ? part->row->deforming->section(state->planar, member) : NULL;
-
-    if (part == NULL)
-        return NULL;
-    if (section != NULL)
-        return section->moment ? "N*m" : "N";
-    return strcmp(member, "phi") == 0 ? "rad" : "m";
-}
-
-bool place_has_rate(const State *state, const char *name)
-{
-    enum { HIGHEST = 2 };
-    const char *end = strrchr(name, ')');
-    const Instance *part;
-    const char *member;
-    bool has = false;
-    Text owner = {0};
-
-    text_add_n(&owner, name, strcspn(name, "("));
-    part = bent_part(state, owner.at, &member);
-    if (part != NULL && end != NULL)
-        has = part->row->deforming->section(state->planar, member) == NULL &&
-              strlen(end + 1) < HIGHEST;
-    text_free(&owner);
-    return has;
-}
-
 /* b1.v(L/2): a variable with that name, and the position as its current number */
 static Status call_deflection(Scope *scope, const Syntax *syntax, const Instance *part,
                               const char *member, const Expr *args, Expr *out, Diag *diag)
@@ -426,7 +380,7 @@ Status function_call(Scope *scope, const Syntax *syntax, const Expr *args, Expr 
     for (int i = 0; i < COUNT(entries); i++)
         if (strcmp(entries[i].name, syntax->text) == 0)
             return call_entry(scope, syntax, entries[i].args, args, out, diag);
-    bent = bent_part(scope->state, syntax->text, &member);
+    bent = part_along(scope->state, syntax->text, &member);
     if (bent != NULL)
         return call_deflection(scope, syntax, bent, member, args, out, diag);
     return call_unknown(scope->state, syntax, diag);

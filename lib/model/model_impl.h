@@ -130,8 +130,23 @@ typedef struct Change {
     } was;
 } Change;
 
-typedef struct State {
+typedef struct State State;
+
+/* effect of a statement, in ascending order */
+typedef enum Effect { EFFECT_NONE, EFFECT_VALUES, EFFECT_EQUATIONS } Effect;
+
+typedef struct Outcome {
+    Effect effect;
+    Text remarks;
+} Outcome;
+
+/* Applies a statement to *state, or replaces *state by another State. */
+typedef MUST_USE Status Apply(State **state, const Statement *statement, Outcome *outcome,
+                              Diag *diag);
+
+struct State {
     Arena *arena; /* the model's */
+    Apply *apply; /* carries out statements: those of a definition, lines of a state rebuilt */
     Pool *pool;
     bool planar;
     Expr gravity[3];
@@ -168,23 +183,15 @@ typedef struct State {
     LIST(Change) changes;
     struct State *before; /* the state that this one replaced, unchanged since then; NULL */
     int number;           /* number of states that the model had before this one */
-} State;
+};
 
-/* effect of a statement, in ascending order */
-typedef enum Effect { EFFECT_NONE, EFFECT_VALUES, EFFECT_EQUATIONS } Effect;
-
-typedef struct Outcome {
-    Effect effect;
-    Text remarks;
-} Outcome;
-
-/* Applies a statement to *state, or replaces *state by another State. */
-typedef MUST_USE Status Apply(State **state, const Statement *statement, Outcome *outcome,
-                              Diag *diag);
-
-State *state_new(Arena *arena);
+State *state_new(Arena *arena, Apply *apply);
 void state_free(State *state); /* including those before it; NULL is fine */
+/* Carries out a statement by the function of its verb (model_apply.c): what a State is given. */
+Apply verb_apply;
+/* Applies a statement, or the text of one, by the state's function. */
 Apply state_apply;
+MUST_USE Status state_apply_text(State **state, const char *text, Text *remarks, Diag *diag);
 /* a copy in the state's pool */
 const char *state_text(State *state, const char *text);
 /* The meaning of a name where a part may be meant: a part precedes a parameter with its name; NULL:
@@ -328,6 +335,9 @@ MUST_USE Status measure_of(const Scope *scope, const Syntax *syntax, Measure *ou
 Measure measure_of_unit(const char *unit);
 /* of a member of a part, as in its table; NULL: it has none, or there is no such member */
 const char *member_unit(const State *state, const Instance *part, const char *name);
+/* the flexible part of a call for a deflection or section load, b1.v(x) (model_along.c); NULL: the
+ * call is none */
+const Instance *part_along(const State *state, const char *text, const char **member);
 /* unit of a beam's quantity at a position, by the text before its bracket, "b1.v"; NULL: there is
  * no such quantity */
 const char *place_unit(const State *state, const char *text);
@@ -420,8 +430,6 @@ int *lines_in_order(const State *state, int *count);
  * failure is returned. */
 MUST_USE Status state_rebuild(const State *old, int without, State **out, NameList *broken,
                               Text *remarks, Diag *diag);
-/* Applies the text of one statement. */
-MUST_USE Status state_apply_text(State **state, const char *text, Text *remarks, Diag *diag);
 /* Applies each pair of a statement, all or none. */
 typedef MUST_USE Status ApplyPair(State **state, const Pair *pair, Outcome *outcome, Diag *diag);
 MUST_USE Status apply_pairs(State **state, const Statement *statement, ApplyPair *apply,
@@ -448,7 +456,7 @@ MUST_USE Status starts_copy(State *to, const State *from, NameList *broken, Text
  * returns its own name. Checks the unit of the value. */
 MUST_USE Status initial_check(const Scope *scope, const Pair *pair, Text *name, Diag *diag);
 
-/* --- subsystems (model_subsystem.c, model_use.c, model_rename.c) --- */
+/* --- subsystems (model_subsystem.c, model_use.c, model_reach.c, model_rename.c) --- */
 
 const Use *state_use(const State *state, const char *name); /* NULL */
 /* The innermost use that contains a dotted name; -1: none. */
@@ -515,8 +523,13 @@ void parameter_measure_like(State *state, const char *name, Measure measure);
 /* set leg1.L1 = 0.5 */
 MUST_USE Status set_inside_parameter(State *state, const Pair *pair, Outcome *outcome, Diag *diag);
 
-/* value of one of model_settings.def, as text (model_scene.c) */
+/* --- settings (model_settings.c) --- */
+
+/* value of one of model_settings.def, as text */
 void setting_text(const State *state, ModelSetting setting, Text *out);
+/* set NAME VALUE, or NAME = VALUE */
+MUST_USE Status setting_apply(State *state, ModelSetting setting, const Statement *statement,
+                              Outcome *outcome, Diag *diag);
 
 /* --- one function for each verb --- */
 

@@ -5,22 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-Definition *definition_find(const State *state, const char *name, DefinitionKind kind)
-{
-    const Thing *thing =
-        kind == DEFINES_PARAMETER ? state_value_thing(state, name) : state_thing(state, name);
-    Definition *d = thing != NULL && thing->kind == THING_DEFINITION
-                        ? &state->definitions.at[thing->index]
-                        : NULL;
-
-    return d != NULL && d->kind == kind ? d : NULL;
-}
-
-int definition_index(const State *state, const Definition *d)
-{
-    return (int)(d - state->definitions.at);
-}
-
 /* --- values of parameters --- */
 
 static double known_value(void *context, Expr symbol)

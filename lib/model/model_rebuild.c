@@ -1,23 +1,6 @@
 /* model_rebuild.c: rebuilds a state from its lines, and saves its lines as a script */
 #include "model/model_impl.h"
 
-Status state_apply_text(State **state, const char *text, Text *remarks, Diag *diag)
-{
-    Statement *statement = NULL;
-    Outcome outcome = {EFFECT_NONE, {0}};
-    size_t next = 0;
-    Status status = OK;
-
-    CHECK(statement_parse(text, 1, (SyntaxOptions){.whole = true}, &next, &statement, diag));
-    CHECK(state_apply(state, statement, &outcome, diag));
-    if (remarks != NULL && outcome.remarks.at != NULL)
-        text_add(remarks, outcome.remarks.at);
-done:
-    text_free(&outcome.remarks);
-    statement_free(statement);
-    return status;
-}
-
 /* the name that a line makes or changes, or the line itself */
 static const char *line_name(const State *state, const Line *line)
 {
@@ -38,7 +21,7 @@ static bool sets_inside(const State *state, const Line *line, const char *use)
 Status state_rebuild(const State *old, int without, State **out, NameList *broken, Text *remarks,
                      Diag *diag)
 {
-    State *state = state_new(old->arena);
+    State *state = state_new(old->arena, old->apply);
     const int gone = without >= 0 ? old->lines.at[without].part : -1;
     const int gone_use = without >= 0 ? old->lines.at[without].use : -1;
     int count = 0;

@@ -66,7 +66,7 @@ static Status place_frame(const ModelRenameRenaming *r, const char *name, Diag *
                           (SyntaxOptions){false}, &next, &arm, diag));
     arm->operands.at[0].value->text = name;
     state->inside = r->use;
-    status = state_apply(&state, arm, &outcome, diag);
+    status = apply_component(&state, arm, &outcome, diag);
     state->inside = outer;
 done:
     text_free(&outcome.remarks);

@@ -3,11 +3,12 @@
 
 #include <string.h>
 
-State *state_new(Arena *arena)
+State *state_new(Arena *arena, Apply *apply)
 {
     State *state = NEW(State);
 
     state->arena = arena;
+    state->apply = apply;
     state->pool = pool_new(0);
     for (int i = 0; i < 3; i++)
         state->gravity[i] = expr_int(arena, 0);
@@ -129,4 +130,94 @@ void scope_use(Scope *scope, int definition)
         if (scope->uses.at[i] == definition)
             return;
     LIST_PUSH(scope->uses, definition);
+}
+
+Definition *definition_find(const State *state, const char *name, DefinitionKind kind)
+{
+    const Thing *thing =
+        kind == DEFINES_PARAMETER ? state_value_thing(state, name) : state_thing(state, name);
+    Definition *d = thing != NULL && thing->kind == THING_DEFINITION
+                        ? &state->definitions.at[thing->index]
+                        : NULL;
+
+    return d != NULL && d->kind == kind ? d : NULL;
+}
+
+int definition_index(const State *state, const Definition *d)
+{
+    return (int)(d - state->definitions.at);
+}
+
+/* --- instances of subsystems --- */
+
+const Use *state_use(const State *state, const char *name)
+{
+    const Thing *thing = state_thing(state, name);
+
+    return thing != NULL && thing->kind == THING_USE ? &state->uses.at[thing->index] : NULL;
+}
+
+bool name_is_inside(const char *name, const char *use)
+{
+    const size_t length = strlen(use);
+
+    return strncmp(name, use, length) == 0 && name[length] == '.';
+}
+
+int state_use_around(const State *state, const char *name)
+{
+    int found = -1;
+
+    for (const char *dot = strchr(name, '.'); dot != NULL; dot = strchr(dot + 1, '.')) {
+        char *head = mem_text(name, (size_t)(dot - name));
+        const Thing *thing = state_thing(state, head);
+
+        if (thing != NULL && thing->kind == THING_USE)
+            found = thing->index;
+        mem_free(head);
+    }
+    return found;
+}
+
+const Subsystem *state_subsystem(const State *state, const char *name, int *definition)
+{
+    const Definition *d = definition_find(state, name, DEFINES_SUBSYSTEM);
+
+    if (d == NULL)
+        return NULL;
+    if (definition != NULL)
+        *definition = definition_index(state, d);
+    return d->subsystem;
+}
+
+int subsystem_port(const Subsystem *subsystem, const char *name)
+{
+    for (int i = 0; i < subsystem->port_count; i++)
+        if (strcmp(subsystem->ports[i].name, name) == 0)
+            return i;
+    return -1;
+}
+
+/* --- statements --- */
+
+Status state_apply(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
+{
+    return (*state)->apply(state, statement, outcome, diag);
+}
+
+Status state_apply_text(State **state, const char *text, Text *remarks, Diag *diag)
+{
+    Statement *statement = NULL;
+    Outcome outcome = {EFFECT_NONE, {0}};
+    size_t next = 0;
+    Status status = OK;
+
+    CHECK(statement_parse(text, 1, (SyntaxOptions){.whole = true}, &next, &statement, diag));
+    CHECK(state_apply(state, statement, &outcome, diag));
+    if (remarks != NULL && outcome.remarks.at != NULL)
+        text_add(remarks, outcome.remarks.at);
+done:
+    text_free(&outcome.remarks);
+    statement_free(statement);
+    return status;
 }

@@ -7,56 +7,6 @@
 
 #include <string.h>
 
-/* --- queries --- */
-
-const Use *state_use(const State *state, const char *name)
-{
-    const Thing *thing = state_thing(state, name);
-
-    return thing != NULL && thing->kind == THING_USE ? &state->uses.at[thing->index] : NULL;
-}
-
-bool name_is_inside(const char *name, const char *use)
-{
-    const size_t length = strlen(use);
-
-    return strncmp(name, use, length) == 0 && name[length] == '.';
-}
-
-int state_use_around(const State *state, const char *name)
-{
-    int found = -1;
-
-    for (const char *dot = strchr(name, '.'); dot != NULL; dot = strchr(dot + 1, '.')) {
-        char *head = mem_text(name, (size_t)(dot - name));
-        const Thing *thing = state_thing(state, head);
-
-        if (thing != NULL && thing->kind == THING_USE)
-            found = thing->index;
-        mem_free(head);
-    }
-    return found;
-}
-
-const Subsystem *state_subsystem(const State *state, const char *name, int *definition)
-{
-    const Definition *d = definition_find(state, name, DEFINES_SUBSYSTEM);
-
-    if (d == NULL)
-        return NULL;
-    if (definition != NULL)
-        *definition = definition_index(state, d);
-    return d->subsystem;
-}
-
-int subsystem_port(const Subsystem *subsystem, const char *name)
-{
-    for (int i = 0; i < subsystem->port_count; i++)
-        if (strcmp(subsystem->ports[i].name, name) == 0)
-            return i;
-    return -1;
-}
-
 /* --- the first line --- */
 
 typedef struct Header {
