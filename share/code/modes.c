@@ -207,19 +207,23 @@ static void model_mode_at(const real *p, real t, const real *y, const real *s, r
     model_modes(p, t + h, r->at, s, r->a);
 }
 
-/* s in the mode of p; behind a step of length h by the implicit Euler rule, from s = 0 */
+/* s in the mode of p; behind a step of length h by the implicit Euler rule, from s = 0. Newton's
+ * method, its steps shortened where they lead away; where no step does better, as at the kink of a
+ * diode's law, undamped from one linear piece to the next, by shares of steps that leave cycles. */
 static int model_mode_solve(const real *p, real t, const real *y, real *s, real h, real *work,
                             int *lacks)
 {
     const int n = MODEL_MODES_N, w = n + 1, most = MODEL_IS_LINEAR ? 2 : 200;
     const ModelRoom r = model_room(work);
     real *weight = r.zero; /* nothing else uses it here */
-    int i, j, tries, near = 0;
+    int i, j, tries, near = 0, pieces = 0;
 
     for (tries = 0; tries < most; tries++) {
         real lack, step = 1, change = 0, size = 0;
         int halves, more = 0, status;
 
+        if (pieces > 0 && near == 0)
+            step = pieces++ < 20 ? R(1) : R(1 - fmod(pieces * 0.381966011, 1));
         model_mode_at(p, t, y, s, h, &r);
         model_mode_rates(p, t + h, r.at, s, r.d);
         model_mode_shares(p, t + h, r.at, s, r.c);
@@ -241,12 +245,15 @@ static int model_mode_solve(const real *p, real t, const real *y, real *s, real 
         for (halves = 0; halves < 60; halves++, step /= 2) {
             for (i = 0; i < n; i++)
                 s[MODEL_MODES_FIRST + i] = r.old[i] + step * r.x[i];
-            if (MODEL_IS_LINEAR || near > 0 || !(lack > 0))
+            if (MODEL_IS_LINEAR || near > 0 || pieces > 0 || !(lack > 0))
                 break;
             model_mode_at(p, t, y, s, h, &r);
             if (model_mode_lack(r.a, weight) < lack)
                 break;
         }
+        for (i = 0; i < n && halves == 60; i++)
+            s[MODEL_MODES_FIRST + i] = r.old[i] + r.x[i];
+        pieces += halves == 60;
         for (i = 0; i < n; i++) {
             if (!(R(fabs(r.x[i])) <= change))
                 change = R(fabs(r.x[i]));
