@@ -217,6 +217,8 @@ void statement_free(Statement *statement); /* NULL is fine */
 MUST_USE Status syntax_parse_expression(const char *text, Pool *pool, Syntax **out, Diag *diag);
 /* a copy of a tree that lives as long as the pool */
 Syntax *syntax_copy(Pool *pool, const Syntax *syntax);
+/* The same of a statement that builds; not for statement_free(). */
+void statement_copy(Pool *pool, const Statement *from, Statement *to);
 /* Write a tree back as text that parses to the same tree. */
 void syntax_print(Text *text, const Syntax *syntax);
 /* The same of a statement that builds, of its operands and pairs. */

@@ -16,6 +16,40 @@ Syntax *syntax_copy(Pool *pool, const Syntax *syntax)
     return copy;
 }
 
+static const char *text_copy(Pool *pool, const char *text)
+{
+    return text != NULL ? pool_text(pool, text, strlen(text)) : NULL;
+}
+
+void statement_copy(Pool *pool, const Statement *from, Statement *to)
+{
+    const int operands = from->operands.count, pairs = from->pairs.count;
+    const size_t arguments = (size_t)from->argument_count;
+
+    *to = *from;
+    to->pool = pool;
+    to->name = text_copy(pool, from->name);
+    to->text = text_copy(pool, from->text);
+    to->redirect = text_copy(pool, from->redirect);
+    to->arguments = pool_alloc(pool, sizeof *to->arguments * (arguments + 1));
+    for (size_t i = 0; i < arguments; i++)
+        to->arguments[i] = text_copy(pool, from->arguments[i]);
+    to->value = from->value != NULL ? syntax_copy(pool, from->value) : NULL;
+    to->operands.at = pool_alloc(pool, sizeof *to->operands.at * ((size_t)operands + 1));
+    to->operands.room = operands;
+    for (int i = 0; i < operands; i++) {
+        to->operands.at[i] = from->operands.at[i];
+        to->operands.at[i].value = syntax_copy(pool, from->operands.at[i].value);
+    }
+    to->pairs.at = pool_alloc(pool, sizeof *to->pairs.at * ((size_t)pairs + 1));
+    to->pairs.room = pairs;
+    for (int i = 0; i < pairs; i++) {
+        to->pairs.at[i] = from->pairs.at[i];
+        to->pairs.at[i].name = text_copy(pool, from->pairs.at[i].name);
+        to->pairs.at[i].value = syntax_copy(pool, from->pairs.at[i].value);
+    }
+}
+
 static void print_arguments(Text *text, const Syntax *syntax)
 {
     for (int i = 0; i < syntax->count; i++) {

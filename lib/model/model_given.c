@@ -41,32 +41,9 @@ const char *given_effort(const Port *port, const char *rest)
     return strcmp(rest, ".i") == 0 ? "_source.i" : NULL;
 }
 
-/* --- which unknowns move frames: before a line is applied --- */
+/* --- which unknowns move frames: before a statement is applied --- */
 
-typedef LIST(Statement *) Statements;
-
-static Statements read_lines(const char *body)
-{
-    Statements out = {0};
-
-    if (strstr(body, "give") == NULL)
-        return out;
-    for (const char *line = body; *line != '\0';) {
-        const size_t length = strcspn(line, "\n");
-        char *text = mem_text(line, length);
-        Statement *s = NULL;
-        size_t next = 0;
-
-        if (statement_parse(text, 1, (SyntaxOptions){false}, &next, &s, NULL) == OK &&
-            verb_gives(s))
-            LIST_PUSH(out, s);
-        else
-            statement_free(s);
-        mem_free(text);
-        line += length + (line[length] == '\n');
-    }
-    return out;
-}
+typedef LIST(const Statement *) Statements;
 
 /* whether the tree contains the variable with at least that many primes */
 static bool holds(const Syntax *syntax, const char *name, int primes)
@@ -189,12 +166,15 @@ const char *given_name(State *state, const Use *use, const char *name)
     return own;
 }
 
-void given_begin(State *state, int use, const char *body)
+void given_begin(State *state, int use, const Body *body)
 {
     BlockEquations *equations = state->uses.at[use].equations;
-    Scan scan = {.subsystem = state->uses.at[use].subsystem, .lines = read_lines(body)};
+    Scan scan = {.subsystem = state->uses.at[use].subsystem};
     const int ports = scan.subsystem->port_count;
 
+    for (int i = 0; i < body->count; i++)
+        if (verb_gives(&body->at[i]))
+            LIST_PUSH(scan.lines, &body->at[i]);
     for (int i = 0; i < scan.lines.count; i++)
         for (int k = 0;
              scan.lines.at[i]->row.number == VERB_unknown && k < scan.lines.at[i]->operands.count;
@@ -216,8 +196,6 @@ void given_begin(State *state, int use, const char *body)
     for (int p = 0; p < ports; p++)
         if (scan.frames[p] || scan.free[p])
             equations->frames[equations->frame_count++] = p;
-    for (int i = 0; i < scan.lines.count; i++)
-        statement_free(scan.lines.at[i]);
     LIST_FREE(scan.lines);
     LIST_FREE(scan.names);
     MEM_FREE(scan.moves, scan.frames, scan.free);

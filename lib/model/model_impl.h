@@ -477,9 +477,10 @@ MUST_USE Status subsystem_begin(State *state, const Statement *statement, int *u
 /* Applies a statement of a definition to its instance. */
 MUST_USE Status use_apply(State **state, int use, const Statement *statement, Outcome *outcome,
                           Diag *diag);
-/* The same for a body's lines; diag->inside shows the line that fails. */
-MUST_USE Status use_apply_lines(State **state, int use, const char *body, Outcome *outcome,
-                                Diag *diag);
+/* The same for all of them; diag->inside shows the line that fails. `fault`: that of the line after
+ * them, which is no statement; NULL: none. */
+MUST_USE Status use_apply_body(State **state, int use, const Body *body, const Diag *fault,
+                               Outcome *outcome, Diag *diag);
 /* Frees ports of a trial whose nodes were removed with a statement that failed. */
 void subsystem_forget_places(State *state, int use);
 /* Refuses ports that nothing inside uses. */
@@ -491,8 +492,8 @@ bool verb_gives(const Statement *statement);
  * of a terminal; `rest` follows the port's name. NULL: it is no effort. */
 const char *given_effort(const Port *port, const char *rest);
 /* Equations instead of parts (model_given.c). Finds the unknowns that move frames in a definition's
- * lines, before these are applied. */
-void given_begin(State *state, int use, const char *body);
+ * statements, before these are applied. */
+void given_begin(State *state, int use, const Body *body);
 /* Refuses parts in addition to equations. */
 MUST_USE Status given_allows(State *state, int use, const Statement *s, Diag *diag);
 /* Adds one of those, in the instance's names; `from` is the original statement. */
@@ -512,7 +513,7 @@ MUST_USE Status opened_add(Opened *opened, const Statement *statement, Diag *dia
 /* The complete definition as one statement, new; `place` is the position of its end. */
 MUST_USE Status opened_end(const Opened *opened, Place place, Statement **out, Diag *diag);
 
-/* A definition's statement in the names of an instance: new lists, trees in `pool`. */
+/* A definition's statement in the names of an instance, in `pool`. */
 MUST_USE Status statement_rename(State *state, int use, const Statement *statement, Pool *pool,
                                  Statement *out, Diag *diag);
 /* Refuses a new value of a parameter with another dimension. */

@@ -447,29 +447,6 @@ static Status rename_verb(const ModelRenameRenaming *r, Statement *s)
     return OK;
 }
 
-static void copy_trees(ModelRenameRenaming *r, const Statement *from, Statement *to)
-{
-    *to = *from;
-    to->operands.at = NULL;
-    to->operands.count = to->operands.room = 0;
-    to->pairs.at = NULL;
-    to->pairs.count = to->pairs.room = 0;
-    for (int i = 0; i < from->operands.count; i++) {
-        Operand operand = from->operands.at[i];
-
-        operand.value = syntax_copy(r->pool, operand.value);
-        LIST_PUSH(to->operands, operand);
-    }
-    for (int i = 0; i < from->pairs.count; i++) {
-        Pair pair = from->pairs.at[i];
-
-        pair.value = syntax_copy(r->pool, pair.value);
-        LIST_PUSH(to->pairs, pair);
-    }
-    if (from->value != NULL)
-        to->value = syntax_copy(r->pool, from->value);
-}
-
 Status statement_rename(State *state, int use, const Statement *statement, Pool *pool,
                         Statement *out, Diag *diag)
 {
@@ -478,7 +455,7 @@ Status statement_rename(State *state, int use, const Statement *statement, Pool 
     Text text = {0};
     Status status = OK;
 
-    copy_trees(&r, statement, out);
+    statement_copy(pool, statement, out);
     if (statement->kind != STATEMENT_VERB) {
         out->name = own_name(&r, statement->name);
         CHECK(rename_in(&r, out->value));

@@ -1,4 +1,5 @@
 /* model_start.c: initial values, guesses, and the form of the equations */
+#include "language/verbs.h"
 #include "model/model_impl.h"
 
 #include <string.h>
@@ -237,19 +238,16 @@ Status starts_copy(State *to, const State *from, NameList *broken, Text *remarks
     return OK;
 }
 
-/* whether a definition in use sets such values itself */
-static bool gives_starts(const State *state, const char *verb)
+/* whether a definition in use sets such values itself: VERB_init or VERB_guess */
+static bool gives_starts(const State *state, int verb)
 {
-    const size_t length = strlen(verb);
+    for (int i = 0; i < state->uses.count; i++) {
+        const Body *body = &state->uses.at[i].subsystem->body;
 
-    for (int i = 0; i < state->uses.count; i++)
-        for (const char *line = state->uses.at[i].subsystem->body; *line != '\0';) {
-            line += strspn(line, " ");
-            if (strncmp(line, verb, length) == 0 && line[length] == ' ')
+        for (int k = 0; k < body->count; k++)
+            if (body->at[k].kind == STATEMENT_VERB && body->at[k].row.number == verb)
                 return true;
-            line += strcspn(line, "\n");
-            line += *line == '\n';
-        }
+    }
     return false;
 }
 
@@ -267,9 +265,9 @@ void starts_save(const State *state, Text *text)
             setting_text(state, (ModelSetting)i, text);
             text_char(text, '\n');
         }
-    if (gives_starts(state, "init"))
+    if (gives_starts(state, VERB_init))
         text_add(text, "init none\n");
-    if (gives_starts(state, "guess"))
+    if (gives_starts(state, VERB_guess))
         text_add(text, "guess none\n");
     for (int i = 0; i < state->starts.count; i++) {
         const StartEntry *entry = &state->starts.at[i];

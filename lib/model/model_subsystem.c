@@ -1,8 +1,8 @@
-/* model_subsystem.c: definitions of subsystems: their ports, and their statements as text
+/* model_subsystem.c: definitions of subsystems: their ports and their statements
  *
  * A definition is tried on an instance with its own name, whose ports are bound to anything that is
  * valid there. So its faults are reported where it is written. The instance is removed when the
- * definition is complete: only the text is stored. */
+ * definition is complete: only the statements are stored. */
 #include "model/model_given.h"
 
 #include <string.h>
@@ -74,7 +74,7 @@ static Status read_header(State *state, const Statement *statement, Subsystem *o
     TRY(name_is_free(state, name->value->text, name->place, diag));
     if (names_find(state->terminals, name->value->text) >= 0)
         return diag_at(diag, E_NAME, name->place, "'%s' is already a terminal", name->value->text);
-    *out = (Subsystem){.name = state_text(state, name->value->text), .body = ""};
+    *out = (Subsystem){.name = state_text(state, name->value->text)};
     out->ports = pool_alloc(state->pool, sizeof *out->ports * (size_t)most_ports(statement));
     for (int i = 0; i < COUNT(keys); i++)
         TRY(read_ports(&h, statement, keys[i]));
@@ -174,18 +174,48 @@ static void models_uses(const State *state, int first, int definitions, Scope *s
                 scope_use(scope, state->lines.at[i].uses[k]);
 }
 
+/* The statements of a text up to the first fault, in the pool. */
+static Status parse_body(const char *text, Pool *pool, Body *out, Diag *fault)
+{
+    size_t lines = 1;
+    Statement *at;
+    Status status = OK;
+
+    for (const char *c = text; *c != '\0'; c++)
+        lines += *c == '\n';
+    at = pool_alloc(pool, sizeof *at * lines);
+    *out = (Body){.text = text, .at = at};
+    /* the first line is the definition's head */
+    for (int number = 2; *text != '\0' && status == OK; number++) {
+        const size_t length = strcspn(text, "\n");
+        char *line = mem_text(text, length);
+        Statement *statement = NULL;
+        size_t next = 0;
+
+        status = statement_parse(line, number, (SyntaxOptions){false}, &next, &statement, fault);
+        if (status == OK && statement->kind != STATEMENT_EMPTY)
+            statement_copy(pool, statement, &at[out->count++]);
+        statement_free(statement);
+        mem_free(line);
+        text += length + (text[length] == '\n');
+    }
+    return status;
+}
+
 /* Tries the body; `out` gets the results, with new names. */
-static Status try_definition(State **state, const Statement *statement, Subsystem *out,
+static Status try_definition(State **state, const Statement *statement, Pool *pool, Subsystem *out,
                              Scope *scope, Diag *diag)
 {
     const int first = (*state)->lines.count;
     const int definitions = (*state)->definitions.count;
     Outcome outcome = {EFFECT_NONE, {0}};
+    Diag fault = {0};
+    const Status parsed = parse_body(statement->body, pool, &out->body, &fault);
     int use = -1;
     Status status = OK;
 
     CHECK(subsystem_begin(*state, statement, &use, diag));
-    CHECK(use_apply_lines(state, use, statement->body, &outcome, diag));
+    CHECK(use_apply_body(state, use, &out->body, parsed != OK ? &fault : NULL, &outcome, diag));
     CHECK(subsystem_check_ports(*state, use, statement->place, diag));
     out->port_count = (*state)->uses.at[use].subsystem->port_count;
     out->ports = NEW_ARRAY(Port, out->port_count + 1);
@@ -209,10 +239,14 @@ static const Subsystem *settle(State *state, const Statement *statement, Subsyst
 {
     Subsystem *subsystem = pool_alloc(state->pool, sizeof *subsystem);
     const size_t ports = (size_t)learnt->port_count, parameters = (size_t)learnt->parameter_count;
+    Statement *at = pool_alloc(state->pool, sizeof *at * ((size_t)learnt->body.count + 1));
 
     *subsystem = *learnt;
     subsystem->name = state_text(state, statement->operands.at[0].value->text);
-    subsystem->body = state_text(state, statement->body);
+    subsystem->body.text = state_text(state, statement->body);
+    subsystem->body.at = at;
+    for (int i = 0; i < learnt->body.count; i++)
+        statement_copy(state->pool, &learnt->body.at[i], &at[i]);
     subsystem->ports = pool_alloc(state->pool, sizeof(Port) * (ports + 1));
     subsystem->parameters = pool_alloc(state->pool, sizeof(char *) * (parameters + 1));
     for (size_t i = 0; i < ports; i++) {
@@ -239,6 +273,7 @@ Status apply_subsystem(State **state, const Statement *statement, Outcome *outco
     const Setup setup = state_setup(*state);
     Scope scope = {.state = *state};
     Subsystem learnt = {0};
+    Pool *pool = NULL;
     char *text = NULL;
     Status status = OK;
 
@@ -246,7 +281,8 @@ Status apply_subsystem(State **state, const Statement *statement, Outcome *outco
     if (statement->body == NULL)
         return diag_at(diag, E_SYNTAX, statement->verb_place,
                        "a definition can't stand in another one");
-    status = try_definition(state, statement, &learnt, &scope, diag);
+    pool = pool_new(0);
+    status = try_definition(state, statement, pool, &learnt, &scope, diag);
     state_note_setup(*state, &setup);
     (void)state_go_back(state, &mark);
     CHECK(status);
@@ -259,6 +295,7 @@ Status apply_subsystem(State **state, const Statement *statement, Outcome *outco
 done:
     forget(&learnt);
     LIST_FREE(scope.uses);
+    pool_free(pool);
     mem_free(text);
     return status;
 }

@@ -152,28 +152,11 @@ Status use_apply(State **state, int use, const Statement *statement, Outcome *ou
     status = apply_renamed(state, &renamed, statement, outcome, diag);
     s->inside = outer;
 done:
-    LIST_FREE(renamed.operands);
-    LIST_FREE(renamed.pairs);
     pool_free(pool);
     return status;
 }
 
 /* --- the body --- */
-
-/* the line of a definition that failed, and a caret under its fault */
-static void show_inside(const State *state, int use, const char *text, Diag *diag)
-{
-    const Place place = diag->place;
-    Text out = {0};
-
-    text_addf(&out, "in %s, line %d:\n%s\n", state->uses.at[use].subsystem->name, place.line, text);
-    text_fill(&out, ' ', place.column > 0 ? place.column - 1 : 0);
-    text_char(&out, '^');
-    text_fill(&out, '~', place.width - 1);
-    if (out.length < sizeof diag->inside)
-        memcpy(diag->inside, out.at, out.length + 1);
-    text_free(&out);
-}
 
 typedef struct Expansion {
     int use;
@@ -182,6 +165,27 @@ typedef struct Expansion {
     Outcome *outcome;
     bool at_use; /* the fault is there, not in the definition */
 } Expansion;
+
+/* Shows the line of a definition that failed, with a caret under its fault. The first line is the
+ * definition's head. */
+static void show_inside(const Expansion *x, const State *state, const char *text, int number,
+                        Diag *diag)
+{
+    const Place place = diag->place;
+    Text out = {0};
+
+    for (; number > 2 && *text != '\0'; number--)
+        text += strcspn(text, "\n") + (strchr(text, '\n') != NULL);
+    text_addf(&out, "in %s, line %d:\n", state->uses.at[x->use].subsystem->name, place.line);
+    text_add_n(&out, text, strcspn(text, "\n"));
+    text_char(&out, '\n');
+    text_fill(&out, ' ', place.column > 0 ? place.column - 1 : 0);
+    text_char(&out, '^');
+    text_fill(&out, '~', place.width - 1);
+    if (out.length < sizeof diag->inside)
+        memcpy(diag->inside, out.at, out.length + 1);
+    text_free(&out);
+}
 
 /* Applies a parameter of the definition with another value, in the names of the user of the
  * instance. */
@@ -212,14 +216,12 @@ static Status apply_override(State **state, const Expansion *x, const Statement 
         parameter_measure_like(*state, renamed.name, measure);
 done:
     text_free(&text);
-    LIST_FREE(renamed.operands);
-    LIST_FREE(renamed.pairs);
     LIST_FREE(scope.uses);
     pool_free(pool);
     return status;
 }
 
-static Status apply_line(State **state, Expansion *x, const Statement *statement, Diag *diag)
+static Status apply_statement(State **state, Expansion *x, const Statement *statement, Diag *diag)
 {
     const Subsystem *subsystem = (*state)->uses.at[x->use].subsystem;
     const Syntax *given = NULL;
@@ -236,59 +238,39 @@ static Status apply_line(State **state, Expansion *x, const Statement *statement
     return OK;
 }
 
-/* The end of a definition that contains equations: shows a fault at its line. */
-static Status end_lines(State *state, const Expansion *x, const char *body, Diag *diag)
+static Status apply_body(State **state, Expansion *x, const Body *body, const Diag *fault,
+                         Diag *diag)
 {
-    bool at_use = false;
-    Diag fault = {0};
-    const Status status = given_end(state, x->use, &at_use, &fault);
-    const char *line = body;
+    Diag found = {0};
+    Status status = OK;
+    bool at_use = false; /* the fault is in no line */
+    int line = 0;        /* of the statement that failed */
 
-    if (status == OK)
-        return OK;
-    for (int number = 2; number < fault.place.line && *line != '\0'; number++)
-        line += strcspn(line, "\n") + (strchr(line, '\n') != NULL);
-    if (!at_use) {
-        char *text = mem_text(line, strcspn(line, "\n"));
-
-        show_inside(state, x->use, text, &fault);
-        mem_free(text);
+    given_begin(*state, x->use, body);
+    for (int i = 0; i < body->count && status == OK; i++) {
+        status = apply_statement(state, x, &body->at[i], &found);
+        line = body->at[i].place.line;
+        at_use = x->at_use;
     }
-    if (diag != NULL)
-        *diag = fault;
+    if (status == OK && fault != NULL) {
+        found = *fault;
+        status = found.status;
+        line = found.place.line;
+    } else if (status == OK) {
+        status = given_end(*state, x->use, &at_use, &found);
+        line = found.place.line;
+    }
+    if (status != OK && !at_use && found.inside[0] == '\0')
+        show_inside(x, *state, body->text, line, &found);
+    if (status != OK && diag != NULL)
+        *diag = found;
     return status;
 }
 
-static Status apply_lines(State **state, Expansion *x, const char *body, Diag *diag)
+Status use_apply_body(State **state, int use, const Body *body, const Diag *fault, Outcome *outcome,
+                      Diag *diag)
 {
-    int number = 2; /* the first line is the definition's head */
-    Status status = OK;
-
-    given_begin(*state, x->use, body);
-    for (const char *line = body; *line != '\0' && status == OK; number++) {
-        const size_t length = strcspn(line, "\n");
-        char *text = mem_text(line, length);
-        Statement *statement = NULL;
-        size_t next = 0;
-        Diag fault = {0};
-
-        status = statement_parse(text, number, (SyntaxOptions){false}, &next, &statement, &fault);
-        if (status == OK)
-            status = apply_line(state, x, statement, &fault);
-        if (status != OK && !x->at_use && fault.inside[0] == '\0')
-            show_inside(*state, x->use, text, &fault);
-        if (status != OK && diag != NULL)
-            *diag = fault;
-        statement_free(statement);
-        mem_free(text);
-        line += length + (line[length] == '\n');
-    }
-    return status == OK ? end_lines(*state, x, body, diag) : status;
-}
-
-Status use_apply_lines(State **state, int use, const char *body, Outcome *outcome, Diag *diag)
-{
-    return apply_lines(state, &(Expansion){.use = use, .outcome = outcome}, body, diag);
+    return apply_body(state, &(Expansion){.use = use, .outcome = outcome}, body, fault, diag);
 }
 
 /* --- use --- */
@@ -517,7 +499,7 @@ static Status make_instance(UseDraft *d, const Operand *operand)
     LIST_PUSH(state->uses, d->use);
     state_name(state, d->use.name, THING_USE, number, 0);
     x.overrides = d->overrides;
-    status = apply_lines(d->state, &x, d->subsystem->body, &fault);
+    status = apply_body(d->state, &x, &d->subsystem->body, NULL, &fault);
     if (status != OK && !x.at_use)
         return report_inside(d, operand, &fault);
     if (status != OK) {

@@ -2,7 +2,7 @@
 #ifndef COTREE_MODEL_SUBSYSTEM_H
 #define COTREE_MODEL_SUBSYSTEM_H
 
-#include <stdbool.h>
+#include "language/syntax.h"
 
 typedef struct Port {
     const char *name;
@@ -10,9 +10,16 @@ typedef struct Port {
     bool is_through; /* the inside determines its motion or voltage: named as leg1.B, never bound */
 } Port;
 
+/* the statements of a definition */
+typedef struct Body {
+    const char *text; /* as written, one on each line */
+    const Statement *at;
+    int count; /* of those that aren't empty */
+} Body;
+
 typedef struct Subsystem {
     const char *name;
-    const char *body; /* its statements, one on each line */
+    Body body;
     Port *ports;
     int port_count;
     const char **parameters; /* those that `use` may set */

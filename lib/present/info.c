@@ -410,7 +410,7 @@ static bool print_subsystem(Text *out, const View *view, const char *name)
     for (int i = 0; i < subsystem->parameter_count; i++)
         text_addf(out, "%s%s%s", i == 0 ? "  parameters: " : " ", subsystem->parameters[i],
                   i == subsystem->parameter_count - 1 ? "\n" : "");
-    text_addf(out, "its lines:\n%s", subsystem->body);
+    text_addf(out, "its lines:\n%s", subsystem->body.text);
     return true;
 }
 
