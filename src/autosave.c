@@ -3,6 +3,7 @@
 
 #include "copy.h"
 #include "file.h"
+#include "out_of_memory.h"
 #include "report_error.h"
 
 #include <dirent.h>
@@ -51,6 +52,7 @@ static void forget(Autosave *unsaved)
     unsaved->path = NULL;
     unsaved->in = NULL;
     unsaved->count = 0;
+    out_of_memory_note(false);
 }
 
 static void fail(Autosave *unsaved)
@@ -90,6 +92,7 @@ static bool make_file(Autosave *unsaved)
         unsaved->file = open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
         if (unsaved->file >= 0 && flock(unsaved->file, LOCK_EX | LOCK_NB) == 0) {
             unsaved->path = path;
+            out_of_memory_note(true);
             return put(unsaved, TITLE, strlen(TITLE));
         }
         free(path);
@@ -283,6 +286,7 @@ void autosave_close(Autosave *unsaved)
     sync_file(unsaved, true);
     if (unsaved->path != NULL)
         close(unsaved->file);
+    out_of_memory_note(false);
     free(unsaved->path);
     free(unsaved->in);
     free(unsaved->folder);

@@ -6,16 +6,7 @@
 #ifndef COTREE_SRC_COMMAND_H
 #define COTREE_SRC_COMMAND_H
 
-#include "shell.h"
-
-/* A statement being carried out. */
-typedef struct Call {
-    Shell *shell;
-    ct_session *session; /* the shell's */
-    const ct_statement *statement;
-    FILE *out;
-    int columns; /* width of the screen that `out` is shown on; 0: a file or a pipe */
-} Call;
+#include "call.h"
 
 typedef ct_status CommandFunction(Call *call, ct_error *error);
 
@@ -26,23 +17,14 @@ enum {
     OWN = 8        /* concerns only the shell: the session has no remarks */
 };
 
-typedef struct Command {
+struct Command {
     const char *verb;
     CommandFunction *run;
     bool (*takes)(const ct_statement *statement); /* NULL: all that the library leaves to it */
     int flags;
-} Command;
+};
 
-/* the row for a statement; NULL: the model's, or nobody's */
-const Command *command_find(const ct_statement *statement);
-
-/* print lines; an end of line is added where it is missing */
-void write_text(FILE *out, const char *text);
-/* Write a csv to the destination of the statement. For `>>` the file must have the same header, and
- * the rows are appended without it. */
-ct_status csv_rows(const Call *call, const char *text, const char **rows, ct_error *error);
-/* the word, name or string that is operand i; NULL: none */
-const char *call_word(const Call *call, int i);
+FindCommand command_find;
 
 /* by file, each ended by a row without a verb */
 extern const Command commands_look[], commands_run[], commands_session[], commands_plot[],

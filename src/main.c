@@ -1,9 +1,9 @@
 /* main.c: options, and which lines are run: files, -e, standard input, the prompt */
+#include "command.h"
 #include "copy.h"
 #include "file.h"
 #include "interrupt.h"
 #include "line_edit.h"
-#include "out_of_memory.h"
 #include "replay.h"
 #include "report_error.h"
 #include "shell.h"
@@ -232,7 +232,6 @@ static void run_prompt(Shell *shell, bool no_init)
     if (!no_init)
         run_init_file(shell);
     shell->unsaved = autosave_open(shell->session);
-    out_of_memory_note(shell->unsaved);
     if (!shell->quiet)
         report_leftovers();
     line_edit_open(shell->session);
@@ -271,7 +270,7 @@ static int run(const Invocation *request)
     if (request->safe)
         file_confine(NULL);
     interrupt_setup(typed);
-    shell_open(&shell);
+    shell_open(&shell, command_find);
     shell.interactive = typed;
     shell.quiet = request->quiet;
     shell.keep_going = request->keep_going;

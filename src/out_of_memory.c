@@ -6,7 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-static const Autosave *kept;
+static bool is_kept;
 
 static void say(const char *text)
 {
@@ -18,13 +18,13 @@ static void say(const char *text)
 _Noreturn void out_of_memory(void)
 {
     say("\ncotree: out of memory\n");
-    if (autosave_is_kept(kept))
+    if (is_kept)
         say("the model was not saved: it is kept, and recover brings it back\n");
     (void)fflush(stdout);
     _exit(EXIT_FAILURE);
 }
 
-void out_of_memory_note(const Autosave *unsaved)
+void out_of_memory_note(bool kept)
 {
-    kept = unsaved;
+    is_kept = kept;
 }

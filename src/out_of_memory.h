@@ -4,10 +4,10 @@
 #ifndef COTREE_SRC_OUT_OF_MEMORY_H
 #define COTREE_SRC_OUT_OF_MEMORY_H
 
-#include "autosave.h"
+#include <stdbool.h>
 
-/* the autosave of the present session; borrowed; NULL: none */
-void out_of_memory_note(const Autosave *unsaved);
+/* whether the unsaved model is kept in a file */
+void out_of_memory_note(bool kept);
 /* Print a message and end the process, with the status of a failed statement. */
 _Noreturn void out_of_memory(void);
 

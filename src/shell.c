@@ -9,7 +9,6 @@
 #include "copy.h"
 #include "file.h"
 #include "interrupt.h"
-#include "out_of_memory.h"
 #include "pager.h"
 #include "terminal.h"
 
@@ -67,9 +66,9 @@ static void set_width(Shell *shell, int columns)
     ct_session_hooks(shell->session, &hooks);
 }
 
-void shell_open(Shell *shell)
+void shell_open(Shell *shell, FindCommand *find)
 {
-    *shell = (Shell){.unicode = terminal_is_utf8()};
+    *shell = (Shell){.find = find, .unicode = terminal_is_utf8()};
     settings_start(&shell->settings);
     shell->session = check_allocated(ct_session_new(NULL));
     set_width(shell, 0);
@@ -83,7 +82,6 @@ void shell_close(Shell *shell)
         free(shell->history[i]);
     free(shell->history);
     free(shell->last_plot);
-    out_of_memory_note(NULL);
     autosave_close(shell->unsaved);
     gnuplot_close(shell->gnuplot);
     ct_session_free(shell->session);
@@ -217,7 +215,7 @@ static ct_status carry_out(Shell *shell, const ct_statement *statement, ct_error
 {
     /* lines of a definition are its own, whoever carries them out elsewhere */
     const Command *row = ct_defining(shell->session) == NULL || is_for_reader(statement)
-                             ? command_find(statement)
+                             ? shell->find(statement)
                              : NULL;
     int depth = shell->depth;
 

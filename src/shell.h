@@ -11,8 +11,13 @@
 
 #include <stdio.h>
 
+typedef struct Command Command;
+/* the row for a statement; NULL: the model's, or nobody's */
+typedef const Command *FindCommand(const ct_statement *statement);
+
 typedef struct Shell {
     ct_session *session;
+    FindCommand *find; /* command_find() */
     Settings settings;
     Progress progress;
     Gnuplot *gnuplot;  /* NULL until something is drawn */
@@ -36,7 +41,7 @@ typedef struct Shell {
     int dropping;     /* line of the definition whose first line failed, up to its 'end'; 0: none */
 } Shell;
 
-void shell_open(Shell *shell);
+void shell_open(Shell *shell, FindCommand *find);
 void shell_close(Shell *shell);
 
 /* Run every statement of a logical line. Output and messages are printed; the first failing
