@@ -189,6 +189,32 @@ static void powers_have_no_bound(void)
     ring_free(ring);
 }
 
+/* (x^1024 - 1)/(x - 1) in x and in y: more pairs of terms than are multiplied at once */
+static void long_products_are_formed_in_pieces(void)
+{
+    Ring *ring = ring_new(2, MOST, NULL);
+    Multinomial *one = multinomial_small(ring, 1), *all[2], *square;
+    bool rises = true;
+
+    for (int v = 0; v < 2; v++) {
+        Multinomial *x = multinomial_variable(ring, v), *by = multinomial_sum(x, one, -1);
+
+        for (int i = 0; i < 10; i++)
+            x = multinomial_times(x, x);
+        all[v] = multinomial_exact(multinomial_sum(x, one, -1), by);
+    }
+    square = multinomial_times(all[0], all[0]);
+    EXPECT(multinomial_terms(square) == 2047 && ring_status(ring) == OK);
+    for (int i = 0; i < 1024; i++) /* 1, 2 ... 1024, and down again */
+        rises = rises && mpz_cmp_si(*multinomial_factor(square, i), i + 1) == 0 &&
+                mpz_cmp_si(*multinomial_factor(square, 2046 - i), i + 1) == 0;
+    EXPECT(rises);
+    /* a million terms, which are not all formed before the bound is noticed */
+    EXPECT(multinomial_is_zero(multinomial_times(all[0], all[1])));
+    EXPECT(ring_status(ring) == E_MEMORY);
+    ring_free(ring);
+}
+
 /* Euclid's algorithm needs more terms on the way than the bound allows */
 static void a_factor_of_long_polynomials_is_found(void)
 {
@@ -271,6 +297,7 @@ int main(void)
     RUN(squares_and_products_are_seen);
     RUN(what_is_beyond_the_bound_is_remembered);
     RUN(powers_have_no_bound);
+    RUN(long_products_are_formed_in_pieces);
     RUN(a_factor_of_long_polynomials_is_found);
     RUN(a_call_that_is_left_does_no_harm);
     return test_end();
