@@ -103,6 +103,42 @@ static Verdict machine_tells_its_error(Member *member)
     return verdict;
 }
 
+/* Errors of methods with a history add up from step to step. */
+static Verdict history_is_accurate(Member *member)
+{
+    static const char *const methods[] = {"bdf", "adams", "ida"};
+    static Drawn d;
+    static Instant now;
+    Kit kit = kit_new();
+    Real y[MOST_STATES];
+    const double rtol = member_decades(member, 1e-8, 1e-5);
+    double error = 0, size = 1;
+    Verdict verdict = AGREES;
+
+    while (!draw_machine(member, &d))
+        ;
+    draw_tree(member, &d, member_one_of(member, 3));
+    write_line(&d.script, "simulate 0.8 every=0.1 rtol=%.3g method=%s", rtol,
+               methods[member_one_of(member, 3)]);
+    memcpy(y, d.y, sizeof y);
+    if (do_told(member, &kit, d.script.text) != CT_OK || !oracle_runs(&d, 0, 0.8, y))
+        verdict = REFUSED;
+    unpack(&d.m, y, &now);
+    for (int c = 0; c < d.m.coordinates && verdict == AGREES; c++) {
+        const double rate = coordinate_row(&d.m, &now, c).rate;
+        char text[40];
+
+        error = fmax(error, fabs(kit_value(&kit, d.m.coordinate[c].name) - now.q[c]));
+        (void)snprintf(text, sizeof text, "%s'", d.m.coordinate[c].name);
+        error = fmax(error, fabs(kit_value(&kit, text) - rate));
+        size = fmax(size, fmax(fabs(now.q[c]), fabs(rate)));
+    }
+    if (verdict == AGREES && !keeps(member, "error in tolerances", error / (rtol * size), 100))
+        verdict = DISAGREES;
+    kit_free(&kit);
+    return verdict;
+}
+
 /* --- rest --- */
 
 /* what the session tells of a state, at rest */
@@ -363,6 +399,7 @@ static Verdict machine_is_driven(Member *member)
 static const Family families[] = {
     {"machines move and load their joints as their parts do", 20, 0.1, 0, machine_moves},
     {"machines tell errors that are not too low", 15, 0.4, 0, machine_tells_its_error},
+    {"methods with a history are accurate", 24, 0.2, 0, history_is_accurate},
     {"machines rest where nothing accelerates", 40, 0.4, 0, machine_rests},
     {"driven machines take what moves their parts", 40, 0.1, 0, machine_is_driven},
 };

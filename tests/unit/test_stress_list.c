@@ -242,7 +242,7 @@ static void energy_that_comes_or_goes_by_itself_is_told(void)
         bool is_right;
     } runs[] = {
         {"rtol=1e-3 method=adams", false},
-        {"rtol=1e-3 method=bdf", false},
+        {"rtol=4e-3 method=bdf", false},
         {"method=rk4 step=0.2", false},
         {"method=rk4 step=0.002", true},
         {"", true},
@@ -277,11 +277,11 @@ static void work_does_not_hide_energy_that_comes_by_itself(void)
     } runs[] = {
         {"scene planar\ngravity [0, 0]\nbody a mass=1 inertia=1\nprismatic s ground a axis=x\n"
          "spring k ground a k=600\ndamper d ground a d=0.2\ninit s = 1\n"
-         "simulate 60 rtol=6e-4 method=bdf",
+         "simulate 60 rtol=6e-3 method=bdf",
          false},
         {"scene planar\ngravity [0, 0]\nbody a mass=1 inertia=1\nprismatic s ground a axis=x\n"
          "spring k ground a k=150\nactuator f s force=sin(2*t)\ninit s = 1\n"
-         "simulate 100 rtol=7e-5 method=adams",
+         "simulate 100 rtol=3e-4 method=adams",
          false},
         {"capacitor A n 0 0.025\ninductor L n m 1\ncapacitor B m 0 0.025\nresistor R n 0 7700\n"
          "init A.v = 1\nsimulate 150 rtol=2e-4 method=adams",

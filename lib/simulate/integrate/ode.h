@@ -235,13 +235,28 @@ static inline double stepper_stop(const Stepper *stepper, double end)
 
 #define LEAST_TOLERANCE 1e-13 /* that floating point allows */
 
+#define MOTION_PART     0.1   /* of the tolerance, for errors that motion hardly damps, */
+#define MOTION_LEAST    1e-12 /* down to this tolerance */
+
+/* `part` of the tolerance, or what makes it `least` */
+static inline double tolerance_part(const Stepper *stepper, double part, double least)
+{
+    return fmax(part, fmin(1, least / stepper->control.rtol));
+}
+
 /* The fraction of the tolerance that one step may use. Errors of a method with a history are
- * similar from step to step, and add up over the many short steps of pulses and after restarts. */
+ * similar from step to step: they add up where motion hardly damps them, and over the many short
+ * steps of pulses and after restarts. */
 static inline double stepper_part(const Stepper *stepper)
 {
-    return stepper->method->has_history && stepper->has_pulses
-               ? fmax(stepper->method->short_part, fmin(1, LEAST_TOLERANCE / stepper->control.rtol))
-               : 1;
+    const Method *method = stepper->method;
+    double part = 1;
+
+    if (method->has_history && !stepper->ode->is_network)
+        part = tolerance_part(stepper, MOTION_PART, MOTION_LEAST);
+    if (method->has_history && stepper->has_pulses)
+        part = fmin(part, tolerance_part(stepper, method->short_part, LEAST_TOLERANCE));
+    return part;
 }
 
 /* y' at the stepper's time */
