@@ -214,6 +214,7 @@ family_machine_slopes_LDADD = libcotree.la $(unit_ldadd)
 
 FAMILIES += family_machine_code
 family_machine_code_SOURCES = tests/family/family_machine_code.c tests/family/machine.h \
+	tests/family/machine_hybrid.h tests/family/machine_hybrid_draw.h \
 	tests/family/machine_draw.h tests/family/machine_networks.h \
 	tests/family/machine_inputs.h tests/family/machine_slopes.h tests/family/machine_tableau.h \
 	tests/family/machine_whole.h \

@@ -2,7 +2,9 @@
  *
  * Machines of machine_draw.h, some numbers of theirs parameters, are exported as C, compiled by the
  * compiler of this machine and loaded; its outputs, at the start and behind steps of its own
- * integrator, with parameters changed in the code, are held against the oracle of machine.h. */
+ * integrator, with parameters changed in the code, are held against the oracle of machine.h. Those of
+ * machine_hybrid_draw.h have sampled control, switches, diodes and events. */
+#include "machine_hybrid_draw.h"
 #include "machine_inputs.h"
 
 #include <dlfcn.h>
@@ -218,8 +220,62 @@ static Verdict code_moves(Member *member)
     return verdict;
 }
 
+/* h to `to`; false: the oracle isn't sure, or something jumps there */
+static bool hybrid_answers(Hybrid *h, double to, Asks *asks)
+{
+    static Instant now;
+    Real y[MOST_STATES];
+    double at = 0;
+
+    memcpy(y, h->d.y, sizeof y);
+    if (!hybrid_starts(h, y) || h->unsure || !hybrid_runs(h, &at, to, y) || h->unsure ||
+        at - h->last < 1e-5)
+        return false;
+    unpack(&h->d.m, y, &now);
+    if (!instant_solve(&h->d.m, &now))
+        return false;
+    ask_all(&h->d.m, &now, asks);
+    return true;
+}
+
+/* Code of a machine takes samples, switches and turns diodes off as its parts do, or is refused. */
+static Verdict hybrid_code_moves(Member *member)
+{
+    static Hybrid h;
+    static Slopes s;
+    static Asks asks;
+    Kit kit = kit_new();
+    Code code = {0};
+    char line[600];
+    Verdict verdict = REFUSED;
+
+    while (!draw_hybrid(member, &h, false))
+        ;
+    s = (Slopes){.d = &h.d};
+    draw_tree(member, &h.d, member_one_of(member, 3));
+    write_export(member, &s, line, sizeof line);
+    if (do_told(member, &kit, h.d.script.text) == CT_OK && do_told(member, &kit, line) == CT_OK &&
+        code_open(&code, kit.text)) {
+        code.parameters(code.p);
+        code.prepare(code.p);
+        code.start(code.y, code.s);
+        verdict = AGREES;
+        for (int k = 0; k < STEPS && verdict == AGREES; k++)
+            if (code.step(code.p, k * STEP, STEP, code.y, code.s, code.work) != 0)
+                verdict = REFUSED;
+        if (verdict == AGREES && !hybrid_answers(&h, STEPS * STEP, &asks))
+            verdict = REFUSED;
+        if (verdict == AGREES)
+            verdict = compare_items(member, &code, &s, &asks, STEPS * STEP, 1e-4);
+    }
+    code_close(&code);
+    kit_free(&kit);
+    return verdict;
+}
+
 static const Family families[] = {
     {"code of machines moves them as their parts do", 6, 0.1, 0, code_moves},
+    {"code of machines samples and switches as their parts do", 6, 0.9, 0, hybrid_code_moves},
 };
 
 int main(int argc, char **argv)
