@@ -487,10 +487,11 @@ done:
 Status statement_parse(const char *text, int line, SyntaxOptions options, size_t *next,
                        Statement **out, Diag *diag)
 {
-    Cursor cursor = cursor_at(text, line, *next);
+    Cursor cursor = cursor_at(text, line, next != NULL ? *next : 0);
     const Status status = statement_read(&cursor, options, out, diag);
 
-    *next = status == OK ? cursor.next : *next;
+    if (status == OK && next != NULL)
+        *next = cursor.next;
     return status;
 }
 

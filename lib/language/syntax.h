@@ -204,7 +204,7 @@ MUST_USE Status statement_read(Cursor *cursor, SyntaxOptions options, Statement 
  *
  * text   a physical line, several joined by "\" at their ends, or a whole script
  * line   its number, for places
- * next   in: byte offset to start from (0); out: where the next statement starts
+ * next   in: byte offset to start from (0); out: where the next statement starts; NULL: the first
  * out    a new statement, statement_free(); kind EMPTY where only blanks and comments were left
  *
  * At the end *next is strlen(text). Call until then. Fails with E_SYNTAX, E_UNIT or E_NAME, at the

@@ -98,7 +98,6 @@ static Status take_again(History *history, int i, State **state, Diag *diag)
     Accepted *step = &history->list.at[i];
     Statement *statement = NULL;
     Outcome outcome = {EFFECT_NONE, {0}};
-    size_t next = 0;
     Status status = OK;
 
     mem_keep_part(history->list.at, &step->mark, sizeof step->mark);
@@ -107,7 +106,7 @@ static Status take_again(History *history, int i, State **state, Diag *diag)
         state_replace(state, state_new((*state)->arena, (*state)->apply));
         return OK;
     }
-    CHECK(statement_parse(step->text, 1, (SyntaxOptions){.whole = true}, &next, &statement, diag));
+    CHECK(statement_parse(step->text, 1, (SyntaxOptions){.whole = true}, NULL, &statement, diag));
     CHECK(apply_marked(state, statement, &step->mark, &outcome, diag));
 done:
     text_free(&outcome.remarks);

@@ -78,12 +78,11 @@ Status opened_add(Opened *opened, const Statement *statement, Diag *diag)
 Status opened_end(const Opened *opened, Place place, Statement **out, Diag *diag)
 {
     Text text = {0};
-    size_t next = 0;
     Status status = OK;
 
     CHECK(subsystem_check_ports(opened->trial, opened->use, place, diag));
     text_addf(&text, "%send", opened->text.at);
-    status = statement_parse(text.at, 1, (SyntaxOptions){.whole = true}, &next, out, diag);
+    status = statement_parse(text.at, 1, (SyntaxOptions){.whole = true}, NULL, out, diag);
 done:
     text_free(&text);
     return status;

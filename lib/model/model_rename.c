@@ -59,11 +59,10 @@ static Status place_frame(const ModelRenameRenaming *r, const char *name, Diag *
     const int outer = state->inside;
     Statement *arm = NULL;
     Outcome outcome = {EFFECT_NONE, {0}};
-    size_t next = 0;
     Status status = OK;
 
     CHECK(statement_parse(state->planar ? "arm A ground [0, 0]" : "arm A ground [0, 0, 0]", 1,
-                          (SyntaxOptions){false}, &next, &arm, diag));
+                          (SyntaxOptions){false}, NULL, &arm, diag));
     arm->operands.at[0].value->text = name;
     state->inside = r->use;
     status = apply_component(&state, arm, &outcome, diag);

@@ -187,10 +187,10 @@ static char *statement_with(const Instance *part, const char *key, const Syntax 
 {
     Statement *statement = NULL;
     const size_t length = strlen(part->text);
-    size_t next = 0, from = length, to = length;
+    size_t from = length, to = length;
     Text text = {0};
 
-    if (statement_parse(part->text, 1, (SyntaxOptions){false}, &next, &statement, diag) == OK)
+    if (statement_parse(part->text, 1, (SyntaxOptions){false}, NULL, &statement, diag) == OK)
         for (int i = 0; i < statement->pairs.count; i++) {
             const Pair *pair = &statement->pairs.at[i];
             const size_t at = offset_of(part->text, pair->name_place);

@@ -209,10 +209,9 @@ Status state_apply_text(State **state, const char *text, Text *remarks, Diag *di
 {
     Statement *statement = NULL;
     Outcome outcome = {EFFECT_NONE, {0}};
-    size_t next = 0;
     Status status = OK;
 
-    CHECK(statement_parse(text, 1, (SyntaxOptions){.whole = true}, &next, &statement, diag));
+    CHECK(statement_parse(text, 1, (SyntaxOptions){.whole = true}, NULL, &statement, diag));
     CHECK(state_apply(state, statement, &outcome, diag));
     if (remarks != NULL && outcome.remarks.at != NULL)
         text_add(remarks, outcome.remarks.at);

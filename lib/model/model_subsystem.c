@@ -190,9 +190,8 @@ static Status parse_body(const char *text, Pool *pool, Body *out, Diag *fault)
         const size_t length = strcspn(text, "\n");
         char *line = mem_text(text, length);
         Statement *statement = NULL;
-        size_t next = 0;
 
-        status = statement_parse(line, number, (SyntaxOptions){false}, &next, &statement, fault);
+        status = statement_parse(line, number, (SyntaxOptions){false}, NULL, &statement, fault);
         if (status == OK && statement->kind != STATEMENT_EMPTY)
             statement_copy(pool, statement, &at[out->count++]);
         statement_free(statement);

@@ -334,7 +334,6 @@ static Status write_source(const View *view, const TestPort *port, Model **fork,
 {
     Statement *statement = NULL;
     Text text = {0};
-    size_t next = 0;
     Status status;
 
     text_addf(&text,
@@ -343,7 +342,7 @@ static Status write_source(const View *view, const TestPort *port, Model **fork,
               TEST_SOURCE, port->plus, port->minus);
     CHECK(model_fork(view->model, fork, diag));
     model_open_insides(*fork);
-    CHECK(statement_parse(text.at, 1, (SyntaxOptions){false}, &next, &statement, diag));
+    CHECK(statement_parse(text.at, 1, (SyntaxOptions){false}, NULL, &statement, diag));
     CHECK(model_apply(*fork, statement, diag));
 done:
     diag->place = (Place){0};

@@ -381,14 +381,13 @@ static ct_status move_over(ct_session *session, Status (*move)(Model *, Diag *),
 {
     const uint64_t revision = model_revision(session->model);
     Statement *moved = NULL;
-    size_t next = 0;
     bool is_statement; /* else the name of several */
     Status status;
     Diag diag = {0};
 
     session_begin(session);
     CHECK(move(session->model, &diag));
-    is_statement = statement_parse(model_undone(session->model), 1, (SyntaxOptions){false}, &next,
+    is_statement = statement_parse(model_undone(session->model), 1, (SyntaxOptions){false}, NULL,
                                    &moved, NULL) == OK;
     text_addf(&session->remarks, "%s: %s\n", what, model_undone(session->model));
     session_note_change(session, revision, is_statement && chooses(changes_of(moved)));

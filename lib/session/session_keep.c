@@ -63,10 +63,9 @@ static void report_nothing(const ct_session *session, Text *out)
 static Status define(ct_session *session, const Pair *pair, const char *text, Diag *diag)
 {
     Statement *statement = NULL;
-    size_t next = 0;
     Status status;
 
-    CHECK(statement_parse(text, 1, (SyntaxOptions){false}, &next, &statement, diag));
+    CHECK(statement_parse(text, 1, (SyntaxOptions){false}, NULL, &statement, diag));
     CHECK(model_apply(session->model, statement, diag));
 done:
     statement_free(statement);
