@@ -242,18 +242,18 @@ static int model_mode_solve(const real *p, real t, const real *y, real *s, real 
             return status;
         for (i = 0; i < n; i++)
             r.old[i] = s[MODEL_MODES_FIRST + i];
-        for (halves = 0; halves < 60; halves++, step /= 2) {
+        for (halves = 0; halves < 40; halves++, step /= 2) {
             for (i = 0; i < n; i++)
                 s[MODEL_MODES_FIRST + i] = r.old[i] + step * r.x[i];
             if (MODEL_IS_LINEAR || near > 0 || pieces > 0 || !(lack > 0))
                 break;
             model_mode_at(p, t, y, s, h, &r);
-            if (model_mode_lack(r.a, weight) < lack)
+            if (model_mode_lack(r.a, weight) < (1 - step / 8) * lack)
                 break;
         }
-        for (i = 0; i < n && halves == 60; i++)
+        for (i = 0; i < n && halves == 40; i++)
             s[MODEL_MODES_FIRST + i] = r.old[i] + r.x[i];
-        pieces += halves == 60;
+        pieces += halves == 40;
         for (i = 0; i < n; i++) {
             if (!(R(fabs(r.x[i])) <= change))
                 change = R(fabs(r.x[i]));
