@@ -113,7 +113,7 @@ static void what_limits_the_step_is_named(void)
     static const struct {
         const char *name, *message, *hint;
     } methods[] = {{"dop853", limit, "rtol="},
-                   {"radau", "below what rounding leaves of the accelerations", "method=bdf"},
+                   {"radau", limit, "rtol="},
                    {"bdf", limit, "rtol="},
                    {"adams", limit, "rtol="},
                    {"ida", limit, "rtol="}};
