@@ -19,9 +19,9 @@ struct Ring {
     int variables, most;
     const CallMonitor *watch;
     Status status;
-    Multinomial all; /* head of the ring of all */
-    mpz_t scratch;   /* of multinomial_factor() */
-    ExactMemory *numbers;
+    Multinomial all;     /* head of the ring of all */
+    mpz_t scratch;       /* of multinomial_factor() */
+    ExactMemory numbers; /* FLINT's */
 };
 
 /* --- the ring --- */
@@ -30,7 +30,7 @@ Ring *ring_new(int variables, int most, const CallMonitor *watch)
 {
     Ring *ring = NEW(Ring);
 
-    ring->numbers = exact_open();
+    exact_open(&ring->numbers);
     ring->variables = variables;
     ring->most = most;
     ring->watch = watch;
@@ -48,7 +48,7 @@ void ring_free(Ring *ring)
         multinomial_free(ring->all.after);
     mpz_clear(ring->scratch);
     fmpz_mpoly_ctx_clear(ring->context);
-    exact_close(ring->numbers);
+    exact_close(&ring->numbers);
     mem_free(ring);
 }
 

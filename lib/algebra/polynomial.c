@@ -1,95 +1,170 @@
 /* polynomial.c: polynomials over unbounded rationals */
 #include "algebra/polynomial.h"
 
-#include <gmp.h>
+#include "base/memory.h"
 
-/* p(2 x - 1) */
-static void move(fmpq_poly_t p)
+enum { DIGITS = 512 }; /* bits: coefficients of 16 terms alternate and reach 60 bits */
+
+Polynomial polynomial_new(int count)
 {
-    fmpq_poly_t z;
+    Polynomial p = {count, NEW_ARRAY(mpq_t, count > 0 ? count : 1)};
 
-    fmpq_poly_init(z);
-    fmpq_poly_set_coeff_si(z, 0, -1);
-    fmpq_poly_set_coeff_si(z, 1, 2);
-    fmpq_poly_compose(p, p, z);
-    fmpq_poly_clear(z);
+    for (int i = 0; i < count; i++)
+        mpq_init(p.at[i]);
+    return p;
 }
 
-void polynomial_legendre(int degree, fmpq_poly_t out)
+void polynomial_free(Polynomial *p)
 {
-    fmpq_poly_legendre_p(out, (ulong)degree);
-    move(out);
+    for (int i = 0; i < p->count; i++)
+        mpq_clear(p->at[i]);
+    mem_free(p->at);
+    *p = (Polynomial){0};
 }
 
-void polynomial_chebyshev(int degree, fmpq_poly_t out)
+Polynomial polynomial_power(int n)
 {
-    fmpz_poly_t whole;
+    Polynomial p = polynomial_new(n + 1);
 
-    fmpz_poly_init(whole);
-    fmpz_poly_chebyshev_t(whole, (ulong)degree);
-    fmpq_poly_set_fmpz_poly(out, whole);
-    fmpz_poly_clear(whole);
-    move(out);
+    mpq_set_si(p.at[n], 1, 1);
+    return p;
 }
 
-void polynomial_integral(const fmpq_poly_t p, const fmpq_poly_t q, int n, fmpq_t out)
+/* p += by q */
+static void add(Polynomial *p, const Polynomial *q, long by)
 {
-    fmpq_poly_t product;
-    fmpz_t end;
+    mpq_t term;
 
-    fmpq_poly_init(product);
-    fmpz_init_set_ui(end, 1);
-    fmpq_poly_mul(product, p, q);
-    fmpq_poly_shift_left(product, product, n);
-    fmpq_poly_integral(product, product);
-    fmpq_poly_evaluate_fmpz(out, product, end);
-    fmpz_clear(end);
-    fmpq_poly_clear(product);
-}
-
-void polynomial_to_legendre(const fmpq_poly_t p, fmpq_poly_t out)
-{
-    fmpq_poly_t rest, legendre;
-    fmpq_t factor, lead;
-
-    fmpq_poly_init(rest);
-    fmpq_poly_init(legendre);
-    fmpq_init(factor);
-    fmpq_init(lead);
-    fmpq_poly_set(rest, p);
-    fmpq_poly_zero(out);
-    while (!fmpq_poly_is_zero(rest)) {
-        const slong degree = fmpq_poly_degree(rest);
-
-        polynomial_legendre((int)degree, legendre);
-        fmpq_poly_get_coeff_fmpq(factor, rest, degree);
-        fmpq_poly_get_coeff_fmpq(lead, legendre, degree);
-        fmpq_div(factor, factor, lead);
-        fmpq_poly_set_coeff_fmpq(out, degree, factor);
-        fmpq_poly_scalar_mul_fmpq(legendre, legendre, factor);
-        fmpq_poly_sub(rest, rest, legendre);
+    mpq_init(term);
+    for (int i = 0; i < q->count && i < p->count; i++) {
+        mpq_set_si(term, by, 1);
+        mpq_mul(term, term, q->at[i]);
+        mpq_add(p->at[i], p->at[i], term);
     }
-    fmpq_clear(lead);
-    fmpq_clear(factor);
-    fmpq_poly_clear(legendre);
-    fmpq_poly_clear(rest);
+    mpq_clear(term);
 }
 
-double polynomial_value(const fmpq_poly_t p, double x)
+Polynomial polynomial_copy(const Polynomial *p, long scale)
 {
-    fmpq_t at, sum;
-    mpq_t exact;
+    Polynomial copy = polynomial_new(p->count);
+
+    add(&copy, p, scale);
+    return copy;
+}
+
+Polynomial polynomial_times(const Polynomial *p, const Polynomial *q)
+{
+    Polynomial product = polynomial_new(p->count + q->count - 1);
+    mpq_t term;
+
+    mpq_init(term);
+    for (int i = 0; i < p->count; i++)
+        for (int j = 0; j < q->count; j++) {
+            mpq_mul(term, p->at[i], q->at[j]);
+            mpq_add(product.at[i + j], product.at[i + j], term);
+        }
+    mpq_clear(term);
+    return product;
+}
+
+Polynomial polynomial_slope(const Polynomial *p)
+{
+    Polynomial slope = polynomial_new(p->count > 1 ? p->count - 1 : 1);
+    mpq_t factor;
+
+    mpq_init(factor);
+    for (int i = 1; i < p->count; i++) {
+        mpq_set_si(factor, i, 1);
+        mpq_mul(slope.at[i - 1], p->at[i], factor);
+    }
+    mpq_clear(factor);
+    return slope;
+}
+
+Polynomial polynomial_primitive(const Polynomial *p)
+{
+    Polynomial primitive = polynomial_new(p->count + 1);
+    mpq_t factor;
+
+    mpq_init(factor);
+    for (int i = 0; i < p->count; i++) {
+        mpq_set_si(factor, 1, (unsigned long)i + 1);
+        mpq_mul(primitive.at[i + 1], p->at[i], factor);
+    }
+    mpq_clear(factor);
+    return primitive;
+}
+
+void polynomial_integral(const Polynomial *p, const Polynomial *q, int n, mpq_t out)
+{
+    mpq_t term, factor;
+
+    mpq_init(term);
+    mpq_init(factor);
+    mpq_set_si(out, 0, 1);
+    for (int i = 0; i < p->count; i++)
+        for (int j = 0; j < q->count; j++) {
+            mpq_set_si(factor, 1, (unsigned long)(i + j + n) + 1);
+            mpq_mul(term, p->at[i], q->at[j]);
+            mpq_mul(term, term, factor);
+            mpq_add(out, out, term);
+        }
+    mpq_clear(term);
+    mpq_clear(factor);
+}
+
+/* x times a sum of Legendre's polynomials over 0..1, in place, which has room for one more:
+ * x P_m = ((m + 1) P_(m+1) + m P_(m-1))/(4 m + 2) + P_m/2 */
+static void legendre_shift(Polynomial *p)
+{
+    Polynomial own = polynomial_copy(p, 1);
+    mpq_t factor, term;
+
+    mpq_init(factor);
+    mpq_init(term);
+    for (int m = 0; m < p->count; m++) {
+        mpq_set_si(factor, 1, 2);
+        mpq_mul(p->at[m], own.at[m], factor);
+        for (int n = m - 1; n <= m + 1; n += 2) {
+            if (n < 0 || n >= p->count)
+                continue;
+            mpq_set_si(factor, n < m ? m : m + 1, 4 * (unsigned long)n + 2);
+            mpq_canonicalize(factor);
+            mpq_mul(term, own.at[n], factor);
+            mpq_add(p->at[m], p->at[m], term);
+        }
+    }
+    mpq_clear(factor);
+    mpq_clear(term);
+    polynomial_free(&own);
+}
+
+Polynomial legendre_of(const Polynomial *p)
+{
+    Polynomial out = polynomial_new(p->count);
+
+    for (int i = p->count - 1; i >= 0; i--) {
+        legendre_shift(&out);
+        mpq_add(out.at[0], out.at[0], p->at[i]);
+    }
+    return out;
+}
+
+double polynomial_value(const Polynomial *p, double x)
+{
+    mpf_t sum, at, term;
     double value;
 
-    fmpq_init(at);
-    fmpq_init(sum);
-    mpq_init(exact);
-    mpq_set_d(exact, x);
-    fmpq_set_mpq(at, exact);
-    fmpq_poly_evaluate_fmpq(sum, p, at);
-    value = fmpq_get_d(sum);
-    mpq_clear(exact);
-    fmpq_clear(sum);
-    fmpq_clear(at);
+    mpf_init2(sum, DIGITS);
+    mpf_init2(term, DIGITS);
+    mpf_init2(at, DIGITS);
+    mpf_set_d(at, x);
+    for (int i = p->count - 1; i >= 0; i--) {
+        mpf_mul(sum, sum, at);
+        mpf_set_q(term, p->at[i]);
+        mpf_add(sum, sum, term);
+    }
+    value = mpf_get_d(sum);
+    mpf_clears(sum, term, at, NULL);
     return value;
 }

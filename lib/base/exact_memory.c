@@ -1,7 +1,7 @@
 /* exact_memory.c: memory of GMP's numbers and FLINT's polynomials
  *
  * Each library has one set of functions a process. Ours are set once and hand on to those they
- * found, but between exact_open() and exact_close() of this thread. */
+ * found, but between exact_begin() and exact_end() of this thread. */
 #include "base/exact_memory.h"
 
 #include "base/memory.h"
@@ -9,10 +9,6 @@
 #include <flint/flint.h>
 #include <gmp.h>
 #include <pthread.h>
-
-struct ExactMemory {
-    Cleanup cleanup;
-};
 
 /* before ours */
 static struct {
@@ -89,6 +85,21 @@ static void set_functions(void)
     __flint_set_memory_functions(flint_new, flint_new_array, flint_resize, flint_drop);
 }
 
+void exact_begin(void)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+
+    (void)pthread_once(&once, set_functions);
+    depth = is_ours() ? depth + 1 : 1;
+    inside = transaction_now != NULL ? transaction_now->number : 0;
+}
+
+void exact_end(void)
+{
+    if (--depth <= 0)
+        inside = 0;
+}
+
 /* of a call that fails */
 static void drop(void *object)
 {
@@ -99,28 +110,16 @@ static void drop(void *object)
     inside = 0;
 }
 
-ExactMemory *exact_open(void)
+void exact_open(ExactMemory *memory)
 {
-    static pthread_once_t once = PTHREAD_ONCE_INIT;
-    ExactMemory *memory = NEW(ExactMemory);
-
-    (void)pthread_once(&once, set_functions);
-    if (!is_ours()) {
-        flint_cleanup();
-        depth = 0;
-    }
-    depth++;
-    inside = transaction_now != NULL ? transaction_now->number : 0;
+    flint_cleanup();
+    exact_begin();
     cleanup_open(&memory->cleanup, drop, NULL);
-    return memory;
 }
 
 void exact_close(ExactMemory *memory)
 {
     cleanup_close(&memory->cleanup);
-    mem_free(memory);
-    if (--depth > 0)
-        return;
     flint_cleanup();
-    inside = 0;
+    exact_end();
 }

@@ -5,7 +5,6 @@
 #define COTREE_COMPONENT_BEAM_H
 
 #include "algebra/polynomial.h"
-#include "base/exact_memory.h"
 #include "component/component.h"
 
 typedef enum ShapeFamily { SHAPE_U, SHAPE_V, SHAPE_W, SHAPE_PHI, SHAPE_FAMILIES } ShapeFamily;
@@ -22,7 +21,7 @@ typedef struct Powers {
 
 typedef struct BeamShape {
     ShapeFamily family;
-    fmpq_poly_t value, slope, curve; /* over xi, and its derivatives by xi */
+    Polynomial value, slope, curve; /* over xi, and its derivatives by xi */
 } BeamShape;
 
 typedef struct Beam {
@@ -35,7 +34,6 @@ typedef struct Beam {
     int count;
     BeamShape *shapes;
     Expr length;
-    ExactMemory *exact;
 } Beam;
 
 enum { LIMITLESS = 8 };
@@ -53,11 +51,11 @@ Powers beam_key(const Beam *beam, const char *key);
 Expr powers_at(Arena *arena, const Powers *p, Expr xi);
 int beam_load_powers(const Instance *instance, Arena *arena);
 
-Expr beam_number(Arena *arena, const fmpq_t value);
-Expr beam_coefficient(Arena *arena, const fmpq_poly_t p, int power);
-/* For two shapes of one family: integral of the product of their slopes, from 0 to xi; `out` is
- * initialised. */
-void beam_shortening(const BeamShape *a, const BeamShape *b, fmpq_poly_t out);
+/* P_k over 0..1 */
+Polynomial beam_legendre(int k);
+Expr beam_number(Arena *arena, const mpq_t value);
+/* for two shapes of one family: integral of the product of their slopes, from 0 to xi */
+Polynomial beam_shortening(const BeamShape *a, const BeamShape *b);
 bool beam_bends(const BeamShape *shape);
 
 void beam_section_frame(const Instance *instance, Arena *arena, bool planar, Expr at,

@@ -18,7 +18,7 @@ static void add_shape(const GradedShapes *along, Fields *f, int i)
 
     if (s < 0)
         return;
-    f->move[i][s].at[0] = parts_of(along, shape->value);
+    f->move[i][s].at[0] = parts_of(along, &shape->value);
     parts_add(along, &f->p[s].at[1], f->move[i][s].at[0], along->state->q[i]);
     parts_add(along, &f->rate[s].at[1], f->move[i][s].at[0], along->state->rate[i]);
 }
@@ -31,13 +31,10 @@ static void shorten_pair(const GradedShapes *along, Fields *f, int i, int j)
     const Expr *q = along->state->q, *rate = along->state->rate;
     const Expr scale = expr_div(arena, expr_int(arena, -1), beam->length);
     const Expr twice = expr_mul(arena, expr_int(arena, j < i ? 2 : 1), scale);
-    fmpq_poly_t s;
-    Expr *parts;
+    Polynomial s = beam_shortening(&beam->shapes[i], &beam->shapes[j]);
+    Expr *parts = parts_of(along, &s);
 
-    fmpq_poly_init(s);
-    beam_shortening(&beam->shapes[i], &beam->shapes[j], s);
-    parts = parts_of(along, s);
-    fmpq_poly_clear(s);
+    polynomial_free(&s);
     parts_add(along, &f->move[i][0].at[1], parts, expr_mul(arena, scale, q[j]));
     if (j < i)
         parts_add(along, &f->move[j][0].at[1], parts, expr_mul(arena, scale, q[i]));
@@ -79,13 +76,11 @@ static Graded merged(const GradedShapes *along, Graded g)
 
 static Fields fields_of(const GradedShapes *along)
 {
-    fmpq_poly_t x;
+    Polynomial x = polynomial_power(1);
     Fields f = {.move = pool_alloc(along->pool, (size_t)along->beam->count * sizeof(Graded[3]))};
 
-    fmpq_poly_init(x);
-    fmpq_poly_set_coeff_si(x, 1, 1);
-    parts_add(along, &f.p[0].at[0], parts_of(along, x), along->beam->length);
-    fmpq_poly_clear(x);
+    parts_add(along, &f.p[0].at[0], parts_of(along, &x), along->beam->length);
+    polynomial_free(&x);
     for (int i = 0; i < along->beam->count; i++)
         add_shape(along, &f, i);
     if (along->beam->shortens)

@@ -77,7 +77,7 @@ GradedShapes along_of(const Beam *beam, Expr from, const ShapeState *state, Pool
     return along;
 }
 
-static Expr at_point(const GradedShapes *along, const fmpq_poly_t legendre, const fmpq_poly_t p,
+static Expr at_point(const GradedShapes *along, const Polynomial *legendre, const Polynomial *p,
                      int k)
 {
     const Expr *values = along->legendre + (ptrdiff_t)k * (along->degree + 1);
@@ -85,10 +85,10 @@ static Expr at_point(const GradedShapes *along, const fmpq_poly_t legendre, cons
 
     if (along->legendre == NULL)
         return expr_real(along->arena, polynomial_value(p, expr_value(along->points[k])));
-    for (int m = 0; m <= fmpq_poly_degree(legendre); m++)
-        sum = expr_add(
-            along->arena, sum,
-            expr_mul(along->arena, beam_coefficient(along->arena, legendre, m), values[m]));
+    for (int m = 0; m < legendre->count; m++)
+        sum =
+            expr_add(along->arena, sum,
+                     expr_mul(along->arena, beam_number(along->arena, legendre->at[m]), values[m]));
     return sum;
 }
 
@@ -101,20 +101,23 @@ static Expr *parts_new(const GradedShapes *along)
     return parts;
 }
 
-Expr *parts_of(const GradedShapes *along, const fmpq_poly_t p)
+Expr *parts_of(const GradedShapes *along, const Polynomial *p)
 {
     Expr *parts = parts_new(along);
-    fmpq_poly_t legendre;
+    Polynomial legendre = {0};
+    const Polynomial *from = p;
 
-    fmpq_poly_init(legendre);
     if (along->basis == BASIS_LEGENDRE || along->legendre != NULL)
-        polynomial_to_legendre(p, legendre);
-    for (int k = 0; k < along->length; k++)
-        parts[k] =
-            along->basis == BASIS_POINTS
-                ? at_point(along, legendre, p, k)
-                : beam_coefficient(along->arena, along->basis == BASIS_LEGENDRE ? legendre : p, k);
-    fmpq_poly_clear(legendre);
+        legendre = legendre_of(p);
+    if (along->basis == BASIS_LEGENDRE)
+        from = &legendre;
+    for (int k = 0; k < along->length; k++) {
+        if (along->basis == BASIS_POINTS)
+            parts[k] = at_point(along, &legendre, p, k);
+        else if (k < from->count)
+            parts[k] = beam_number(along->arena, from->at[k]);
+    }
+    polynomial_free(&legendre);
     return parts;
 }
 
@@ -194,36 +197,34 @@ Graded graded_times(const GradedShapes *along, Graded a, Graded b)
 
 Graded graded_constant(const GradedShapes *along, int value)
 {
-    fmpq_poly_t one;
+    Polynomial one = polynomial_power(0);
     Graded g = {{NULL}};
 
-    fmpq_poly_init(one);
-    fmpq_poly_one(one);
-    g.at[0] = parts_of(along, one);
-    fmpq_poly_clear(one);
+    g.at[0] = parts_of(along, &one);
+    polynomial_free(&one);
     return graded_scaled(along, expr_int(along->arena, value), g);
 }
 
 /* --- integrals --- */
 
-static Expr scaled_by(const GradedShapes *along, const fmpq_t number, Expr power)
+static Expr scaled_by(const GradedShapes *along, const mpq_t number, Expr power)
 {
     return expr_mul(along->arena, beam_number(along->arena, number), power);
 }
 
 /* int_0^1 P_m P_l density */
-static Expr between(const GradedShapes *along, const fmpq_poly_t m, const fmpq_poly_t l,
+static Expr between(const GradedShapes *along, const Polynomial *m, const Polynomial *l,
                     const Powers *density)
 {
     Expr sum = expr_int(along->arena, 0);
-    fmpq_t own;
+    mpq_t own;
 
-    fmpq_init(own);
+    mpq_init(own);
     for (int d = 0; d < density->count; d++) {
         polynomial_integral(m, l, d, own);
         sum = expr_add(along->arena, sum, scaled_by(along, own, density->at[d]));
     }
-    fmpq_clear(own);
+    mpq_clear(own);
     return sum;
 }
 
@@ -252,19 +253,17 @@ static void weigh_beyond(const GradedShapes *along, const Powers *density, Weigh
 
 static void weigh_legendre(const GradedShapes *along, const Powers *density, Weights *out)
 {
-    fmpq_poly_t *legendre = NEW_ARRAY(fmpq_poly_t, along->length);
+    Polynomial *legendre = NEW_ARRAY(Polynomial, along->length);
     const int row = out->band + 1;
 
-    for (int m = 0; m < along->length; m++) {
-        fmpq_poly_init(legendre[m]);
-        polynomial_legendre(m, legendre[m]);
-    }
+    for (int m = 0; m < along->length; m++)
+        legendre[m] = beam_legendre(m);
     for (int m = 0; m < along->length; m++)
         for (int b = 0; b < row && m + b < along->length; b++)
             out->at[m * row + b] = expr_name_temporary(
-                along->arena, between(along, legendre[m], legendre[m + b], density));
+                along->arena, between(along, &legendre[m], &legendre[m + b], density));
     for (int m = 0; m < along->length; m++)
-        fmpq_poly_clear(legendre[m]);
+        polynomial_free(&legendre[m]);
     mem_free(legendre);
 }
 

@@ -39,7 +39,7 @@ typedef struct GradedShapes {
 GradedShapes along_of(const Beam *beam, Expr from, const ShapeState *state, Pool *pool, Basis basis,
                       int degree, int varies);
 
-Expr *parts_of(const GradedShapes *along, const fmpq_poly_t p);
+Expr *parts_of(const GradedShapes *along, const Polynomial *p);
 void parts_add(const GradedShapes *along, Expr **to, const Expr *parts, Expr scale);
 void parts_hold(const GradedShapes *along, Expr *parts);
 Graded graded_hold(const GradedShapes *along, Graded g);

@@ -10,19 +10,19 @@
 enum { MOST_EXACT = 3 }; /* degree of sections' angles up to which integrals are exact */
 
 /* int density a b over xi, times a power of the length */
-static Expr gram(const GradedShapes *along, const Powers *density, const fmpq_poly_t a,
-                 const fmpq_poly_t b, int power)
+static Expr gram(const GradedShapes *along, const Powers *density, const Polynomial *a,
+                 const Polynomial *b, int power)
 {
     Arena *arena = along->arena;
     Expr entry = expr_int(arena, 0);
-    fmpq_t sum;
+    mpq_t sum;
 
-    fmpq_init(sum);
+    mpq_init(sum);
     for (int d = 0; d < density->count; d++) {
         polynomial_integral(a, b, d, sum);
         beam_add(along, &entry, density->at[d], beam_number(arena, sum));
     }
-    fmpq_clear(sum);
+    mpq_clear(sum);
     return expr_mul(arena, entry, expr_pow(arena, along->beam->length, expr_int(arena, power)));
 }
 
@@ -36,11 +36,11 @@ static Expr mass_entry(const GradedShapes *along, int i, int j, const Powers *de
     if (a->family != b->family)
         return sum;
     if (a->family != SHAPE_PHI)
-        sum = expr_add(along->arena, sum, gram(along, density, a->value, b->value, 1));
+        sum = expr_add(along->arena, sum, gram(along, density, &a->value, &b->value, 1));
     if (t == 0)
-        sum = expr_add(along->arena, sum, gram(along, &J[0], a->value, b->value, 1));
+        sum = expr_add(along->arena, sum, gram(along, &J[0], &a->value, &b->value, 1));
     else if (t > 0)
-        sum = expr_add(along->arena, sum, gram(along, &J[t], a->slope, b->slope, -1));
+        sum = expr_add(along->arena, sum, gram(along, &J[t], &a->slope, &b->slope, -1));
     return sum;
 }
 
@@ -51,8 +51,8 @@ static Expr stiffness_entry(const GradedShapes *along, const Powers stiffness[SH
 
     if (a->family != b->family)
         return expr_int(along->arena, 0);
-    return beam_bends(a) ? gram(along, &stiffness[a->family], a->curve, b->curve, -3)
-                         : gram(along, &stiffness[a->family], a->slope, b->slope, -1);
+    return beam_bends(a) ? gram(along, &stiffness[a->family], &a->curve, &b->curve, -3)
+                         : gram(along, &stiffness[a->family], &a->slope, &b->slope, -1);
 }
 
 static void add_constants(const GradedShapes *along, const Powers *density, const Powers J[3],
@@ -120,7 +120,7 @@ static void find_degrees(const Beam *beam, int *axis, int *angles)
     *axis = *angles = 1;
     for (int i = 0; i < beam->count; i++) {
         const BeamShape *shape = &beam->shapes[i];
-        const int own = (int)fmpq_poly_degree(shape->value);
+        const int own = shape->value.count - 1;
         const int moved = beam_bends(shape) && beam->shortens ? 2 * own - 1 : own;
         const int turned = beam_bends(shape) ? own - 1 : own;
 

@@ -19,10 +19,10 @@ static void add_shape(const GradedShapes *along, BeamRotaryAngles *f, int i)
     if (t < 0)
         return;
     if (t == 0)
-        slope = parts_of(along, shape->value);
+        slope = parts_of(along, &shape->value);
     else
         parts_add(
-            along, &slope, parts_of(along, shape->slope),
+            along, &slope, parts_of(along, &shape->slope),
             expr_div(along->arena, expr_int(along->arena, t == 1 ? -1 : 1), along->beam->length));
     f->turn[i].at[0] = slope;
     parts_add(along, &f->angle[t].at[1], slope, along->state->q[i]);

@@ -1,6 +1,7 @@
 /* beam_shapes.c: families of shapes, and frames on a bent beam */
 #include "component/beam.h"
 
+#include "base/exact_memory.h"
 #include "base/memory.h"
 
 #include <math.h>
@@ -18,24 +19,11 @@ void beam_modes(const Instance *instance, bool planar, int modes[SHAPE_FAMILIES]
                                                               : MOST_SHAPES;
 }
 
-Expr beam_number(Arena *arena, const fmpq_t value)
+Expr beam_number(Arena *arena, const mpq_t value)
 {
-    if (fmpz_fits_si(fmpq_numref(value)) && fmpz_fits_si(fmpq_denref(value)))
-        return expr_rational(arena, fmpz_get_si(fmpq_numref(value)),
-                             fmpz_get_si(fmpq_denref(value)));
-    return expr_real(arena, fmpq_get_d(value));
-}
-
-Expr beam_coefficient(Arena *arena, const fmpq_poly_t p, int power)
-{
-    fmpq_t own;
-    Expr out;
-
-    fmpq_init(own);
-    fmpq_poly_get_coeff_fmpq(own, p, power);
-    out = beam_number(arena, own);
-    fmpq_clear(own);
-    return out;
+    if (mpz_fits_slong_p(mpq_numref(value)) && mpz_fits_slong_p(mpq_denref(value)))
+        return expr_rational(arena, mpz_get_si(mpq_numref(value)), mpz_get_si(mpq_denref(value)));
+    return expr_real(arena, mpq_get_d(value));
 }
 
 bool beam_bends(const BeamShape *shape)
@@ -86,34 +74,83 @@ int beam_load_powers(const Instance *instance, Arena *arena)
 
 /* --- families --- */
 
+/* Orthogonal polynomial k over 0..1 by the recurrence in z = 2 xi - 1, from 1 and z: next = (a z
+ * this - b before)/c. */
+static Polynomial orthogonal(int k, bool legendre)
+{
+    Polynomial before = polynomial_power(0), now = polynomial_new(2), z;
+
+    mpq_set_si(now.at[0], -1, 1);
+    mpq_set_si(now.at[1], 2, 1);
+    z = polynomial_copy(&now, 1);
+    for (int n = 1; n < k; n++) {
+        Polynomial next = polynomial_times(&z, &now);
+        mpq_t scale;
+
+        mpq_init(scale);
+        for (int i = 0; i < next.count; i++) {
+            mpq_t own;
+
+            mpq_init(own);
+            mpq_set_si(scale, legendre ? 2 * n + 1 : 2, 1);
+            mpq_mul(next.at[i], next.at[i], scale);
+            mpq_set_si(scale, legendre ? n : 1, 1);
+            if (i < before.count)
+                mpq_mul(own, before.at[i], scale);
+            mpq_sub(next.at[i], next.at[i], own);
+            mpq_set_si(scale, 1, legendre ? (unsigned long)n + 1 : 1);
+            mpq_mul(next.at[i], next.at[i], scale);
+            mpq_clear(own);
+        }
+        mpq_clear(scale);
+        polynomial_free(&before);
+        before = now;
+        now = next;
+    }
+    polynomial_free(&z);
+    if (k > 0) {
+        polynomial_free(&before);
+        return now;
+    }
+    polynomial_free(&now);
+    return before;
+}
+
+/* `p` integrated n times from 0, or times xi^n */
+static Polynomial clamp(Polynomial p, int n, bool integrate)
+{
+    for (int i = 0; i < n; i++) {
+        Polynomial x = polynomial_power(1);
+        Polynomial next = integrate ? polynomial_primitive(&p) : polynomial_times(&x, &p);
+
+        polynomial_free(&x);
+        polynomial_free(&p);
+        p = next;
+    }
+    return p;
+}
+
 static BeamShape shape_of(ShapeFamily family, int k, const char *basis)
 {
     const int order = family == SHAPE_V || family == SHAPE_W ? 2 : 1;
     BeamShape shape = {.family = family};
 
-    fmpq_poly_init(shape.value);
-    fmpq_poly_init(shape.slope);
-    fmpq_poly_init(shape.curve);
-    if (strcmp(basis, "taylor") == 0) {
-        fmpq_poly_set_coeff_si(shape.value, k + order, 1);
-    } else if (strcmp(basis, "chebyshev") == 0) {
-        polynomial_chebyshev(k, shape.value);
-        fmpq_poly_shift_left(shape.value, shape.value, order);
-    } else {
-        polynomial_legendre(k, shape.value);
-        for (int i = 0; i < order; i++)
-            fmpq_poly_integral(shape.value, shape.value);
-    }
-    fmpq_poly_derivative(shape.slope, shape.value);
-    fmpq_poly_derivative(shape.curve, shape.slope);
+    if (strcmp(basis, "taylor") == 0)
+        shape.value = polynomial_power(k + order);
+    else if (strcmp(basis, "chebyshev") == 0)
+        shape.value = clamp(orthogonal(k, false), order, false);
+    else
+        shape.value = clamp(orthogonal(k, true), order, true);
+    shape.slope = polynomial_slope(&shape.value);
+    shape.curve = polynomial_slope(&shape.slope);
     return shape;
 }
 
 static void shape_close(BeamShape *shape)
 {
-    fmpq_poly_clear(shape->value);
-    fmpq_poly_clear(shape->slope);
-    fmpq_poly_clear(shape->curve);
+    polynomial_free(&shape->value);
+    polynomial_free(&shape->slope);
+    polynomial_free(&shape->curve);
 }
 
 Beam beam_open(const Instance *instance, Arena *arena, bool planar)
@@ -126,9 +163,9 @@ Beam beam_open(const Instance *instance, Arena *arena, bool planar)
                  .planar = planar,
                  .shortens = strcmp(stiffening, "off") != 0,
                  .limit = strcmp(stiffening, "linear") == 0 ? 2 : LIMITLESS,
-                 .length = instance_scalar(instance, "length"),
-                 .exact = exact_open()};
+                 .length = instance_scalar(instance, "length")};
 
+    exact_begin();
     beam_modes(instance, planar, modes);
     beam.shapes = NEW_ARRAY(BeamShape, SHAPE_FAMILIES * MOST_SHAPES);
     for (int f = 0; f < SHAPE_FAMILIES; f++)
@@ -142,44 +179,52 @@ void beam_close(Beam *beam)
     for (int i = 0; i < beam->count; i++)
         shape_close(&beam->shapes[i]);
     mem_free(beam->shapes);
-    exact_close(beam->exact);
+    exact_end();
 }
 
 double beam_unit(const Instance *instance, bool planar, int i)
 {
     enum { PLACES = 32 }; /* two in the shortest half wave of 16 shapes */
     int modes[SHAPE_FAMILIES], family = 0;
-    ExactMemory *exact = exact_open();
     BeamShape shape;
     double most = 0;
 
     beam_modes(instance, planar, modes);
     for (; i >= modes[family]; family++)
         i -= modes[family];
+    exact_begin();
     shape = shape_of((ShapeFamily)family, i, instance_value(instance, "basis")->word);
     for (int k = 1; k <= PLACES; k++)
-        most = fmax(most, fabs(polynomial_value(shape.value, (double)k / PLACES)));
+        most = fmax(most, fabs(polynomial_value(&shape.value, (double)k / PLACES)));
     shape_close(&shape);
-    exact_close(exact);
+    exact_end();
     return 1 / most;
 }
 
-void beam_shortening(const BeamShape *a, const BeamShape *b, fmpq_poly_t out)
+Polynomial beam_legendre(int k)
 {
-    fmpq_poly_mul(out, a->slope, b->slope);
-    fmpq_poly_integral(out, out);
+    return orthogonal(k, true);
+}
+
+Polynomial beam_shortening(const BeamShape *a, const BeamShape *b)
+{
+    Polynomial product = polynomial_times(&a->slope, &b->slope);
+    Polynomial primitive = polynomial_primitive(&product);
+
+    polynomial_free(&product);
+    return primitive;
 }
 
 /* --- section frames --- */
 
-static Expr value_at(Arena *arena, const fmpq_poly_t p, Expr xi)
+static Expr value_at(Arena *arena, const Polynomial *p, Expr xi)
 {
     Expr sum = expr_int(arena, 0);
 
     if (expr_is_number(xi) && !expr_rational_parts(xi, &(int64_t){0}, &(int64_t){0}))
         return expr_real(arena, polynomial_value(p, expr_value(xi)));
-    for (int i = (int)fmpq_poly_degree(p); i >= 0; i--)
-        sum = expr_add(arena, expr_mul(arena, sum, xi), beam_coefficient(arena, p, i));
+    for (int i = p->count - 1; i >= 0; i--)
+        sum = expr_add(arena, expr_mul(arena, sum, xi), beam_number(arena, p->at[i]));
     return sum;
 }
 
@@ -195,15 +240,14 @@ static void shorten(const Beam *beam, Expr xi, const ShapeState *state, SectionF
         if (!beam_bends(&beam->shapes[i]))
             continue;
         for (int j = 0; j < beam->count; j++) {
-            fmpq_poly_t s;
+            Polynomial s;
             Expr entry;
 
             if (beam->shapes[j].family != beam->shapes[i].family)
                 continue;
-            fmpq_poly_init(s);
-            beam_shortening(&beam->shapes[i], &beam->shapes[j], s);
-            entry = expr_div(arena, value_at(arena, s, xi), beam->length);
-            fmpq_poly_clear(s);
+            s = beam_shortening(&beam->shapes[i], &beam->shapes[j]);
+            entry = expr_div(arena, value_at(arena, &s, xi), beam->length);
+            polynomial_free(&s);
             moved = expr_add(arena, moved, expr_mul(arena, entry, state->q[j]));
             rate = expr_add(arena, rate, expr_mul(arena, entry, state->rate[j]));
         }
@@ -234,8 +278,8 @@ void beam_section_frame(const Instance *instance, Arena *arena, bool planar, Exp
     for (int i = 0; i < beam.count; i++) {
         const BeamShape *shape = &beam.shapes[i];
         const int s = shifted[shape->family], t = turned[shape->family];
-        Expr value = value_at(arena, shape->value, xi);
-        Expr slope = expr_div(arena, value_at(arena, shape->slope, xi), beam.length);
+        Expr value = value_at(arena, &shape->value, xi);
+        Expr slope = expr_div(arena, value_at(arena, &shape->slope, xi), beam.length);
 
         if (s >= 0) {
             out->shift[3 * i + s] = value;

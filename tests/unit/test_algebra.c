@@ -7,7 +7,6 @@
 #include "algebra/independence.h"
 #include "algebra/linear.h"
 #include "algebra/markov_parameters.h"
-#include "algebra/polynomial.h"
 #include "algebra/rank.h"
 #include "algebra/sparse.h"
 #include "base/memory.h"
@@ -426,41 +425,8 @@ static void pivots_of_an_earlier_matrix_are_given_up_where_they_wear(void)
     sparse_free(sparse);
 }
 
-/* Legendre's polynomial of degree 4 over 0..1, integrated twice: 7/3 x^6 - 7 x^5 + 15/2 x^4 -
- * 10/3 x^3 + x^2/2 */
-static void values_of_polynomials_that_are_doubles_are_exact(void)
-{
-    fmpq_poly_t p, by_legendre;
-    fmpq_t area;
-
-    fmpq_poly_init(p);
-    fmpq_poly_init(by_legendre);
-    fmpq_init(area);
-    polynomial_legendre(4, p);
-    fmpq_poly_integral(p, p);
-    fmpq_poly_integral(p, p);
-    EXPECT(polynomial_value(p, 0.375) == -0.002574920654296875);
-    /* its coefficients in the polynomials themselves: of degrees 2, 4, 6 alone */
-    polynomial_to_legendre(p, by_legendre);
-    for (int k = 0; k <= 6; k++) {
-        fmpq_poly_get_coeff_fmpq(area, by_legendre, k);
-        EXPECT(fmpq_is_zero(area) == (k % 2 != 0 || k == 0));
-    }
-    polynomial_chebyshev(3, by_legendre);
-    EXPECT(polynomial_value(by_legendre, 1) == 1 && polynomial_value(by_legendre, 0.5) == 0);
-    /* int_0^1 x^2 of 1 and 1 */
-    fmpq_poly_one(p);
-    polynomial_integral(p, p, 2, area);
-    EXPECT(fmpq_get_d(area) * 3 == 1);
-    fmpq_clear(area);
-    fmpq_poly_clear(by_legendre);
-    fmpq_poly_clear(p);
-    flint_cleanup();
-}
-
 int main(void)
 {
-    RUN(values_of_polynomials_that_are_doubles_are_exact);
     RUN(pivots_of_an_earlier_matrix_are_given_up_where_they_wear);
     RUN(an_affine_map_meets_its_fixed_point);
     RUN(blocks_are_what_acts_both_ways);
