@@ -653,7 +653,7 @@ static const char *effort_unit(const State *state, const Instance *part)
 
 const char *member_unit(const State *state, const Instance *part, const char *name)
 {
-    const Member *member = component_find_member(part->row, state->planar, name);
+    const Member *member = component_find_member(part->row, state->setup.planar, name);
 
     if (member == NULL)
         return NULL;

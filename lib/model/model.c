@@ -302,17 +302,17 @@ const Graph *model_graph(const Model *model)
 
 bool model_is_planar(const Model *model)
 {
-    return model->state->planar;
+    return model->state->setup.planar;
 }
 
 const Expr *model_gravity(const Model *model)
 {
-    return model->state->gravity;
+    return model->state->setup.gravity;
 }
 
 const char *model_title(const Model *model)
 {
-    return model->state->title;
+    return model->state->setup.title;
 }
 
 int model_count(const Model *model)
@@ -415,15 +415,15 @@ static Status make_scene(const void *context, Scene *out, Diag *diag)
     const State *state = model->state;
     Scene scene = {.arena = model->arena,
                    .revision = model->revision,
-                   .planar = state->planar,
-                   .gravity = state->gravity,
+                   .planar = state->setup.planar,
+                   .gravity = state->setup.gravity,
                    .graph = state->graph,
                    .instances = (const Instance *const *)state->parts.at,
                    .instance_count = state->parts.count,
-                   .form = state->form,
+                   .form = state->setup.form,
                    .independent = state->independent.at,
                    .independent_count = state->independent.count,
-                   .network_form = (NetworkForm)state->settings.at[SETTING_NETWORK],
+                   .network_form = (NetworkForm)state->setup.settings.at[SETTING_NETWORK],
                    .number = model_scene_number,
                    .context = model};
     Status status = OK;
@@ -588,12 +588,12 @@ Form model_form(const Model *model, const char *const **independent, int *count)
 {
     *independent = model->state->independent.at;
     *count = model->state->independent.count;
-    return model->state->form;
+    return model->state->setup.form;
 }
 
 int model_setting_value(const Model *model, ModelSetting setting)
 {
-    return model->state->settings.at[setting];
+    return model->state->setup.settings.at[setting];
 }
 
 void model_setting_text(const Model *model, ModelSetting setting, Text *out)

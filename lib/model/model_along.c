@@ -10,10 +10,10 @@ const Instance *part_along(const State *state, const char *text, const char **me
 
     if (part == NULL || !instance_bends(part))
         return NULL;
-    for (int i = 0; i < (state->planar ? 2 : COUNT(members)); i++)
+    for (int i = 0; i < (state->setup.planar ? 2 : COUNT(members)); i++)
         if (strcmp(*member, members[i]) == 0)
             return part;
-    return part->row->deforming->section(state->planar, *member) != NULL ? part : NULL;
+    return part->row->deforming->section(state->setup.planar, *member) != NULL ? part : NULL;
 }
 
 const char *place_unit(const State *state, const char *text)
@@ -21,7 +21,7 @@ const char *place_unit(const State *state, const char *text)
     const char *member;
     const Instance *part = part_along(state, text, &member);
     const SectionPart *section =
-        part != NULL ? part->row->deforming->section(state->planar, member) : NULL;
+        part != NULL ? part->row->deforming->section(state->setup.planar, member) : NULL;
 
     if (part == NULL)
         return NULL;
@@ -42,7 +42,7 @@ bool place_has_rate(const State *state, const char *name)
     text_add_n(&owner, name, strcspn(name, "("));
     part = part_along(state, owner.at, &member);
     if (part != NULL && end != NULL)
-        has = part->row->deforming->section(state->planar, member) == NULL &&
+        has = part->row->deforming->section(state->setup.planar, member) == NULL &&
               strlen(end + 1) < HIGHEST;
     text_free(&owner);
     return has;

@@ -199,7 +199,7 @@ done:
 static void own_coordinates(PartDraft *draft)
 {
     Instance *part = draft->part;
-    const bool planar = draft->state->planar;
+    const bool planar = draft->state->setup.planar;
     const size_t count = (size_t)instance_coord_count(part, planar);
     Pool *pool = draft->state->pool;
 
@@ -228,7 +228,7 @@ Status part_check_plane(const State *state, const Instance *part, Place place, D
     bool leaves = false;
     Status status;
 
-    if (!state->planar || part->row->steps == NULL)
+    if (!state->setup.planar || part->row->steps == NULL)
         return OK;
     part->row->steps(part, state->arena, true, &steps);
     for (int i = 0; i < steps.shift_count; i++)
@@ -285,10 +285,10 @@ int state_terminal(State *state, const char *name, Domain domain)
 {
     int number;
 
-    if (state->datum[domain] < 0)
-        state->datum[domain] = graph_add_node(state->graph, "0", domain, true);
+    if (state->setup.datum[domain] < 0)
+        state->setup.datum[domain] = graph_add_node(state->graph, "0", domain, true);
     if (strcmp(name, "0") == 0)
-        return state->datum[domain];
+        return state->setup.datum[domain];
     number = names_find(state->terminals, name);
     if (number >= 0)
         return state->terminal_nodes.at[number];
@@ -325,7 +325,7 @@ static void add_mechanical_edge(State *state, Instance *part)
     Steps steps;
 
     if (part->row->steps != NULL) {
-        part->row->steps(part, state->arena, state->planar, &steps);
+        part->row->steps(part, state->arena, state->setup.planar, &steps);
         steps_freedom(&steps, freedom);
     }
     for (int half = 0; half < 2; half++) {
@@ -344,7 +344,7 @@ static void add_scalar_edges(State *state, Instance *part)
     part->scalar_edges =
         pool_alloc(state->pool, (size_t)part->scalar_count * sizeof *part->scalar_edges);
     for (int k = 0; k < part->scalar_count; k++) {
-        int datum = state->datum[part->row->domain];
+        int datum = state->setup.datum[part->row->domain];
         Text name = {0};
         Edge edge = {.tail = rows[k].plus < 0 ? datum : part->terminals[rows[k].plus],
                      .head = rows[k].minus < 0 ? datum : part->terminals[rows[k].minus],
@@ -411,7 +411,7 @@ void part_draft_commit(PartDraft *draft, const char *text)
 /* joints that have no meaning in a plane, whatever their axes */
 static Status check_scene(const State *state, const Component *row, Place place, Diag *diag)
 {
-    if (!state->planar || row->not_in_plane == NULL)
+    if (!state->setup.planar || row->not_in_plane == NULL)
         return OK;
     (void)diag_at(diag, E_VALUE, place, "a %s joint leaves the plane", row->name);
     diag_hint(diag, "the scene is planar: %s serves there", row->not_in_plane);

@@ -150,7 +150,7 @@ Status part_check(State *state, const Instance *part, Text *remarks, Diag *diag)
         size += (size_t)part->values[i].count * sizeof(Expr);
     numeric.values = mem_new(size);
     CHECK(read_numbers(state, part, numeric.values, diag));
-    CHECK(instance_check(&numeric, state->arena, state->planar, diag));
+    CHECK(instance_check(&numeric, state->arena, state->setup.planar, diag));
     CHECK(coupled_check(state, part, remarks, diag));
     CHECK(check_arm(state, &numeric, diag));
     CHECK(check_coupled(state, part, diag));
@@ -159,7 +159,7 @@ Status part_check(State *state, const Instance *part, Text *remarks, Diag *diag)
         if (state->parts.at[i]->row->family == FAMILY_ARM && state->parts.at[i]->tail == part->head)
             CHECK(part_check(state, state->parts.at[i], remarks, diag));
     if (row->doubt != NULL)
-        row->doubt(&numeric, state->planar, remarks);
+        row->doubt(&numeric, state->setup.planar, remarks);
 done:
     mem_free(numeric.values);
     arena_release(state->arena, mark);

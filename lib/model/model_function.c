@@ -334,7 +334,7 @@ static Status call_unknown(const State *state, const Syntax *syntax, Diag *diag)
         diag_hint(diag,
                   "of a place along %s there are u, v%s, and what its sections carry: 'info "
                   "%s' lists them",
-                  bent->name, state->planar ? "" : ", w, phi", bent->name);
+                  bent->name, state->setup.planar ? "" : ", w, phi", bent->name);
     else if (foreign_syntax_hint(FOREIGN_FUNCTION, syntax->text) != NULL)
         diag_hint(diag, "%s", foreign_syntax_hint(FOREIGN_FUNCTION, syntax->text));
     else if (suggest.best != NULL)

@@ -150,7 +150,7 @@ static void mark_moving(Scan *scan, const State *state)
 
 bool given_moves(const State *state, int motion)
 {
-    return motion != (state->planar ? 2 : 3);
+    return motion != (state->setup.planar ? 2 : 3);
 }
 
 const char *given_name(State *state, const Use *use, const char *name)
@@ -307,7 +307,7 @@ static Status add_block(State *state, const Use *use, Place place, Diag *diag)
     block = draft.part = part_new(state, &component_block, false);
     block->name = name;
     block->given = new_given(state, (int)count, equations->frame_count);
-    block->tail = state->datum[DOMAIN_MECHANICAL];
+    block->tail = state->setup.datum[DOMAIN_MECHANICAL];
     block->coord_count = (int)count;
     block->coord = pool_alloc(state->pool, sizeof *block->coord * count);
     block->coord_kind = pool_alloc(state->pool, sizeof *block->coord_kind * count);
@@ -424,12 +424,13 @@ static Status in_this_scene(const State *state, const BlockEquation *e, const Pa
     static const bool planar_efforts[GIVEN_EFFORTS] = {true, true, false, false, false, true};
     const bool *const planar = e->is_motion ? planar_motions : planar_efforts;
 
-    if (state->planar ? planar[e->member] : !e->is_motion || e->member < 3)
+    if (state->setup.planar ? planar[e->member] : !e->is_motion || e->member < 3)
         return OK;
     (void)diag_at(diag, E_VALUE, pair->name_place, "%s is not for a %s scene", pair->name,
-                  state->planar ? "planar" : "spatial");
-    diag_hint(diag, state->planar ? "in a plane there are x, y, theta and fx, fy, tz"
-                                  : "in space a frame that is given keeps the axes of ground");
+                  state->setup.planar ? "planar" : "spatial");
+    diag_hint(diag, state->setup.planar
+                        ? "in a plane there are x, y, theta and fx, fy, tz"
+                        : "in space a frame that is given keeps the axes of ground");
     return E_VALUE;
 }
 
@@ -445,7 +446,7 @@ static Instance *loading_part(State *state, const Component *row, const char *na
         return state->parts.at[there->number];
     if (given_rests(state, frame, pose))
         return NULL;
-    return add_part(state, row, name, state->datum[DOMAIN_MECHANICAL],
+    return add_part(state, row, name, state->setup.datum[DOMAIN_MECHANICAL],
                     graph_find_node(state->graph, frame), NULL);
 }
 
@@ -464,7 +465,7 @@ static Status part_given(State *state, const Use *use, const BlockEquation *e, I
     Text name = {0};
 
     *out = NULL;
-    if (moves && !e->is_motion && turns && !state->planar) {
+    if (moves && !e->is_motion && turns && !state->setup.planar) {
         (void)diag_at(diag, E_VALUE, place, "%s keeps the axes of ground, so no moment moves it",
                       port->name);
         diag_hint(diag, "let it stand in frames= alone, and bind it in 'use'");
@@ -483,7 +484,7 @@ static Status part_given(State *state, const Use *use, const BlockEquation *e, I
     else if (!moves)
         *out = loading_part(state, load, name.at, at);
     else if (state_part(state, own) == NULL) /* of a definition whose end has not been read */
-        add_frame(state, use, e->port, state->datum[DOMAIN_MECHANICAL], 0);
+        add_frame(state, use, e->port, state->setup.datum[DOMAIN_MECHANICAL], 0);
 done:
     text_free(&name);
     return status;

@@ -113,7 +113,7 @@ static Status put_ports(Ending *ending)
                       "through=[%s] in its first line and 'give %s.fx = ..' the effort there: then "
                       "%s %s.%s %s joins them",
                       use->subsystem->name, port->name, port->name, port->name,
-                      ending->state->planar ? "weld w" : "spherical s", use->name, port->name,
+                      ending->state->setup.planar ? "weld w" : "spherical s", use->name, port->name,
                       frame);
             return E_MODEL;
         }
@@ -295,7 +295,7 @@ static Status check_ports(const Ending *ending)
             (void)diag_at(ending->diag, E_MODEL, equations->last->place, "%s.%s isn't given", name,
                           given_motions[k]);
             diag_hint(ending->diag, "of a frame that is moved all is: %s",
-                      ending->state->planar ? "x, y, theta" : "x, y, z");
+                      ending->state->setup.planar ? "x, y, theta" : "x, y, z");
             return E_MODEL;
         }
     return OK;
@@ -685,9 +685,10 @@ done:
 static Status report_given(Ending *ending)
 {
     for (const BlockEquation *e = ending->equations->first; e != NULL; e = e->next) {
-        const int entry = e->part != NULL && e->part->row->family == FAMILY_FORCE
-                              ? (e->member < 3 || ending->state->planar ? e->member : e->member - 3)
-                              : 0;
+        const int entry =
+            e->part != NULL && e->part->row->family == FAMILY_FORCE
+                ? (e->member < 3 || ending->state->setup.planar ? e->member : e->member - 3)
+                : 0;
 
         if (e->kind != EQUATION_GIVES || e->part == NULL)
             continue;
@@ -698,7 +699,7 @@ static Status report_given(Ending *ending)
                                     "voltages and currents");
             return E_MODEL;
         }
-        e->part->values[0].at[e->member == 5 && ending->state->planar ? 0 : entry] = e->e;
+        e->part->values[0].at[e->member == 5 && ending->state->setup.planar ? 0 : entry] = e->e;
     }
     return OK;
 }

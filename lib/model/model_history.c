@@ -35,7 +35,7 @@ static Accepted *add(History *history, const char *text, Effect effect, const St
 static Status apply_marked(State **state, const Statement *statement, StateMark *mark,
                            Outcome *outcome, Diag *diag)
 {
-    const Setup setup = state_setup(*state);
+    const Setup setup = (*state)->setup;
 
     mem_keep(*state);
     *mark = state_mark(*state);

@@ -95,7 +95,7 @@ typedef struct Setup {
     bool planar;
     Expr gravity[3];
     const char *title;
-    int datum[DOMAIN_COUNT];
+    int datum[DOMAIN_COUNT]; /* nodes; -1 until needed */
     int group_count;
     Form form;
     SettingValues settings;
@@ -148,9 +148,7 @@ struct State {
     Arena *arena; /* the model's */
     Apply *apply; /* carries out statements: those of a definition, lines of a state rebuilt */
     Pool *pool;
-    bool planar;
-    Expr gravity[3];
-    const char *title;
+    Setup setup;
     Graph *graph;
     Names *names;       /* of all except parameters: a part may have a parameter's name */
     LIST(Thing) things; /* by number in `names` */
@@ -158,7 +156,6 @@ struct State {
     LIST(Thing) parameters; /* definitions, by number in `parameter_names`, in order of making */
     Names *terminals;
     NumberList terminal_nodes;
-    int datum[DOMAIN_COUNT]; /* nodes; -1 until needed */
     LIST(Instance *) parts;
     NumberList couplings; /* of parts, among these */
     NumberList edge_owner;
@@ -170,9 +167,6 @@ struct State {
     LIST(StartEntry) starts;
     Names *start_names;  /* "h8'", with primes */
     NumberList start_of; /* by number in start_names: index in `starts`, or -1 */
-    int group_count;
-    Form form;
-    SettingValues settings;
     NameList independent;
     LIST(Use) uses;
     LIST(InsideChoice) inside_choices;
@@ -228,7 +222,6 @@ StateMark state_mark(const State *state);
 bool state_go_back(State **state, const StateMark *mark);
 /* Frees the states before this one that exceed a limit; in bytes. */
 void state_forget_before(State *state, size_t bytes);
-Setup state_setup(const State *state);
 /* Records what a statement changed of the setup. */
 void state_note_setup(State *state, const Setup *before);
 /* Call before one is changed in place: */

@@ -93,19 +93,6 @@ void state_retain_independent(State *state)
     keep(state, CHANGED_INDEPENDENT, 0)->was.independent = copy;
 }
 
-Setup state_setup(const State *state)
-{
-    Setup setup = {.planar = state->planar};
-
-    memcpy(setup.gravity, state->gravity, sizeof setup.gravity);
-    setup.title = state->title;
-    memcpy(setup.datum, state->datum, sizeof setup.datum);
-    setup.group_count = state->group_count;
-    setup.form = state->form;
-    setup.settings = state->settings;
-    return setup;
-}
-
 static bool setup_same(const Setup *a, const Setup *b)
 {
     for (int i = 0; i < COUNT(a->gravity); i++)
@@ -123,9 +110,7 @@ static bool setup_same(const Setup *a, const Setup *b)
 
 void state_note_setup(State *state, const Setup *before)
 {
-    const Setup now = state_setup(state);
-
-    if (setup_same(&now, before))
+    if (setup_same(&state->setup, before))
         return;
 
     Setup *copy = NEW(Setup);
@@ -135,17 +120,6 @@ void state_note_setup(State *state, const Setup *before)
 }
 
 /* --- restoring --- */
-
-static void restore_setup(State *state, const Setup *setup)
-{
-    state->planar = setup->planar;
-    memcpy(state->gravity, setup->gravity, sizeof state->gravity);
-    state->title = setup->title;
-    memcpy(state->datum, setup->datum, sizeof state->datum);
-    state->group_count = setup->group_count;
-    state->form = setup->form;
-    state->settings = setup->settings;
-}
 
 /* values of parameters depend on each other */
 static void restore_definition(State *state, int at, const Definition *was)
@@ -208,7 +182,7 @@ static void restore(State *state, Change *change)
         copy_names((NameList *)&state->independent, change->was.independent);
         break;
     case CHANGED_SETUP:
-        restore_setup(state, change->was.setup);
+        state->setup = *change->was.setup;
         break;
     case CHANGED_EQUATIONS:
         restore_equations(state, state->uses.at[change->at].equations, change->was.equations);

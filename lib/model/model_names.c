@@ -203,7 +203,7 @@ static Status check_order(const char *name, int primes, int most, Place place, D
 /* Reports a part's name without a member where a variable is required: lists its members. */
 static Status part_alone(const State *state, const Instance *part, Place place, Diag *diag)
 {
-    const Member *member = component_member(part->row, state->planar, 0);
+    const Member *member = component_member(part->row, state->setup.planar, 0);
     Text list = {0};
 
     (void)diag_at(diag, E_NAME, place, "%s is no variable: %s has several", part->name, part->name);
@@ -211,8 +211,8 @@ static Status part_alone(const State *state, const Instance *part, Place place, 
         (void)diag_at(diag, E_NAME, place, "%s has no variable", part->name);
     for (int i = 0; i < part->coord_count && i < 3; i++)
         text_addf(&list, "%s%s", i > 0 ? ", " : "", part->coord[i]);
-    for (int i = 0; i < 3 && component_member(part->row, state->planar, i) != NULL; i++) {
-        member = component_member(part->row, state->planar, i);
+    for (int i = 0; i < 3 && component_member(part->row, state->setup.planar, i) != NULL; i++) {
+        member = component_member(part->row, state->setup.planar, i);
         if (part->coord_count > 0 && part->row->family == FAMILY_BODY)
             break;
         text_addf(&list, "%s%s.%s", list.length > 0 ? ", " : "", part->name, member->name);
@@ -251,9 +251,9 @@ static Status member_unknown(const State *state, const Instance *part, const cha
     const Member *m;
 
     for (int i = 0; i < part->coord_count; i++)
-        suggest_offer(&suggest, instance_coord(part, state->planar, i).member);
+        suggest_offer(&suggest, instance_coord(part, state->setup.planar, i).member);
 
-    for (int i = 0; (m = component_member(part->row, state->planar, i)) != NULL; i++) {
+    for (int i = 0; (m = component_member(part->row, state->setup.planar, i)) != NULL; i++) {
         suggest_offer(&suggest, m->name);
         text_addf(&list, " %s", m->name);
     }
@@ -269,7 +269,7 @@ static Status member_unknown(const State *state, const Instance *part, const cha
 static int coordinate_of_member(const State *state, const Instance *part, const char *member)
 {
     for (int i = 0; i < part->coord_count; i++) {
-        const char *own = instance_coord(part, state->planar, i).member;
+        const char *own = instance_coord(part, state->setup.planar, i).member;
 
         if (own[0] != '\0' && strcmp(own, member) == 0)
             return i;
@@ -281,7 +281,7 @@ static Status member_resolve(const State *state, const Instance *part, const cha
                              int primes, Place place, Text *name, Diag *diag)
 {
     int coordinate = coordinate_of_member(state, part, member);
-    const Member *m = component_find_member(part->row, state->planar, member);
+    const Member *m = component_find_member(part->row, state->setup.planar, member);
 
     if (coordinate >= 0) {
         text_add(name, part->coord[coordinate]);

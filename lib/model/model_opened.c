@@ -58,7 +58,7 @@ const char *opened_name(const Opened *opened)
 Status opened_add(Opened *opened, const Statement *statement, Diag *diag)
 {
     const StateMark mark = state_mark(opened->trial);
-    const Setup setup = state_setup(opened->trial);
+    const Setup setup = opened->trial->setup;
     Outcome outcome = {EFFECT_NONE, {0}};
     Status status;
 

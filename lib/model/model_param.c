@@ -73,7 +73,7 @@ static Status read_list(Scope *scope, const Wanted *wanted, const Syntax *syntax
 static Status read_vector(Scope *scope, const Wanted *wanted, const Syntax *syntax, Value *out,
                           Diag *diag)
 {
-    bool planar = scope->state->planar;
+    bool planar = scope->state->setup.planar;
     int count = 0;
     Status status = OK;
 
@@ -102,7 +102,7 @@ static Status read_moment(Scope *scope, const Wanted *wanted, const Syntax *synt
 {
     Status status;
 
-    if (!scope->state->planar)
+    if (!scope->state->setup.planar)
         return read_vector(scope, wanted, syntax, out, diag);
     status = read_scalar(scope, wanted, syntax, out, diag);
     if (status == E_VALUE)
@@ -116,7 +116,7 @@ static Status read_inertia(Scope *scope, const Wanted *wanted, const Syntax *syn
     Status status;
     int count = 0;
 
-    if (scope->state->planar) {
+    if (scope->state->setup.planar) {
         status = read_scalar(scope, wanted, syntax, out, diag);
         if (status == E_VALUE)
             diag_hint(diag, "in a planar scene it is one number, about z");
@@ -196,7 +196,7 @@ static Status read_axis_at(Scope *scope, const Wanted *wanted, const Syntax *syn
         diag_hint(diag, "an axis is x, y, z, -x, -y, -z, or a vector [a, b, c]");
     if (status != OK)
         return status;
-    if (count == 2 && scope->state->planar)
+    if (count == 2 && scope->state->setup.planar)
         u[count++] = expr_int(arena, 0);
     if (count != 3)
         return diag_at(diag, E_VALUE, syntax->place, "%s has 3 components, not %d",
@@ -307,7 +307,7 @@ static Status rotation(Scope *scope, const Syntax *syntax, Expr R[9], Diag *diag
         diag_hint(diag, "as in z(90 deg)*x(a)");
         goto done;
     }
-    if (scope->state->planar && syntax->text[0] != 'z') {
+    if (scope->state->setup.planar && syntax->text[0] != 'z') {
         status =
             diag_at(diag, E_VALUE, syntax->place, "a turn about %s leaves the plane", syntax->text);
         diag_hint(diag, "the scene is planar: turn about z");
@@ -421,7 +421,7 @@ static int fallback_count(const State *state, ParamKind kind, const char *fallba
         return 3;
     case PARAM_INERTIA:
     case PARAM_MOMENT:
-        return state->planar ? 1 : 3;
+        return state->setup.planar ? 1 : 3;
     case PARAM_LIST:
     case PARAM_LIST_LAWS:
         return fallback[0] != '\0';

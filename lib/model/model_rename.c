@@ -61,7 +61,7 @@ static Status place_frame(const ModelRenameRenaming *r, const char *name, Diag *
     Outcome outcome = {EFFECT_NONE, {0}};
     Status status = OK;
 
-    CHECK(statement_parse(state->planar ? "arm A ground [0, 0]" : "arm A ground [0, 0, 0]", 1,
+    CHECK(statement_parse(state->setup.planar ? "arm A ground [0, 0]" : "arm A ground [0, 0, 0]", 1,
                           (SyntaxOptions){false}, NULL, &arm, diag));
     arm->operands.at[0].value->text = name;
     state->inside = r->use;
@@ -114,7 +114,7 @@ static const char *fixed_member(const State *state, bool is_frame, const char *m
 {
     if (!is_frame)
         return "0";
-    if (component_find_member(component_find("arm"), state->planar, member) == NULL)
+    if (component_find_member(component_find("arm"), state->setup.planar, member) == NULL)
         return NULL;
     return strcmp(member, "q0") == 0 ? "1" : "0";
 }

@@ -32,14 +32,14 @@ static Status check_scene(const State *state, const Operand *operand, bool plana
 {
     Status status = OK;
 
-    if (planar == state->planar)
+    if (planar == state->setup.planar)
         return OK;
     if (state->parts.count > 0) {
         status = diag_at(diag, E_VALUE, operand->place, "the scene can't become %s any more",
                          operand->value->text);
         diag_hint(diag, "it is said before the first part; %s was made already",
                   state->parts.at[0]->name);
-    } else if (planar && !expr_is_zero(state->gravity[2])) {
+    } else if (planar && !expr_is_zero(state->setup.gravity[2])) {
         status = diag_at(diag, E_VALUE, operand->place, "gravity leaves the plane");
         diag_hint(diag, "say the scene first, then gravity [gx, gy]");
     }
@@ -78,12 +78,12 @@ Status apply_scene(State **state, const Statement *statement, Outcome *outcome, 
     Line *line = find_line(s, statement->verb);
 
     TRY(check_scene(s, operand, planar, diag));
-    if (planar != s->planar)
+    if (planar != s->setup.planar)
         outcome->effect = EFFECT_EQUATIONS;
     if (line == NULL) {
-        s->planar = planar;
+        s->setup.planar = planar;
         add_only_line(s, statement, NULL);
-    } else if (planar != s->planar)
+    } else if (planar != s->setup.planar)
         return change_scene(state, line, statement, diag);
     return OK;
 }
@@ -99,9 +99,9 @@ Status apply_gravity(State **state, const Statement *statement, Outcome *outcome
     CHECK(
         param_read(&scope, (Wanted){&param, false}, statement->operands.at[0].value, &value, diag));
     for (int i = 0; i < 3; i++) {
-        if (s->gravity[i] != value.at[i])
+        if (s->setup.gravity[i] != value.at[i])
             outcome->effect = EFFECT_EQUATIONS;
-        s->gravity[i] = value.at[i];
+        s->setup.gravity[i] = value.at[i];
     }
     add_only_line(s, statement, &scope);
 done:
@@ -113,7 +113,7 @@ Status apply_title(State **state, const Statement *statement, Outcome *outcome, 
 {
     (void)outcome;
     (void)diag;
-    (*state)->title = state_text(*state, statement->operands.at[0].value->text);
+    (*state)->setup.title = state_text(*state, statement->operands.at[0].value->text);
     add_only_line(*state, statement, NULL);
     return OK;
 }
@@ -243,7 +243,7 @@ static Status keeps_coordinates(const State *state, const Instance *part, const 
 {
     Status status;
 
-    if (instance_coord_count(part, state->planar) == part->coord_count)
+    if (instance_coord_count(part, state->setup.planar) == part->coord_count)
         return OK;
     status = diag_at(diag, E_VALUE, pair->name_place, "%s decides which coordinates %s has",
                      pair->name, part->name);
@@ -303,7 +303,7 @@ static Status set_pair(State **state, const Pair *pair, Outcome *outcome, Diag *
     part->values = values;
     part->is_geared = part->is_geared || (part->row->params[index].use & GEARS) != 0;
     if (part->row->deforming != NULL &&
-        instance_coord_count(part, s->planar) != part->coord_count) {
+        instance_coord_count(part, s->setup.planar) != part->coord_count) {
         part->values = kept;
         status = change_shapes(state, part, pair, part->row->params[index].name, outcome, diag);
         goto done;

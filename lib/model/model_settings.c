@@ -26,7 +26,7 @@ const char *const *model_setting(int i)
 
 void setting_text(const State *state, ModelSetting setting, Text *out)
 {
-    const int value = state->settings.at[setting];
+    const int value = state->setup.settings.at[setting];
 
     if (settings[setting].most > 0)
         text_addf(out, "%d", 1 + value);
@@ -91,7 +91,7 @@ Status setting_apply(State *state, ModelSetting setting, const Statement *statem
                               : operands > 0 ? statement->operands.at[operands - 1].place
                                              : statement->pairs.at[0].name_place,
                               diag);
-    state->settings.at[setting] = value;
+    state->setup.settings.at[setting] = value;
     outcome->effect = settings[setting].effect;
     if (setting == SETTING_EVALUATOR && value == EVALUATOR_NATIVE && !code_memory_is_there())
         text_add(&outcome->remarks, "no native code can be run here: the interpreter evaluates\n");

@@ -64,7 +64,7 @@ static Status read_start(State *state, const Pair *pair, bool is_guess, StartEnt
         .start = {state_text(state, name.at), pair->primes, value, is_guess, pair->name_place},
         .text = state_text(state, text.at),
         .name = entry_name,
-        .group = state->group_count,
+        .group = state->setup.group_count,
     };
 done:
     LIST_FREE(scope.uses);
@@ -118,7 +118,7 @@ static Status apply_starts(State *state, const Statement *statement, bool is_gue
         forget_starts(state, is_guess);
     for (int i = 0; i < entries.count; i++)
         put_start(state, &entries.at[i]);
-    state->group_count++;
+    state->setup.group_count++;
     outcome->effect = EFFECT_VALUES;
 done:
     LIST_FREE(entries);
@@ -173,7 +173,7 @@ Status apply_form(State **state, const Statement *statement, Outcome *outcome, D
     }
     if (statement->pairs.count > 0)
         CHECK(read_independent(s, statement->pairs.at[0].value, &names, diag));
-    s->form = embedded ? FORM_EMBEDDED : FORM_AUGMENTED;
+    s->setup.form = embedded ? FORM_EMBEDDED : FORM_AUGMENTED;
     state_retain_independent(s);
     LIST_FREE(s->independent);
     for (int i = 0; i < names.count; i++)
@@ -221,9 +221,9 @@ Status starts_copy(State *to, const State *from, NameList *broken, Text *remarks
     forget_starts(to, true);
     for (int i = 0; i < from->starts.count; i++)
         TRY(copy_start(to, &from->starts.at[i], broken, remarks, diag));
-    to->group_count = from->group_count;
-    to->form = from->form;
-    to->settings = from->settings;
+    to->setup.group_count = from->setup.group_count;
+    to->setup.form = from->setup.form;
+    to->setup.settings = from->setup.settings;
     for (int i = 0; i < from->independent.count; i++) {
         int owner;
         int coordinate;
@@ -253,14 +253,14 @@ static bool gives_starts(const State *state, int verb)
 
 void starts_save(const State *state, Text *text)
 {
-    if (state->form == FORM_EMBEDDED) {
+    if (state->setup.form == FORM_EMBEDDED) {
         text_add(text, "form embedded");
         for (int i = 0; i < state->independent.count; i++)
             text_addf(text, "%s%s", i == 0 ? " independent=[" : ", ", state->independent.at[i]);
         text_add(text, state->independent.count > 0 ? "]\n" : "\n");
     }
     for (int i = 0; i < MODEL_SETTINGS; i++)
-        if (state->settings.at[i] != 0) {
+        if (state->setup.settings.at[i] != 0) {
             text_addf(text, "set %s ", model_setting(i)[0]);
             setting_text(state, (ModelSetting)i, text);
             text_char(text, '\n');

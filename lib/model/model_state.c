@@ -11,8 +11,8 @@ State *state_new(Arena *arena, Apply *apply)
     state->apply = apply;
     state->pool = pool_new(0);
     for (int i = 0; i < 3; i++)
-        state->gravity[i] = expr_int(arena, 0);
-    state->title = "";
+        state->setup.gravity[i] = expr_int(arena, 0);
+    state->setup.title = "";
     state->inside = -1;
     state->graph = graph_new();
     state->names = names_new();
@@ -20,8 +20,8 @@ State *state_new(Arena *arena, Apply *apply)
     state->terminals = names_new();
     state->start_names = names_new();
     for (int i = 0; i < DOMAIN_COUNT; i++)
-        state->datum[i] = -1;
-    state->datum[DOMAIN_MECHANICAL] =
+        state->setup.datum[i] = -1;
+    state->setup.datum[DOMAIN_MECHANICAL] =
         graph_add_node(state->graph, "ground", DOMAIN_MECHANICAL, true);
     return state;
 }

@@ -269,7 +269,7 @@ static void forget(Subsystem *learnt)
 Status apply_subsystem(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
 {
     const StateMark mark = state_mark(*state);
-    const Setup setup = state_setup(*state);
+    const Setup setup = (*state)->setup;
     Scope scope = {.state = *state};
     Subsystem learnt = {0};
     Pool *pool = NULL;

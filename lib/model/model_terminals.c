@@ -115,7 +115,7 @@ static Status next_frame(PartDraft *draft, int *node, Place *place)
     const Instance *part;
 
     TRY(next_name(draft, &name, place));
-    *node = draft->state->datum[DOMAIN_MECHANICAL];
+    *node = draft->state->setup.datum[DOMAIN_MECHANICAL];
     if (strcmp(name, "ground") == 0)
         return OK;
     part = state_part(draft->state, name);
@@ -143,7 +143,7 @@ static Status on_frame(PartDraft *draft)
     Instance *part = draft->part;
     Place place;
 
-    part->tail = draft->state->datum[DOMAIN_MECHANICAL];
+    part->tail = draft->state->setup.datum[DOMAIN_MECHANICAL];
     TRY(next_frame(draft, &part->head, &place));
     if (part->head == part->tail)
         return diag_at(draft->diag, E_VALUE, place, "ground doesn't move: a %s on it has no effect",
@@ -379,7 +379,7 @@ Status part_draft_read_terminals(PartDraft *draft)
 
     switch (part->row->places) {
     case PLACES_NONE:
-        part->tail = draft->state->datum[DOMAIN_MECHANICAL];
+        part->tail = draft->state->setup.datum[DOMAIN_MECHANICAL];
         break;
     case PLACES_FROM: {
         Place place;

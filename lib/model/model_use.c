@@ -519,7 +519,7 @@ static Status make_instance(UseDraft *d, const Operand *operand)
 Status apply_use(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
 {
     const StateMark mark = state_mark(*state);
-    const Setup setup = state_setup(*state);
+    const Setup setup = (*state)->setup;
     const Operand *what = &statement->operands.at[0];
     const char *name = syntax_name(what->value);
     UseDraft draft = {.state = state, .statement = statement, .outcome = outcome, .diag = diag};
