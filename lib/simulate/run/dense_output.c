@@ -122,7 +122,17 @@ static bool find_rate(StepEnd *end)
     return true;
 }
 
-static void interpolate(const StepEnd *a, const StepEnd *b, double t, double *y)
+/* cubic()'s rate */
+static double cubic_rate(double a, double a_rate, double b, double b_rate, double h, double s)
+{
+    return 6 * s * (1 - s) * (b - a) / h + (1 - s) * (1 - 3 * s) * a_rate +
+           s * (3 * s - 2) * b_rate;
+}
+
+/* Where the accelerations at an end mean nothing, as at a singular position, positions and speeds
+ * alone are interpolated. */
+static void interpolate(const StepEnd *a, const StepEnd *b, bool with_accelerations, double t,
+                        double *y)
 {
     const VariableIndex *l = a->phase->layout;
     double h = b->t - a->t;
@@ -136,13 +146,17 @@ static void interpolate(const StepEnd *a, const StepEnd *b, double t, double *y)
         const double at_ends[2][3] = {{a->y[i], a->y[l->n + i], a->rate[l->n + i]},
                                       {b->y[i], b->y[l->n + i], b->rate[l->n + i]}};
 
-        y[i] = quintic(at_ends[0], at_ends[1], h, s, &y[l->n + i]);
+        if (with_accelerations)
+            y[i] = quintic(at_ends[0], at_ends[1], h, s, &y[l->n + i]);
+        else
+            y[l->n + i] = cubic_rate(a->y[i], a->rate[i], b->y[i], b->rate[i], h, s);
     }
 }
 
 /* References of angles at t from those of the end before it, in parts over which no angle turns
  * far. y contains the interpolated values of everything else. */
-static void follow_turns(const StepEnd *a, const StepEnd *b, double t, double *y)
+static void follow_turns(const StepEnd *a, const StepEnd *b, bool with_accelerations, double t,
+                         double *y)
 {
     enum { MOST_PARTS = 1000000 };
     const VariableIndex *l = a->phase->layout;
@@ -157,7 +171,7 @@ static void follow_turns(const StepEnd *a, const StepEnd *b, double t, double *y
     for (int i = 1; i <= parts; i++) {
         double at = a->t + (t - a->t) * i / parts;
 
-        interpolate(a, b, at, there);
+        interpolate(a, b, with_accelerations, at, there);
         memcpy(there + first, kept, (size_t)l->multi_turns * sizeof(double));
         equations_turn(compiled_equations(a->phase->numbers), at, there, there + first);
         memcpy(y + first, there + first, (size_t)l->multi_turns * sizeof(double));
@@ -186,6 +200,14 @@ static bool project_between(const Phase *phase, double t, double *y)
     return sound && moved < MISSED;
 }
 
+static bool place_between(const StepEnd ends[2], bool with_accelerations, double t, double *y)
+{
+    interpolate(&ends[0], &ends[1], with_accelerations, t, y);
+    if (ends[0].phase->layout->multi_turns > 0)
+        follow_turns(&ends[0], &ends[1], with_accelerations, t, y);
+    return project_between(ends[0].phase, t, y);
+}
+
 /* y at t, for the phase of the ends */
 static bool find_between(StepEnd ends[2], double t, double *y)
 {
@@ -201,12 +223,8 @@ static bool find_between(StepEnd ends[2], double t, double *y)
     ends[0].rate = rates;
     ends[1].rate = rates + length;
     sound = ends[0].phase == ends[1].phase && find_rate(&ends[0]) && find_rate(&ends[1]);
-    if (sound) {
-        interpolate(&ends[0], &ends[1], t, y);
-        if (ends[0].phase->layout->multi_turns > 0)
-            follow_turns(&ends[0], &ends[1], t, y);
-        sound = project_between(ends[0].phase, t, y);
-    }
+    if (sound)
+        sound = place_between(ends, true, t, y) || place_between(ends, false, t, y);
     mem_free(rates);
     return sound;
 }
