@@ -155,11 +155,10 @@ static Verdict those_that_failed(Member *m)
         uint64_t seed, number;
         bool multiplies;
         double tolerance;
-    } failed[] = {{77, 375, false, 3.73e-6}, {502, 157, false, 6.8e-7},
-                  {502, 26, true, 1.01e-8},  {12, 47, true, 1e-3},
-                  {12, 47, true, 3.45e-5},   {20261123, 144, false, 2.76e-7},
-                  {9102, 2, true, 2.36e-9},  {9912, 22, false, 4.91e-8},
-                  {9913, 14, false, 5.86e-9}};
+    } failed[] = {
+        {77, 375, false, 3.73e-6}, {502, 157, false, 6.8e-7},  {502, 26, true, 1.01e-8},
+        {12, 47, true, 1e-3},      {12, 47, true, 3.45e-5},    {20261123, 144, false, 2.76e-7},
+        {9102, 2, true, 2.36e-9},  {9912, 22, false, 4.91e-8}, {9913, 14, false, 5.86e-9}};
     const size_t which = (size_t)m->number % (sizeof failed / sizeof failed[0]);
     Network net;
 
