@@ -327,7 +327,7 @@ static const double EQUAL = 1e-9; /* relative to the larger of two numbers: far 
 static bool same_function(const State *state, Expr a, Expr b)
 {
     State place = *state; /* its number alone distinguishes points */
-    bool same = true, is_listed = a == b;
+    bool same = true, is_decided = a == b;
 
     for (int i = 0; i < TRIES && same; i++) {
         double x, y;
@@ -336,9 +336,9 @@ static bool same_function(const State *state, Expr a, Expr b)
         x = expr_evaluate(a, random_value, &place);
         y = expr_evaluate(b, random_value, &place);
         same = (isnan(x) && isnan(y)) || fabs(x - y) <= EQUAL * fmax(1, fmax(fabs(x), fabs(y)));
-        is_listed = is_listed || !isnan(x);
+        is_decided = is_decided || !isnan(x);
     }
-    return same && is_listed;
+    return same && is_decided;
 }
 
 static bool is_negative(const State *state, Expr e)

@@ -99,7 +99,7 @@ static bool is_other_set(const Assembly *a, const Instance *instance)
 }
 
 /* The three given angles of a chord place frames without an expression. An expression yields one of
- * the two angle sequences of an attitude: in the other one the middle angle decreases where this
+ * the two triples of angles of an attitude: in the other one the middle angle decreases where this
  * one increases. */
 static void read_three_angles(const Assembly *a, const VariableReferent *referent,
                               GivenValue *given)
@@ -124,7 +124,7 @@ static Status read_one(Assembly *a, GivenValue *given, Diag *diag)
     if (value->primes == 0 && given->level == LEVEL_POSITION)
         given->referent = referent;
     else if (given->level == LEVEL_VELOCITY && value->primes == 1)
-        given->rate_of = system_referent(a->l->system, value->name);
+        given->rate_of = referent;
 done:
     return status;
 }

@@ -36,8 +36,11 @@ struct Articulated {
     Beyond *blocks; /* one per place */
     Both *passed;   /* one per place: first the load that is passed on, then the place's motion */
     Both *yield;    /* U, one per speed */
-    double *own;    /* inertia of each speed's own, and what of it others took off before */
-    double *inverse, *rest, *lost;
+    /* one per speed: */
+    double *own;     /* inertia that belongs to it alone, */
+    double *lost;    /* and what earlier eliminations removed of it */
+    double *inverse; /* 1/D */
+    double *rest;    /* (force - load)/D */
 };
 
 Articulated *articulated_new(const System *system)
@@ -112,7 +115,7 @@ static inline void add_times(Both *sum, double factor, const Both *load)
     }
 }
 
-/* a load on the parent */
+/* transfers a load to the parent */
 static inline void pass_on(const Articulated *ar, const MassPlace *place, Both *load)
 {
     const double *way = ar->numbers + place->way;
@@ -129,7 +132,7 @@ static inline void pass_on(const Articulated *ar, const MassPlace *place, Both *
         add_cross(load->turn, way, load->shift);
 }
 
-/* the parent's motion at the place */
+/* transfers the parent's motion to the place */
 static inline void carry(const Articulated *ar, const MassPlace *place, Both *motion)
 {
     const double *way = ar->numbers + place->way;

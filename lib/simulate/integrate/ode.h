@@ -187,11 +187,13 @@ struct Stepper {
     double bound;                 /* set by its driver: largest step now, s; 0: free */
     bool may_bend;                /* likewise: a stiff element may become inactive in the step */
     bool is_read;                 /* likewise: steps are interpolated to evaluate conditions */
-    bool has_pulses;     /* likewise: it takes many short steps, for brief pulses or after jumps */
-    double missed;       /* fixed steps: largest estimated error of one, in tolerances, */
-    double missed_at;    /* and its time, s */
-    bool is_stiff;       /* explicit methods: stability limits steps, not accuracy */
-    bool is_oscillatory; /* ... and the limiting component oscillates rather than decays */
+    bool has_pulses;  /* likewise: it takes many short steps, for brief pulses or after jumps */
+    double missed;    /* fixed steps: largest estimated error of one, in tolerances, */
+    double missed_at; /* and its time, s */
+    /* explicit methods: a fast component limits the steps, by stability or by accuracy (set by
+     * stiffness detection, dop853_stiff.c), */
+    bool is_stiff;
+    bool is_oscillatory; /* ... and that component oscillates rather than decays */
 };
 
 static inline int stepper_length(const Stepper *stepper) /* of y */
@@ -235,8 +237,8 @@ static inline double stepper_stop(const Stepper *stepper, double end)
 
 #define LEAST_TOLERANCE 1e-13 /* that floating point allows */
 
-#define MOTION_PART     0.1   /* of the tolerance, for errors that motion hardly damps, */
-#define MOTION_LEAST    1e-12 /* down to this tolerance */
+#define MOTION_PART  0.1   /* of the tolerance, for errors that motion hardly damps, */
+#define MOTION_LEAST 1e-12 /* down to this tolerance */
 
 /* `part` of the tolerance, or what makes it `least` */
 static inline double tolerance_part(const Stepper *stepper, double part, double least)

@@ -154,7 +154,8 @@ static Status one_step(Integration *m, double end, Diag *diag)
 static Status integrate_interval(Integration *m, double end, Diag *diag)
 {
     const IntegrationPlan *plan = m->plan;
-    double least = 4e-16 * fabs(end); /* what an event may leave of the way, too short for a step */
+    double least =
+        NEAREST_TIME * fabs(end); /* what an event may leave of the way, too short for a step */
     Status status = OK;
 
     transaction_stop_asking(); /* there are rows to be stored */

@@ -4,7 +4,8 @@
  * projected, and never limit a step. Switches do: a zero crossing of a condition in t alone is
  * found beforehand, and a step ends at the last floating-point number before it and the next starts
  * at the first one after it; a condition in the state is located on the interpolant, and the step
- * is shortened to it. Conditions of events are located likewise. There is a row at the instant of
+ * is shortened to it. Conditions of events are located likewise, to the last two units of
+ * the time (reach_zero() of integration_meet.c). There is a row at the instant of
  * an event, or two of equal time where it sets new values: before and after.
  *
  * Ideal switches divide a run into segments: at each switch, event or jump, the caller of the run
@@ -32,14 +33,16 @@ typedef struct Segment {
     const Method *joint; /* used where that can't continue; NULL: none */
 } Segment;
 
-/* Returns the segment that continues from (t, y), where y is of `segment`. `behind` is the instant
- * just after t, where sources have jumped; `near` bounds the search. Another one is stored in
- * *segment and its y in *out, borrowed until the next call; otherwise both are unchanged. Fails
- * where there is none. */
+/* what bounds the search for the next mode */
 typedef struct Nearness {
     double last;  /* s: length of the last step; 0: there was none */
     double ahead; /* s: where a margin ends at t, time after which its sign is certain; 0 */
 } Nearness;
+
+/* Returns the segment that continues from (t, y), where y is of `segment`. `behind` is the instant
+ * just after t, where sources have jumped; `near` bounds the search. Another one is stored in
+ * *segment and its y in *out, borrowed until the next call; otherwise both are unchanged. Fails
+ * where there is none. */
 typedef Status (*NextSegment)(void *context, double t, double behind, Nearness near,
                               const double *y, Segment *segment, const double **out, Diag *diag);
 

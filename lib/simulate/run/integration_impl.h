@@ -7,6 +7,8 @@
 #include "simulate/integrate/stagnation.h"
 #include "simulate/run/integration.h"
 
+#define NEAREST_TIME 4e-16 /* of t: no zero is located more closely */
+
 /* state of the surfaces at a point where a run continues */
 enum MetSurface { ROOT_ANY = -1, ROOT_NONE = -2 };
 
@@ -54,13 +56,13 @@ typedef struct Integration {
     double switched_since; /* s: time of the first of them */
     int slow_switches;     /* the same for a longer part of the run */
     double slow_since;
-    double missed;         /* largest estimated error of a fixed step, in tolerances */
-    double missed_at;      /* s */
-    bool is_stopped;       /* by the receiver of rows */
-    bool is_over;          /* an event has ended the run */
-    bool needs_restart;    /* the last step was shortened, and its method has to start anew */
-    bool after_event;      /* no step has been taken since a switch, */
-    double initial_step;   /* s: a step of this length may follow it; 0: not known */
+    double missed;       /* largest estimated error of a fixed step, in tolerances */
+    double missed_at;    /* s */
+    bool is_stopped;     /* by the receiver of rows */
+    bool is_over;        /* an event has ended the run */
+    bool needs_restart;  /* the last step was shortened, and its method has to start anew */
+    bool after_event;    /* no step has been taken since a switch, */
+    double initial_step; /* s: a step of this length may follow it; 0: not known */
 } Integration;
 
 /* --- rows (integration_rows.c) --- */

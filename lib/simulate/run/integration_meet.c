@@ -16,8 +16,9 @@
 #define ZENO_EVENTS 100
 #define ZENO_EACH   10   /* of every condition, which all may go over at one instant */
 #define ZENO_SPAN   1e-9 /* of the run */
-#define SLOW_EVENTS 5000 /* in a longer part of the run, which would take many minutes at that pace */
-#define SLOW_SPAN   1e-5
+#define SLOW_EVENTS                                                                                \
+    5000 /* in a longer part of the run, which would take many minutes at that pace */
+#define SLOW_SPAN 1e-5
 
 /* Whether h is short beside the last step or the run, and no state goes further along the slope in
  * it than errors may: where a problem is stiff the slope is steep beside any motion. */
@@ -74,11 +75,10 @@ static double met_beyond(Integration *m, int i, double when)
     return has_no_zero(m, i, when) ? m->noise[i] : 0;
 }
 
-/* Take the last step again until it ends just before the switch, so that none of its stages has
- * seen what is behind: Newton's method on the length of the step. Behind a margin the equations are
- * the same, and last moves so short that Euler's rule is exact will do; by more than those the step
- * gets no longer, for other margins may end there, which nobody has looked for. Where the step
- * can't be taken again, what it tells of the switch has to do. */
+/* Repeat the last step, shortened by Newton's method, until it ends just before the zero, so that
+ * no stage is evaluated behind it. Behind a margin the equations are the same: there the end may be
+ * moved by an Euler step if that is short, but no repeated step is lengthened, since other margins
+ * may lie in between. If the method can't shorten the step, it is cut at its interpolated state. */
 static Status approach(Integration *m, int i, double when, double *value, double *slope, Diag *diag)
 {
     double enough = fmax(1e-11 * m->largest[i], integration_is_margin(m, i) ? m->noise[i] : 0);
@@ -114,7 +114,7 @@ static Status approach(Integration *m, int i, double when, double *value, double
 static bool cross(Integration *m, int i, double value, double slope)
 {
     Stepper *s = m->stepper;
-    double h = fmax(4e-16 * fabs(s->t), 2 * fabs(value / slope));
+    double h = fmax(NEAREST_TIME * fabs(s->t), 2 * fabs(value / slope));
 
     for (int k = 0; k < 20 && is_short(m, h); k++, h *= 2) {
         if (!onset_is_calm(m->segment.onset, s->t, s->t + h))
@@ -236,17 +236,17 @@ Status integration_meet_switch(Integration *m, int i, double when, bool *again, 
     const Guard guard = equations_guard(m->eq, i);
     bool on_surface = guard.side != 0 || guard.end != 0, crossed = false;
     double value = 0, slope = 0;
-    bool is_told = integration_is_margin(m, i), entered;
+    bool is_margin = integration_is_margin(m, i), entered;
 
     /* a switch on the very start of the step can't be determined from the one just met */
     if (when > m->stepper->before) {
         TRY(approach(m, i, when, &value, &slope, diag));
-        *again = *again && !is_told && passes_others(m, i, when);
+        *again = *again && !is_margin && passes_others(m, i, when);
         if (*again)
             return OK;
         TRY(integration_add_rows(m, diag));
         /* the interpolant erred: it is told again where steps from here go, if they do */
-        if (is_told && value > integration_rounding(m) && m->stepper->t > m->stepper->before &&
+        if (is_margin && value > integration_rounding(m) && m->stepper->t > m->stepper->before &&
             (slope >= 0 || !is_short(m, -value / slope))) {
             m->needs_restart = m->stepper->method->has_history;
             m->stepper->next = fmin(m->stepper->next, WIDER * (m->stepper->t - m->stepper->before));
@@ -258,16 +258,16 @@ Status integration_meet_switch(Integration *m, int i, double when, bool *again, 
     integration_conditions_at(m, m->stepper->t);
     TRY(check_side(m, i, diag));
     m->band[i] = fmax(10 * fabs(m->conditions[i]), fmax(1e-10 * m->largest[i], m->noise[i]));
-    m->mode[i] = is_told ? 1 : -m->mode[i];
+    m->mode[i] = is_margin ? 1 : -m->mode[i];
     TRY(check_pace(m, i, diag));
     integration_note_chatter(m, i, m->stepper->t);
     integration_report_settling(m, i);
     m->root = on_surface || (guard.surface >= 0 && is_led_back(m, i, crossed)) ? i : ROOT_NONE;
-    m->ahead = is_told && slope < 0 ? (fabs(value) + m->noise[i]) / -slope : 0;
+    m->ahead = is_margin && slope < 0 ? (fabs(value) + m->noise[i]) / -slope : 0;
     TRY(integration_go_on(m, m->stepper->t, m->stepper->y, &entered, diag));
     if (on_surface && !entered) /* errors alone led over: the segment is on its side as before */
         m->mode[i] = guard.end != 0 ? 1 : guard.side;
-    if (is_told && !entered) {
+    if (is_margin && !entered) {
         m->noise[i] = m->band[i] =
             fmin(10 * fmax(m->noise[i], m->band[i]), integration_most_noise(m));
         integration_let_margins_rise(m);
@@ -294,7 +294,7 @@ static Status reach_zero(Integration *m, int i, double when, double *zero, Diag 
         }
         slope = integration_condition_rate(m, i, &value);
         left = slope * m->mode[i] < 0 ? -value / slope : 0; /* else a grazing contact */
-        if (fabs(left) <= 4e-16 * fabs(t) || (left > 0 && t + left > end))
+        if (fabs(left) <= NEAREST_TIME * fabs(t) || (left > 0 && t + left > end))
             break;
         t = fmax(before + 1e-3 * (t - before), t + left);
     }
