@@ -35,14 +35,10 @@ static Accepted *add(History *history, const char *text, Effect effect, const St
 static Status apply_marked(State **state, const Statement *statement, StateMark *mark,
                            Outcome *outcome, Diag *diag)
 {
-    const Setup setup = (*state)->setup;
-
     mem_keep(*state);
     *mark = state_mark(*state);
     TRY(state_apply(state, statement, outcome, diag));
-    if ((*state)->number == mark->state)
-        state_note_setup(*state, &setup);
-    else
+    if ((*state)->number != mark->state)
         state_forget_before(*state, most_kept);
     return OK;
 }

@@ -109,7 +109,6 @@ typedef enum ChangeKind {
     CHANGED_VALUES, /* of a part */
     CHANGED_CHOICE, /* of a tree */
     CHANGED_INDEPENDENT,
-    CHANGED_SETUP,
     CHANGED_EQUATIONS, /* of a use */
     ADDED_START,
     REMOVED_START
@@ -124,7 +123,6 @@ typedef struct Change {
         Value *values;
         Choice *choice; /* owned, as are the two below */
         NameList *independent;
-        Setup *setup;
         const BlockEquations *equations; /* of the pool */
         StartEntry start;
     } was;
@@ -213,6 +211,7 @@ typedef struct StateMark {
     int state; /* its number */
     PoolMark pool;
     GraphMark graph;
+    Setup setup;
     int names, terminals, parts, couplings, edge_owners, definitions, parameters, outputs, events,
         lines, start_names, uses, inside_choices, changes;
 } StateMark;
@@ -222,8 +221,6 @@ StateMark state_mark(const State *state);
 bool state_go_back(State **state, const StateMark *mark);
 /* Frees the states before this one that exceed a limit; in bytes. */
 void state_forget_before(State *state, size_t bytes);
-/* Records what a statement changed of the setup. */
-void state_note_setup(State *state, const Setup *before);
 /* Call before one is changed in place: */
 void state_retain_line(State *state, int line);
 void state_retain_definition(State *state, int definition);

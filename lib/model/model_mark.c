@@ -1,8 +1,9 @@
 /* model_mark.c: undoes a statement without rebuilding the state
  *
- * Most statements only add parts, names and lines to the ends of lists. A mark of the lengths is
- * enough to undo that. What a statement changes in place is stored with its old value, in the order
- * of the changes. A state that replaced another owns that one, which then no longer changes. */
+ * Most statements only add parts, names and lines to the ends of lists. A mark of the lengths,
+ * with the setup, is enough to undo that. What else a statement changes in place is stored with its
+ * old value, in the order of the changes. A state that replaced another owns that one, which then
+ * no longer changes. */
 #include "model/model_given.h"
 #include "model/model_impl.h"
 
@@ -14,6 +15,7 @@ StateMark state_mark(const State *state)
     return (StateMark){.state = state->number,
                        .pool = pool_mark(state->pool),
                        .graph = graph_mark(state->graph),
+                       .setup = state->setup,
                        .names = state->things.count,
                        .terminals = state->terminal_nodes.count,
                        .parts = state->parts.count,
@@ -93,32 +95,6 @@ void state_retain_independent(State *state)
     keep(state, CHANGED_INDEPENDENT, 0)->was.independent = copy;
 }
 
-static bool setup_same(const Setup *a, const Setup *b)
-{
-    for (int i = 0; i < COUNT(a->gravity); i++)
-        if (a->gravity[i] != b->gravity[i])
-            return false;
-    for (int i = 0; i < COUNT(a->datum); i++)
-        if (a->datum[i] != b->datum[i])
-            return false;
-    for (int i = 0; i < MODEL_SETTINGS; i++)
-        if (a->settings.at[i] != b->settings.at[i])
-            return false;
-    return a->planar == b->planar && a->title == b->title && a->group_count == b->group_count &&
-           a->form == b->form;
-}
-
-void state_note_setup(State *state, const Setup *before)
-{
-    if (setup_same(&state->setup, before))
-        return;
-
-    Setup *copy = NEW(Setup);
-
-    memcpy(copy, before, sizeof *copy);
-    keep(state, CHANGED_SETUP, 0)->was.setup = copy;
-}
-
 /* --- restoring --- */
 
 /* values of parameters depend on each other */
@@ -181,9 +157,6 @@ static void restore(State *state, Change *change)
         LIST_FREE(state->independent);
         copy_names((NameList *)&state->independent, change->was.independent);
         break;
-    case CHANGED_SETUP:
-        state->setup = *change->was.setup;
-        break;
     case CHANGED_EQUATIONS:
         restore_equations(state, state->uses.at[change->at].equations, change->was.equations);
         break;
@@ -207,8 +180,7 @@ static void change_free(Change *change)
         mem_keep(change->was.independent);
         LIST_FREE(*change->was.independent);
         mem_free(change->was.independent);
-    } else if (change->kind == CHANGED_SETUP)
-        mem_free(change->was.setup);
+    }
 }
 
 static void state_free_changes(State *state)
@@ -239,6 +211,7 @@ static void restore_changes(State *state, int count)
 static void trim(State *state, const StateMark *mark)
 {
     state_forget_trees(state);
+    state->setup = mark->setup;
     names_trim(state->names, mark->names);
     state->things.count = mark->names;
     names_trim(state->terminals, mark->terminals);

@@ -58,7 +58,6 @@ const char *opened_name(const Opened *opened)
 Status opened_add(Opened *opened, const Statement *statement, Diag *diag)
 {
     const StateMark mark = state_mark(opened->trial);
-    const Setup setup = opened->trial->setup;
     Outcome outcome = {EFFECT_NONE, {0}};
     Status status;
 
@@ -67,7 +66,6 @@ Status opened_add(Opened *opened, const Statement *statement, Diag *diag)
     if (status == OK)
         add_line(opened, statement);
     else {
-        state_note_setup(opened->trial, &setup);
         (void)state_go_back(&opened->trial, &mark);
         subsystem_forget_places(opened->trial, opened->use);
     }

@@ -269,7 +269,6 @@ static void forget(Subsystem *learnt)
 Status apply_subsystem(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
 {
     const StateMark mark = state_mark(*state);
-    const Setup setup = (*state)->setup;
     Scope scope = {.state = *state};
     Subsystem learnt = {0};
     Pool *pool = NULL;
@@ -282,7 +281,6 @@ Status apply_subsystem(State **state, const Statement *statement, Outcome *outco
                        "a definition can't stand in another one");
     pool = pool_new(0);
     status = try_definition(state, statement, pool, &learnt, &scope, diag);
-    state_note_setup(*state, &setup);
     (void)state_go_back(state, &mark);
     CHECK(status);
     text = statement_full_text(statement);

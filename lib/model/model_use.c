@@ -519,7 +519,6 @@ static Status make_instance(UseDraft *d, const Operand *operand)
 Status apply_use(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
 {
     const StateMark mark = state_mark(*state);
-    const Setup setup = (*state)->setup;
     const Operand *what = &statement->operands.at[0];
     const char *name = syntax_name(what->value);
     UseDraft draft = {.state = state, .statement = statement, .outcome = outcome, .diag = diag};
@@ -551,10 +550,8 @@ Status apply_use(State **state, const Statement *statement, Outcome *outcome, Di
         status = make_instance(&draft, &statement->operands.at[i]);
         text_free(&draft.text);
     }
-    if (status != OK) {
-        state_note_setup(*state, &setup);
+    if (status != OK)
         (void)state_go_back(state, &mark);
-    }
     outcome->effect = EFFECT_EQUATIONS;
     LIST_FREE(draft.scope.uses);
     return status;
