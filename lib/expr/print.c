@@ -102,6 +102,7 @@ static void lay_sum(Printer *printer, Expr sum)
     Summands terms = summands_of(sum);
     const int start = first_term(&terms);
 
+    assert(terms.count > 0);
     write_term(printer, terms.at[start], true);
     for (int i = 0; i < terms.count; i++) {
         if (i != start)

@@ -2,8 +2,8 @@
  *
  * Machines of machine_draw.h, some numbers of theirs parameters, are exported as C, compiled by the
  * compiler of this machine and loaded; its outputs, at the start and behind steps of its own
- * integrator, with parameters changed in the code, are held against the oracle of machine.h. Those of
- * machine_hybrid_draw.h have sampled control, switches, diodes and events. */
+ * integrator, with parameters changed in the code, are held against the oracle of machine.h. Those
+ * of machine_hybrid_draw.h have sampled control, switches, diodes and events. */
 #include "machine_hybrid_draw.h"
 #include "machine_inputs.h"
 

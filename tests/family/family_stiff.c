@@ -28,7 +28,8 @@ typedef struct Stiff {
 /* --- a knife edge --- */
 
 /* in the frame of the body: speeds u along it and v across it of its centre, turn w; the edge is at
- * -a, where it moves across by n = v - a w:  m (u' - v w) = 0,  m (v' + u w) = -D n,  J w' = a D n */
+ * -a, where it moves across by n = v - a w:  m (u' - v w) = 0,  m (v' + u w) = -D n,  J w' = a D n
+ */
 typedef struct Knife {
     double m, J, a, D;
 } Knife;
@@ -47,7 +48,7 @@ static void knife_rates(const void *context, const Real *y, Real *rates)
 static double knife_value(const void *context, const Real *y, int look)
 {
     (void)context;
-    return (double)(look == 0 ? y[2]
+    return (double)(look == 0   ? y[2]
                     : look == 1 ? y[0] * cosl(y[3]) - y[1] * sinl(y[3])
                                 : y[0] * sinl(y[3]) + y[1] * cosl(y[3]));
 }
@@ -156,8 +157,7 @@ static void links_draw(Member *m, Script *text, Links *l, Stiff *s)
     write_line(text, "spring k h2 k=%.17g\ndamper d h2 d=%.17g", l->k, l->d);
     if (member_one_of(m, 2))
         write_line(text, "tree absolute");
-    write_line(text, "init h1 = %.17g, h2 = %.17g, h1' = %.17g, h2' = 0", p, bend,
-               (double)s->y[2]);
+    write_line(text, "init h1 = %.17g, h2 = %.17g, h1' = %.17g, h2' = 0", p, bend, (double)s->y[2]);
 }
 
 /* --- a ladder --- */
@@ -309,8 +309,7 @@ static Verdict cheap_member(Member *m)
     tell(m, "%s", text.text);
     if (kit_do(&kit, text.text) == CT_OK) {
         const double by_auto = evaluations_of(m, &kit, &s, rtol, "auto"),
-                     radau = evaluations_of(m, &kit, &s, rtol, "radau"),
-                     most = 2 * radau + BEGINS;
+                     radau = evaluations_of(m, &kit, &s, rtol, "radau"), most = 2 * radau + BEGINS;
 
         verdict = keeps(m, "evaluations", by_auto, most) ? AGREES : DISAGREES;
     }
@@ -321,7 +320,8 @@ static Verdict cheap_member(Member *m)
 static const Family families[] = {
     /* between steps of slow ladders radau may be 20 tolerances off: 1 in 1000 at 1e-9 */
     {"stiff machines move as their equations do", 30, 0, 0.002, accurate_member},
-    /* of ladders that are hardly stiff, ten times as fast as their voltage, some stay with dop853 */
+    /* of ladders that are hardly stiff, ten times as fast as their voltage, some stay with dop853
+     */
     {"auto finds stiffness at little cost", 30, 0, 0.05, cheap_member},
 };
 

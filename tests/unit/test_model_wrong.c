@@ -362,9 +362,8 @@ static void a_tree_that_the_graph_outgrew_is_refused_later(void)
 /* of several equations in one line, the first were kept when a later one was refused */
 static void a_wrong_line_of_a_definition_leaves_its_equations(void)
 {
-    static const char *const refused[] = {"give B.x = s, B.Ron = 0", "unknown q, s",
-                                          "unknown s, B", "give B.x = s, B.x = 2*s",
-                                          "body m mass=1"};
+    static const char *const refused[] = {"give B.x = s, B.Ron = 0", "unknown q, s", "unknown s, B",
+                                          "give B.x = s, B.x = 2*s", "body m mass=1"};
     Model *model = model_of("scene planar\n");
     Model *direct = model_of("scene planar\nsubsystem slide frames=[B]\nunknown s\n"
                              "internal 2*s'' + B.fx\ngive B.x = s, B.y = 0, B.theta = 0\nend\n");
