@@ -6,7 +6,7 @@
 #ifndef COTREE_SRC_COMMAND_H
 #define COTREE_SRC_COMMAND_H
 
-#include "call.h"
+#include "command_call.h"
 
 typedef ct_status CommandFunction(Call *call, ct_error *error);
 

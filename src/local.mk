@@ -2,7 +2,7 @@
 bin_PROGRAMS += cotree
 cotree_SOURCES = \
     src/bode.c \
-    src/call.c src/call.h \
+    src/command_call.c src/command_call.h \
     src/command.c src/command.h \
     src/command_draw.c src/command_look.c src/command_run.c src/command_session.c \
     src/report_error.c src/report_error.h \

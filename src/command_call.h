@@ -1,6 +1,6 @@
-/* call.h: a statement being carried out by a command */
-#ifndef COTREE_SRC_CALL_H
-#define COTREE_SRC_CALL_H
+/* command_call.h: a statement being carried out by a command */
+#ifndef COTREE_SRC_COMMAND_CALL_H
+#define COTREE_SRC_COMMAND_CALL_H
 
 #include "shell.h"
 

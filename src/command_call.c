@@ -1,5 +1,5 @@
-/* call.c: what the functions of commands share */
-#include "call.h"
+/* command_call.c: what the functions of commands share */
+#include "command_call.h"
 
 #include "file.h"
 
