@@ -68,6 +68,24 @@ static Verdict machine_moves(Member *member)
     return verdict;
 }
 
+/* The largest error of coordinates and their rates at the end of a run; *size becomes the largest
+ * of these where that is more. */
+static double largest_error(const Machine *m, const Instant *now, Kit *kit, double *size)
+{
+    double error = 0;
+
+    for (int c = 0; c < m->coordinates; c++) {
+        const double rate = coordinate_row(m, now, c).rate;
+        char text[40];
+
+        error = fmax(error, fabs(kit_value(kit, m->coordinate[c].name) - now->q[c]));
+        (void)snprintf(text, sizeof text, "%s'", m->coordinate[c].name);
+        error = fmax(error, fabs(kit_value(kit, text) - rate));
+        *size = fmax(*size, fmax(fabs(now->q[c]), fabs(rate)));
+    }
+    return error;
+}
+
 /* What a run says of its own error at a coarse tolerance is not too low. */
 static Verdict machine_tells_its_error(Member *member)
 {
@@ -77,7 +95,7 @@ static Verdict machine_tells_its_error(Member *member)
     Real y[MOST_STATES];
     ct_figures f;
     Verdict verdict = AGREES;
-    double error = 0;
+    double error = 0, size = 1;
 
     while (!draw_machine(member, &d))
         ;
@@ -89,13 +107,8 @@ static Verdict machine_tells_its_error(Member *member)
         !ct_run_figures(kit.session, 0, &f) || isnan(f.global_error))
         verdict = REFUSED;
     unpack(&d.m, y, &now);
-    for (int c = 0; c < d.m.coordinates && verdict == AGREES; c++) {
-        char text[40];
-
-        error = fmax(error, fabs(kit_value(&kit, d.m.coordinate[c].name) - now.q[c]));
-        (void)snprintf(text, sizeof text, "%s'", d.m.coordinate[c].name);
-        error = fmax(error, fabs(kit_value(&kit, text) - coordinate_row(&d.m, &now, c).rate));
-    }
+    if (verdict == AGREES)
+        error = largest_error(&d.m, &now, &kit, &size);
     if (verdict == AGREES &&
         !keeps(member, "error of what is told", error / (f.global_error + 1e-9), 10))
         verdict = DISAGREES;
@@ -124,15 +137,8 @@ static Verdict history_is_accurate(Member *member)
     if (do_told(member, &kit, d.script.text) != CT_OK || !oracle_runs(&d, 0, 0.8, y))
         verdict = REFUSED;
     unpack(&d.m, y, &now);
-    for (int c = 0; c < d.m.coordinates && verdict == AGREES; c++) {
-        const double rate = coordinate_row(&d.m, &now, c).rate;
-        char text[40];
-
-        error = fmax(error, fabs(kit_value(&kit, d.m.coordinate[c].name) - now.q[c]));
-        (void)snprintf(text, sizeof text, "%s'", d.m.coordinate[c].name);
-        error = fmax(error, fabs(kit_value(&kit, text) - rate));
-        size = fmax(size, fmax(fabs(now.q[c]), fabs(rate)));
-    }
+    if (verdict == AGREES)
+        error = largest_error(&d.m, &now, &kit, &size);
     if (verdict == AGREES && !keeps(member, "error in tolerances", error / (rtol * size), 100))
         verdict = DISAGREES;
     kit_free(&kit);
