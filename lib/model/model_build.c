@@ -432,6 +432,25 @@ Instance *part_new(State *state, const Component *row, bool is_virtual)
     return part;
 }
 
+Instance *part_add(State *state, const Component *row, const char *name, int tail, int head,
+                   const char *terminal)
+{
+    const char *terminals[] = {terminal, "0"};
+    PartDraft draft = {.state = state, .part = part_new(state, row, false)};
+
+    draft.part->name = state_text(state, name);
+    draft.part->tail = tail;
+    draft.part->head = head;
+    for (int k = 0; k < row->param_count; k++)
+        param_fallback(state, &row->params[k], &draft.part->values[k]);
+    if (terminal != NULL) {
+        (void)state_terminal(state, "0", row->domain);
+        draft.terminals = terminals;
+    }
+    part_draft_commit(&draft, row->name);
+    return draft.part;
+}
+
 Status apply_component(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
 {
     const Component *row = component_find(statement->verb);

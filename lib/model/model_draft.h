@@ -18,6 +18,10 @@ typedef struct PartDraft {
 
 /* a part of that row, not in the state yet; its values are set later */
 Instance *part_new(State *state, const Component *row, bool is_virtual);
+/* Adds a part that no statement makes, with the defaults of its row, between mechanical nodes (-1:
+ * its own) or on a terminal (NULL: none) and the datum. */
+Instance *part_add(State *state, const Component *row, const char *name, int tail, int head,
+                   const char *terminal);
 /* Adds it to the state, with its nodes and edges; its values must have been read. */
 void part_draft_commit(PartDraft *draft, const char *text);
 /* reads the name of the part, then what it connects (model_terminals.c) */

@@ -222,40 +222,13 @@ static EquationBlock *new_given(State *state, int count, int frames)
     return given;
 }
 
-/* empty values */
-static void clear_values(State *state, Instance *part)
-{
-    for (int k = 0; k < part->row->param_count; k++)
-        param_fallback(state, &part->row->params[k], &part->values[k]);
-}
-
-/* Adds a part of the inside between mechanical nodes (-1: its own) or on a terminal and the
- * datum. */
-static Instance *add_part(State *state, const Component *row, const char *name, int tail, int head,
-                          const char *terminal)
-{
-    const char *terminals[] = {terminal, "0"};
-    PartDraft draft = {.state = state, .part = part_new(state, row, false)};
-
-    draft.part->name = state_text(state, name);
-    draft.part->tail = tail;
-    draft.part->head = head;
-    clear_values(state, draft.part);
-    if (terminal != NULL) {
-        (void)state_terminal(state, "0", row->domain);
-        draft.terminals = terminals;
-    }
-    part_draft_commit(&draft, row->name);
-    return draft.part;
-}
-
 static Instance *add_unknown(State *state, const char *name)
 {
     Text terminal = {0};
     Instance *part;
 
     text_addf(&terminal, "%s.node", name);
-    part = add_part(state, &component_unknown, name, -1, -1, terminal.at);
+    part = part_add(state, &component_unknown, name, -1, -1, terminal.at);
     part->given = new_given(state, 0, 0);
     text_free(&terminal);
     return part;
@@ -264,7 +237,7 @@ static Instance *add_unknown(State *state, const char *name)
 static void add_frame(State *state, const Use *use, int port, int tail, int number)
 {
     const char *name = given_name(state, use, use->subsystem->ports[port].name);
-    const Instance *arm = add_part(state, &component_arm, name, tail, -1, NULL);
+    const Instance *arm = part_add(state, &component_arm, name, tail, -1, NULL);
     Value *at = &arm->values[component_param(arm->row, "at")];
 
     at->given = true;
@@ -446,7 +419,7 @@ static Instance *loading_part(State *state, const Component *row, const char *na
         return state->parts.at[there->number];
     if (given_rests(state, frame, pose))
         return NULL;
-    return add_part(state, row, name, state->setup.datum[DOMAIN_MECHANICAL],
+    return part_add(state, row, name, state->setup.datum[DOMAIN_MECHANICAL],
                     graph_find_node(state->graph, frame), NULL);
 }
 
@@ -479,7 +452,7 @@ static Status part_given(State *state, const Use *use, const BlockEquation *e, I
         strtod(e->value->text, NULL) == 0)
         (void)state_terminal(state, at, DOMAIN_ELECTRICAL); /* it has no current */
     else if (!port->is_frame)
-        *out = add_part(state, e->member == 0 ? &component_isource : &component_vsource, name.at,
+        *out = part_add(state, e->member == 0 ? &component_isource : &component_vsource, name.at,
                         -1, -1, at);
     else if (!moves)
         *out = loading_part(state, load, name.at, at);

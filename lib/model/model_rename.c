@@ -4,8 +4,9 @@
  * cotree needs to handle subsystems. A name inside is, in this order: a law's argument, a word of
  * the language, a port, a name of its own, a parameter or law of the model. The bare name of a part
  * that is no value means a parameter of that name, the instance's or the model's. */
+#include "component/component_rows.h"
 #include "language/verbs.h"
-#include "model/model_impl.h"
+#include "model/model_draft.h"
 
 #include <assert.h>
 #include <string.h>
@@ -53,24 +54,15 @@ static bool is_known(const State *state, const char *name)
 
 /* --- ports --- */
 
-static Status place_frame(const ModelRenameRenaming *r, const char *name, Diag *diag)
+/* an arm on ground instead of the frame that a port will be bound to */
+static void place_frame(const ModelRenameRenaming *r, const char *name)
 {
     State *state = r->state;
     const int outer = state->inside;
-    Statement *arm = NULL;
-    Outcome outcome = {EFFECT_NONE, {0}};
-    Status status = OK;
 
-    CHECK(statement_parse(state->setup.planar ? "arm A ground [0, 0]" : "arm A ground [0, 0, 0]", 1,
-                          (SyntaxOptions){false}, NULL, &arm, diag));
-    arm->operands.at[0].value->text = name;
     state->inside = r->use;
-    status = apply_component(&state, arm, &outcome, diag);
+    (void)part_add(state, &component_arm, name, state->setup.datum[DOMAIN_MECHANICAL], -1, NULL);
     state->inside = outer;
-done:
-    text_free(&outcome.remarks);
-    statement_free(arm);
-    return status;
 }
 
 /* The node or part that a port is bound to; NULL: it is a name of the inside. A port of a
@@ -94,7 +86,7 @@ static Status port_place(const ModelRenameRenaming *r, int port, const char **ou
         use->subsystem->ports[port].is_through || state_thing(r->state, own) != NULL)
         return OK;
     own = state_text(r->state, own);
-    TRY(place_frame(r, own, r->diag));
+    place_frame(r, own);
     use = use_of(r);
     pool_retain(r->state->pool, &use->bound[port], sizeof *use->bound);
     *out = use->bound[port] = own;
