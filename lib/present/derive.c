@@ -2,8 +2,6 @@
  *
  * Terms that are 0 are grouped by the reason. */
 #include "present/derive.h"
-#include "formulate/expanded/derivation.h"
-#include "formulate/network/network_steps.h"
 
 #include <string.h>
 
@@ -37,26 +35,31 @@ static SumOrder way_order(const Way *way)
     return narrative_order(way->count > 0 ? &way->at[0].sign : NULL, way->count, sizeof *way->at);
 }
 
-/* "r(h9) = r(r6) - r(r7) ..." */
-static void write_way(Text *out, const View *view, int chord, const Way *way)
+/* "r(h9) = r(r6) - r(r7), the circuit of h9 in the translation tree", or the cutset of a branch */
+static void write_edges(Text *out, const View *view, const EdgeVariable *variable, int edge,
+                        TreeKind kind, bool is_circuit, const SignedEdge *terms, int count)
 {
-    const SumOrder order = way_order(way);
+    const char *label = is_circuit ? "circuit" : "cutset";
     Text words = {0};
 
-    text_add(&words, narrative_is_typeset(view) ? "$" : "");
-    narrative_add_variable(&words, view, "r", true, chord);
-    text_add(&words, " = ");
-    for (int k = 0; k < way->count; k++) {
-        const WayStep *step = &way->at[narrative_at(&order, k)];
+    narrative_add_edge_sum(&words, view, variable, is_circuit ? edge : -1, terms, count);
+    text_addf(&words, ", the %s of ", label);
+    narrative_add_word(&words, view, narrative_edge(view, edge));
+    text_addf(&words, " in the %s tree", tree_kind_name(kind));
+    narrative_add_done(out, view, label, &words);
+}
 
-        narrative_add_sign(&words, step->sign, k == 0);
-        narrative_add_variable(&words, view, "r", true, step->edge);
-    }
-    text_addf(&words, "%s%s, the circuit of ", way->count == 0 ? "0" : "",
-              narrative_is_typeset(view) ? "$" : "");
-    narrative_add_word(&words, view, narrative_edge(view, chord));
-    text_add(&words, " in the translation tree");
-    narrative_add_done(out, view, "circuit", &words);
+static const EdgeVariable translation = {"r", "r", true};
+static const EdgeVariable angular_velocity = {"w", "\\omega", true};
+
+static void write_way(Text *out, const View *view, int chord, const Way *way)
+{
+    LIST(SignedEdge) terms = {0};
+
+    for (int k = 0; k < way->count; k++)
+        LIST_PUSH(terms, (SignedEdge){way->at[k].edge, way->at[k].sign});
+    write_edges(out, view, &translation, chord, TREE_TRANSLATION, true, terms.at, terms.count);
+    LIST_FREE(terms);
 }
 
 /* "turned by h8": what the orientation of a frame was replaced by */
@@ -86,9 +89,10 @@ static void write_vectors(Text *out, const View *view, const Way *way)
 
         if (narrative_is_nothing(step->shift.at))
             continue;
-        text_add(&words, narrative_is_typeset(view) ? "$" : "");
-        narrative_add_variable(&words, view, "r", true, step->edge);
-        text_addf(&words, "%s = ", narrative_is_typeset(view) ? "$" : "");
+        narrative_add_mark(&words, view);
+        narrative_add_variable(&words, view, &translation, step->edge);
+        narrative_add_mark(&words, view);
+        text_add(&words, " = ");
         narrative_add_vector(&words, view, step->shift.at);
         text_add(&words, " in ");
         narrative_add_word(&words, view, narrative_node(view, step->shift.node));
@@ -113,8 +117,8 @@ void derive_turns(Text *out, const View *view, int chord)
 {
     const Tree *trees[TREE_KINDS];
     const Edge *edge = graph_edge(model_graph(view->model), chord);
+    LIST(SignedEdge) terms = {0};
     Diag ignored = {0};
-    Text words = {0};
 
     if (model_trees(view->model, trees, &ignored) != OK)
         return;
@@ -123,23 +127,11 @@ void derive_turns(Text *out, const View *view, int chord)
     const int room = tree_depth(tree, edge->tail) + tree_depth(tree, edge->head);
     int *edges = NEW_ARRAY(int, 2 * room + 1);
     const int count = tree_path(tree, edge->tail, edge->head, edges, edges + room);
-    const SumOrder order = narrative_order(edges + room, count, sizeof *edges);
 
-    text_add(&words, narrative_is_typeset(view) ? "$" : "");
-    narrative_add_variable(&words, view, narrative_is_typeset(view) ? "\\omega" : "w", true, chord);
-    text_add(&words, " = ");
-    for (int k = 0; k < count; k++) {
-        const int i = narrative_at(&order, k);
-
-        narrative_add_sign(&words, edges[room + i], k == 0);
-        narrative_add_variable(&words, view, narrative_is_typeset(view) ? "\\omega" : "w", true,
-                               edges[i]);
-    }
-    text_addf(&words, "%s%s, the circuit of ", count == 0 ? "0" : "",
-              narrative_is_typeset(view) ? "$" : "");
-    narrative_add_word(&words, view, edge->name);
-    text_add(&words, " in the rotation tree");
-    narrative_add_done(out, view, "circuit", &words);
+    for (int k = 0; k < count; k++)
+        LIST_PUSH(terms, (SignedEdge){edges[k], edges[room + k]});
+    write_edges(out, view, &angular_velocity, chord, TREE_ROTATION, true, terms.at, count);
+    LIST_FREE(terms);
     mem_free(edges);
 }
 
@@ -350,9 +342,9 @@ void derive_cutset(Narrative *story, int branch, TreeKind kind)
 {
     const View *view = story->view;
     const Tree *trees[TREE_KINDS];
-    const char *letter = kind == TREE_TRANSLATION ? "F" : "T";
+    const EdgeVariable force = {"F", "F", true}, moment = {"T", "T", true};
+    LIST(SignedEdge) terms = {0};
     Diag ignored = {0};
-    Text words = {0};
 
     if (model_trees(view->model, trees, &ignored) != OK)
         return;
@@ -360,21 +352,18 @@ void derive_cutset(Narrative *story, int branch, TreeKind kind)
     SignMatrix *cutsets = tree_cutsets(trees[kind]);
     const int *branches = tree_branches(trees[kind]);
 
-    text_add(&words, narrative_is_typeset(view) ? "$" : "");
     for (int r = 0; r < cutsets->rows; r++)
         for (int i = cutsets->start[r]; branches[r] == branch && i < cutsets->start[r + 1]; i++) {
             const char *why = why_no_work(view, cutsets->column[i], branch);
 
-            narrative_add_sign(&words, cutsets->entry[i], i == cutsets->start[r]);
-            narrative_add_variable(&words, view, letter, true, cutsets->column[i]);
+            LIST_PUSH(terms, (SignedEdge){cutsets->column[i], cutsets->entry[i]});
             if (why != NULL)
                 narrative_vanish(story, narrative_edge(view, cutsets->column[i]), why);
         }
-    text_addf(&words, " = 0%s, the cutset of ", narrative_is_typeset(view) ? "$" : "");
-    narrative_add_word(&words, view, narrative_edge(view, branch));
-    text_addf(&words, " in the %s tree", tree_kind_name(kind));
+    write_edges(story->out, view, kind == TREE_TRANSLATION ? &force : &moment, branch, kind, false,
+                terms.at, terms.count);
+    LIST_FREE(terms);
     sign_matrix_free(cutsets);
-    narrative_add_done(story->out, view, "cutset", &words);
     narrative_add_vanished(story);
 }
 
@@ -558,40 +547,24 @@ done:
 
 /* --- networks --- */
 
-static void add_network_variable(Text *out, const View *view, int edge, bool across)
-{
-    const Domain domain = graph_edge(model_graph(view->model), edge)->domain;
-
-    narrative_add_variable(out, view, across ? domain_across(domain) : domain_through(domain),
-                           false, edge);
-}
-
 static void write_network_step(Narrative *story, const NetworkSteps *steps, const NetworkStep *step)
 {
     const View *view = story->view;
+    const Domain domain = graph_edge(model_graph(view->model), step->edge)->domain;
+    const char *letter = step->is_across ? domain_across(domain) : domain_through(domain);
+    const EdgeVariable variable = {letter, letter, false};
     Text words = {0};
 
     if (step->is_summed) {
-        const SignedEdge *all = step->count > 0 ? &steps->signed_edges.at[step->first] : NULL;
-        const SumOrder order =
-            narrative_order(all != NULL ? &all->sign : NULL, step->count, sizeof *all);
-
-        text_add(&words, narrative_is_typeset(view) ? "$" : "");
-        add_network_variable(&words, view, step->edge, step->is_across);
-        text_add(&words, step->count > 0 ? " = " : " = 0");
-        for (int k = 0; k < step->count; k++) {
-            const SignedEdge *other = &all[narrative_at(&order, k)];
-
-            narrative_add_sign(&words, other->sign, k == 0);
-            add_network_variable(&words, view, other->edge, step->is_across);
-        }
-        text_add(&words, narrative_is_typeset(view) ? "$" : "");
+        narrative_add_edge_sum(&words, view, &variable, step->edge,
+                               step->count > 0 ? &steps->signed_edges.at[step->first] : NULL,
+                               step->count);
         narrative_add_done(story->out, view, step->is_across ? "circuit" : "cutset", &words);
     } else if (step->is_unknown) {
-        text_add(&words, narrative_is_typeset(view) ? "$" : "");
-        add_network_variable(&words, view, step->edge, step->is_across);
-        text_addf(&words, "%s is an unknown, with an equation of its own",
-                  narrative_is_typeset(view) ? "$" : "");
+        narrative_add_mark(&words, view);
+        narrative_add_variable(&words, view, &variable, step->edge);
+        narrative_add_mark(&words, view);
+        text_add(&words, " is an unknown, with an equation of its own");
         narrative_add_done(story->out, view, "kept", &words);
     } else if (step->left != NULL && step->right != NULL) {
         narrative_add_formula(&words, view, step->left);

@@ -1,6 +1,6 @@
 /* narrative.c: words and steps of a derivation, in text and in LaTeX */
 #include "present/narrative.h"
-#include "formulate/expanded/derivation.h"
+#include "present/latex_lines.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -14,18 +14,24 @@ bool narrative_is_typeset(const View *view)
 
 void narrative_add_word(Text *out, const View *view, const char *word)
 {
-    for (const char *c = word; *c != '\0'; c++) {
-        if (narrative_is_typeset(view) && strchr("_#%&$", *c) != NULL)
-            text_char(out, '\\');
-        text_char(out, *c);
-    }
+    if (narrative_is_typeset(view))
+        latex_text(out, word);
+    else
+        text_add(out, word);
+}
+
+void narrative_add_mark(Text *out, const View *view)
+{
+    text_add(out, narrative_is_typeset(view) ? "$" : "");
 }
 
 void narrative_add_formula(Text *out, const View *view, Expr e)
 {
     char *text = view_expression(view, system_plain(view->system, e));
 
-    text_addf(out, narrative_is_typeset(view) ? "$%s$" : "%s", text);
+    narrative_add_mark(out, view);
+    text_add(out, text);
+    narrative_add_mark(out, view);
     mem_free(text);
 }
 
@@ -34,17 +40,17 @@ const char *narrative_edge(const View *view, int edge)
     return graph_edge(model_graph(view->model), edge)->name;
 }
 
-/* "r(h9)": a variable of an edge */
-void narrative_add_variable(Text *out, const View *view, const char *letter, bool is_vector,
-                            int edge)
+void narrative_add_variable(Text *out, const View *view, const EdgeVariable *variable, int edge)
 {
+    const bool is_typeset = narrative_is_typeset(view);
+
     text_addf(out,
-              !narrative_is_typeset(view) ? "%s("
-              : is_vector                 ? "\\underline{%s}_{\\mathrm{"
-                                          : "%s_{\\mathrm{",
-              letter);
+              !is_typeset           ? "%s("
+              : variable->is_vector ? "\\underline{%s}_{\\mathrm{"
+                                    : "%s_{\\mathrm{",
+              is_typeset ? variable->latex : variable->text);
     narrative_add_word(out, view, narrative_edge(view, edge));
-    text_add(out, narrative_is_typeset(view) ? "}}" : ")");
+    text_add(out, is_typeset ? "}}" : ")");
 }
 
 SumOrder narrative_order(const int *sign, int count, size_t stride)
@@ -63,12 +69,26 @@ SumOrder narrative_order(const int *sign, int count, size_t stride)
     return order;
 }
 
-void narrative_add_sign(Text *out, int sign, bool first)
+void narrative_add_edge_sum(Text *out, const View *view, const EdgeVariable *variable, int edge,
+                            const SignedEdge *terms, int count)
 {
-    if (first)
-        text_add(out, sign < 0 ? "-" : "");
-    else
-        text_add(out, sign < 0 ? " - " : " + ");
+    const SumOrder order =
+        edge < 0 ? (SumOrder){0, 1, count}
+                 : narrative_order(count > 0 ? &terms->sign : NULL, count, sizeof *terms);
+
+    narrative_add_mark(out, view);
+    if (edge >= 0) {
+        narrative_add_variable(out, view, variable, edge);
+        text_add(out, count > 0 ? " = " : " = 0");
+    }
+    for (int k = 0; k < count; k++) {
+        const SignedEdge *term = &terms[narrative_at(&order, k)];
+
+        text_add(out, k == 0 ? term->sign < 0 ? "-" : "" : term->sign < 0 ? " - " : " + ");
+        narrative_add_variable(out, view, variable, term->edge);
+    }
+    text_add(out, edge < 0 ? " = 0" : "");
+    narrative_add_mark(out, view);
 }
 
 /* a step: its word, then its text */
@@ -103,17 +123,18 @@ static void write_title(Text *out, const View *view, const char *words)
         layout_words(out, view->page.columns, "", words);
 }
 
-/* "[L6, 0]": in a plane two components */
-void narrative_add_vector(Text *out, const View *view, const Expr at[3])
+static void add_components(Text *out, const View *view, const Expr *at, int count)
 {
-    const int count = model_is_planar(view->model) ? 2 : 3;
-
-    text_char(out, '[');
     for (int i = 0; i < count; i++) {
-        text_add(out, i > 0 ? ", " : "");
+        text_add(out, i > 0 ? ", " : "[");
         narrative_add_formula(out, view, at[i]);
     }
     text_char(out, ']');
+}
+
+void narrative_add_vector(Text *out, const View *view, const Expr at[3])
+{
+    add_components(out, view, at, model_is_planar(view->model) ? 2 : 3);
 }
 
 const char *narrative_node(const View *view, int node)
@@ -141,12 +162,7 @@ void narrative_add_direction(Text *out, const View *view, const NarrativeVector 
         expr_is_zero(v->at[(axis + 2) % 3])) {
         text_addf(out, "%s%c", expr_is(v->at[axis], -1) ? "-" : "", "xyz"[axis]);
     } else {
-        text_char(out, '[');
-        for (int i = 0; i < 3; i++) {
-            text_add(out, i > 0 ? ", " : "");
-            narrative_add_formula(out, view, v->at[i]);
-        }
-        text_char(out, ']');
+        add_components(out, view, v->at, 3);
     }
     text_add(out, " of ");
     narrative_add_word(out, view, narrative_node(view, v->node));

@@ -6,6 +6,7 @@
 #define COTREE_PRESENT_NARRATIVE_H
 
 #include "formulate/expanded/derivation.h"
+#include "formulate/network/network_steps.h"
 #include "present/view.h"
 
 typedef struct Reason {
@@ -25,9 +26,19 @@ void narrative_add_word(Text *out, const View *view, const char *word);
 void narrative_add_formula(Text *out, const View *view, Expr e);
 const char *narrative_edge(const View *view, int edge); /* names, borrowed */
 const char *narrative_node(const View *view, int node);
-/* "r(h9)": a variable of an edge */
-void narrative_add_variable(Text *out, const View *view, const char *letter, bool is_vector,
-                            int edge);
+/* `$`, which opens and closes a formula in LaTeX */
+void narrative_add_mark(Text *out, const View *view);
+/* a variable that edges have: its letter in text and in LaTeX */
+typedef struct EdgeVariable {
+    const char *text, *latex;
+    bool is_vector;
+} EdgeVariable;
+/* "r(h9)" */
+void narrative_add_variable(Text *out, const View *view, const EdgeVariable *variable, int edge);
+/* "r(h9) = r(r6) - r(r7)", that of an edge by those of others in the order of narrative_order(); or
+ * "r(h9) + r(r6) = 0", in the given order, where the edge is -1 */
+void narrative_add_edge_sum(Text *out, const View *view, const EdgeVariable *variable, int edge,
+                            const SignedEdge *terms, int count);
 /* The order in which a person writes a sum: as it is, or from its end, or from the middle on, so
  * that it starts with a plus if there is one. */
 typedef struct SumOrder {
@@ -39,8 +50,6 @@ static inline int narrative_at(const SumOrder *order, int k)
 {
     return (order->first + order->step * k + order->count) % order->count;
 }
-/* before a term of a sum */
-void narrative_add_sign(Text *out, int sign, bool first);
 /* "[L6, 0]": in a plane two components */
 void narrative_add_vector(Text *out, const View *view, const Expr at[3]);
 bool narrative_is_nothing(const Expr at[3]);
