@@ -409,7 +409,7 @@ void lexer_skip_breaks(Lexer *lexer)
         step_line(lexer, line_break(lexer->text + lexer->at));
 }
 
-const char *text_slice(Pool *pool, const char *text, size_t start, size_t end)
+const char *text_slice(Pool *pool, const char *text, size_t start, size_t end, int *offsets)
 {
     char *slice = pool_text(pool, text + start, end - start);
     size_t length = 0;
@@ -425,8 +425,12 @@ const char *text_slice(Pool *pool, const char *text, size_t start, size_t end)
         while (length > 0 && (slice[length - 1] == ' ' || slice[length - 1] == '\t'))
             length--;
         slice[length++] = ' ';
-        for (i += skip; i < end && (text[i] == ' ' || text[i] == '\t');)
+        const size_t line = i + skip;
+
+        for (i = line; i < end && (text[i] == ' ' || text[i] == '\t');)
             i++;
+        if (offsets != NULL)
+            *offsets++ = (int)length - (int)(i - line) - 1;
     }
     slice[length] = '\0';
     return slice;

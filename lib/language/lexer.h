@@ -62,8 +62,11 @@ MUST_USE Status lexer_finish(Lexer *lexer, Diag *diag);
 void lexer_skip_line(Lexer *lexer);
 void lexer_skip_breaks(Lexer *lexer);
 
-/* A part of a text as one line: a blank replaces "\" and its line break. New in `pool`. */
-const char *text_slice(Pool *pool, const char *text, size_t start, size_t end);
+/* A part of a text as one line: a blank replaces "\" and its line break. New in `pool`.
+ *
+ * offsets  by joined line after the first: what makes of a column there the offset in the slice;
+ *          NULL: not needed */
+const char *text_slice(Pool *pool, const char *text, size_t start, size_t end, int *offsets);
 
 /* from the start of one place to the end of another */
 Place place_between(Place first, Place last);

@@ -37,7 +37,7 @@ static Status compound_item(Parser *parser, int start)
     parser->diag = NULL;
     if (parse_sum(parser, &whole) == OK)
         diag_hint(diag, "an item that is more than a variable or a call stands in brackets: (%s)",
-                  text_slice(parser->pool, parser->text, first, parser_before(parser)->end));
+                  text_slice(parser->pool, parser->text, first, parser_before(parser)->end, NULL));
     else
         diag_hint(diag, "items are variables, calls and expressions in brackets");
     parser->diag = diag;

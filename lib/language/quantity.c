@@ -37,7 +37,8 @@ static Status check_compound(Parser *parser, const Syntax *literal, const Token 
         return OK;
 
     place = place_between(name->place, parser_peek(parser, n - 1)->place);
-    text = text_slice(parser->pool, parser->text, name->start, parser_peek(parser, n - 1)->end);
+    text =
+        text_slice(parser->pool, parser->text, name->start, parser_peek(parser, n - 1)->end, NULL);
     number = literal->kind == SYNTAX_NUMBER ? literal->text : "[...]";
     (void)diag_at(parser->diag, E_UNIT, place, "'%s %s' may be a unit or a product", number, text);
     diag_hint(parser->diag, "a compound unit stands in brackets: %s [%s]; otherwise (%s %s)%s",
@@ -141,8 +142,8 @@ Status parse_unit(Parser *parser, Syntax *node)
     close = parser_token(parser);
     parser->at++;
 
-    inside = text_slice(parser->pool, parser->text, open->end, close->start);
-    node->unit_text = text_slice(parser->pool, parser->text, open->start, close->end);
+    inside = text_slice(parser->pool, parser->text, open->end, close->start, NULL);
+    node->unit_text = text_slice(parser->pool, parser->text, open->start, close->end, NULL);
     node->unit_place = place_between(open->place, close->place);
     node->has_unit = true;
     if (unit_parse(inside, strlen(inside), &node->unit, &fault)) {

@@ -379,9 +379,14 @@ static Status parse_statement(Parser *parser, Statement *statement)
     else
         TRY(parse_verb(parser, statement));
 
-    statement->text =
-        text_slice(parser->pool, parser->text, first->start, parser_before(parser)->end);
-    statement->place = place_between(first->place, parser_before(parser)->place);
+    const Token *last = parser_before(parser);
+    int *offsets = pool_alloc(parser->pool,
+                              sizeof *offsets * (size_t)(last->place.line - first->place.line + 1));
+
+    offsets[0] = -first->place.column;
+    statement->text = text_slice(parser->pool, parser->text, first->start, last->end, offsets + 1);
+    statement->offsets = offsets;
+    statement->place = place_between(first->place, last->place);
     return OK;
 }
 
@@ -407,7 +412,7 @@ static void parse_line(Parser *parser, Lexer *lexer, const Verb *verb, const Tok
     place.column += token->place.width + 1;
     place.width = end > start ? (int)(end - start) : 1;
     *line = (Syntax){.kind = SYNTAX_STRING,
-                     .text = text_slice(parser->pool, parser->text, start, end),
+                     .text = text_slice(parser->pool, parser->text, start, end, NULL),
                      .unit_text = "",
                      .height = 1,
                      .place = place,
@@ -418,8 +423,39 @@ static void parse_line(Parser *parser, Lexer *lexer, const Verb *verb, const Tok
     statement->row = *verb;
     statement->verb_place = token->place;
     statement->place = token->place;
-    statement->text = text_slice(parser->pool, parser->text, token->start, end);
+    statement->text = text_slice(parser->pool, parser->text, token->start, end, NULL);
     lexer_skip_breaks(lexer);
+}
+
+/* The statements of a definition's lines, up to the first fault. */
+static const Body *parse_body(const char *text, Pool *pool)
+{
+    Body *body = pool_alloc(pool, sizeof *body);
+    size_t lines = 1;
+    Statement *at;
+
+    for (const char *c = text; *c != '\0'; c++)
+        lines += *c == '\n';
+    at = pool_alloc(pool, sizeof *at * lines);
+    *body = (Body){.text = text, .at = at};
+    for (int number = 2; *text != '\0' && body->fault == NULL; number++) {
+        const size_t length = strcspn(text, "\n");
+        char *line = mem_text(text, length);
+        Statement *statement = NULL;
+        Diag fault = {0};
+
+        if (statement_parse(line, number, (SyntaxOptions){false}, NULL, &statement, &fault) != OK) {
+            Diag *first = pool_alloc(pool, sizeof *first);
+
+            *first = fault;
+            body->fault = first;
+        } else if (statement->kind != STATEMENT_EMPTY)
+            statement_copy(pool, statement, &at[body->count++]);
+        statement_free(statement);
+        mem_free(line);
+        text += length + (text[length] == '\n');
+    }
+    return body;
 }
 
 /* The lines of a subsystem that starts there, up to its end, which is a line of its own. */
@@ -438,7 +474,8 @@ static Status read_body(Statement *statement, Lexer *lexer, const char *text, si
             return diag_at(diag, E_SYNTAX, statement->place, "the subsystem has no end");
         lexer->line++;
     }
-    statement->body = pool_text(statement->pool, body, (size_t)(line - body));
+    statement->body =
+        parse_body(pool_text(statement->pool, body, (size_t)(line - body)), statement->pool);
     lexer->at = (size_t)(line - text) + length;
     statement->text = pool_text(statement->pool, text + start, lexer->at - start);
     lexer_skip_breaks(lexer);

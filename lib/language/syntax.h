@@ -156,6 +156,15 @@ typedef enum StatementKind {
     STATEMENT_VERB
 } StatementKind;
 
+/* the lines of a definition after its first */
+typedef struct Body {
+    const char *text; /* as written, one on each line */
+    /* those that aren't empty; their places are in the definition, whose first line is 1 */
+    const struct Statement *at;
+    int count;
+    const Diag *fault; /* of the line after them, which is no statement; NULL: none */
+} Body;
+
 typedef struct Statement {
     StatementKind kind;
     const char *verb; /* as in the table, also where shortened; NULL unless a verb */
@@ -180,13 +189,16 @@ typedef struct Statement {
     /* of a name alone, which is printed: what it is where nothing has it, with a hint where it is
      * near a verb; else NULL */
     const Diag *unknown;
-    const char *body;     /* of a subsystem that was read whole: its lines; else NULL */
+    const Body *body;     /* of a subsystem that was read whole; else NULL */
     const char *redirect; /* file of > or >> */
     bool append;
     Place redirect_place;
     const char
         *text; /* the statement's own text, trimmed, continuation lines joined: for save and undo */
     Place place;
+    /* by physical line, from its first: what makes of a column the offset in `text`; NULL: unknown
+     */
+    const int *offsets;
     Pool *pool;
 } Statement;
 
@@ -219,6 +231,10 @@ MUST_USE Status syntax_parse_expression(const char *text, Pool *pool, Syntax **o
 Syntax *syntax_copy(Pool *pool, const Syntax *syntax);
 /* The same of a statement that builds; not for statement_free(). */
 void statement_copy(Pool *pool, const Statement *from, Statement *to);
+/* The same with another place: `text`, which differs from its own in the verb's spelling alone,
+ * begins in that line and column. */
+void statement_copy_to(Pool *pool, const Statement *from, const char *text, int line, int column,
+                       Statement *to);
 /* Write a tree back as text that parses to the same tree. */
 void syntax_print(Text *text, const Syntax *syntax);
 /* The same of a statement that builds, of its operands and pairs. */

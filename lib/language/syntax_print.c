@@ -28,6 +28,7 @@ void statement_copy(Pool *pool, const Statement *from, Statement *to)
 
     *to = *from;
     to->pool = pool;
+    to->offsets = NULL;
     to->name = text_copy(pool, from->name);
     to->text = text_copy(pool, from->text);
     to->redirect = text_copy(pool, from->redirect);
@@ -49,6 +50,68 @@ void statement_copy(Pool *pool, const Statement *from, Statement *to)
         to->pairs.at[i].value = syntax_copy(pool, from->pairs.at[i].value);
     }
 }
+
+/* --- a copy with another place --- */
+
+typedef struct SyntaxPrintMove {
+    const Statement *from;
+    int line, column;
+    int longer; /* the new text up to any place after the verb, in bytes */
+} SyntaxPrintMove;
+
+static Place moved(const SyntaxPrintMove *move, Place place)
+{
+    const Statement *from = move->from;
+
+    if (place.line == 0)
+        return place;
+    return (Place){move->line,
+                   move->column + place.column + from->offsets[place.line - from->place.line] +
+                       move->longer,
+                   place.width};
+}
+
+static void move_syntax(const SyntaxPrintMove *move, Syntax *syntax)
+{
+    /* joined lines are one, so that the place ends where that of the last operand does */
+    const bool spans =
+        syntax->kind == SYNTAX_BINARY && syntax->args[1]->place.line != syntax->place.line;
+
+    syntax->place = moved(move, syntax->place);
+    syntax->op_place = moved(move, syntax->op_place);
+    syntax->unit_place = moved(move, syntax->unit_place);
+    for (int i = 0; i < syntax->count; i++)
+        move_syntax(move, syntax->args[i]);
+    if (spans)
+        syntax->place = place_between(syntax->place, syntax->args[1]->place);
+}
+
+void statement_copy_to(Pool *pool, const Statement *from, const char *text, int line, int column,
+                       Statement *to)
+{
+    const SyntaxPrintMove move = {from, line, column, (int)strlen(text) - (int)strlen(from->text)};
+
+    statement_copy(pool, from, to);
+    to->text = text_copy(pool, text);
+    to->place = (Place){line, column, (int)strlen(text)};
+    if (from->kind == STATEMENT_VERB)
+        to->verb_place = (Place){line, column + (from->is_virtual ? (int)strlen("virtual ") : 0),
+                                 (int)strlen(from->verb)};
+    else
+        to->name_place = moved(&move, from->name_place);
+    if (to->value != NULL)
+        move_syntax(&move, to->value);
+    for (int i = 0; i < to->operands.count; i++) {
+        to->operands.at[i].place = moved(&move, to->operands.at[i].place);
+        move_syntax(&move, to->operands.at[i].value);
+    }
+    for (int i = 0; i < to->pairs.count; i++) {
+        to->pairs.at[i].name_place = moved(&move, to->pairs.at[i].name_place);
+        move_syntax(&move, to->pairs.at[i].value);
+    }
+}
+
+/* --- text --- */
 
 static void print_arguments(Text *text, const Syntax *syntax)
 {

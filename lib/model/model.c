@@ -160,16 +160,13 @@ void model_drop_definition(Model *model)
 
 static Status end_definition(Model *model, const Statement *statement, Outcome *outcome, Diag *diag)
 {
-    Statement *whole = NULL;
-    Status status = OK;
+    const Statement *whole = NULL;
 
-    CHECK(opened_end(model->opened, statement->place, &whole, diag));
-    CHECK(history_restore(&model->history, &model->state, whole, outcome, diag));
+    TRY(opened_end(model->opened, statement->place, &whole, diag));
+    TRY(history_restore(&model->history, &model->state, whole, outcome, diag));
     model_drop_definition(model);
     count_effect(model, outcome->effect);
-done:
-    statement_free(whole);
-    return status;
+    return OK;
 }
 
 static Status apply_in_definition(Model *model, const Statement *statement, Outcome *outcome,

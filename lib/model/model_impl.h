@@ -467,10 +467,9 @@ MUST_USE Status subsystem_begin(State *state, const Statement *statement, int *u
 /* Applies a statement of a definition to its instance. */
 MUST_USE Status use_apply(State **state, int use, const Statement *statement, Outcome *outcome,
                           Diag *diag);
-/* The same for all of them; diag->inside shows the line that fails. `fault`: that of the line after
- * them, which is no statement; NULL: none. */
-MUST_USE Status use_apply_body(State **state, int use, const Body *body, const Diag *fault,
-                               Outcome *outcome, Diag *diag);
+/* The same for all of them; diag->inside shows the line that fails. */
+MUST_USE Status use_apply_body(State **state, int use, const Body *body, Outcome *outcome,
+                               Diag *diag);
 /* Frees ports of a trial whose nodes were removed with a statement that failed. */
 void subsystem_forget_places(State *state, int use);
 /* Refuses ports that nothing inside uses. */
@@ -500,8 +499,9 @@ MUST_USE Status opened_begin(const State *state, const Statement *statement, Ope
 void opened_free(Opened *opened);         /* NULL is fine */
 const char *opened_name(const Opened *opened);
 MUST_USE Status opened_add(Opened *opened, const Statement *statement, Diag *diag);
-/* The complete definition as one statement, new; `place` is the position of its end. */
-MUST_USE Status opened_end(const Opened *opened, Place place, Statement **out, Diag *diag);
+/* The complete definition as one statement, borrowed from `opened`; `place` is the position of its
+ * end. */
+MUST_USE Status opened_end(Opened *opened, Place place, const Statement **out, Diag *diag);
 
 /* A definition's statement in the names of an instance, in `pool`. */
 MUST_USE Status statement_rename(State *state, int use, const Statement *statement, Pool *pool,

@@ -8,18 +8,28 @@
 
 struct Opened {
     State *trial;
-    int use;   /* the instance there to which the statements are applied */
-    Text text; /* the accepted statements, one on each line */
+    int use; /* the instance there to which the statements are applied */
+    Pool *pool;
+    Statement whole;          /* the first line; at the end the definition */
+    LIST(Statement) accepted; /* the other lines, in the pool */
+    int lines;                /* number of all, empty ones included */
+    Text text;                /* of the other lines, each indented */
+    Body body;
 };
 
 static void add_line(Opened *opened, const Statement *statement)
 {
+    static const char indent[] = "  ";
     char *line = statement_full_text(statement);
     Text text = {0};
+    Statement copy;
 
-    if (opened->text.at != NULL)
-        text_addf(&text, "%s  ", opened->text.at);
-    text_addf(&text, "%s\n", line);
+    opened->lines++;
+    if (statement->kind != STATEMENT_EMPTY) {
+        statement_copy_to(opened->pool, statement, line, opened->lines, (int)sizeof indent, &copy);
+        LIST_PUSH(opened->accepted, copy);
+    }
+    text_addf(&text, "%s%s%s\n", opened->text.at != NULL ? opened->text.at : "", indent, line);
     text_free(&opened->text);
     opened->text = text;
     mem_free(line);
@@ -32,7 +42,9 @@ Status opened_begin(const State *state, const Statement *statement, Opened **out
 
     CHECK(state_rebuild(state, -1, &opened->trial, NULL, NULL, diag));
     CHECK(subsystem_begin(opened->trial, statement, &opened->use, diag));
-    add_line(opened, statement);
+    opened->pool = pool_new(0);
+    statement_copy(opened->pool, statement, &opened->whole);
+    opened->lines = 1;
     *out = opened;
     opened = NULL;
 done:
@@ -46,6 +58,8 @@ void opened_free(Opened *opened)
         return;
     mem_keep(opened);
     state_free(opened->trial);
+    LIST_FREE(opened->accepted);
+    pool_free(opened->pool);
     text_free(&opened->text);
     mem_free(opened);
 }
@@ -73,15 +87,22 @@ Status opened_add(Opened *opened, const Statement *statement, Diag *diag)
     return status;
 }
 
-Status opened_end(const Opened *opened, Place place, Statement **out, Diag *diag)
+Status opened_end(Opened *opened, Place place, const Statement **out, Diag *diag)
 {
+    const char *lines = opened->text.at != NULL ? opened->text.at : "";
+    char *first;
     Text text = {0};
-    Status status = OK;
 
-    CHECK(subsystem_check_ports(opened->trial, opened->use, place, diag));
-    text_addf(&text, "%send", opened->text.at);
-    status = statement_parse(text.at, 1, (SyntaxOptions){.whole = true}, NULL, out, diag);
-done:
+    TRY(subsystem_check_ports(opened->trial, opened->use, place, diag));
+    mem_keep(opened);
+    first = statement_full_text(&opened->whole);
+    text_addf(&text, "%s\n%send", first, lines);
+    opened->body =
+        (Body){.text = lines, .at = opened->accepted.at, .count = opened->accepted.count};
+    opened->whole.text = pool_text(opened->pool, text.at, text.length);
+    opened->whole.body = &opened->body;
+    *out = &opened->whole;
+    mem_free(first);
     text_free(&text);
-    return status;
+    return OK;
 }

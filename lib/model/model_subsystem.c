@@ -174,47 +174,18 @@ static void models_uses(const State *state, int first, int definitions, Scope *s
                 scope_use(scope, state->lines.at[i].uses[k]);
 }
 
-/* The statements of a text up to the first fault, in the pool. */
-static Status parse_body(const char *text, Pool *pool, Body *out, Diag *fault)
-{
-    size_t lines = 1;
-    Statement *at;
-    Status status = OK;
-
-    for (const char *c = text; *c != '\0'; c++)
-        lines += *c == '\n';
-    at = pool_alloc(pool, sizeof *at * lines);
-    *out = (Body){.text = text, .at = at};
-    /* the first line is the definition's head */
-    for (int number = 2; *text != '\0' && status == OK; number++) {
-        const size_t length = strcspn(text, "\n");
-        char *line = mem_text(text, length);
-        Statement *statement = NULL;
-
-        status = statement_parse(line, number, (SyntaxOptions){false}, NULL, &statement, fault);
-        if (status == OK && statement->kind != STATEMENT_EMPTY)
-            statement_copy(pool, statement, &at[out->count++]);
-        statement_free(statement);
-        mem_free(line);
-        text += length + (text[length] == '\n');
-    }
-    return status;
-}
-
 /* Tries the body; `out` gets the results, with new names. */
-static Status try_definition(State **state, const Statement *statement, Pool *pool, Subsystem *out,
+static Status try_definition(State **state, const Statement *statement, Subsystem *out,
                              Scope *scope, Diag *diag)
 {
     const int first = (*state)->lines.count;
     const int definitions = (*state)->definitions.count;
     Outcome outcome = {EFFECT_NONE, {0}};
-    Diag fault = {0};
-    const Status parsed = parse_body(statement->body, pool, &out->body, &fault);
     int use = -1;
     Status status = OK;
 
     CHECK(subsystem_begin(*state, statement, &use, diag));
-    CHECK(use_apply_body(state, use, &out->body, parsed != OK ? &fault : NULL, &outcome, diag));
+    CHECK(use_apply_body(state, use, statement->body, &outcome, diag));
     CHECK(subsystem_check_ports(*state, use, statement->place, diag));
     out->port_count = (*state)->uses.at[use].subsystem->port_count;
     out->ports = NEW_ARRAY(Port, out->port_count + 1);
@@ -238,14 +209,14 @@ static const Subsystem *settle(State *state, const Statement *statement, Subsyst
 {
     Subsystem *subsystem = pool_alloc(state->pool, sizeof *subsystem);
     const size_t ports = (size_t)learnt->port_count, parameters = (size_t)learnt->parameter_count;
-    Statement *at = pool_alloc(state->pool, sizeof *at * ((size_t)learnt->body.count + 1));
+    const Body *body = statement->body;
+    Statement *at = pool_alloc(state->pool, sizeof *at * ((size_t)body->count + 1));
 
     *subsystem = *learnt;
     subsystem->name = state_text(state, statement->operands.at[0].value->text);
-    subsystem->body.text = state_text(state, statement->body);
-    subsystem->body.at = at;
-    for (int i = 0; i < learnt->body.count; i++)
-        statement_copy(state->pool, &learnt->body.at[i], &at[i]);
+    subsystem->body = (Body){.text = state_text(state, body->text), .at = at, .count = body->count};
+    for (int i = 0; i < body->count; i++)
+        statement_copy(state->pool, &body->at[i], &at[i]);
     subsystem->ports = pool_alloc(state->pool, sizeof(Port) * (ports + 1));
     subsystem->parameters = pool_alloc(state->pool, sizeof(char *) * (parameters + 1));
     for (size_t i = 0; i < ports; i++) {
@@ -271,7 +242,6 @@ Status apply_subsystem(State **state, const Statement *statement, Outcome *outco
     const StateMark mark = state_mark(*state);
     Scope scope = {.state = *state};
     Subsystem learnt = {0};
-    Pool *pool = NULL;
     char *text = NULL;
     Status status = OK;
 
@@ -279,8 +249,7 @@ Status apply_subsystem(State **state, const Statement *statement, Outcome *outco
     if (statement->body == NULL)
         return diag_at(diag, E_SYNTAX, statement->verb_place,
                        "a definition can't stand in another one");
-    pool = pool_new(0);
-    status = try_definition(state, statement, pool, &learnt, &scope, diag);
+    status = try_definition(state, statement, &learnt, &scope, diag);
     (void)state_go_back(state, &mark);
     CHECK(status);
     text = statement_full_text(statement);
@@ -292,7 +261,6 @@ Status apply_subsystem(State **state, const Statement *statement, Outcome *outco
 done:
     forget(&learnt);
     LIST_FREE(scope.uses);
-    pool_free(pool);
     mem_free(text);
     return status;
 }

@@ -238,8 +238,7 @@ static Status apply_statement(State **state, Expansion *x, const Statement *stat
     return OK;
 }
 
-static Status apply_body(State **state, Expansion *x, const Body *body, const Diag *fault,
-                         Diag *diag)
+static Status apply_body(State **state, Expansion *x, const Body *body, Diag *diag)
 {
     Diag found = {0};
     Status status = OK;
@@ -252,8 +251,8 @@ static Status apply_body(State **state, Expansion *x, const Body *body, const Di
         line = body->at[i].place.line;
         at_use = x->at_use;
     }
-    if (status == OK && fault != NULL) {
-        found = *fault;
+    if (status == OK && body->fault != NULL) {
+        found = *body->fault;
         status = found.status;
         line = found.place.line;
     } else if (status == OK) {
@@ -267,10 +266,9 @@ static Status apply_body(State **state, Expansion *x, const Body *body, const Di
     return status;
 }
 
-Status use_apply_body(State **state, int use, const Body *body, const Diag *fault, Outcome *outcome,
-                      Diag *diag)
+Status use_apply_body(State **state, int use, const Body *body, Outcome *outcome, Diag *diag)
 {
-    return apply_body(state, &(Expansion){.use = use, .outcome = outcome}, body, fault, diag);
+    return apply_body(state, &(Expansion){.use = use, .outcome = outcome}, body, diag);
 }
 
 /* --- use --- */
@@ -499,7 +497,7 @@ static Status make_instance(UseDraft *d, const Operand *operand)
     LIST_PUSH(state->uses, d->use);
     state_name(state, d->use.name, THING_USE, number, 0);
     x.overrides = d->overrides;
-    status = apply_body(d->state, &x, &d->subsystem->body, NULL, &fault);
+    status = apply_body(d->state, &x, &d->subsystem->body, &fault);
     if (status != OK && !x.at_use)
         return report_inside(d, operand, &fault);
     if (status != OK) {

@@ -10,13 +10,6 @@ typedef struct Port {
     bool is_through; /* the inside determines its motion or voltage: named as leg1.B, never bound */
 } Port;
 
-/* the statements of a definition */
-typedef struct Body {
-    const char *text; /* as written, one on each line */
-    const Statement *at;
-    int count; /* of those that aren't empty */
-} Body;
-
 typedef struct Subsystem {
     const char *name;
     Body body;

@@ -125,8 +125,71 @@ static void what_is_printed_reads_as_the_same_tree(void)
     }
 }
 
+static bool same_place(Place a, Place b)
+{
+    return a.line == b.line && a.column == b.column && a.width == b.width;
+}
+
+static bool same_places(const Syntax *a, const Syntax *b)
+{
+    bool same = same_place(a->place, b->place) && same_place(a->unit_place, b->unit_place) &&
+                same_place(a->op_place, b->op_place);
+
+    for (int i = 0; i < a->count; i++)
+        same = same && same_places(a->args[i], b->args[i]);
+    return same;
+}
+
+/* as written, and as a line of a definition */
+static void copies_have_the_places_of_their_text(void)
+{
+    static const char *const texts[][2] = {
+        {"revol  b A B axis=[1, 2, -3] ",
+         "revolute  b A B axis=[1, 2, -3]"},
+        {"  virtual   rev h A \\\n   b axis=z", "virtual revolute h A b axis=z"},
+        {"f(x)  =  a*sin(x) \\\r\n\\\n + \\\n1 mm", "f(x)  =  a*sin(x) + 1 mm"},
+        {" L = (2 mm)  - d.x # long", "L = (2 mm)  - d.x"},
+        {"outpu P = h.T*h',   Q=1", "output P = h.T*h',   Q=1"}};
+
+    for (int i = 0; i < COUNT(texts); i++) {
+        Pool *pool = pool_new(0);
+        Statement *written = NULL, *line = NULL, copy;
+        Text text = {0};
+        Diag diag = {0};
+        bool same;
+
+        text_addf(&text, "   %s", texts[i][1]);
+        if (statement_parse(texts[i][0], 9, (SyntaxOptions){.shortened = true}, NULL, &written,
+                            &diag) != OK ||
+            statement_parse(text.at, 7, (SyntaxOptions){false}, NULL, &line, &diag) != OK) {
+            EXPECT_TEXT(diag.message, "");
+            continue;
+        }
+        statement_copy_to(pool, written, texts[i][1], 7, 4, &copy);
+        EXPECT_TEXT(copy.text, line->text);
+        same = same_place(copy.place, line->place) &&
+               same_place(copy.verb_place, line->verb_place) &&
+               same_place(copy.name_place, line->name_place) &&
+               (copy.value == NULL || same_places(copy.value, line->value));
+        for (int k = 0; k < copy.operands.count; k++)
+            same = same && same_place(copy.operands.at[k].place, line->operands.at[k].place) &&
+                   same_places(copy.operands.at[k].value, line->operands.at[k].value);
+        for (int k = 0; k < copy.pairs.count; k++)
+            same = same && same_place(copy.pairs.at[k].name_place, line->pairs.at[k].name_place) &&
+                   same_places(copy.pairs.at[k].value, line->pairs.at[k].value);
+        EXPECT(same);
+        if (!same)
+            printf("%s\n", texts[i][0]);
+        text_free(&text);
+        statement_free(written);
+        statement_free(line);
+        pool_free(pool);
+    }
+}
+
 int main(void)
 {
+    RUN(copies_have_the_places_of_their_text);
     RUN(what_is_printed_reads_as_the_same_tree);
     return test_end();
 }
