@@ -1,12 +1,11 @@
 /* anderson.c: Anderson's acceleration of a fixed-point iteration */
 #include "algebra/anderson.h"
 
+#include "algebra/algebra_limits.h"
 #include "base/memory.h"
 
 #include <math.h>
 #include <string.h>
-
-#define DEPENDENT 1e-10 /* of a difference: a smaller remainder is rounding */
 
 enum { MOST_STEPS = 24 };
 
@@ -108,7 +107,7 @@ static int orthogonalise(Anderson *a, const double *size, int *picked)
                 q[i] -= part * other[i];
         }
         left = sqrt(dot(q, q, a->n));
-        if (!(left > DEPENDENT * whole))
+        if (!(left > ANDERSON_DEPENDENT * whole))
             continue;
         a->triangle[rank * MOST_STEPS + rank] = left;
         for (int i = 0; i < a->n; i++)

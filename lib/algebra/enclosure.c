@@ -7,6 +7,7 @@
  * against the others (Gershgorin 1931; Wilkinson 1965, 2.15). */
 #include "algebra/enclosure.h"
 
+#include "algebra/algebra_limits.h"
 #include "algebra/dense.h"
 #include "base/memory.h"
 
@@ -14,8 +15,6 @@
 #include <gsl/gsl_eigen.h>
 #include <gsl/gsl_linalg.h>
 #include <string.h>
-
-#define UNIT 0x1p-53
 
 /* --- in doubles --- */
 
@@ -53,7 +52,7 @@ static bool invert(Enclosure *e)
     memcpy(factors, e->right, count * count * sizeof *factors);
     sound = gsl_linalg_complex_LU_decomp(&lu.matrix, order, &sign) == 0;
     for (size_t k = 0; k < count; k++)
-        sound = sound && cabs(factors[k * count + k]) > UNIT;
+        sound = sound && cabs(factors[k * count + k]) > UNIT_ROUNDOFF;
     sound = sound && gsl_linalg_complex_LU_invert(&lu.matrix, order, &left.matrix) == 0;
     MEM_FREE(factors, order);
     return sound;
@@ -151,11 +150,11 @@ static bool find_sizes(const Enclosure *e, const double complex *residual,
     multiply(n, e->left, e->right, unity);
     for (int i = 0; i < n; i++)
         unity[i * n + i] -= 1;
-    inexact = largest_row(unity, n) + 4 * n * UNIT * left * largest_row(e->right, n);
+    inexact = largest_row(unity, n) + 4 * n * UNIT_ROUNDOFF * left * largest_row(e->right, n);
     for (int i = 0; i < n * n; i++)
-        e->turn_left[i] = 2 * (cabs(unity[i]) + 4 * n * UNIT * left);
+        e->turn_left[i] = 2 * (cabs(unity[i]) + 4 * n * UNIT_ROUNDOFF * left);
     for (int k = 0; k < n; k++) {
-        const double rounded = left * (4 * n * UNIT * largest_of_column(residual, n, k) +
+        const double rounded = left * (4 * n * UNIT_ROUNDOFF * largest_of_column(residual, n, k) +
                                        4 * n * DOUBLE_DOUBLE_ROUNDING * norm);
         const double off = rounded + 2 * inexact * (largest_of_column(beside, n, k) + rounded);
 

@@ -7,14 +7,11 @@
  * 1/n^2. */
 #include "algebra/independence.h"
 
+#include "algebra/algebra_limits.h"
 #include "algebra/gram.h"
 #include "base/memory.h"
 
 #include <math.h>
-
-#define SAFE    4     /* times the rounding error */
-#define NOTHING 1e-10 /* of the largest row: rounding alone */
-#define LARGE   1e100 /* squares of more, or less than its inverse, lose digits or are none */
 
 /* whether norms are those of rows of which none is as good as 0, or can't be squared */
 static bool are_sound(const double *norm, int m)
@@ -24,10 +21,10 @@ static bool are_sound(const double *norm, int m)
     for (int i = 0; i < m; i++) {
         least = fmin(least, norm[i]);
         largest = fmax(largest, norm[i]);
-        if (!(norm[i] < LARGE))
+        if (!(norm[i] < INDEPENDENCE_LARGEST))
             return false;
     }
-    return least > 1 / LARGE && least > NOTHING * largest;
+    return least > 1 / INDEPENDENCE_LARGEST && least > INDEPENDENCE_ZERO_ROW * largest;
 }
 
 static double norm_of(const double *row, int count)
@@ -42,7 +39,7 @@ static double norm_of(const double *row, int count)
 /* the caller passes `gram`, of rows of unit size */
 static bool is_definite(Gram *gram, double threshold, const CallMonitor *watch)
 {
-    const double shift = fmax(SAFE * gram_rounding(gram), 4 * threshold * threshold);
+    const double shift = fmax(INDEPENDENCE_SHIFT * gram_rounding(gram), 4 * threshold * threshold);
     const bool is = gram_factor(gram, -shift, 0, watch);
 
     gram_free(gram);

@@ -7,6 +7,7 @@
  * (massless bodies), or they cancel all digits of the answer, rows are exchanged instead. */
 #include "algebra/kkt.h"
 
+#include "algebra/algebra_limits.h"
 #include "algebra/kkt_border.h"
 #include "algebra/kkt_sizes.h"
 #include "algebra/ldl.h"
@@ -18,36 +19,7 @@
 #include <math.h>
 #include <string.h>
 
-#define NEAR     1e-2      /* pivot ratio of G G^T; below: a singular configuration isn't far */
 #define SINGULAR LDL_SMALL /* and here epsilon is needed */
-/* Least d / p above which none is near, and above which epsilon isn't needed: d / p was at most 1.7
- * times the other. */
-#define SUSPECT 2e-2
-#define FOUND   1e-3
-/* the same for exchanged rows, least over largest: such a pivot appears as two of the size of its
- * root */
-#define SPLIT 0.15
-#define ROUNDED                                                                                    \
-    1e-14 /* of speeds, once over a pivot: what rounding of positions leaves of them               \
-           */
-#define MOST_ROUNDING 1e-8  /* after regularisation by epsilon */
-#define INEXACT       1e-2  /* d / p below which a sweep of refinement is due, */
-#define SETTLED       1e-11 /* and another where it corrects more than this */
-#define LOST          1e-11 /* d / p that may be rounding for a good part */
-#define NO_MASS       1e-12 /* a pivot of M over its diagonal that may be rounding, */
-#define UNSOLVABLE    1e-14 /* and least over largest of all that is */
-#define LEAST_MASS    1e-9  /* of the heaviest: smaller masses are taken from neighbours */
-#define SWEEPS        2     /* of refinement at least, */
-#define MOST_SWEEPS   30    /* and as long as each leaves less than */
-#define CONTRACTION   0.3   /* of the last correction: epsilon suppresses what is slower, */
-#define DRIVEN_SWEEPS 300   /* and where rows determine all speeds, as drivers do, */
-#define PERSISTENT    0.9   /* what is much slower */
-#define ROUNDING      1e-15
-/* Pivots of G G^T over the norm of their row: less than DETERMINED, the row isn't left to its own
- * speeds; with a new order those are that have FIRMLY more. Both are beyond NEAR. */
-#define DETERMINED 1.5e-2
-#define FIRMLY     4e-2
-#define OWN        1e-4 /* d / p that is enough for a row that is known to be independent */
 
 struct Kkt {
     const Pattern *mass, *constraints;
@@ -304,7 +276,7 @@ static void renew_order(Kkt *kkt, const double *phi_u)
     memset(kkt->late, 0, (size_t)kkt->m * sizeof(bool));
     open_order(kkt);
     factor_geometry(kkt, phi_u);
-    if (!put_off_rows(kkt, FIRMLY))
+    if (!put_off_rows(kkt, KKT_FIRMLY_DETERMINED))
         return;
     open_order(kkt);
     factor_geometry(kkt, phi_u);
@@ -313,7 +285,7 @@ static void renew_order(Kkt *kkt, const double *phi_u)
 static bool has_lost_rows(const Kkt *kkt)
 {
     for (int k = 0; k < kkt->m; k++)
-        if (is_early(kkt, k) && !(rest_of_row(kkt, k) >= DETERMINED))
+        if (is_early(kkt, k) && !(rest_of_row(kkt, k) >= KKT_DETERMINED))
             return true;
     return false;
 }
@@ -339,8 +311,8 @@ static double as_last(const Kkt *kkt, int k, double pivot)
 }
 
 /* The least pivot of G R^-2 G^T over the largest norm that its row has had. Rows in the middle of
- * the order exceed the remainder by their own speeds, which is more than NEAR. After the border the
- * pivots are those of G R^-2 G^T. */
+ * the order exceed the remainder by their own speeds, which is more than KKT_NEAR. After the border
+ * the pivots are those of G R^-2 G^T. */
 static double least_pivot(Kkt *kkt, const double *phi_u)
 {
     double found = 1;
@@ -371,11 +343,11 @@ static double least_pivot_at_most(Kkt *kkt, const double *phi_u)
 
         measure(kkt, phi_u);
         rest = rest_of_groups(kkt, phi_u);
-        kkt->is_independent_by_groups = rest > NEAR;
+        kkt->is_independent_by_groups = rest > KKT_NEAR;
         if (kkt->is_independent_by_groups)
             return rest;
     }
-    return !kkt->is_exchanging && kkt->angle > FOUND ? kkt->angle : least_pivot(kkt, phi_u);
+    return !kkt->is_exchanging && kkt->angle > KKT_REGULAR ? kkt->angle : least_pivot(kkt, phi_u);
 }
 
 double kkt_independence(Kkt *kkt, const double *phi_u, const int *rows)
@@ -436,7 +408,7 @@ static void choose_scale(Kkt *kkt)
         size[i] = entries[kkt->place_of[i]];
         heaviest = fmax(heaviest, size[i]);
     }
-    kkt_borrow_masses(&places, kkt->place, entries, LEAST_MASS * heaviest, kkt->answer,
+    kkt_borrow_masses(&places, kkt->place, entries, KKT_LEAST_MASS * heaviest, kkt->answer,
                       kkt->residual, size);
     for (int e = kkt->mass_entries; e < kkt->entries; e++) {
         const double entry = entries[kkt->place[e]], mass = size[kkt->row[e]];
@@ -476,7 +448,7 @@ static bool factor_exchanging(Kkt *kkt)
     if (!sparse_factor(kkt->exchanging, kkt->values))
         return false;
     kkt->angle = sparse_condition(kkt->exchanging);
-    return kkt->regularised || kkt->angle > UNSOLVABLE;
+    return kkt->regularised || kkt->angle > KKT_UNSOLVABLE;
 }
 
 static void solve_exchanging(const Kkt *kkt, double *x)
@@ -516,7 +488,7 @@ static bool mass_is_regular(const Kkt *kkt)
     bool regular = true;
 
     for (int i = 0; i < kkt->nu && regular; i++)
-        regular = pivots[kkt->place_of[i]] > NO_MASS * diagonal[kkt->place_of[i]];
+        regular = pivots[kkt->place_of[i]] > KKT_NO_MASS * diagonal[kkt->place_of[i]];
     return regular;
 }
 
@@ -576,7 +548,7 @@ static bool factor_massless(Kkt *kkt, const double *phi_u)
     sound = factor_exchanging(kkt);
     if (kkt->border == NO_BORDER) {
         kkt->pivot = 1;
-        if (kkt->m == 0 || (sound && kkt->angle > SPLIT))
+        if (kkt->m == 0 || (sound && kkt->angle > KKT_EXCHANGED))
             return sound;
         kkt->pivot = least_pivot_at_most(kkt, phi_u);
     }
@@ -605,11 +577,11 @@ static bool factor(Kkt *kkt, const double *mass, const double *phi_u)
         kkt->angle = least_angle(kkt);
     }
     if (kkt->border == NO_BORDER)
-        kkt->pivot = kkt->m == 0 || kkt->angle > SUSPECT ? 1 : least_pivot_at_most(kkt, phi_u);
+        kkt->pivot = kkt->m == 0 || kkt->angle > KKT_SUSPECT ? 1 : least_pivot_at_most(kkt, phi_u);
     kkt->regularised = !(kkt->pivot > SINGULAR);
     if (kkt->regularised && regular && !factor_held(kkt))
         return false;
-    kkt->is_exchanging = !regular || (!kkt->regularised && kkt->angle < LOST);
+    kkt->is_exchanging = !regular || (!kkt->regularised && kkt->angle < KKT_LOST);
     return !kkt->is_exchanging || factor_exchanging(kkt);
 }
 
@@ -633,7 +605,7 @@ double kkt_products(const Kkt *kkt)
 bool kkt_is_plain(const Kkt *kkt)
 {
     return kkt->m > 0 && !kkt->is_exchanging &&
-           kkt->angle > (kkt->is_independent_by_groups ? OWN : SUSPECT);
+           kkt->angle > (kkt->is_independent_by_groups ? KKT_INDEPENDENT : KKT_SUSPECT);
 }
 
 /* Whether all groups are independent in their own columns, by sizes measured at the start of the
@@ -641,18 +613,18 @@ bool kkt_is_plain(const Kkt *kkt)
 static bool are_groups_sound(Kkt *kkt, const double *phi_u, const int *rows)
 {
     keep_rows(kkt, rows);
-    return kkt->is_measured && rest_of_groups(kkt, phi_u) > NEAR;
+    return kkt->is_measured && rest_of_groups(kkt, phi_u) > KKT_NEAR;
 }
 
 bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const double *phi_u,
                   const int *rows, const double *left, int left_count, bool is_known)
 {
-    const double enough = is_known ? OWN : SUSPECT;
+    const double enough = is_known ? KKT_INDEPENDENT : KKT_SUSPECT;
     bool is_asked = is_known;
     double least;
 
     for (int i = 0; i < left_count; i++)
-        if (!(left[i] > SUSPECT))
+        if (!(left[i] > KKT_SUSPECT))
             return false;
     if (kkt_sizes_are_sound(&kkt->sizes, pivot, taken, rows, kkt->m, enough))
         return true;
@@ -662,7 +634,8 @@ bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const doub
 
         if (pivot[k] > enough * reference)
             continue;
-        if (!(pivot[k] > OWN * reference) || !(is_asked || are_groups_sound(kkt, phi_u, rows)))
+        if (!(pivot[k] > KKT_INDEPENDENT * reference) ||
+            !(is_asked || are_groups_sound(kkt, phi_u, rows)))
             return false;
         is_asked = true;
     }
@@ -671,7 +644,7 @@ bool kkt_is_sound(Kkt *kkt, const double *pivot, const double *taken, const doub
 
 static double rounding_error_of(double pivot)
 {
-    return pivot < NEAR ? fmin(MOST_ROUNDING, ROUNDED / (pivot + 1e-300)) : 0;
+    return pivot < KKT_NEAR ? fmin(KKT_MOST_ROUNDING, KKT_ROUNDING / (pivot + 1e-300)) : 0;
 }
 
 double kkt_rounding_error(const Kkt *kkt)
@@ -733,11 +706,11 @@ static double refine_once(Kkt *kkt)
 static void refine(Kkt *kkt, int least, double enough)
 {
     const bool is_driven = kkt->m == kkt->nu;
-    const double contraction = is_driven ? PERSISTENT : CONTRACTION;
+    const double contraction = is_driven ? KKT_DRIVEN_CONTRACTION : KKT_CONTRACTION;
     double before = INFINITY;
 
     weigh(kkt);
-    for (int sweep = 0; sweep < (is_driven ? DRIVEN_SWEEPS : MOST_SWEEPS); sweep++) {
+    for (int sweep = 0; sweep < (is_driven ? KKT_DRIVEN_SWEEPS : KKT_MOST_SWEEPS); sweep++) {
         const double size = refine_once(kkt);
 
         if (size <= enough * size_of(kkt, kkt->answer) ||
@@ -757,14 +730,14 @@ static void begin_solution(Kkt *kkt, const double *top, const double *bottom)
     memcpy(kkt->answer, kkt->right, (size_t)kkt->size * sizeof(double));
     solve(kkt, kkt->answer);
     if (kkt->regularised)
-        refine(kkt, SWEEPS, ROUNDING);
+        refine(kkt, KKT_SWEEPS, KKT_CONVERGED);
 }
 
 void kkt_solve(Kkt *kkt, const double *top, const double *bottom, double *du, double *lambda)
 {
     begin_solution(kkt, top, bottom);
-    if (!kkt->regularised && kkt->angle < INEXACT)
-        refine(kkt, 1, SETTLED);
+    if (!kkt->regularised && kkt->angle < KKT_INEXACT)
+        refine(kkt, 1, KKT_SETTLED);
     for (int i = 0; i < kkt->nu; i++)
         du[i] = kkt->answer[kkt->place_of[i]];
     for (int k = 0; k < kkt->m; k++)
@@ -774,8 +747,8 @@ void kkt_solve(Kkt *kkt, const double *top, const double *bottom, double *du, do
 void kkt_correct(Kkt *kkt, const double *bottom, double *du)
 {
     begin_solution(kkt, NULL, bottom);
-    if (!kkt->regularised && kkt->is_exchanging && kkt->angle < INEXACT)
-        refine(kkt, 1, SETTLED);
+    if (!kkt->regularised && kkt->is_exchanging && kkt->angle < KKT_INEXACT)
+        refine(kkt, 1, KKT_SETTLED);
     for (int i = 0; i < kkt->nu; i++)
         du[i] = kkt->answer[kkt->place_of[i]];
 }

@@ -1,13 +1,10 @@
 /* kkt_border.c: selects the border of the matrix by the cost of elimination */
 #include "algebra/kkt_border.h"
 
+#include "algebra/algebra_limits.h"
 #include "base/memory.h"
 
 #include <string.h>
-
-#define FEWEST    4 /* rows of a speed of the border; fewer are those of a pin */
-#define FACTORED  2 /* times with a border: as it is, and as its geometry */
-#define MOST_FULL 8 /* unknowns at most that no border is looked for in */
 
 /* rows that each speed has, new */
 static int *count_rows(const KktPlaces *p)
@@ -35,7 +32,8 @@ void kkt_classes(const KktPlaces *p, int border, const bool *late, int *class)
 
 double kkt_order_products(const LdlOrder *order, int border)
 {
-    return (double)ldl_order_products(order) * (border != NO_BORDER ? FACTORED : 1);
+    return (double)ldl_order_products(order) *
+           (border != NO_BORDER ? KKT_BORDER_FACTORISATIONS : 1);
 }
 
 static double products(const KktPlaces *p, int border)
@@ -60,16 +58,16 @@ int kkt_border(const KktPlaces *p)
     int *count, most = 0, best = NO_BORDER;
     double least;
 
-    if (p->nu + p->m <= MOST_FULL)
+    if (p->nu + p->m <= KKT_BORDER_LEAST_SIZE)
         return NO_BORDER;
     count = count_rows(p);
     for (int i = 0; i < p->nu; i++)
         most = count[i] > most ? count[i] : most;
     mem_free(count);
-    if (most <= FEWEST)
+    if (most <= KKT_BORDER_FEWEST_ROWS)
         return NO_BORDER;
     least = products(p, NO_BORDER);
-    for (int border = FEWEST; border < most; border *= 2) {
+    for (int border = KKT_BORDER_FEWEST_ROWS; border < most; border *= 2) {
         const double tried = products(p, border);
 
         if (tried < least) {

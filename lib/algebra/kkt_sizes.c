@@ -1,17 +1,13 @@
 /* kkt_sizes.c: largest sizes so far, saved and restored */
 #include "algebra/kkt_sizes.h"
 
+#include "algebra/algebra_limits.h"
 #include "algebra/linear.h"
 #include "base/four.h"
 #include "base/memory.h"
 
 #include <math.h>
 #include <string.h>
-
-#define NO_ENTRY 1e-12 /* of the largest of its row: rounding */
-
-#define LEAST_REACH 1e-9 /* relative to the largest: smaller values are rounding */
-#define LEAST_NORM  1e-3 /* likewise */
 
 KktSizes kkt_sizes_new(const Pattern *rows)
 {
@@ -44,7 +40,7 @@ void kkt_sizes_see(KktSizes *sizes, const double *phi_u, const int *rows, int m)
 void kkt_sizes_measure(KktSizes *sizes, const double *phi_u, const int *rows, int m)
 {
     const Pattern *g = sizes->rows;
-    const double least = LEAST_REACH * vector_largest(sizes->reach, g->rows);
+    const double least = KKT_LEAST_REACH * vector_largest(sizes->reach, g->rows);
 
     for (int i = 0; i < g->rows; i++) {
         const double reach = sizes->reach[i] > least ? sizes->reach[i] : least;
@@ -74,7 +70,7 @@ double kkt_sizes_store_most(KktSizes *sizes, const int *rows, int m, const doubl
         if (*most > largest)
             largest = *most;
     }
-    return LEAST_NORM * LEAST_NORM * largest;
+    return KKT_LEAST_NORM * KKT_LEAST_NORM * largest;
 }
 
 /* of `most`: the extremes, and whether all pivots so far are more than their part of it */
@@ -128,7 +124,7 @@ bool kkt_sizes_are_sound(KktSizes *sizes, const double *pivot, const double *tak
         all.least = most < all.least ? most : all.least;
         all.holds = all.holds && pivot[k] > part * most;
     }
-    return all.holds && all.least > LEAST_NORM * LEAST_NORM * all.largest;
+    return all.holds && all.least > KKT_LEAST_NORM * KKT_LEAST_NORM * all.largest;
 }
 
 void kkt_sizes_store(KktSizes *sizes, bool back)
@@ -169,14 +165,14 @@ static bool borrow_once(const KktPlaces *places, const int *place, const double 
         const int row = places->column[e] - nu;
         const double own = mass[places->row[e]], entry = entries[place[e]];
 
-        if (own > 0 && fabs(entry) > NO_ENTRY * largest[row])
+        if (own > 0 && fabs(entry) > KKT_ZERO_ENTRY * largest[row])
             strongest[row] = fmax(strongest[row], entry * entry / own);
     }
     for (int e = places->mass_entries; e < places->entries; e++) {
         const int row = places->column[e] - nu;
         const double entry = entries[place[e]];
 
-        if (strongest[row] > 0 && fabs(entry) > NO_ENTRY * largest[row])
+        if (strongest[row] > 0 && fabs(entry) > KKT_ZERO_ENTRY * largest[row])
             borrowed[places->row[e]] =
                 fmax(borrowed[places->row[e]], entry * entry / strongest[row]);
     }

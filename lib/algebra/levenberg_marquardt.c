@@ -5,17 +5,13 @@
  * some directions are fixed. */
 #include "algebra/levenberg_marquardt.h"
 
+#include "algebra/algebra_limits.h"
 #include "algebra/gram.h"
 #include "algebra/linear.h"
 #include "base/memory.h"
 
 #include <math.h>
 #include <string.h>
-
-#define ITERATIONS 200
-#define MANY       64    /* rows, from which on sparse factors are tried first */
-#define SOUND      1e-8  /* of its diagonal entry: a pivot that needs no exchange of rows */
-#define RIDGE      1e-15 /* relative to the largest diagonal entry: makes redundant rows solvable */
 
 typedef struct Least {
     const Rows *rows;
@@ -91,7 +87,7 @@ static double norm_of(const double *v, int n)
 /* term added to the diagonal of J J^T */
 static double ridge(double damping, double largest)
 {
-    return damping + RIDGE * fmax(largest, 1e-30);
+    return damping + LEVENBERG_MARQUARDT_RIDGE * fmax(largest, 1e-30);
 }
 
 /* weights = (J J^T + damping 1)^-1 weights by sparse factors; false where rows are too close to
@@ -99,7 +95,8 @@ static double ridge(double damping, double largest)
 static bool weigh_sparse(Least *l, double damping)
 {
     Gram *gram = gram_of_columns(l->pattern, l->jacobian, NULL);
-    const bool sound = gram_factor(gram, ridge(damping, gram_largest(gram)), SOUND, l->rows->watch);
+    const bool sound = gram_factor(gram, ridge(damping, gram_largest(gram)),
+                                   LEVENBERG_MARQUARDT_SOUND_PIVOT, l->rows->watch);
 
     if (sound)
         gram_solve(gram, l->weights);
@@ -138,7 +135,7 @@ static bool find_step(Least *l, double damping)
     int m = l->rows->rows, n = l->rows->columns;
 
     memcpy(l->weights, l->residual, (size_t)m * sizeof(double));
-    if (!(m >= MANY && weigh_sparse(l, damping)) && !weigh(l, damping))
+    if (!(m >= LEVENBERG_MARQUARDT_SPARSE && weigh_sparse(l, damping)) && !weigh(l, damping))
         return false;
     memset(l->step, 0, (size_t)n * sizeof(double));
     for (int i = 0; i < m; i++)
@@ -177,7 +174,7 @@ static void descend(Least *l, double tolerance)
     int m = l->rows->rows;
     double mu = 1;
 
-    for (int i = 0, polish = 0; i < ITERATIONS && polish < 3; i++) {
+    for (int i = 0, polish = 0; i < LEVENBERG_MARQUARDT_ITERATIONS && polish < 3; i++) {
         double before, after, gain;
 
         evaluate(l, l->v, l->residual, true);

@@ -1,5 +1,5 @@
 libcore_la_SOURCES += \
-	lib/algebra/anderson.c lib/algebra/anderson.h \
+	lib/algebra/algebra_limits.h lib/algebra/anderson.c lib/algebra/anderson.h \
   lib/algebra/block_triangular.c \
   lib/algebra/block_triangular.h \
   lib/algebra/dense.c \

@@ -5,6 +5,7 @@
  * corrected by first order as in Ogita and Aishima (2018). */
 #include "algebra/modal.h"
 
+#include "algebra/algebra_limits.h"
 #include "algebra/block_triangular.h"
 #include "algebra/dense.h"
 #include "algebra/double_double.h"
@@ -17,11 +18,6 @@
 #include <gsl/gsl_eigen.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define UNIT     0x1p-53
-#define SMALL    0.1     /* a correction of first order that is one */
-#define ROUNDED  1.01    /* margin for the rounding of the bounds themselves */
-#define PRODUCTS 0x1p-95 /* of double-double sums, n^2 2^-104 up to n = 4000, in part */
 
 enum { CORRECTIONS = 2, MOST = 4000 /* n, that bounds allow for */ };
 
@@ -96,7 +92,7 @@ static double *entry_errors(BoundedMatrix m, int count)
     double *out = NEW_ARRAY(double, count);
 
     for (int i = 0; i < count; i++)
-        out[i] = m.error[i] + PRODUCTS * fabs(m.at[i]);
+        out[i] = m.error[i] + MODAL_PRODUCTS * fabs(m.at[i]);
     return out;
 }
 
@@ -367,7 +363,7 @@ static void correct(const Modal *m, const Residuals *r)
 
             if (m->is_still[j] && !m->is_still[k])
                 continue;
-            z[k * n + j] = k != j && fabs(turn) < SMALL ? turn : half;
+            z[k * n + j] = k != j && fabs(turn) < MODAL_SMALL ? turn : half;
         }
     multiply(CblasNoTrans, m->vector, z, n, n, by);
     for (int i = 0; i < n * n; i++)
@@ -393,8 +389,8 @@ static void bound_beside(const Modal *m, const Residuals *r, const double *x, Bo
     multiply(CblasNoTrans, entries, x, n, n, other);
     for (int i = 0; i < n; i++)
         for (int k = 0; k < n; k++)
-            v[i * n + k] +=
-                other[i * n + k] * fabs(m->square[k]) + (n + 2) * UNIT * fabs(r->rest[i * n + k]);
+            v[i * n + k] += other[i * n + k] * fabs(m->square[k]) +
+                            (n + 2) * UNIT_ROUNDOFF * fabs(r->rest[i * n + k]);
     multiply(CblasTrans, x, v, n, n, out);
     MEM_FREE(entries, v, other);
 }
@@ -407,14 +403,14 @@ static void bound_skew(Modal *m, const Residuals *r, const double *x, BoundedMat
 
     multiply(CblasNoTrans, entries, x, n, n, v);
     for (int i = 0; i < n * n; i++)
-        v[i] += (n + 2) * UNIT * fabs(r->moved[i]);
+        v[i] += (n + 2) * UNIT_ROUNDOFF * fabs(r->moved[i]);
     multiply(CblasTrans, x, v, n, n, m->skew);
     for (int i = 0; i < n; i++) {
         double sum = 0;
 
         for (int k = 0; k < n; k++) {
-            m->skew[i * n + k] =
-                ROUNDED * (m->skew[i * n + k] + fabs(r->gram[i * n + k])) + (i == k ? 2 * UNIT : 0);
+            m->skew[i * n + k] = MODAL_MARGIN * (m->skew[i * n + k] + fabs(r->gram[i * n + k])) +
+                                 (i == k ? 2 * UNIT_ROUNDOFF : 0);
             sum += m->skew[i * n + k];
         }
         if (!(sum <= m->skewed) && !isnan(m->skewed)) /* NaN is preserved */
@@ -440,7 +436,7 @@ static void allow_skew(const Modal *m, const double *h, double *error, int colum
         largest *= m->skewed / (1 - m->skewed);
         for (int i = 0; i < n; i++)
             error[i * columns + k] =
-                ROUNDED * (error[i * columns + k] + more[i * columns + k] + largest);
+                MODAL_MARGIN * (error[i * columns + k] + more[i * columns + k] + largest);
     }
     MEM_FREE(all, more);
 }
@@ -464,7 +460,7 @@ static void find_bounds(Modal *m, const Residuals *r, BoundedMatrix mass, Bounde
             if (i != k)
                 continue;
             m->square[k] += entry;
-            m->error[i * n + k] += UNIT * fabs(m->square[k]);
+            m->error[i * n + k] += UNIT_ROUNDOFF * fabs(m->square[k]);
         }
 }
 
@@ -545,7 +541,7 @@ void modal_transform(const Modal *m, BoundedMatrix b, int columns, double *out, 
     multiply(CblasNoTrans, across, off, n, columns, out_error);
     for (int i = 0; i < n * columns; i++) {
         out[i] += low[i];
-        out_error[i] = ROUNDED * out_error[i] + UNIT * fabs(out[i]);
+        out_error[i] = MODAL_MARGIN * out_error[i] + UNIT_ROUNDOFF * fabs(out[i]);
     }
     allow_skew(m, out, out_error, columns);
     MEM_FREE(across, low, off);
@@ -561,7 +557,7 @@ void modal_move(const Modal *m, BoundedMatrix b, int rows, double *out, double *
     multiply_some(CblasNoTrans, off, x, rows, n, n, out_error);
     for (int i = 0; i < rows * n; i++) {
         out[i] += low[i];
-        out_error[i] = ROUNDED * out_error[i] + UNIT * fabs(out[i]);
+        out_error[i] = MODAL_MARGIN * out_error[i] + UNIT_ROUNDOFF * fabs(out[i]);
     }
     MEM_FREE(x, low, off);
 }

@@ -7,17 +7,13 @@
  * algebra.rank_*), and can't be stopped. */
 #include "algebra/rank.h"
 
+#include "algebra/algebra_limits.h"
 #include "algebra/independence.h"
 #include "base/memory.h"
 
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
-
-#define THRESHOLD 1e-9
-#define SMALL     1e-3   /* of the largest row: one that vanishes is not to be chosen */
-#define MANY      64     /* rows, from which on the answer is looked for without pivots first */
-#define STALE     1.5e-8 /* of its square: a length that fell this far has lost half its digits */
 
 typedef struct Pivoted {
     int rows, columns, least;
@@ -141,7 +137,7 @@ static Status factor(Pivoted *p, double threshold, const CallMonitor *watch)
 
             apply(p, k, p->filled, count, x);
             square[j] -= x[k] * x[k];
-            if (square[j] <= STALE * fresh[j])
+            if (square[j] <= RANK_STALE * fresh[j])
                 square[j] = fresh[j] = square_of(x, k + 1, p->rows);
         }
     }
@@ -230,7 +226,7 @@ Status rank_rows(const double *matrix, int m, int nu, double threshold, const Ca
     take_all(m, order);
     if (m == 0 || nu == 0)
         return OK;
-    if (m < MANY || !rows_are_independent(matrix, m, nu, threshold, watch))
+    if (m < RANK_INDEPENDENCE_FIRST || !rows_are_independent(matrix, m, nu, threshold, watch))
         return rank_written(matrix, m, nu, threshold, watch, rank, order);
     *rank = m;
     return OK;
@@ -247,7 +243,8 @@ Status rank_columns(const Pattern *pattern, const double *values, double thresho
     take_all(m, order);
     if (m == 0 || pattern->rows == 0)
         return OK;
-    if (m >= MANY && columns_are_independent(pattern, values, threshold, watch)) {
+    if (m >= RANK_INDEPENDENCE_FIRST &&
+        columns_are_independent(pattern, values, threshold, watch)) {
         *rank = m;
         return OK;
     }
@@ -274,7 +271,7 @@ double rank_choose(const double *matrix, int m, int nu, int count, int *rows)
     if (count == 0)
         return 1;
     order = NEW_ARRAY(int, m);
-    p = unit_rows(matrix, nu, NULL, m, SMALL);
+    p = unit_rows(matrix, nu, NULL, m, RANK_LEAST_ROW);
     (void)factor(&p, 0, NULL);
     put_order(&p, m, count, order);
     for (int k = 0; k < count; k++)
@@ -292,7 +289,7 @@ double rank_ratio(const double *matrix, int nu, const int *rows, int count)
 
     if (count == 0)
         return 1;
-    p = unit_rows(matrix, nu, rows, count, SMALL);
+    p = unit_rows(matrix, nu, rows, count, RANK_LEAST_ROW);
     (void)factor(&p, 0, NULL);
     ratio = pivot_ratio(&p, count);
     release(&p);
@@ -320,7 +317,7 @@ void rank_least_multipliers(const double *phi_u, int m, int nu, double *lambda)
     for (int k = 0; k < m; k++)
         for (int j = 0; j < nu; j++)
             p.column[j][k] = phi_u[k * nu + j];
-    (void)factor(&p, THRESHOLD, NULL);
+    (void)factor(&p, RANK_THRESHOLD, NULL);
     for (int k = 0; k < p.least; k++)
         apply_alone(&p, k, lambda);
     for (int k = p.rank; k < m; k++)

@@ -1,14 +1,11 @@
 /* roots.c: eigenvalues with error bounds, and groups of those that can't be distinguished */
 #include "algebra/roots.h"
 
+#include "algebra/algebra_limits.h"
 #include "base/memory.h"
 
 #include <math.h>
 #include <stdint.h>
-
-#define UNIT       0x1p-53 /* an entry is a double at best */
-#define SECOND     2       /* of the first order, for what it leaves out */
-#define STRUCTURAL 1e3     /* times the rounding of the method: what remains below is 0 */
 
 /* --- roots --- */
 
@@ -32,7 +29,8 @@ Root root_make(double complex value, double error)
 
 double complex root_with_noise(double complex value, double noise, double *error)
 {
-    if (cabs(value) <= STRUCTURAL * noise && *error <= UNIT * STRUCTURAL * noise) {
+    if (cabs(value) <= ROOT_STRUCTURAL_ZERO * noise &&
+        *error <= UNIT_ROUNDOFF * ROOT_STRUCTURAL_ZERO * noise) {
         *error = 0;
         return 0;
     }
@@ -179,6 +177,6 @@ void roots_join(const double complex *value, const double *error, int count, Gro
         measure(&g, g.group[kept]);
     }
     for (int i = 0; i < count; i++)
-        out[i] = root_make(g.mean[g.group[i]], SECOND * g.error[g.group[i]]);
+        out[i] = root_make(g.mean[g.group[i]], ROOT_SECOND_ORDER * g.error[g.group[i]]);
     MEM_FREE(g.group, g.partner, g.mean, g.error, g.members);
 }

@@ -1,18 +1,13 @@
 /* sparse.c: LU factors of a sparse matrix, with KLU (Davis, Palamadai Natarajan 2010) */
 #include "algebra/sparse.h"
 
+#include "algebra/algebra_limits.h"
 #include "algebra/linear.h"
 #include "base/memory.h"
 
 #include <klu.h>
 #include <math.h>
 #include <string.h>
-
-#define SMALL 12 /* up to here dense factors are faster (make bench: algebra.sparse_*) */
-#define WORN                                                                                       \
-    1e-3        /* of what they were chosen for: growth that gives up an earlier matrix' pivots    \
-                 */
-#define OFTEN 4 /* solutions with the same factors, from which on they are unpacked */
 
 /* KLU's factors for many solutions, LU + F = P (R \ A) Q. KLU's storage makes factoring fast, but
  * its solution divides once for each unknown and treats each block separately. Here they are stored
@@ -40,7 +35,7 @@ struct Sparse {
     double growth;   /* of pivots as they were chosen: least of max |A| / max |U| by columns */
     Cleanup cleanup; /* of KLU's */
     int singular;
-    int solutions; /* with the factors there are; OFTEN: they are unpacked */
+    int solutions; /* with the factors there are; SPARSE_UNPACK: they are unpacked */
     Unpacked unpacked;
 };
 
@@ -77,7 +72,7 @@ Sparse *sparse_new(int n, int entries, const int *row, const int *column)
     s->entries = entries;
     s->singular = -1;
     s->place = NEW_ARRAY(int, entries);
-    if (n <= SMALL) {
+    if (n <= SPARSE_DENSE) {
         s->lu = lu_new(n);
         for (int k = 0; k < entries; k++)
             s->place[k] = row[k] * n + column[k];
@@ -139,7 +134,7 @@ static bool refactor(Sparse *s)
            klu_refactor(s->start, s->row, s->values, s->symbolic, s->numeric, &s->common) &&
            s->common.status == KLU_OK &&
            klu_rgrowth(s->start, s->row, s->values, s->symbolic, s->numeric, &s->common) &&
-           s->common.rgrowth > WORN * s->growth;
+           s->common.rgrowth > SPARSE_LEAST_GROWTH * s->growth;
 }
 
 bool sparse_factor(Sparse *s, const double *values)
@@ -327,9 +322,9 @@ void sparse_solve(Sparse *s, double *b)
         lu_solve(s->lu, b);
         return;
     }
-    if (s->solutions < OFTEN && ++s->solutions == OFTEN && !unpack(s))
+    if (s->solutions < SPARSE_UNPACK && ++s->solutions == SPARSE_UNPACK && !unpack(s))
         s->solutions = 0;
-    if (s->solutions == OFTEN)
+    if (s->solutions == SPARSE_UNPACK)
         solve_unpacked(s, b);
     else
         (void)klu_solve(s->symbolic, s->numeric, s->n, 1, b, &s->common);

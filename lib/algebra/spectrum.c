@@ -13,6 +13,7 @@
  * c of (lambda_k - mu)^j x_k y_k^T: the resolvent's principal part (Kato 1995, I.5). */
 #include "algebra/spectrum.h"
 
+#include "algebra/algebra_limits.h"
 #include "algebra/block_triangular.h"
 #include "algebra/enclosure.h"
 #include "algebra/linear.h"
@@ -21,10 +22,6 @@
 #include "base/memory.h"
 
 #include <string.h>
-
-#define UNIT   0x1p-53 /* an entry is a double at best */
-#define SECOND 2       /* of the first order, for what it leaves out */
-#define BETTER 0.1     /* relative to the error by the entries: rounding that hardly adds to it */
 
 /* of one block: right vectors as columns, left ones as rows */
 typedef struct SpectrumPart {
@@ -175,7 +172,7 @@ static double radius_of(Grouping *g)
     const double all = theta_of_terms(g, 0);
     double radius = g->spread;
 
-    if (all <= BETTER * g->spread)
+    if (all <= SPECTRUM_NEGLIGIBLE * g->spread)
         return g->spread + all;
     for (int power = 0; power < g->count; power++) {
         if (g->count * theta_of_terms(g, power) <= pow(radius, power + 1))
@@ -398,13 +395,13 @@ static bool solve_in_doubles(const SpectrumPart *part, const double *block, cons
     }
     for (int k = 0; k < n && sound; k++) {
         error[k] = single_error(part, k);
-        sound = left_open[k] <= BETTER * error[k];
+        sound = left_open[k] <= SPECTRUM_NEGLIGIBLE * error[k];
         error[k] += left_open[k];
         value[k] = e.value[k];
     }
     if (sound && are_apart(value, error, n))
         for (int k = 0; k < n; k++)
-            root[k] = root_make(value[k], SECOND * error[k]);
+            root[k] = root_make(value[k], ROOT_SECOND_ORDER * error[k]);
     else if (sound)
         roots_join(value, error, n, group_error, &grouping, root);
     enclosure_free(&e);
@@ -446,7 +443,7 @@ static bool solve_part(const SpectrumPart *part, const double *block, double com
     bool sound;
 
     for (int k = 0; k < n * n; k++) {
-        part->error[k] = fmax(part->error[k], UNIT * fabs(block[k]));
+        part->error[k] = fmax(part->error[k], UNIT_ROUNDOFF * fabs(block[k]));
         size[k] = fabs(block[k]) + part->error[k];
     }
     matrix_balance(size, n, scale);
@@ -599,8 +596,8 @@ static void carry_on(const Spectrum *s, const SpectrumPart *part, int k, DoubleD
             }
     for (int r = 0; r < m && moves; r++) {
         const int other = part->first + r, column = s->column[other];
-        const double least =
-            fmax(fmax(s->root[k].error + s->root[other].error, 1e-100), UNIT * cabs(s->value[k]));
+        const double least = fmax(fmax(s->root[k].error + s->root[other].error, 1e-100),
+                                  UNIT_ROUNDOFF * cabs(s->value[k]));
         const double complex off = s->value[k] - s->value[other];
         DoubleDoubleComplex share = dd_real(dd_of(0));
 
