@@ -1,15 +1,12 @@
 /* cvode.c: SUNDIALS CVODE, BDF and Adams, on y' = f(t, y) */
 #include "simulate/integrate/sundials.h"
 
+#include "simulate/integrate/integrate_limits.h"
+
 #include <cvode/cvode.h>
 #include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 #include <sunnonlinsol/sunnonlinsol_newton.h>
-
-#define AT_ONCE 1e-2 /* times the tolerance of Newton's method: a first correction that ends it */
-#define SLOWEST 0.9  /* ratio of corrections above which the iteration doesn't converge */
-#define FAILED  0.1  /* times the previous step: a shorter one has no reliable error estimate */
-#define BEGIN   0.01 /* times it: the length with which integration restarts */
 
 static const SundialsCalls calls = {
     .free = CVodeFree,
@@ -176,8 +173,8 @@ static int converges(SUNNonlinearSolver solver, N_Vector w, N_Vector correction,
     if (!c->base.has_pulses)
         code = converges_as_before(c, size, tolerance, count);
     else if (count == 0)
-        code = size <= AT_ONCE * tolerance ? SUN_NLS_SUCCESS : SUN_NLS_CONTINUE;
-    else if (!(rate <= SLOWEST))
+        code = size <= CVODE_FIRST_CORRECTION * tolerance ? SUN_NLS_SUCCESS : SUN_NLS_CONTINUE;
+    else if (!(rate <= CVODE_SLOWEST))
         code = SUN_NLS_CONV_RECVR;
     else
         code = fmax(1, rate / (1 - rate)) * size <= tolerance ? SUN_NLS_SUCCESS : SUN_NLS_CONTINUE;
@@ -299,7 +296,7 @@ static bool knows_its_error(const Sundials *c, double end, double reached, doubl
 {
     const double meant = fmin(fmin(last, c->base.next), stepper_stop(&c->base, end) - c->base.t);
 
-    return !(reached - c->base.t < FAILED * meant);
+    return !(reached - c->base.t < CVODE_SHORT_STEP * meant);
 }
 
 static Status step(Stepper *stepper, double end, Diag *diag)
@@ -315,7 +312,7 @@ static Status step(Stepper *stepper, double end, Diag *diag)
 
         TRY(start(stepper, c->base.t, c->base.y, diag));
         stepper->stuck = stuck;
-        stepper->next = BEGIN * h;
+        stepper->next = CVODE_RESTART * h;
         code = advance(c, end, &reached);
     }
     c->base.before = c->base.t;

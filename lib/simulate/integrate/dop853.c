@@ -7,19 +7,12 @@
 #include "simulate/integrate/dop853_impl.h"
 
 #include "base/memory.h"
+#include "simulate/integrate/integrate_limits.h"
 
 #include <math.h>
 #include <string.h>
 
-#define FIRST_SEEN         5 /* first stage after stage 0 with a weight in the result */
-#define SAFETY             0.9
-#define LUCK               60.0 /* times the root of the tolerance; order-3 estimates: 1 to 60 */
-#define STIFF_ELEMENT_LUCK 2.0  /* the same where an element may stop conducting in the step */
-#define SHRINK             (1 / 3.0)
-#define GROW               6.0
-#define PARTS_AGREE        30.0 /* tolerances: most from a step's end to that of its parts */
-#define LEAP               1.2  /* largest step past a singular position, over the failed one; */
-#define LEAP_PAST          0.93 /* latest place of it in a step, between the last two stages */
+#define FIRST_SEEN 5 /* first stage after stage 0 with a weight in the result */
 
 enum {
     LEAPS = 4,        /* in succession, before steps become shorter */
@@ -78,7 +71,7 @@ static double step_error(Dop853 *d, double h)
         return under;
     h = fabs(h);
     third_order = h * sqrt(sum3 / d->n * d->base.control.rtol) /
-                  (d->base.may_bend ? STIFF_ELEMENT_LUCK : LUCK);
+                  (d->base.may_bend ? DOP853_THIRD_ORDER_STIFF : DOP853_THIRD_ORDER);
     d->rounding_error = fmax(1, d->rounded / d->base.control.rtol);
     d->rounded = 0;
     return fmax(h * sum5 / sqrt(under * d->n) / d->rounding_error, third_order * third_order);
@@ -177,7 +170,7 @@ static bool parts_agree(Dop853 *d, double error)
     if (!d->base.is_read)
         return true;
     dop853_make_dense(d);
-    if (!(d->parted > PARTS_AGREE * d->rounding_error))
+    if (!(d->parted > DOP853_PARTS_AGREE * d->rounding_error))
         return true;
     d->stiffness = before;
     d->base.is_stiff = is_stiff;
@@ -214,7 +207,7 @@ static double nearest_stage(double place, double h)
  * the last. */
 static double leap_over(double place, double most)
 {
-    const double least = place / LEAP_PAST;
+    const double least = place / DOP853_LEAP_PAST;
     double best = 0, furthest = 0;
 
     for (int i = 0; i <= LEAP_CHOICES && least > 0 && least < most; i++) {
@@ -233,7 +226,7 @@ static double leap_over(double place, double most)
  * one has rounding errors. */
 static bool can_see_better(const Dop853 *d, double h)
 {
-    const double place = singular_place(d, h), leap = leap_over(place, LEAP * h);
+    const double place = singular_place(d, h), leap = leap_over(place, DOP853_LEAP * h);
 
     return leap > 0 && nearest_stage(place, leap) > 2 * nearest_stage(place, h);
 }
@@ -264,12 +257,12 @@ static bool take_step(Dop853 *d, double h, double t, bool is_choosy, double *err
 /* length of the next step after one of `taken` with such an error, where h was intended */
 static double next_step(const Dop853 *d, double taken, double h, double error)
 {
-    const double most = d->was_rejected ? 1 : GROW;
-    const double factor = error > 0 ? SAFETY / eighth_root(error) : GROW;
+    const double most = d->was_rejected ? 1 : DOP853_GROW;
+    const double factor = error > 0 ? DOP853_SAFETY / eighth_root(error) : DOP853_GROW;
     /* a step that was cut to meet an end doesn't reduce the intended one */
-    const double longer = taken < h ? fmin(h, taken * GROW) : 0;
+    const double longer = taken < h ? fmin(h, taken * DOP853_GROW) : 0;
 
-    return fmax(taken * fmin(most, fmax(SHRINK, factor)), longer);
+    return fmax(taken * fmin(most, fmax(DOP853_SHRINK, factor)), longer);
 }
 
 /* what was tried in one step */
@@ -289,7 +282,7 @@ static double try_next(const Dop853 *d, double h, double error, Tries *tries)
     if (sure > 0)
         return sure;
     /* where its parts end elsewhere, the stages are those of the last part */
-    leap = isinf(error) ? 0 : leap_over(singular_place(d, h), LEAP * h);
+    leap = isinf(error) ? 0 : leap_over(singular_place(d, h), DOP853_LEAP * h);
     if (error <= 1) {
         tries->has_looked = true;
         tries->sure = h;
@@ -297,7 +290,7 @@ static double try_next(const Dop853 *d, double h, double error, Tries *tries)
     }
     if (leap > 0 && tries->leaps++ < LEAPS)
         return leap;
-    return h * (isnan(error) ? RETREAT : fmax(SHRINK, SAFETY / eighth_root(error)));
+    return h * (isnan(error) ? RETREAT : fmax(DOP853_SHRINK, DOP853_SAFETY / eighth_root(error)));
 }
 
 static Status step(Stepper *stepper, double end, Diag *diag)

@@ -9,15 +9,10 @@
 #include "algebra/linear.h"
 #include "base/four.h"
 #include "base/memory.h"
+#include "simulate/integrate/integrate_limits.h"
 
 #include <math.h>
 #include <string.h>
-
-#define DENSE_NEAR   10.0  /* from a stage to the dense output, in tolerances of a step, */
-#define DENSE_DEFECT 100.0 /* h times the defect of its slope: its error is about 1/15 of that */
-#define DENSE_MISSED 2     /* divisions in a row that don't halve the defect: enough */
-#define DENSE_LOOK   0.71  /* position in a step where it is evaluated */
-#define BLURRED      1e-10 /* rounding error of a stage next to a singular position, at least */
 
 void dop853_reserve_room(Dop853 *d, DensePart *part)
 {
@@ -183,7 +178,7 @@ static double mend_stages(Dop853 *d, DensePart *part, double defect)
     for (int i = ROW_EXTRA; i < STAGES; i++)
         if (d->rounding[i] > d->rounding[stage])
             stage = i;
-    if (!(d->rounding[stage] > BLURRED))
+    if (!(d->rounding[stage] > DENSE_INACCURATE_STAGE))
         return defect;
     while (now > DENSE_NEAR * d->rounding_error && now < 0.5 * last &&
            set_stages(d, part, STAGES - stage)) {

@@ -9,29 +9,21 @@
  * has errors in proportion to powers of h L, not of h times the rate of g, so that h |L| remains at
  * 1 to 6. Then y' changes in a step by a small part of its size. The step that radau would take is
  * in proportion to rtol^(1/4) of the time in which y' changes, so that it needs fewer evaluations
- * where that part is below SMOOTH rtol^(1/4).
+ * where that part is below DOP853_SMOOTH rtol^(1/4).
  *
  * Products with the Jacobian show whether the limiting component decays or oscillates: backward
  * differentiation is no help against oscillation. */
 #include "simulate/integrate/dop853_impl.h"
 
-#include <math.h>
+#include "simulate/integrate/integrate_limits.h"
 
-#define STIFF_BOUNDARY 6.1
-#define STIFF_COUNT    15
-#define CALM_COUNT     6
-#define FAST           1.0  /* h |L| of a component that may limit accuracy */
-#define FAST_SUM       40   /* of h |L| over such steps: time in which it decays */
-#define LIMITED        1e-2 /* tolerances: a smaller error doesn't limit the step */
-#define SMOOTH         2.0  /* see above; measured with a viscous knife edge */
-#define MEMORY         0.9  /* factor of the largest |y'| from step to step */
-#define DIFFERENCE     1e-7 /* of y, for a derivative */
+#include <math.h>
 
 /* J w by a difference along w, J the Jacobian at the new point */
 static bool apply_jacobian(Dop853 *d, const double *w, double *out)
 {
     double size = dop853_norm(d, w);
-    double step = fmax(1, DIFFERENCE / (DOP853_AIM * d->base.control.rtol)) / size;
+    double step = fmax(1, DOP853_DIFFERENCE / (DOP853_AIM * d->base.control.rtol)) / size;
 
     if (!(size > 0) || !isfinite(step))
         return false;
@@ -106,7 +98,7 @@ static double rate_change(Dop853 *d, double h)
         const double before = d->k[0][i], after = d->k[ROW_END][i];
         const double change = fabs(after - before);
 
-        d->peak[i] = fmax(MEMORY * d->peak[i], fmax(fabs(before), fabs(after)));
+        d->peak[i] = fmax(DOP853_PEAK_DECAY * d->peak[i], fmax(fabs(before), fabs(after)));
         if (h * change > d->scale[i])
             most = fmax(most, change / d->peak[i]);
     }
@@ -117,12 +109,13 @@ static void count_stiff_step(Dop853 *d, double h, double error)
 {
     const double fast = fastest_rate(d, h), change = rate_change(d, h);
 
-    if (fast > STIFF_BOUNDARY)
+    if (fast > DOP853_STIFF_BOUNDARY)
         d->stiffness.steps++;
-    else if (fast > FAST && error > LIMITED && change < SMOOTH * sqrt(sqrt(d->base.control.rtol)))
+    else if (fast > DOP853_FAST && error > DOP853_LIMITED &&
+             change < DOP853_SMOOTH * sqrt(sqrt(d->base.control.rtol)))
         d->stiffness.sum += fast;
     else {
-        if (++d->stiffness.calm >= CALM_COUNT)
+        if (++d->stiffness.calm >= DOP853_CALM_COUNT)
             d->stiffness = (Stiffness){0};
         return;
     }
@@ -132,7 +125,7 @@ static void count_stiff_step(Dop853 *d, double h, double error)
 void dop853_watch_stiffness(Dop853 *d, double h, double error)
 {
     count_stiff_step(d, h, error);
-    if (d->stiffness.steps < STIFF_COUNT && d->stiffness.sum < FAST_SUM)
+    if (d->stiffness.steps < DOP853_STIFF_COUNT && d->stiffness.sum < DOP853_FAST_SUM)
         return;
     d->base.is_stiff = true;
     d->base.is_oscillatory = is_oscillatory(d);

@@ -15,6 +15,7 @@
 #include "simulate/integrate/fixed.h"
 
 #include "base/memory.h"
+#include "simulate/integrate/integrate_limits.h"
 
 #include <float.h>
 #include <math.h>
@@ -27,10 +28,6 @@ enum {
     MOST_PUSHES = 12,      /* iterations of v */
     BEND = 2 * STAGES + 1, /* slopes from which the sixth derivative is estimated */
 };
-/* times the tolerance: largest error of stages whose iteration no longer improves, as near singular
- * positions, where accelerations are noisy */
-#define SETTLED 0.1
-#define LOOK    1e-4 /* of y, to either side: a projection exceeds rounding error */
 /* The quadrature's error is h^7/2016000 of the sixth derivative of y'; that is 720/2016000 of the
  * sixth divided difference over points in units of steps. */
 #define BEND_PART (1.0 / 2800)
@@ -153,7 +150,7 @@ static bool solve_stages(Gauss *g, double h)
         /* the next iteration would change by `moved / before` of it */
         if (moved <= 1 || (i > 0 && moved * (moved / before) <= 1))
             return true;
-        if (moved >= before && before * DBL_EPSILON <= SETTLED * g->fixed.base.control.rtol)
+        if (moved >= before && before * DBL_EPSILON <= GAUSS_STALLED * g->fixed.base.control.rtol)
             return true;
         if (moved >= before && i > STAGES)
             break;
@@ -189,7 +186,7 @@ static bool make_normal(Gauss *g, double t)
 {
     FixedStepper *f = &g->fixed;
     const Ode *ode = f->base.ode;
-    const double look = LOOK / size_of(g, g->push);
+    const double look = GAUSS_PROJECTION / size_of(g, g->push);
 
     if (!isfinite(look))
         return true;

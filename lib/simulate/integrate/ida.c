@@ -8,6 +8,8 @@
  * values; IDACalcIC isn't used. */
 #include "simulate/integrate/sundials.h"
 
+#include "simulate/integrate/integrate_limits.h"
+
 #include <ida/ida.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunlinsol/sunlinsol_klu.h>
@@ -16,13 +18,6 @@
 #include <sunnonlinsol/sunnonlinsol_newton.h>
 
 #include <string.h>
-
-#define LONG_BEFORE 0.1  /* of the step before: a shorter one's error isn't reliable; */
-#define BEGIN       0.01 /* times it: the length with which integration restarts */
-#define FINER       1e-2 /* times the tolerance: for unknowns without a rate, */
-#define FINE        1e-4 /* but no finer than this unless the tolerance itself is */
-#define AT_ONCE     1e-2 /* of Newton's tolerance: a first correction that ends it */
-#define SLOWEST     0.9  /* ratio of corrections above which the iteration doesn't converge */
 
 typedef struct Ida {
     Sundials s;
@@ -102,7 +97,8 @@ static int find_weights(N_Vector w, N_Vector weights, void *data)
         if (i >= work && i < d->s.all)
             error = sundials_quadrature_error(&d->s, NV_Ith_S(w, i), NV_Ith_S(d->s.rate, i));
         if (dae->has_rate != NULL && !dae->has_rate[i])
-            error = d->jumps ? SUNDIALS_ANY : fmin(error, fmax(FINER * error, FINE));
+            error = d->jumps ? SUNDIALS_ANY
+                             : fmin(error, fmax(IDA_ALGEBRAIC * error, IDA_LEAST_ALGEBRAIC));
         NV_Ith_S(weights, i) = 1 / error;
     }
     return 0;
@@ -249,8 +245,8 @@ static int converges(SUNNonlinearSolver solver, N_Vector w, N_Vector correction,
     (void)SUNNonlinSolGetCurIter(solver, &count);
     d->corrected = size;
     if (count == 0)
-        return size <= AT_ONCE * tolerance ? SUN_NLS_SUCCESS : SUN_NLS_CONTINUE;
-    if (!(rate <= SLOWEST))
+        return size <= IDA_FIRST_CORRECTION * tolerance ? SUN_NLS_SUCCESS : SUN_NLS_CONTINUE;
+    if (!(rate <= IDA_SLOWEST))
         return SUN_NLS_CONV_RECVR;
     return fmax(1, rate / (1 - rate)) * size <= tolerance ? SUN_NLS_SUCCESS : SUN_NLS_CONTINUE;
 }
@@ -322,7 +318,7 @@ static bool knows_its_error(const Sundials *s, double reached, double last)
     int order = 0;
 
     (void)IDAGetLastOrder(s->memory, &order);
-    return order > 1 || reached - s->base.t >= LONG_BEFORE * last;
+    return order > 1 || reached - s->base.t >= IDA_SHORT_STEP * last;
 }
 
 /* One step without a history from the last point, projected. Three reasons: Newton's method doesn't
@@ -386,12 +382,12 @@ static Status step(Stepper *stepper, double end, Diag *diag)
     if (code == IDA_CONV_FAIL || code == IDA_ERR_FAIL) {
         stepper->stuck = stuck;
         if (code == IDA_ERR_FAIL)
-            stepper->next = BEGIN * last;
+            stepper->next = IDA_RESTART * last;
         code = begin_anew(d, end, &reached, diag);
     }
     if (code >= 0 && !knows_its_error(s, reached, last)) {
         stepper->stuck = stuck;
-        stepper->next = BEGIN * (reached - before);
+        stepper->next = IDA_RESTART * (reached - before);
         code = begin_anew(d, end, &reached, diag);
     }
     if (stepper->ode->dae.has_rate != NULL && gets_nowhere(stepper, code, reached))

@@ -15,6 +15,7 @@ libcore_la_SOURCES += \
   lib/simulate/integrate/stagnation.c \
   lib/simulate/integrate/stagnation.h \
   lib/simulate/integrate/ida.c \
+  lib/simulate/integrate/integrate_limits.h \
   lib/simulate/integrate/method.c \
   lib/simulate/integrate/methods.def \
   lib/simulate/integrate/ode.h \

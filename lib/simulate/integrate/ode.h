@@ -11,6 +11,7 @@
 #include "algebra/hessenberg_form.h"
 #include "base/diag.h"
 #include "base/memory.h"
+#include "simulate/integrate/integrate_limits.h"
 
 #include <float.h>
 #include <math.h>
@@ -235,11 +236,6 @@ static inline double stepper_stop(const Stepper *stepper, double end)
     return fmin(end, stepper->t + bound);
 }
 
-#define LEAST_TOLERANCE 1e-13 /* that floating point allows */
-
-#define MOTION_PART  0.1   /* of the tolerance, for errors that motion hardly damps, */
-#define MOTION_LEAST 1e-12 /* down to this tolerance */
-
 /* `part` of the tolerance, or what makes it `least` */
 static inline double tolerance_part(const Stepper *stepper, double part, double least)
 {
@@ -326,9 +322,6 @@ MUST_USE Status stepper_arrive(Stepper *stepper, double reached, double h, doubl
 /* For methods with a history whose last step has to end at t, inside it: set y there, projected.
  * `last` is y at the end of the step, which is restored where that fails. */
 MUST_USE Status stepper_reject(Stepper *stepper, double t, const double *last, Diag *diag);
-
-#define MAX_REJECTIONS 10   /* in succession, by NaN or a failed projection, that end a run, */
-#define RETREAT        0.25 /* factor of each: the last is shorter by a million */
 
 #define METHOD(row) extern const Method row;
 #include "simulate/integrate/methods.def"

@@ -13,20 +13,11 @@
 
 #include "algebra/linear.h"
 #include "base/memory.h"
+#include "simulate/integrate/integrate_limits.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
-
-#define ITERATIONS 10
-#define FEW        40   /* unknowns up to which all stages are solved for together */
-#define REFRESH    1e-2 /* a slower contraction needs new Jacobians of the stages */
-#define SAFETY     0.9
-#define SHRINK     0.125
-#define GROW       5.0
-#define CONTRACTS  1e-3 /* below this contraction a Jacobian is reused */
-#define READ       30   /* tolerances: error of the cubic between steps, which doesn't add up */
-#define SETTLED    1e-9 /* of the run: shorter transients may be left unresolved */
 
 /* of s (s - c1) (s - c2) (s - 1): slopes at 0 and 1, and largest value between */
 #define BEGINS  0.1
@@ -246,7 +237,7 @@ static StepOutcome solve_stages(Radau *r, double h, int *used)
         fmax(10 * DBL_EPSILON / r->base.control.rtol, fmin(0.01, sqrt(r->base.control.rtol)));
     double before = 0;
 
-    for (int it = 1; it <= ITERATIONS; it++) {
+    for (int it = 1; it <= RADAU_ITERATIONS; it++) {
         double size, eta = 1;
 
         if (!evaluate_stages(r, h))
@@ -313,7 +304,7 @@ static StepOutcome solve_stages_whole(Radau *r, double h, int *used)
         r->end = lu_new(n);
         r->jacobians = stepper_numbers(&r->base, 3 * all * n);
     }
-    for (int it = 1; it <= ITERATIONS; it++) {
+    for (int it = 1; it <= RADAU_ITERATIONS; it++) {
         double size, eta = 1;
 
         if (!evaluate_stages(r, h))
@@ -337,7 +328,7 @@ static StepOutcome solve_stages_whole(Radau *r, double h, int *used)
         }
         if (eta * size <= enough || size == 0)
             return CONVERGED;
-        factored = it > 1 && r->contraction < REFRESH;
+        factored = it > 1 && r->contraction < RADAU_REFRESH;
         before = size;
     }
     return DIVERGED;
@@ -346,7 +337,7 @@ static StepOutcome solve_stages_whole(Radau *r, double h, int *used)
 /* Solve for the stages, by the cheaper method that converges. */
 static StepOutcome find_stages(Radau *r, double h, int *used)
 {
-    const bool is_small = r->n > 0 && r->n <= FEW && !r->is_linear && r->step > 0;
+    const bool is_small = r->n > 0 && r->n <= RADAU_FULL && !r->is_linear && r->step > 0;
     StepOutcome outcome = DIVERGED;
 
     if (!is_small || !r->is_turning)
@@ -413,7 +404,7 @@ static double step_error(Radau *r, double h)
         shifted_solve(r->shifted, r->error);
         size = scaled_norm(r, r->error, 1);
         if (size < 1 || !(r->was_rejected || r->step == 0) || pass == 1 ||
-            h > SETTLED * r->base.control.span)
+            h > RADAU_UNRESOLVED * r->base.control.span)
             break;
         memcpy(r->point, r->old, (size_t)r->all * sizeof(double));
         for (int i = 0; i < r->n; i++)
@@ -545,10 +536,11 @@ static bool try_step(Radau *r, double *h, double end, int *failures)
         *h = (outcome == UNDEFINED ? RETREAT : 0.5) * tried;
         return false;
     }
-    error =
-        fmax(fmax(step_error(r, tried), error_at_end(r, tried)), reading_error(r, tried) / READ);
-    factor_of = SAFETY * (2.0 * ITERATIONS + 1) / (2.0 * ITERATIONS + used) * pow(error, -0.25);
-    factor_of = fmin(r->was_rejected ? 1 : GROW, fmax(SHRINK, factor_of));
+    error = fmax(fmax(step_error(r, tried), error_at_end(r, tried)),
+                 reading_error(r, tried) / RADAU_DENSE);
+    factor_of = RADAU_SAFETY * (2.0 * RADAU_ITERATIONS + 1) / (2.0 * RADAU_ITERATIONS + used) *
+                pow(error, -0.25);
+    factor_of = fmin(r->was_rejected ? 1 : RADAU_GROW, fmax(RADAU_SHRINK, factor_of));
     if (!(error < 1)) {
         *h = tried * fmin(0.9, factor_of);
         return false;
@@ -563,7 +555,7 @@ static bool try_step(Radau *r, double *h, double end, int *failures)
         factor_of = 1;
     r->base.next = tried * factor_of;
     if (tried < *h)
-        r->base.next = fmax(r->base.next, fmin(*h, tried * GROW));
+        r->base.next = fmax(r->base.next, fmin(*h, tried * RADAU_GROW));
     return true;
 }
 
@@ -572,7 +564,7 @@ static Status step(Stepper *stepper, double end, Diag *diag)
     Radau *r = (Radau *)stepper;
     int failures = 0;
     double h = r->base.next;
-    bool keep = r->is_linear || (r->factored > 0 && r->contraction < CONTRACTS);
+    bool keep = r->is_linear || (r->factored > 0 && r->contraction < RADAU_REUSE);
 
     if (r->base.next > 0)
         guess_stages(r, trim(r, h, end + r->base.before - r->base.t), true);

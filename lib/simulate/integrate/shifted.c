@@ -5,10 +5,9 @@
 #include "algebra/sparse.h"
 #include "base/memory.h"
 #include "simulate/integrate/condensed.h"
+#include "simulate/integrate/integrate_limits.h"
 
 #include <string.h>
-
-#define FEW 100 /* states, up to which dense factors beat sparse ones of all unknowns */
 
 struct Shifted {
     const Ode *ode;
@@ -33,7 +32,7 @@ struct Shifted {
 
 static bool is_sparse(const Shifted *s)
 {
-    return s->ode->dae.is_index_one && s->n > FEW;
+    return s->ode->dae.is_index_one && s->n > SHIFTED_DENSE;
 }
 
 Shifted *shifted_new(const Ode *ode, Counts *counts)

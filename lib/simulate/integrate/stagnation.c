@@ -2,26 +2,11 @@
 #include "simulate/integrate/stagnation.h"
 
 #include "base/memory.h"
+#include "simulate/integrate/integrate_limits.h"
 
 #include <math.h>
 
-#define STEPS        5000  /* steps between checks, */
-#define PART         5e-3  /* least part of the run that they cover; else it takes a million */
-#define NOTICED      0.01  /* times the tolerance */
-#define HOPELESS     1e-9  /* of the run: shorter than this is close to the resolution of time */
-#define POINTS       64    /* of time ahead, over this */
-#define AHEAD        0.06  /* of a step: the motion itself is almost straight */
-#define ORDER        4     /* of differences, */
-#define GROWN        8     /* factor by which they amplify noise (root of 70) */
-#define ENOUGH_STEPS 1e4   /* of a run whose tolerance is attainable */
-#define FINE         1e-10 /* a tolerance that rounding allows almost everywhere */
-#define COARSEST     1e-7  /* a tolerance that is worth trying */
-
 /* steps whose total length is compared with that of those before */
-#define DWINDLING 200
-#define WANING    3    /* checks in succession with a decrease, */
-#define LESS      0.5  /* by this factor: steps of transients grow, at stability limits vary */
-#define SHORT     1e-6 /* of the run, at each check */
 
 /* Whether the method evaluates rates as a function of y alone. One that solves for a network's
  * unknowns together with its states isn't affected by the rounding error of a coil's current in a
@@ -36,23 +21,23 @@ static bool goes_by_rates(const Stepper *s)
  * that loses most of its terms, as of masses decades apart, changes in steps.) */
 static double rounding(Stepper *s, double h)
 {
-    const int all = stepper_length(s), length = POINTS * all;
+    const int all = stepper_length(s), length = STAGNATION_POINTS * all;
     double *rates = NEW_ARRAY(double, length), *ahead = NEW_ARRAY(double, all), largest = 0;
     bool sound = goes_by_rates(s);
 
-    for (int k = 0; sound && k < POINTS; k++) {
-        const double part = h * AHEAD * k / POINTS;
+    for (int k = 0; sound && k < STAGNATION_POINTS; k++) {
+        const double part = h * STAGNATION_AHEAD * k / STAGNATION_POINTS;
 
         for (int i = 0; i < all; i++)
             ahead[i] = s->y[i] + part * rates[i];
         sound = stepper_rate(s, s->t + part, ahead, rates + (ptrdiff_t)k * all);
     }
-    for (int end = length - all; sound && end >= length - ORDER * all; end -= all)
+    for (int end = length - all; sound && end >= length - STAGNATION_ORDER * all; end -= all)
         for (int e = 0; e < end; e++)
             rates[e] -= rates[e + all];
-    for (int e = 0; sound && e < length - ORDER * all; e++)
+    for (int e = 0; sound && e < length - STAGNATION_ORDER * all; e++)
         if (e % all < s->ode->n) {
-            const double rough = h * fabs(rates[e]) / GROWN;
+            const double rough = h * fabs(rates[e]) / STAGNATION_AMPLIFIED;
 
             largest = fmax(largest, rough / stepper_tolerance(s, e % all, fabs(s->y[e % all])));
         }
@@ -72,7 +57,8 @@ static const Method *other_method(const Stepper *s)
 static Status give_up(const Stepper *s, double h, Diag *diag)
 {
     const double rtol = s->control.rtol;
-    const double coarser = pow(10, ceil(log10(rtol * s->control.span / (h * ENOUGH_STEPS))));
+    const double coarser =
+        pow(10, ceil(log10(rtol * s->control.span / (h * STAGNATION_ENOUGH_STEPS))));
     const char *other = other_method(s)->name;
     const char *less = s->ode->is_network ? "a resistor across a steep part" : "another tree";
 
@@ -80,7 +66,7 @@ static Status give_up(const Stepper *s, double h, Diag *diag)
                    "at t = %.9g s: the tolerance is below what rounding leaves of %s: steps have "
                    "become too short to get anywhere",
                    s->t, ode_rates(s->ode));
-    if (coarser <= COARSEST)
+    if (coarser <= STAGNATION_COARSEST)
         diag_hint(diag, "%s may leave less rounding; or try rtol=%.0e, or method=%s", less, coarser,
                   other);
     else
@@ -96,7 +82,7 @@ static Status give_up(const Stepper *s, double h, Diag *diag)
 static Status report_too_small(const Stepper *s, Diag *diag)
 {
     (void)solver_failure(diag, s->t, "the step became too small");
-    if (s->control.rtol < FINE)
+    if (s->control.rtol < STAGNATION_FINE)
         diag_hint(diag, "method=%s may get further; so may a coarser rtol=", other_method(s)->name);
     return E_SOLVER;
 }
@@ -108,14 +94,17 @@ static bool wanes(Stepper *s)
     StepShrinkage *w = &s->step_shrinkage;
     const double way = s->t - w->t;
 
-    if (s->counts.steps - w->steps < DWINDLING)
+    if (s->counts.steps - w->steps < STAGNATION_WINDOW)
         return false;
-    w->times = way < LESS * w->way && way < SHORT * s->control.span ? w->times + 1 : 0;
+    w->times = way < STAGNATION_DECREASE * w->way && way < STAGNATION_SHORT * s->control.span
+                   ? w->times + 1
+                   : 0;
     w->way = way;
     w->steps = s->counts.steps;
     w->t = s->t;
-    return w->times >= WANING && 2 * way / DWINDLING < control_asked(&s->control) &&
-           !(rounding(s, way / DWINDLING) > NOTICED);
+    return w->times >= STAGNATION_DECREASES &&
+           2 * way / STAGNATION_WINDOW < control_asked(&s->control) &&
+           !(rounding(s, way / STAGNATION_WINDOW) > STAGNATION_ROUNDING);
 }
 
 Status stagnation_check(StagnationMonitor *stagnation, Stepper *s, int64_t steps, bool *is_rounding,
@@ -128,23 +117,23 @@ Status stagnation_check(StagnationMonitor *stagnation, Stepper *s, int64_t steps
     *is_rounding = false;
     if (wanes(s))
         return report_too_small(s, diag);
-    if (count < STEPS)
+    if (count < STAGNATION_STEPS)
         return OK;
     h = way / (double)count;
     stagnation->steps = steps;
     stagnation->t = s->t;
     /* the user requested short steps */
-    if (!(way < PART * s->control.span) || 2 * h > control_asked(&s->control))
+    if (!(way < STAGNATION_PROGRESS * s->control.span) || 2 * h > control_asked(&s->control))
         return OK;
-    if (way < HOPELESS * s->control.span)
+    if (way < STAGNATION_SHORTEST * s->control.span)
         return report_too_small(s, diag);
-    *is_rounding = rounding(s, h) > NOTICED;
+    *is_rounding = rounding(s, h) > STAGNATION_ROUNDING;
     return *is_rounding ? give_up(s, h, diag) : OK;
 }
 
 bool stagnation_is_rounding(Stepper *s, double h, Diag *diag)
 {
-    if (!(h < HOPELESS * s->control.span) || !(rounding(s, h) > NOTICED))
+    if (!(h < STAGNATION_SHORTEST * s->control.span) || !(rounding(s, h) > STAGNATION_ROUNDING))
         return false;
     (void)give_up(s, h, diag);
     return true;

@@ -1,9 +1,9 @@
 /* stepper.c: functions that steppers of all methods share */
 #include "simulate/integrate/ode.h"
 
-#include <string.h>
+#include "simulate/integrate/integrate_limits.h"
 
-#define STUCK 10 /* steps in succession that end where they began */
+#include <string.h>
 
 void stepper_init(Stepper *s, const Method *method, const Ode *ode, const Control *control)
 {
@@ -55,7 +55,7 @@ Status stepper_arrive(Stepper *s, double reached, double h, double next, Diag *d
         s->stuck = 0;
     else if (next <= h) /* the short first steps after a start grow */
         s->stuck++;
-    if (s->stuck >= STUCK)
+    if (s->stuck >= STEPPER_STUCK)
         return solver_failure(diag, before, "the step became too small");
     s->t = reached;
     s->next = next;

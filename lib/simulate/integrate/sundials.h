@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "simulate/integrate/condensed.h"
+#include "simulate/integrate/integrate_limits.h"
 #include "simulate/integrate/ode.h"
 
 #include <nvector/nvector_serial.h>
@@ -14,9 +15,6 @@
 #include <sundials/sundials_matrix.h>
 #include <sundials/sundials_nonlinearsolver.h>
 #include <sundials/sundials_types.h>
-
-#define SUNDIALS_ANY   1e20   /* a tolerance that is never exceeded */
-#define SUNDIALS_TRIES 100000 /* internal steps for one of ours: one mode makes one */
 
 /* functions with the same meaning in all of its solvers; they return 0 on success */
 typedef struct SundialsCalls {
