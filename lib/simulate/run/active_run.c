@@ -4,18 +4,15 @@
 #include "base/random.h"
 #include "simulate/run/charge_sharing.h"
 #include "simulate/run/result_reader_impl.h"
+#include "simulate/run/run_limits.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define POOL    1024 /* bytes: size of a chunk of names and times */
-#define OPEN    0.03 /* of the stored energy: a larger error of the balance is reported, */
-#define MANY    100  /* where it exceeds so many times the energy of tolerances in states */
-#define WORK    10   /* and of their power, over the time of the run: */
-#define ROUNDED 0.1  /* of the error: least work whose rounding may explain it */
-#define PLACES  16   /* rows at which these are evaluated, */
-#define BESIDE  4    /* with so many perturbations each */
+#define POOL   1024 /* bytes: size of a chunk of names and times */
+#define PLACES 16   /* rows at which these are evaluated, */
+#define BESIDE 4    /* with so many perturbations each */
 
 /* --- construction and destruction --- */
 
@@ -320,13 +317,15 @@ static Status judge_balance(ActiveRun *r, EnergyBalance balance, Diag *diag)
 {
     const RunReport *monitor_report = &r->result->monitor_report;
     const bool is_rounding =
-        balance.drift <= monitor_report->atol && balance.work > ROUNDED * balance.drift;
+        balance.drift <= monitor_report->atol && balance.work > WORK_ROUNDED * balance.drift;
     EnergyErrorFloor error_floor;
 
-    if (!(balance.drift > OPEN * balance.stored) || is_rounding || !(monitor_report->rtol > 0))
+    if (!(balance.drift > ENERGY_OPEN * balance.stored) || is_rounding ||
+        !(monitor_report->rtol > 0))
         return OK;
     TRY(find_energy_error_floor(r, &error_floor, diag));
-    if (balance.drift > MANY * error_floor.energy + WORK * error_floor.power * balance.time)
+    if (balance.drift >
+        ENERGY_ERRORS * error_floor.energy + WORK_ERRORS * error_floor.power * balance.time)
         remarks_add(
             &r->result->remarks,
             (Remark){.kind = REMARK_ENERGY_OPEN, .size = balance.drift, .to = balance.stored});

@@ -6,11 +6,10 @@
 #include "simulate/run/mode_phases.h"
 #include "simulate/run/mode_start.h"
 #include "simulate/run/result_reader_impl.h"
+#include "simulate/run/run_limits.h"
 
 #include <math.h>
 #include <string.h>
-
-#define START_TOLERANCE 1e-8
 
 /* The source of a driver's motion is searched in the equations of the whole model; this works as
  * long as they contain no ideal switch. */

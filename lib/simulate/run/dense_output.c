@@ -8,14 +8,10 @@
 
 #include "base/memory.h"
 #include "simulate/run/inverse.h"
+#include "simulate/run/run_limits.h"
 
 #include <math.h>
 #include <string.h>
-
-#define SAME        1e-12 /* of an output step: times closer than that are equal */
-#define TURNED      0.25  /* rad: largest angle of a part between two rows, for counting turns */
-#define MISSED      0.1   /* m or rad: farther from what was interpolated may be another branch */
-#define PROJECTIONS 4     /* more, with factors of their own, where one isn't enough */
 
 /* Hermite polynomial of degree 5 through value, rate and second rate at both ends (s in 0..1),
  * and its rate */
@@ -167,7 +163,7 @@ static void follow_turns(const StepEnd *a, const StepEnd *b, bool with_accelerat
 
     for (int k = first; k < first + l->multi_turns; k++)
         fastest = fmax(fastest, fmax(fabs(a->rate[k]), fabs(b->rate[k])));
-    parts = (int)fmin(MOST_PARTS, ceil(fastest * (t - a->t) / TURNED));
+    parts = (int)fmin(MOST_PARTS, ceil(fastest * (t - a->t) / DENSE_TURN));
     for (int i = 1; i <= parts; i++) {
         double at = a->t + (t - a->t) * i / parts;
 
@@ -190,14 +186,15 @@ static bool project_between(const Phase *phase, double t, double *y)
 
     memcpy(first, y, bytes);
     sound = motion_project(phase->motion, t, y);
-    for (int again = 0; again < PROJECTIONS && !sound && moved < MISSED; again++) {
+    for (int again = 0; again < DENSE_PROJECTIONS && !sound && moved < DENSE_MISSED_BRANCH;
+         again++) {
         sound = motion_project(phase->motion, t, y);
         for (int i = 0; i < phase->layout->n; i++)
             if (!(fabs(y[i] - first[i]) <= moved))
                 moved = fabs(y[i] - first[i]);
     }
     mem_free(first);
-    return sound && moved < MISSED;
+    return sound && moved < DENSE_MISSED_BRANCH;
 }
 
 static bool place_between(const StepEnd ends[2], bool with_accelerations, double t, double *y)
@@ -341,7 +338,8 @@ static int asked_row(const ResultReader *reader, double t)
 {
     const int row = last_row(&reader->asked, t);
 
-    return row >= 0 && t - reader->asked.times[row] <= SAME * reader->result->monitor_report.every
+    return row >= 0 &&
+                   t - reader->asked.times[row] <= SAME_TIME * reader->result->monitor_report.every
                ? row
                : -1;
 }

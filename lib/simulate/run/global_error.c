@@ -3,17 +3,9 @@
 
 #include "base/memory.h"
 #include "simulate/run/forward.h"
+#include "simulate/run/run_limits.h"
 
 #include <math.h>
-
-#define FAR      0.3  /* rad or m: two runs with a larger distance are different motions */
-#define SURE     4.0  /* ratio of distance and its own error from which on it is reported */
-#define NEAR     30.0 /* tolerances of a finer run: its own error may be as large */
-#define COARSEST 1e-8 /* the tolerance of which the reference of fixed steps uses a fraction */
-#define FINER    100  /* ratio of the tolerances of a run and of its finer run */
-/* factors of the distance to it, for one-step and for multistep methods */
-#define ONE_STEP  2.0
-#define MULTISTEP 6.0
 
 /* --- events --- */
 
@@ -86,7 +78,7 @@ static bool answers_to_tolerance(const Method *method)
  * too, or the finer run might take the same steps. Returns whether there are such options. */
 static bool finer_options(const RunOptions *options, int64_t steps, int which, RunOptions *out)
 {
-    const double part = pow(FINER, which), mean = options->duration / (double)steps;
+    const double part = pow(FINER_RUN_TOLERANCE, which), mean = options->duration / (double)steps;
 
     *out = *options;
     out->rtol = fmax(RUN_LEAST_RTOL, options->rtol / part);
@@ -128,7 +120,7 @@ static double largest_number(const ActiveRun *r, const Grid *grid)
 /* Whether a run at this distance from a finer one may be closer to the exact motion than that. */
 static bool may_be_nearer(const ActiveRun *r, double off, const RunOptions *finer, const Grid *fine)
 {
-    return off < NEAR * (finer->atol + finer->rtol * largest_number(r, fine));
+    return off < FINER_RUN_ERROR * (finer->atol + finer->rtol * largest_number(r, fine));
 }
 
 /* report the error: `by` is the finer run, `why` the failure of a finer run (NULL: none failed) */
@@ -138,8 +130,8 @@ static void report_global_error(ActiveRun *r, double off, bool is_bounded, bool 
     r->result->monitor_report.is_unresolved = !is_bounded;
     if (is_bounded)
         r->result->monitor_report.global_error =
-            off * (by->method->has_history ? MULTISTEP : ONE_STEP);
-    if (!(off <= FAR))
+            off * (by->method->has_history ? MULTISTEP_ERROR : ONE_STEP_ERROR);
+    if (!(off <= DIFFERENT_MOTION))
         remarks_add(&r->result->remarks,
                     (Remark){.kind = is_bounded ? REMARK_FAR_OFF : REMARK_UNRESOLVED,
                              .what = is_fixed ? "step" : "rtol",
@@ -163,8 +155,8 @@ Status global_error_estimate(ActiveRun *r, const SimulationInput *setting,
     Status status = OK;
 
     if (is_fixed) { /* these have no meaning for it */
-        coarse.rtol = fmin(coarse.rtol, COARSEST);
-        coarse.atol = fmin(coarse.atol, COARSEST);
+        coarse.rtol = fmin(coarse.rtol, FIXED_STEP_REFERENCE);
+        coarse.atol = fmin(coarse.atol, FIXED_STEP_REFERENCE);
         coarse.step = 0;
     }
     for (int i = 0; i < COUNT(runs) && is_doubtful; i++) {
@@ -176,8 +168,9 @@ Status global_error_estimate(ActiveRun *r, const SimulationInput *setting,
             break;
         off = largest_difference(r, rows, first, &runs[i].grid);
         is_bounded =
-            off <= FAR ||
-            (i > 0 && SURE * largest_difference(r, &runs[i - 1].grid, 0, &runs[i].grid) <= off);
+            off <= DIFFERENT_MOTION ||
+            (i > 0 &&
+             SURE_ERROR * largest_difference(r, &runs[i - 1].grid, 0, &runs[i].grid) <= off);
         is_doubtful = !is_bounded || may_be_nearer(r, off, &finer, &runs[i].grid);
     }
     if (status == OK || status == E_SOLVER)

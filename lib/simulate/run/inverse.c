@@ -14,11 +14,10 @@
 #include "base/memory.h"
 #include "simulate/equations/rows.h"
 #include "simulate/run/inverse_steps.h"
+#include "simulate/run/run_limits.h"
 
 #include <math.h>
 #include <string.h>
-
-#define ITERATIONS 30
 
 /* unknowns: index in the variable index, and symbol */
 typedef LIST(int) Unknowns;
@@ -321,7 +320,7 @@ static Status solve_rows(InverseRun *in, const InverseProblem *problem, Diag *di
     double size = INFINITY, scale = 1;
     Status status = OK;
 
-    for (int i = 0; i < ITERATIONS && size > 1e-14 * scale; i++) {
+    for (int i = 0; i < DRIVEN_ITERATIONS && size > 1e-14 * scale; i++) {
         const double *values = values_of(in, problem);
 
         if (!vector_is_finite(values, rows) || !solve_in_use(in, problem, values, values, step))

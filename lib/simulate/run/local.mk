@@ -58,6 +58,7 @@ libcore_la_SOURCES += \
   lib/simulate/run/result.h \
   lib/simulate/run/result_impl.h \
   lib/simulate/run/run.h \
+  lib/simulate/run/run_limits.h \
   lib/simulate/run/samples.c \
   lib/simulate/run/samples.h \
   lib/simulate/run/charge_sharing.c \

@@ -2,12 +2,10 @@
 #include "simulate/run/pace.h"
 
 #include "base/clock.h"
+#include "simulate/run/run_limits.h"
 
 #include <math.h>
 #include <time.h>
-
-#define LOOK  0.02  /* s: between checks whether to stop */
-#define WHOLE 0.999 /* of a step: as long as a whole one, within rounding */
 
 static void sleep_for(double duration)
 {
@@ -30,7 +28,7 @@ void pace_wait(Pace *pace, double t, const CallMonitor *watch)
     const double now = clock_now(), took = now - pace->last, length = t - pace->before;
     double left;
 
-    if (length < WHOLE * pace->step)
+    if (length < PACE_WHOLE_STEP * pace->step)
         return;
     if (took > pace->worst * length) {
         pace->worst = took / length;
@@ -39,7 +37,7 @@ void pace_wait(Pace *pace, double t, const CallMonitor *watch)
     pace->late += took > length;
     pace->behind = fmax(pace->behind, now - due);
     while ((left = due - clock_now()) > 0 && monitor_poll(watch) == OK)
-        sleep_for(fmin(left, LOOK));
+        sleep_for(fmin(left, PACE_CHECK));
     pace->last = clock_now();
     pace->before = t;
 }

@@ -6,8 +6,7 @@
 #define COTREE_SIMULATE_RUN_RUN_H
 
 #include "simulate/run/result_reader.h"
-
-#define RUN_LEAST_RTOL 1e-13 /* between rounding error and the resolution of doubles */
+#include "simulate/run/run_limits.h"
 
 typedef struct RunOptions {
     double duration;    /* s */

@@ -2,11 +2,9 @@
 #include "simulate/run/samples.h"
 
 #include "base/memory.h"
+#include "simulate/run/run_limits.h"
 
 #include <math.h>
-
-#define MOST_SAMPLES 1e9  /* in a run: these alone take minutes */
-#define SAME         1e-9 /* of a period: instants closer than that are one */
 
 typedef struct SampledState {
     int state; /* index in x */
@@ -88,7 +86,7 @@ Status samples_check(const Samples *s, double duration, Diag *diag)
     for (int i = 0; s != NULL && i < s->count; i++) {
         const SampledState *sample = &s->at[i];
 
-        if (duration / sample->period <= MOST_SAMPLES)
+        if (duration / sample->period <= SAMPLES_MOST)
             continue;
         (void)diag_set(diag, E_VALUE, "%s would be sampled %.3g times in %g s",
                        system_x(s->layout->system, sample->state)->name, duration / sample->period,
@@ -104,7 +102,7 @@ double samples_next(const Samples *s, double t)
     double first = INFINITY;
 
     for (int i = 0; s != NULL && i < s->count; i++)
-        first = fmin(first, s->at[i].period * (floor(t / s->at[i].period + SAME) + 1));
+        first = fmin(first, s->at[i].period * (floor(t / s->at[i].period + SAME_SAMPLE) + 1));
     return first;
 }
 
@@ -112,7 +110,7 @@ static bool is_due(const SampledState *sample, double t)
 {
     double count = t / sample->period;
 
-    return fabs(count - round(count)) <= SAME;
+    return fabs(count - round(count)) <= SAME_SAMPLE;
 }
 
 /* the value that the host set for an input at that instant; NULL: none yet */
@@ -138,7 +136,7 @@ static const HostValue *find_value(const Host *host, int instance, double t, dou
 static Status set_input(Host *host, const SampledState *sample, const char *name, double t,
                         const double *items, double *value, Diag *diag)
 {
-    const HostValue *before = find_value(host, sample->instance, t, SAME * sample->period);
+    const HostValue *before = find_value(host, sample->instance, t, SAME_SAMPLE * sample->period);
 
     if (before != NULL)
         *value = before->value;

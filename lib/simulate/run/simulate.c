@@ -10,17 +10,12 @@
 #include "simulate/run/global_error.h"
 #include "simulate/run/inverse.h"
 #include "simulate/run/pace.h"
+#include "simulate/run/run_limits.h"
 
 #include <math.h>
 #include <string.h>
 
-#define MOST_ROWS    20000000
-#define MOST_VALUES  2e8 /* in all rows: 1.6 GB */
-#define POINTS       4   /* between rows of a driven run, at which events are checked */
-#define TURNED       2.0 /* rad: largest step of a multi-turn angle in a driven run, */
-#define MISSED       0.5 /* and largest difference from its prediction */
-#define AUTO         "auto"
-#define DEFAULT_RTOL 1e-8
+#define AUTO "auto"
 
 const char *run_method(int i, const char **brief)
 {
@@ -106,7 +101,7 @@ static Status complete_options(const ActiveRun *r, const RunOptions *given, RunO
     if (out->atol == 0)
         out->atol = out->rtol;
     TRY(check_rtol(out->rtol, diag));
-    if (out->duration / out->every > fmin(MOST_ROWS, MOST_VALUES / width)) {
+    if (out->duration / out->every > fmin(RESULT_MOST_ROWS, RESULT_MOST_VALUES / width)) {
         (void)diag_set(diag, E_VALUE, "that makes %.3g rows", out->duration / out->every);
         diag_hint(diag, "take a larger step of output, every=");
         diag_about(diag, "every");
@@ -376,9 +371,9 @@ static bool reach(ActiveRun *r, double from, double to, double *y, int depth)
         moved = fmax(moved, fabs(trial[i] - rate[i]));
     for (int i = variable_index_references(l); i < variable_index_references(l) + l->multi_turns;
          i++)
-        turned = fmax(turned, TURNED / MISSED * fabs(trial[i] - rate[i]));
+        turned = fmax(turned, DRIVEN_TURN / DRIVEN_MISSED * fabs(trial[i] - rate[i]));
     /* far from the prediction it may be another branch */
-    sound = sound && moved < 0.1 && turned < TURNED;
+    sound = sound && moved < 0.1 && turned < DRIVEN_TURN;
     if (sound) {
         memcpy(y, trial, (size_t)r->phase->length * sizeof(double));
         (void)motion_renew(r->phase->motion, to, y);
@@ -458,8 +453,8 @@ static Status follow_events(ActiveRun *r, double from, double to, double span, d
     double last = from;
     Status status = OK;
 
-    for (int k = 1; k <= POINTS && !*stop;) {
-        double t = k == POINTS ? to : from + (to - from) * k / POINTS;
+    for (int k = 1; k <= DRIVEN_POINTS && !*stop;) {
+        double t = k == DRIVEN_POINTS ? to : from + (to - from) * k / DRIVEN_POINTS;
         bool happened = false;
 
         memcpy(trial, y, bytes);

@@ -7,21 +7,12 @@
 
 #include "simulate/equations/failure_diagnosis.h"
 #include "simulate/integrate/stagnation.h"
+#include "simulate/run/run_limits.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-#define SOON      1e-3 /* of the characteristic time: the distance of linear extrapolation */
-#define FIRST     1e-16
-#define STEP      0.1  /* of that: a step that accuracy would allow */
-#define IMMINENT  1e-6 /* of the run: a cause within that time ends it */
-#define ENDING    1e-2 /* of the independent part of a driver's row at the start */
-#define ASIDE     1e-6 /* of the size of y: perturbation of difference quotients */
-#define STABLE    2.5  /* explicit methods: largest step times rate */
-#define BLOWN_UP  1e6  /* times the size at the start: faster than any real motion */
-#define BOUNDLESS 1e3  /* times the size at the start; and growing at that rate */
 
 /* the state of a run at its end, and its extrapolation */
 typedef struct RunEnd {
@@ -50,7 +41,7 @@ static double quickest(const RunEnd *e, int *which)
         const double begin = i < l->n + l->nu ? fabs(e->at_start[i]) : 0;
         const double time = fabs(e->y[i]) / fabs(e->rate[i]);
 
-        if (fabs(e->y[i]) > BOUNDLESS * fmax(1, begin) && time < least) {
+        if (fabs(e->y[i]) > TERMINATION_BOUNDLESS * fmax(1, begin) && time < least) {
             least = time;
             *which = i;
         }
@@ -109,8 +100,8 @@ static void look_at_pusher(RunEnd *e, const Pusher *pusher, Pushing *out)
         out->most = push;
         out->hardest = pusher->name;
     }
-    for (double time = FIRST * e->span; is_number && time <= e->soon && time < out->when;
-         time *= 2) {
+    for (double time = TERMINATION_FIRST * e->span;
+         is_number && time <= e->soon && time < out->when; time *= 2) {
         (void)largest_push(e, probe, pusher->count, time, &is_number);
         if (!is_number) {
             out->when = time;
@@ -145,7 +136,7 @@ static bool report_meeting(RunEnd *e, Diag *diag)
 
     memcpy(before, diag->message, sizeof before);
     return failure_closing(e->phase->layout, &e->run->phases->parameters, e->t, e->y, e->rate,
-                           IMMINENT * e->span, before, diag);
+                           TERMINATION_IMMINENT * e->span, before, diag);
 }
 
 /* The first driver whose row has lost the independent part that it had at the start; -1: none. */
@@ -165,7 +156,7 @@ static int driver_at_end(RunEnd *e, const Ode *ode)
         begun[k] = system_constraint(l->system, k)->is_driver ? failure_own_part(l, eq, k) : 0;
     (void)ode->rate(ode->context, e->t, e->y, rate);
     for (int k = 0; k < l->m && found < 0; k++)
-        if (begun[k] > 0 && failure_own_part(l, eq, k) < ENDING * begun[k])
+        if (begun[k] > 0 && failure_own_part(l, eq, k) < TERMINATION_DRIVER * begun[k])
             found = k;
     mem_free(begun);
     mem_free(rate);
@@ -224,7 +215,7 @@ static double along(const RunEnd *e, const Ode *ode, const double *from, double 
 {
     const int n = e->phase->length - 1; /* work is last, and nothing depends on it */
     const double size = vector_largest(way, n);
-    const double aside = ASIDE * fmax(1, vector_largest(from, n)) / size;
+    const double aside = TERMINATION_DIFFERENCE * fmax(1, vector_largest(from, n)) / size;
     double *there = NEW_ARRAY(double, n + 1), *here = NEW_ARRAY(double, n + 1);
     bool sound = ode->rate(ode->context, e->t, from, here);
 
@@ -276,7 +267,7 @@ static bool report_unstable(RunEnd *e, const Stepper *stepper, Diag *diag)
 
     if (!stepper->method->has_fixed_step ||
         !(vector_largest(e->y, e->phase->length - 1) >
-          BLOWN_UP * fmax(1, vector_largest(e->at_start, speeds))))
+          TERMINATION_UNSTABLE * fmax(1, vector_largest(e->at_start, speeds))))
         return false;
     begun = NEW_ARRAY(double, e->phase->length);
     memcpy(begun, e->y, (size_t)e->phase->length * sizeof(double));
@@ -284,16 +275,16 @@ static bool report_unstable(RunEnd *e, const Stepper *stepper, Diag *diag)
     rate = fastest(e, stepper->ode, begun);
     mem_free(begun);
     /* after strong growth the state may have rates that the motion never had */
-    if (!(step * rate > STABLE))
+    if (!(step * rate > TERMINATION_STABLE))
         rate = fastest(e, stepper->ode, e->y);
-    if (!(step * rate > STABLE))
+    if (!(step * rate > TERMINATION_STABLE))
         return false;
     (void)diag_set(diag, E_SOLVER,
                    "at t = %.9g s: steps of %.3g s are too long for %s: something decays or swings "
                    "in %.2g s, and numbers grow without bound",
                    e->t, step, stepper->method->name, 1 / rate);
     diag_hint(diag, "step=%.1g or less; or method=%s, whose steps that doesn't limit",
-              0.5 * STABLE / rate, method_for((MethodNeed){.stiff = true})->name);
+              0.5 * TERMINATION_STABLE / rate, method_for((MethodNeed){.stiff = true})->name);
     return true;
 }
 
@@ -344,7 +335,7 @@ static bool report_uncharged(RunEnd *e, int which, Diag *diag)
 static void add_limiting(RunEnd *e, Stepper *stepper, const char *hardest, Diag *diag)
 {
     const double last = e->t - stepper->before;
-    const double h = fmax(last, fmax(FIRST * e->span, 4 * DBL_EPSILON * fabs(e->t)));
+    const double h = fmax(last, fmax(TERMINATION_FIRST * e->span, 4 * DBL_EPSILON * fabs(e->t)));
     const int which = find_limiting(e, stepper, h);
     const Method *alternative = method_for((MethodNeed){.stiff = true});
     char other[80] = "";
@@ -377,7 +368,7 @@ static void report(RunEnd *e, Stepper *stepper, bool *is_rounding, Diag *diag)
     const double last = fmax(e->t - stepper->before, 4 * DBL_EPSILON * fabs(e->t));
     Pushing pushing;
 
-    e->soon = fmax(SOON * fmin(e->span, time), fmin(2 * step, time));
+    e->soon = fmax(TERMINATION_AHEAD * fmin(e->span, time), fmin(2 * step, time));
     if (report_unstable(e, stepper, diag) || report_leading(e, stepper->ode, diag) ||
         report_meeting(e, diag) || report_critical(e, diag)) {
         *is_rounding = false;
@@ -389,10 +380,10 @@ static void report(RunEnd *e, Stepper *stepper, bool *is_rounding, Diag *diag)
         add_cause(diag, ": ", pushing.without, "has no value from there on");
         diag_hint(diag, "limit what its law takes a root, a logarithm or a quotient of, as by "
                         "max(..., 0), or end the run before with an event and do=stop");
-    } else if (*is_rounding ||
-               stagnation_is_rounding(stepper, growing >= 0 ? STEP * time : last, diag)) {
+    } else if (*is_rounding || stagnation_is_rounding(
+                                   stepper, growing >= 0 ? TERMINATION_STEP * time : last, diag)) {
         *is_rounding = true;
-    } else if (time < IMMINENT * e->span) {
+    } else if (time < TERMINATION_IMMINENT * e->span) {
         *is_rounding = false;
         add_cause(diag, ": ", name_of(e, growing), "grows without bound there");
         if (pushing.hardest != NULL)
