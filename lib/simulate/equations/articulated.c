@@ -7,12 +7,11 @@
 #include "simulate/equations/articulated.h"
 
 #include "base/memory.h"
+#include "simulate/equations/equations_limits.h"
 #include "simulate/equations/passing.h"
 
 #include <math.h>
 #include <string.h>
-
-#define MOST_EXCESS 1e12 /* times D the inertia before elimination: D would be rounding error */
 
 /* articulated-body inertia of a place */
 typedef struct Beyond {
@@ -336,7 +335,7 @@ static bool take_off(Articulated *ar, const MassPlace *place, Beyond *b, int i)
     else
         yield_spatial(b, speed, turn, slide, u);
     D = work(ar, j, u) + ar->own[j];
-    if (!(D * MOST_EXCESS > D + ar->lost[j]))
+    if (!(D * ARTICULATED_MOST_EXCESS > D + ar->lost[j]))
         return false;
     ar->inverse[j] = 1 / D;
     if (ar->mass->planar)

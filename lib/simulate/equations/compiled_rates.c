@@ -5,17 +5,16 @@
 #include "simulate/equations/compiled_equations_impl.h"
 
 #include "base/four.h"
+#include "simulate/equations/equations_limits.h"
 
 #include <string.h>
-
-#define MOST_EXCESS 1e12 /* entry before elimination over pivot: more is rounding error */
 
 static bool has_few_pivots(const double *excess, int count)
 {
     bool has = true;
 
     for (int j = 0; j < count; j++)
-        has &= (excess[j] > 0) & (excess[j] < MOST_EXCESS);
+        has &= (excess[j] > 0) & (excess[j] < PIVOT_MOST_EXCESS);
     return has;
 }
 
@@ -27,7 +26,7 @@ AS_WIDE_AS_CAN_BE static bool has_many_pivots(const double *excess, int count)
     for (; j + 4 <= count; j += 4) {
         const Four four = *(const Four *)(excess + j);
 
-        all &= (four > 0) & (four < MOST_EXCESS);
+        all &= (four > 0) & (four < PIVOT_MOST_EXCESS);
     }
     return all[0] && all[1] && all[2] && all[3] && has_few_pivots(excess + j, count - j);
 }

@@ -4,13 +4,11 @@
 #include "algebra/linear.h"
 #include "algebra/sparse.h"
 #include "base/memory.h"
+#include "simulate/equations/equations_limits.h"
 #include "simulate/equations/rows.h"
 
 #include <math.h>
 #include <string.h>
-
-#define FEW 40    /* unknowns for full matrices from the start */
-#define ILL 1e-12 /* least pivot over largest, below which full matrices are used */
 
 struct Factors {
     int n;
@@ -30,7 +28,7 @@ Factors *factors_new(int n, const int *start, const int *row, bool full)
     *f = (Factors){.n = n, .start = start, .row = row};
     if (full)
         f->full = NEW_ARRAY(double, (size_t)n *(size_t)n);
-    if (full && n <= FEW)
+    if (full && n <= FACTORS_DENSE)
         return f;
     column = NEW_ARRAY(int, start[n]);
     for (int c = 0; c < n; c++)
@@ -86,7 +84,7 @@ bool factors_make(Factors *f, const double *values)
     if (f->sparse != NULL) {
         scale(f, values);
         if (sparse_factor(f->sparse, f->scaled) &&
-            (f->full == NULL || sparse_condition(f->sparse) > ILL))
+            (f->full == NULL || sparse_condition(f->sparse) > FACTORS_ILL_CONDITIONED))
             return true;
     }
     if (f->full == NULL)

@@ -6,16 +6,11 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "formulate/kinematics/edges.h"
+#include "simulate/equations/equations_limits.h"
 #include "simulate/equations/rows.h"
 
 #include <math.h>
 #include <string.h>
-
-#define CLOSE    1e-12 /* m: positions are solved more closely than this */
-#define PART     1e-3  /* of the largest part in a driver's row: less is rounding */
-#define ROUNDING 1e-13 /* of the largest entry of the mass matrix */
-#define SINGULAR 1e-9  /* of a scaled column of it */
-#define BRIEF    1e-6  /* of a time that counts as short: rates are taken as constant */
 
 enum { MOST_LOOKED_AT = 100 }; /* speeds; the cost grows with their fourth power */
 
@@ -36,7 +31,8 @@ bool failure_meeting(const VariableIndex *l, Parameters *parameters, double t, c
     double length;
 
     for (int next = 0; system_line(l->system, &next, &line);)
-        if (value_at(l, parameters, line.length, t, y, &length) && fabs(length) < CLOSE) {
+        if (value_at(l, parameters, line.length, t, y, &length) &&
+            fabs(length) < FAILURE_SAME_POINT) {
             (void)diag_set(diag, E_SINGULAR,
                            "%s: the frames of %s, %s and %s, are at the same point, where its line "
                            "has no direction",
@@ -73,8 +69,8 @@ bool failure_closing(const VariableIndex *l, Parameters *parameters, double t, c
 
     for (int next = 0; system_line(l->system, &next, &line);)
         if (value_at(l, parameters, line.length, t, y, &length) &&
-            fabs(length) <=
-                CLOSE + time * speed_of(l, parameters, line.length, t, y, rate, BRIEF * time)) {
+            fabs(length) <= FAILURE_SAME_POINT + time * speed_of(l, parameters, line.length, t, y,
+                                                                 rate, FAILURE_DIFFERENCE * time)) {
             (void)diag_set(
                 diag, E_SOLVER,
                 "%s: the frames of %s, %s and %s, come to the same point, where its line "
@@ -145,7 +141,7 @@ static void scaled_rows(const VariableIndex *l, Parameters *parameters, double t
     for (int j = 0; j < l->nu; j++)
         largest = fmax(largest, rows[j * l->nu + j]);
     for (int j = 0; j < l->nu; j++)
-        scale[j] = rows[j * l->nu + j] > ROUNDING * largest ? sqrt(rows[j * l->nu + j]) : 1;
+        scale[j] = rows[j * l->nu + j] > FAILURE_NO_MASS * largest ? sqrt(rows[j * l->nu + j]) : 1;
     for (int i = 0; i < l->nu * l->nu; i++)
         rows[i] /= scale[i / l->nu] * scale[i % l->nu];
     for (int k = l->nu; k < l->nu + l->m; k++) {
@@ -181,7 +177,7 @@ static bool find_massless(const VariableIndex *l, const double *rows, int j, dou
         left = hypot(left, column[i] - made[i]);
     shares[j] = -1;
     MEM_FREE(others, column, made);
-    return left < SINGULAR;
+    return left < FAILURE_SINGULAR;
 }
 
 /* the coordinates whose speeds have a share worth naming */
@@ -195,7 +191,7 @@ static int name_shares(const VariableIndex *l, const double *shares, const doubl
     for (int j = 0; j < l->nu; j++) {
         const int q = speed_coordinate(l->system, j);
 
-        if (fabs(shares[j]) / scale[j] > PART * largest)
+        if (fabs(shares[j]) / scale[j] > FAILURE_TAKES_PART * largest)
             text_addf(out, "%s%s", count++ > 0 ? ", " : "",
                       q >= 0 ? system_q(l->system, q)->name : system_u(l->system, j)->name);
     }
@@ -322,7 +318,7 @@ void failure_leading(const VariableIndex *l, const Equations *equations, int dri
     for (int k = 0; k < l->m; k++)
         most = fmax(most, fabs(parts[k]));
     for (int k = 0; k < l->m; k++)
-        if (k == driver || fabs(parts[k]) > PART * most)
+        if (k == driver || fabs(parts[k]) > FAILURE_TAKES_PART * most)
             add_joints(l, equations, k, named, &count);
     for (int i = 0; i < count; i++)
         text_addf(&text, "%s%s", i == 0 ? "" : i == count - 1 ? " and " : ", ", named[i]);

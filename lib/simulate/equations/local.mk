@@ -1,4 +1,5 @@
 libcore_la_SOURCES += \
+  lib/simulate/equations/equations_limits.h \
   lib/simulate/equations/failure_diagnosis.c \
   lib/simulate/equations/failure_diagnosis.h \
   lib/simulate/equations/partitioning.c \

@@ -2,11 +2,10 @@
 #include "simulate/equations/mode_forms.h"
 
 #include "base/memory.h"
+#include "simulate/equations/equations_limits.h"
 
 #include <stdint.h>
 #include <string.h>
-
-#define MOST_BYTES 64e6 /* of memory for all forms together */
 
 typedef struct Kept {
     uint64_t hash;
@@ -67,7 +66,7 @@ const HessenbergForm *mode_forms_store(ModeForms *f, const bool *closed, Hessenb
     double bytes = (double)hessenberg_form_bytes(given);
     Kept *kept;
 
-    if (f->kept.count == 0 || f->bytes + bytes <= MOST_BYTES) {
+    if (f->kept.count == 0 || f->bytes + bytes <= MODE_FORMS_MOST_BYTES) {
         LIST_PUSH(f->kept, (Kept){.closed = NEW_ARRAY(bool, f->switches)});
         kept = &f->kept.at[f->kept.count - 1];
         f->bytes += bytes;

@@ -8,14 +8,11 @@
 #include "algebra/linear.h"
 #include "algebra/rank.h"
 #include "base/memory.h"
+#include "simulate/equations/equations_limits.h"
 
 #include <math.h>
 #include <string.h>
 
-#define PROJECTION_SWEEPS 8
-#define NEAR              0.1  /* independence of rows: below, a singular position is near */
-#define FAR               0.2  /* above, it is far for the whole step */
-#define LEAST_SIZE        1e-6 /* of a row, relative to its entries */
 #define REFERENCE_ERROR_FLOOR                                                                      \
     0.03 /* rad: largest difference of an angle and its reference after a step */
 
@@ -217,7 +214,7 @@ static void measure_rows(Motion *mo)
     for (int k = 0; k < mo->eq->m; k++) {
         const double largest = pattern_largest(mo->eq->rows, mo->eq->phi_u, k);
 
-        mo->row_size[k] = fmax(mo->row_size[k], fmax(largest, LEAST_SIZE));
+        mo->row_size[k] = fmax(mo->row_size[k], fmax(largest, MOTION_LEAST_ROW));
         mo->row_part[k] = 1 / mo->row_size[k];
     }
 }
@@ -280,13 +277,13 @@ static void begin(void *context, double t, const double *y, double h)
     measure_rows(mo);
     by_groups = follow_trend(&mo->by_groups, t, h,
                              kkt_independence_of_groups(mo->kkt, mo->eq->phi_u, mo->rows), NAN);
-    if (by_groups < NEAR)
+    if (by_groups < MOTION_NEAR)
         by_all = follow_trend(&mo->by_all, t, h, kkt_independence(mo->kkt, mo->eq->phi_u, mo->rows),
                               by_groups / mo->by_groups.now);
-    mo->is_projecting = fmax(by_groups, by_all) < NEAR;
+    mo->is_projecting = fmax(by_groups, by_all) < MOTION_NEAR;
     if (mo->is_projecting) /* no factors may be used then */
         mo->rounding_error = fmax(mo->rounding_error, kkt_rounding_error_at(mo->by_all.now));
-    mo->is_far = fmax(by_groups, by_all) > FAR;
+    mo->is_far = fmax(by_groups, by_all) > MOTION_FAR;
 }
 
 static bool solve_on_manifold(Motion *mo, double t, const double *y)

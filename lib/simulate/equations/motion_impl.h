@@ -4,6 +4,7 @@
 
 #include "algebra/anderson.h"
 #include "algebra/kkt.h"
+#include "simulate/equations/equations_limits.h"
 #include "simulate/equations/motion.h"
 #include "simulate/equations/netsolve.h"
 #include "simulate/equations/partitioning.h"
@@ -66,8 +67,6 @@ static inline int multi_turn_place(const Equations *eq)
 {
     return eq->n + eq->nu + eq->nx;
 }
-
-#define MOTION_WORN 0.1 /* of the pivot ratio when they were chosen: rows, independent speeds */
 
 /* whether t is in the step that began last */
 static inline bool motion_is_in_step(const Motion *mo)

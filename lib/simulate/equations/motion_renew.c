@@ -6,14 +6,10 @@
 
 #include "algebra/rank.h"
 #include "base/memory.h"
+#include "simulate/equations/equations_limits.h"
 
 #include <math.h>
 #include <string.h>
-
-#define ROWS_WORN                                                                                  \
-    0.5             /* of the pivot ratio when they were chosen: it falls to 0 within a few steps */
-#define DEARER 4    /* cost of a product in factors over one in straight-line code */
-#define POOR   1e-2 /* pivot ratio of rows below which others may be better */
 
 bool motion_choose_independent(Motion *mo)
 {
@@ -54,7 +50,7 @@ static bool choose_rows_of(Motion *mo, const double *phi_u)
 
     if (mo->row_ratio == 0)
         mo->row_ratio = ratio;
-    if (ratio > fmax(ROWS_WORN * mo->row_ratio, POOR))
+    if (ratio > fmax(ROWS_WORN * mo->row_ratio, ROWS_POOR))
         return false;
     rows = NEW_ARRAY(int, mo->used);
     mo->row_ratio = rank_choose(phi_u, eq->m, eq->nu, mo->used, rows);
@@ -143,5 +139,6 @@ Status motion_try_coordinate_partitioning(Motion *mo, double steps_ahead, Diag *
     mo->factored = mo->steps = 0;
     mo->is_evaluated = mo->is_factored = mo->is_alone = false;
     mem_keep(mo); /* as it is now: where the call fails, so does what was evaluated after it */
-    return eq->eliminate(eq->context, mo->rows, mo->used, DEARER * kkt_products(mo->kkt), diag);
+    return eq->eliminate(eq->context, mo->rows, mo->used, ELIMINATION_COST * kkt_products(mo->kkt),
+                         diag);
 }

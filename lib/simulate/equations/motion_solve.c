@@ -4,15 +4,10 @@
 #include "algebra/linear.h"
 #include "algebra/rank.h"
 #include "base/memory.h"
+#include "simulate/equations/equations_limits.h"
 
 #include <math.h>
 #include <string.h>
-
-#define TURNS    50
-#define STALLED  3     /* turns without a decrease, */
-#define ROUNDING 1e-11 /* whose change below this is rounding error */
-#define LEAST    1e-15
-#define SUSPECT  1e-2 /* pivot ratio of Phi_d above which no position is singular */
 
 static void pick_rows(const Motion *mo, const double *all, double *out)
 {
@@ -58,7 +53,7 @@ static bool solve_embedded(Motion *mo)
         mo->is_repartitioned = motion_choose_independent(mo) || mo->is_repartitioned;
         sound = motion_factor_embedded(mo);
     }
-    if (!sound || partitioning_pivots(mo->partitioning) < SUSPECT) {
+    if (!sound || partitioning_pivots(mo->partitioning) < PARTITIONING_SUSPECT) {
         if (!solve_augmented(mo))
             return false;
         if (!sound || kkt_is_regularised(mo->kkt))
@@ -132,8 +127,8 @@ static double turn_of(Motion *mo, int n)
         const double size = fabs(mo->solved[i]);
         const double move = fabs(mo->solved[i] - mo->solved_before[i]);
 
-        mo->turn_size[i] = fmax(mo->solved_size[i], fmax(size, LEAST));
-        if (!(move <= 1e-13 * size + LEAST))
+        mo->turn_size[i] = fmax(mo->solved_size[i], fmax(size, TOGETHER_LEAST));
+        if (!(move <= 1e-13 * size + TOGETHER_LEAST))
             largest = fmax(largest, move / mo->turn_size[i]);
     }
     return largest;
@@ -160,7 +155,7 @@ static bool solve_together(Motion *mo)
     int stalled = 0;
 
     anderson_restart(mo->together);
-    for (int k = 0; k < TURNS; k++) {
+    for (int k = 0; k < TOGETHER_ITERATIONS; k++) {
         double turn;
 
         if (!solve_augmented(mo))
@@ -172,7 +167,7 @@ static bool solve_together(Motion *mo)
             return false;
         turn = turn_of(mo, n);
         stalled = turn > least / 2 ? stalled + 1 : 0;
-        if (turn == 0 || (stalled >= STALLED && turn <= ROUNDING)) {
+        if (turn == 0 || (stalled >= TOGETHER_STALLED && turn <= TOGETHER_ROUNDING)) {
             note_size(mo, n);
             return true;
         }

@@ -7,11 +7,10 @@
 
 #include "algebra/linear.h"
 #include "base/memory.h"
+#include "simulate/equations/equations_limits.h"
 
 #include <math.h>
 #include <string.h>
-
-#define SWEEPS 4
 
 void motion_open_surfaces(Motion *mo)
 {
@@ -114,7 +113,7 @@ bool motion_project_surfaces(Motion *mo, double t, double *y)
     double size = fmax(1, vector_largest(y, motion_length(mo) - 1));
     double before = INFINITY;
 
-    for (int sweep = 0; sweep < SWEEPS; sweep++) {
+    for (int sweep = 0; sweep < SURFACE_SWEEPS; sweep++) {
         double left;
 
         if (!try_signs(&at, signs_values(mo->signs), mo->slip))

@@ -5,39 +5,20 @@
 #include "algebra/sparse.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "simulate/equations/equations_limits.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
-
-#define KEPT       4 /* solutions with the same factors: a step's end is evaluated often */
-#define ITERATIONS 100
-#define ENOUGH     1e-9 /* relative step that ends the search; the error is its square */
-#define LEAST_SIZE 1e-3 /* least scale of an unknown */
-#define FAR_OFF    1e3  /* times as large on the way: the scale is out of date */
-#define ROUNDING   1e-7 /* a relative step that no longer shrinks below this is rounding error */
-#define PATIENCE   4    /* steps before rounding error is considered */
-#define MOVES      3    /* random moves that estimate it, */
-#define DIGITS     4    /* of up to so many units in the last place */
-#define LEAST      1e-4 /* of damping */
-#define FURTHEST   4096
-#define PLAIN      20    /* undamped steps by pieces */
-#define SHORTEST   1e-14 /* least share of a step that lowers the residual across kinks */
-#define NEARBY     12    /* steps to a solution near the last one, */
-#define CLOSE      1e-3  /* and how close they come */
-#define BESIDE     1e-6  /* of an unknown: perturbation where a derivative is infinite */
-/* continuation: first share of the sources, and the largest and least factor from share to share */
-#define LEAST_SHARE  1e-16
-#define FACTOR       4.0
-#define LEAST_FACTOR 1.01
 
 struct NetSolve {
     const Equations *eq;
     Sparse *matrix;
     bool is_factored; /* valid until switches change */
     uint64_t sides;   /* counter of switch changes when it was factored */
-    double *kept;     /* right-hand sides with these factors and their solutions, 2 x KEPT x n */
-    int kept_count;   /* since the factorisation; the newest are kept */
+    double *kept; /* right-hand sides with these factors and their solutions, 2 x NETSOLVE_RETAINED
+                     x n */
+    int kept_count; /* since the factorisation; the newest are kept */
     int n;
     double *w, *step, *trial, *next, *size;
     double *noise;  /* rounding error of the residuals */
@@ -58,7 +39,7 @@ NetSolve *netsolve_new(const Equations *eq)
     s->size = NEW_ARRAY(double, s->n);
     s->noise = NEW_ARRAY(double, s->n);
     if (eq->network_is_constant)
-        s->kept = NEW_ARRAY(double, 2 * KEPT * s->n);
+        s->kept = NEW_ARRAY(double, 2 * NETSOLVE_RETAINED * s->n);
     s->weight = NEW_ARRAY(double, s->n);
     return s;
 }
@@ -103,7 +84,7 @@ static bool solve_linear(NetSolve *s)
 
     if (!factor_linear(s))
         return false;
-    for (int k = 0; k < KEPT && k < s->kept_count && s->is_factored; k++) {
+    for (int k = 0; k < NETSOLVE_RETAINED && k < s->kept_count && s->is_factored; k++) {
         kept = s->kept + (ptrdiff_t)2 * k * s->n;
         if (memcmp(kept, s->eq->network_rhs, bytes) == 0) {
             memcpy(s->w, kept + s->n, bytes);
@@ -113,7 +94,7 @@ static bool solve_linear(NetSolve *s)
     memcpy(s->w, s->eq->network_rhs, bytes);
     sparse_solve(s->matrix, s->w);
     if (s->is_factored) {
-        kept = s->kept + (ptrdiff_t)2 * (s->kept_count++ % KEPT) * s->n;
+        kept = s->kept + (ptrdiff_t)2 * (s->kept_count++ % NETSOLVE_RETAINED) * s->n;
         memcpy(kept, s->eq->network_rhs, bytes);
         memcpy(kept + s->n, s->w, bytes);
     }
@@ -166,9 +147,9 @@ static bool measure_anew(NetSolve *s)
     bool changed = false;
 
     for (int i = 0; i < s->n; i++) {
-        const double size = fmax(fabs(s->w[i]), LEAST_SIZE);
+        const double size = fmax(fabs(s->w[i]), NETSOLVE_LEAST_SCALE);
 
-        if (s->size[i] > FAR_OFF * size) {
+        if (s->size[i] > NETSOLVE_STALE_SCALE * size) {
             s->size[i] = size;
             changed = true;
         }
@@ -194,9 +175,9 @@ static bool is_met(NetSolve *s)
     for (int i = 0; i < s->n; i++)
         if (!isfinite(s->noise[i]))
             s->noise[i] = 0; /* there is no bound: moves estimate it */
-    for (int turn = 0; turn < MOVES; turn++) {
+    for (int turn = 0; turn < NETSOLVE_PERTURBATIONS; turn++) {
         for (int i = 0; i < s->n; i++)
-            s->trial[i] = s->w[i] * (1 + DIGITS * DBL_EPSILON * random_unit(&seed));
+            s->trial[i] = s->w[i] * (1 + NETSOLVE_ULPS * DBL_EPSILON * random_unit(&seed));
         eq->network_at(eq->context, s->trial);
         for (int i = 0; i < s->n; i++)
             s->noise[i] = fmax(s->noise[i], fabs(eq->network_residual[i] - s->next[i]));
@@ -222,7 +203,7 @@ static double furthest(NetSolve *s, double full)
 {
     double share = 1;
 
-    while (share < FURTHEST) {
+    while (share < NETSOLVE_MOST_STRETCH) {
         double next = correction_at(s, 2 * share);
 
         if (!(next <= full / 2))
@@ -238,7 +219,7 @@ static bool advance(NetSolve *s, double before)
 {
     double share = 1;
 
-    while (share >= LEAST) {
+    while (share >= NETSOLVE_LEAST_DAMPING) {
         double next = correction_at(s, share);
 
         if (!(next <= (1 - share / 4) * before)) {
@@ -289,7 +270,7 @@ static bool descend(NetSolve *s)
     double before = misfit(s);
     double share = 1;
 
-    while (share >= SHORTEST) {
+    while (share >= NETSOLVE_LEAST_SHARE) {
         for (int i = 0; i < s->n; i++)
             s->trial[i] = s->w[i] - share * s->step[i];
         eq->network_at(eq->context, s->trial);
@@ -308,7 +289,8 @@ typedef enum Way { BY_CORRECTION, BY_MISFIT, BY_PIECES, WAYS } Way;
 
 static bool take_step(NetSolve *s, Way way, int turn)
 {
-    double share = turn < PLAIN ? 1 : 1 - fmod(turn * 0.381966011, 1); /* leaves cycles */
+    double share =
+        turn < NETSOLVE_UNDAMPED ? 1 : 1 - fmod(turn * 0.381966011, 1); /* leaves cycles */
 
     if (way == BY_CORRECTION)
         return advance(s, norm(s, s->step));
@@ -335,7 +317,8 @@ static void step_perturbed(NetSolve *s)
         const int column = eq->network_column[k];
 
         if (!isfinite(eq->network[k]))
-            s->step[column] = BESIDE * s->size[column] * (1 + fmod(column * 0.618033989, 1));
+            s->step[column] =
+                NETSOLVE_PERTURBATION * s->size[column] * (1 + fmod(column * 0.618033989, 1));
     }
     for (int i = 0; i < s->n; i++)
         s->w[i] += s->step[i];
@@ -347,8 +330,8 @@ static bool solve_newton(NetSolve *s, Way way)
     double before = INFINITY;
 
     for (int i = 0; i < s->n; i++)
-        s->size[i] = fmax(fabs(s->w[i]), LEAST_SIZE);
-    for (int k = 0; k < ITERATIONS; k++) {
+        s->size[i] = fmax(fabs(s->w[i]), NETSOLVE_LEAST_SCALE);
+    for (int k = 0; k < NETSOLVE_ITERATIONS; k++) {
         eq->network_at(eq->context, s->w);
         if (has_endless_slope(s)) {
             if (vector_largest(eq->network_residual, s->n) == 0)
@@ -362,19 +345,19 @@ static bool solve_newton(NetSolve *s, Way way)
             s->size[i] = fmax(s->size[i], fabs(s->w[i]));
         if (k == 0)
             weigh(s);
-        if (is_small(s, s->step, ENOUGH)) {
+        if (is_small(s, s->step, NETSOLVE_CONVERGED)) {
             for (int i = 0; i < s->n; i++)
                 s->w[i] -= s->step[i];
             if (!measure_anew(s))
                 return true;
             continue;
         }
-        if (k >= PATIENCE && norm(s, s->step) > before / 2 && is_met(s))
+        if (k >= NETSOLVE_PATIENCE && norm(s, s->step) > before / 2 && is_met(s))
             return true;
         before = norm(s, s->step);
         if (!take_step(s, way, k)) {
             (void)measure_anew(s);
-            return is_small(s, s->step, ROUNDING) || is_met(s);
+            return is_small(s, s->step, NETSOLVE_ROUNDING) || is_met(s);
         }
     }
     return false;
@@ -385,7 +368,7 @@ static bool solve_near(NetSolve *s, const double *origin, double left)
 {
     const Equations *eq = s->eq;
 
-    for (int k = 0; k < NEARBY; k++) {
+    for (int k = 0; k < NETSOLVE_CONTINUATION_STEPS; k++) {
         eq->network_at(eq->context, s->w);
         for (int i = 0; i < s->n; i++)
             s->step[i] = eq->network_residual[i] - left * origin[i];
@@ -398,7 +381,7 @@ static bool solve_near(NetSolve *s, const double *origin, double left)
             s->w[i] -= s->step[i];
             s->size[i] = fmax(s->size[i], fabs(s->w[i]));
         }
-        if (is_small(s, s->step, CLOSE))
+        if (is_small(s, s->step, NETSOLVE_CONTINUATION))
             return true;
     }
     return false;
@@ -409,22 +392,22 @@ static bool solve_near(NetSolve *s, const double *origin, double left)
 static bool solve_rising(NetSolve *s)
 {
     double *origin = NEW_ARRAY(double, s->n), *last = NEW_ARRAY(double, s->n);
-    double share = LEAST_SHARE, factor = FACTOR;
+    double share = SOURCES_FIRST, factor = SOURCES_FACTOR;
     bool arrived = false;
 
     memset(s->w, 0, (size_t)s->n * sizeof(double));
     for (int i = 0; i < s->n; i++)
-        s->size[i] = LEAST_SIZE;
+        s->size[i] = NETSOLVE_LEAST_SCALE;
     s->eq->network_at(s->eq->context, s->w);
     memcpy(origin, s->eq->network_residual, (size_t)s->n * sizeof(double));
-    while (!arrived && factor > LEAST_FACTOR) {
+    while (!arrived && factor > SOURCES_LEAST_FACTOR) {
         const double next = fmin(1, share * factor);
 
         if (solve_near(s, origin, 1 - next)) {
             memcpy(last, s->w, (size_t)s->n * sizeof(double));
             share = next;
             arrived = share == 1;
-            factor = fmin(FACTOR, factor * factor);
+            factor = fmin(SOURCES_FACTOR, factor * factor);
         } else {
             memcpy(s->w, last, (size_t)s->n * sizeof(double));
             factor = sqrt(factor);

@@ -6,12 +6,11 @@
 
 #include "algebra/dense.h"
 #include "base/memory.h"
+#include "simulate/equations/equations_limits.h"
 
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdbool.h>
-
-#define PART 1e-6 /* of a combination: less is rounding error */
 
 static double size_of(const double *row, int nu)
 {
@@ -66,7 +65,7 @@ static void name_repeated(const System *system, const int *order, int rank, cons
 
         for (int k = rank; k < m; k++)
             takes_part = takes_part || (system_constraint(system, order[k])->instance == joint &&
-                                        fabs(shares[(k - rank) * rank + i]) > PART);
+                                        fabs(shares[(k - rank) * rank + i]) > REDUNDANT_PART);
         for (int before = 0; before < i; before++)
             takes_part =
                 takes_part &&

@@ -6,12 +6,11 @@
 #include "base/memory.h"
 #include "formulate/dynamics/composite_mass.h"
 #include "formulate/dynamics/cutset_equations.h"
+#include "simulate/equations/equations_limits.h"
 
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <string.h>
-
-#define RANK_RATIO 1e-12
 
 static Expr plus_product(Arena *arena, Expr sum, Expr a, Expr b)
 {
@@ -136,7 +135,7 @@ static int solve_loaded(gsl_matrix *a, const gsl_vector *b, gsl_vector *x)
 
     (void)gsl_linalg_QRPT_decomp(a, tau, order, &sign, norms);
     while (rank < a->size2 &&
-           fabs(gsl_matrix_get(a, rank, rank)) > RANK_RATIO * fabs(gsl_matrix_get(a, 0, 0)))
+           fabs(gsl_matrix_get(a, rank, rank)) > ROWS_RANK * fabs(gsl_matrix_get(a, 0, 0)))
         rank++;
     gsl_vector_set_zero(x);
     if (rank > 0)

@@ -3,21 +3,10 @@
 
 #include "algebra/linear.h"
 #include "base/memory.h"
+#include "simulate/equations/equations_limits.h"
 
 #include <math.h>
 #include <string.h>
-
-#define MOVES    30
-#define PROBED   1e-6  /* of a sign, for differences */
-#define NEAR     1e-11 /* of a sign: close enough */
-#define SINGULAR 1e-11 /* least over largest pivot */
-#define DAMPED   1e-10 /* of the largest entry's square */
-#define TURNS    4
-#define FAR      100  /* a sign that is neither within its interval nor soon outside */
-#define BEYOND   1e-6 /* of a sign, outside its interval */
-#define LEFT     2    /* a sign where the surface is left */
-#define HALVES   40
-#define ROUNDS   10
 
 struct Signs {
     int count;
@@ -54,7 +43,7 @@ bool signs_slopes(Signs *s, SignsTrial trial, void *context, double *slip)
         return false;
     for (int k = 0; k < s->count; k++) {
         double kept = s->values[k];
-        double step = kept > 0 ? -PROBED : PROBED;
+        double step = kept > 0 ? -SIGNS_DIFFERENCE : SIGNS_DIFFERENCE;
         bool sound;
 
         s->values[k] = kept + step;
@@ -75,7 +64,7 @@ static bool least(const double *a, int n, double *b)
     Lu *lu = lu_new(n);
     double *x = NEW_ARRAY(double, n);
     double *move = NEW_ARRAY(double, n);
-    double small = DAMPED * vector_largest(a, n * n) * vector_largest(a, n * n);
+    double small = SIGNS_DAMPING * vector_largest(a, n * n) * vector_largest(a, n * n);
     bool sound;
 
     for (int i = 0; i < n && small == 0; i++)
@@ -89,7 +78,7 @@ static bool least(const double *a, int n, double *b)
             lu_matrix(lu)[i * n + j] = sum;
         }
     sound = lu_factor(lu);
-    for (int turn = 0; turn < TURNS && sound; turn++) {
+    for (int turn = 0; turn < SIGNS_REFINEMENTS && sound; turn++) {
         for (int i = 0; i < n; i++) {
             move[i] = 0;
             for (int k = 0; k < n; k++)
@@ -114,7 +103,7 @@ bool signs_least(const double *matrix, int n, double *b)
     bool sound;
 
     memcpy(lu_matrix(lu), matrix, (size_t)(n * n) * sizeof(double));
-    sound = lu_factor(lu) && lu_pivot_ratio(lu) > SINGULAR;
+    sound = lu_factor(lu) && lu_pivot_ratio(lu) > SIGNS_SINGULAR;
     if (sound)
         lu_solve(lu, b);
     else
@@ -134,7 +123,7 @@ static bool newton(Signs *s, SignsTrial trial, void *context)
 {
     double before = INFINITY;
 
-    for (int turn = 0; turn < MOVES; turn++) {
+    for (int turn = 0; turn < SIGNS_ITERATIONS; turn++) {
         double moved;
 
         if (!signs_slopes(s, trial, context, s->slip) || !signs_solve(s, s->slip))
@@ -143,11 +132,11 @@ static bool newton(Signs *s, SignsTrial trial, void *context)
         for (int i = 0; i < s->count; i++)
             s->values[i] += s->slip[i];
         /* as close as rounding allows */
-        if (moved <= NEAR * fmax(1, vector_largest(s->values, s->count)) ||
+        if (moved <= SIGNS_CONVERGED * fmax(1, vector_largest(s->values, s->count)) ||
             (turn > 2 && moved > 0.5 * before && moved < 1e-6))
             return trial(context, s->values, s->move);
         before = moved;
-        if (!(fabs(moved) < FAR))
+        if (!(fabs(moved) < SIGNS_FAR))
             return false;
     }
     return false;
@@ -167,7 +156,7 @@ static bool bisect(Signs *s, int k, SignsTrial trial, void *context, bool *sound
     }
     if (!*sound || slip[0] * slip[1] > 0)
         return false;
-    for (int turn = 0; turn < HALVES && *sound; turn++) {
+    for (int turn = 0; turn < SIGNS_BISECTIONS && *sound; turn++) {
         s->values[k] = (ends[0] + ends[1]) / 2;
         *sound = trial(context, s->values, s->slip);
         ends[s->slip[k] * slip[0] > 0 ? 0 : 1] = s->values[k];
@@ -183,7 +172,7 @@ static bool look_between(Signs *s, SignsTrial trial, void *context)
 
     memcpy(kept, s->values, (size_t)s->count * sizeof(double));
     for (int k = 0; k < s->count && sound; k++)
-        if (fabs(kept[k]) > 1 + BEYOND) {
+        if (fabs(kept[k]) > 1 + SIGNS_OUTSIDE) {
             if (bisect(s, k, trial, context, &sound))
                 moved = true;
             else
@@ -199,7 +188,7 @@ static bool look_between(Signs *s, SignsTrial trial, void *context)
 
 static bool is_beyond(const Signs *s)
 {
-    return vector_largest(s->values, s->count) > 1 + BEYOND;
+    return vector_largest(s->values, s->count) > 1 + SIGNS_OUTSIDE;
 }
 
 /* Where the one sign hardly affects slip, as of sign(x)*sqrt(abs(x)) next to x = 0, Newton's method
@@ -211,7 +200,7 @@ static bool lies_beyond(Signs *s, SignsTrial trial, void *context)
 
     if (s->count != 1 || bisect(s, 0, trial, context, &sound) || !sound || s->slip[0] == 0)
         return false;
-    s->values[0] = s->slip[0] > 0 ? LEFT : -LEFT;
+    s->values[0] = s->slip[0] > 0 ? SIGNS_LEFT : -SIGNS_LEFT;
     return trial(context, s->values, s->move);
 }
 
@@ -220,7 +209,7 @@ bool signs_find(Signs *s, SignsTrial trial, void *context)
     bool found = newton(s, trial, context);
 
     /* where slip is strongly nonlinear, one by one, as initial guess of Newton's method */
-    for (int round = 0; round < ROUNDS && !found; round++) {
+    for (int round = 0; round < SIGNS_ROUNDS && !found; round++) {
         for (int k = 0; k < s->count; k++) {
             bool sound, between = bisect(s, k, trial, context, &sound);
 

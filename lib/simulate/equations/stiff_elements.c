@@ -8,12 +8,10 @@
 #include "algebra/elementary.h"
 #include "algebra/linear.h"
 #include "base/memory.h"
+#include "simulate/equations/equations_limits.h"
 
 #include <math.h>
 #include <string.h>
-
-#define LEAST_POWER 8   /* exponents from which on a power is stiff */
-#define ELEMENT     1e6 /* perturbation: the smallest saturation current is visible */
 
 #define SOLVED (1U << SYMBOL_STATE_RATE | 1U << SYMBOL_ALGEBRAIC)
 #define MOVING                                                                                     \
@@ -45,7 +43,7 @@ static bool is_stiff_op(Op op)
 static bool is_stiff_power(Expr e)
 {
     return expr_kind(e) == EXPR_POWER && expr_is_number(expr_arg(e, 1)) &&
-           fabs(expr_value(expr_arg(e, 1))) >= LEAST_POWER;
+           fabs(expr_value(expr_arg(e, 1))) >= STIFF_LEAST_POWER;
 }
 
 static bool is_element(Expr e)
@@ -629,8 +627,8 @@ double stiff_elements_effect_of_element(StiffElements *s, int k, const double *s
     double *input = probe_input(s->probe, s->elements.at[k].inputs);
     double kept = *input, out;
 
-    *input = kept + ELEMENT;
-    out = effect(s, ELEMENT, scale);
+    *input = kept + STIFF_PERTURBATION;
+    out = effect(s, STIFF_PERTURBATION, scale);
     *input = kept;
     return out;
 }

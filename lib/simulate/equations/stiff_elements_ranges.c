@@ -2,10 +2,10 @@
  * sizes of sources in a run */
 #include "simulate/equations/stiff_elements_impl.h"
 
+#include "simulate/equations/equations_limits.h"
+
 #include <math.h>
 #include <string.h>
-
-#define PIECES 64 /* subintervals of a run, for the ranges of sources in it */
 
 /* --- what there is --- */
 
@@ -143,10 +143,10 @@ int64_t stiff_elements_visits(const StiffElements *s)
 
 void stiff_elements_span(StiffElements *s, double from, double to)
 {
-    double piece = (to - from) / PIECES;
+    double piece = (to - from) / STIFF_SUBINTERVALS;
     Range *all = NEW_ARRAY(Range, s->sources.count);
 
-    for (int p = 0; p < PIECES; p++) {
+    for (int p = 0; p < STIFF_SUBINTERVALS; p++) {
         const Range *over =
             stiff_elements_sources_over(s, (Range){from + p * piece, from + (p + 1) * piece});
 
