@@ -7,17 +7,12 @@
 #include "algebra/linear.h"
 #include "algebra/rank.h"
 #include "base/random.h"
+#include "simulate/assemble/assemble_limits.h"
 #include "simulate/equations/redundant.h"
 #include "simulate/equations/rows.h"
 
 #include <math.h>
 #include <string.h>
-
-#define TOLERANCE  1e-12 /* of scaled residuals */
-#define TRIES      24    /* further initial guesses, when the first doesn't converge */
-#define FAR        2.0   /* rad or m: larger moves of dependent coordinates are reported */
-#define RANK_RATIO 1e-9
-#define CRITICAL   1e-12 /* least sine by which the rates of three angles are divided */
 
 /* --- position --- */
 
@@ -38,7 +33,7 @@ static Status pull(Assembly *a, Diag *diag)
     CHECK(initial_open_problem(&p, a, LEVEL_POSITION, true, diag));
     initial_align(&p);
     rows = initial_rows(&p);
-    (void)levenberg_marquardt_solve(&rows, NULL, NULL, TOLERANCE, a->y, NULL);
+    (void)levenberg_marquardt_solve(&rows, NULL, NULL, ALIGN_TOLERANCE, a->y, NULL);
 done:
     initial_close_problem(&p);
     return status;
@@ -52,7 +47,7 @@ static void remark_moved(Assembly *a, const double *begun)
     for (int i = 1; i < l->n; i++)
         if (fabs(a->y[i] - begun[i]) > fabs(a->y[furthest] - begun[furthest]))
             furthest = i;
-    if (l->n > 0 && fabs(a->y[furthest] - begun[furthest]) > FAR)
+    if (l->n > 0 && fabs(a->y[furthest] - begun[furthest]) > COORDINATES_FAR)
         remarks_add(&a->out->remarks, (Remark){.kind = REMARK_ASSEMBLED_FAR,
                                                .what = system_q(l->system, furthest)->name,
                                                .size = begun[furthest],
@@ -66,8 +61,8 @@ static bool try_around(Problem *p, const Rows *rows, const bool *held, const dou
     Assembly *a = p->a;
     uint64_t seed = 1;
 
-    for (int k = 0; k < TRIES && monitor_poll(rows->watch) == OK; k++) {
-        double size = k < TRIES / 3 ? 0.1 : k < 2 * TRIES / 3 ? 0.5 : 1.5;
+    for (int k = 0; k < COORDINATES_TRIES && monitor_poll(rows->watch) == OK; k++) {
+        double size = k < COORDINATES_TRIES / 3 ? 0.1 : k < 2 * COORDINATES_TRIES / 3 ? 0.5 : 1.5;
 
         for (int i = 0; i < a->l->n; i++)
             a->y[i] = begun[i] + (held[i] ? 0 : size * random_unit(&seed));
@@ -186,7 +181,7 @@ static Status check_angles(const Assembly *a, Diag *diag)
         double measure;
 
         status = probe_at(a->l, a->parameters, critical.measure, &row, &measure, diag);
-        if (status == OK && fabs(measure) < CRITICAL) {
+        if (status == OK && fabs(measure) < CRITICAL_ANGLES) {
             status =
                 diag_set(diag, E_ASSEMBLE,
                          "%s starts at a critical angle: three angles have no rates where %s is "
@@ -309,7 +304,7 @@ static Status find_rank(Assembly *a, Diag *diag)
     Status status = OK;
 
     a->eq->position(a->eq->context, 0, a->y);
-    CHECK(rank_here(a, RANK_RATIO, &here, a->out->rows));
+    CHECK(rank_here(a, ASSEMBLED_RANK, &here, a->out->rows));
     best = here;
     if (best < l->m)
         CHECK(level_rows_new(LEVEL_POSITION, l, a->eq, a->parameters, NULL, 0, &level, diag));

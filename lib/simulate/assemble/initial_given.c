@@ -1,14 +1,12 @@
 /* initial_given.c: reads values that were given or guessed, and the variables that they belong
  * to */
+#include "simulate/assemble/assemble_limits.h"
 #include "simulate/assemble/initial_impl.h"
 #include "simulate/equations/probe.h"
 #include "simulate/equations/rows.h"
 
 #include <math.h>
 #include <string.h>
-
-#define ROUNDED 1e-2 /* of the length of four Euler parameters: more isn't rounding */
-#define FEWER   1e-5 /* of fewer: the others may be small, but not as small as that */
 
 static int place_of(const Assembly *a, Expr e, StateLevel level)
 {
@@ -263,7 +261,7 @@ static void finish_group(Assembly *a, int group)
             length = hypot(length, p[i]);
             count++;
         }
-    if (!(fabs(length - 1) < (count == 4 ? ROUNDED : FEWER)))
+    if (!(fabs(length - 1) < (count == 4 ? EULER_PARAMETERS_OFF : EULER_PARAMETERS_OTHERS)))
         return; /* errors are reported with the values as given */
     initial_unit(p);
     for (int i = 0; i < 4; i++)

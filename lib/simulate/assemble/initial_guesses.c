@@ -10,22 +10,10 @@
 #include "simulate/assemble/initial_place_impl.h"
 
 #include "base/random.h"
+#include "simulate/assemble/assemble_limits.h"
 
 #include <math.h>
 #include <string.h>
-
-#define NARROWER    0.1  /* factor from one weight of guesses against loops to the next: */
-#define NARROW      1e-3 /* the last; its square is the relative error of the least distance */
-#define MET         1e-9 /* distance: all guesses are met */
-#define NEARER      1e-6 /* another assembly has to be nearer by this */
-#define FAR         0.5  /* distance of a guess that a remark reports */
-#define NEAR_GUESS  0.1  /* rad, or of L: random distance of guessed columns from guesses */
-#define NOT_FAR     0.3  /* or this */
-#define PROBED      0.3  /* rad, or of L: to leave points where a derivative is 0 by chance */
-#define FEWEST      16   /* initial points; */
-#define PER_UNKNOWN 16   /* more for each unknown without a guess, */
-#define MOST        64   /* at most, */
-#define WORK        4e6  /* and this limit of their cost: unknowns cubed */
 
 /* a search for the nearest assembly */
 typedef struct Nearest {
@@ -103,7 +91,7 @@ static double find_distance(Nearest *n)
 
 static void keep_nearer(Nearest *n, double distance)
 {
-    if (!(distance < n->distance - (isfinite(n->distance) ? NEARER : 0)))
+    if (!(distance < n->distance - (isfinite(n->distance) ? GUESSES_NEARER : 0)))
         return;
     n->distance = distance;
     memcpy(n->best, n->s.p->c, (size_t)n->s.rows.length * sizeof(double));
@@ -118,7 +106,7 @@ static void find_concerned(Nearest *n, double *step)
     uint64_t seed = 3;
 
     for (int j = 0; j < rows->columns; j++)
-        step[j] = PROBED * random_unit(&seed);
+        step[j] = GUESS_PROBE * random_unit(&seed);
     rows->move(rows->context, n->s.p->c, step);
     rows->evaluate(rows->context, n->s.p->c, n->residual, jacobian);
     for (int i = 0; i < rows->rows; i++)
@@ -152,11 +140,12 @@ static void begin_anywhere(Nearest *n, double off, uint64_t *seed, double *step)
 static int count_starts(const Nearest *n)
 {
     const double columns = n->s.rows.columns;
-    int count = FEWEST;
+    int count = GUESS_POINTS;
 
-    for (int j = 0; j < n->s.rows.columns && count < MOST; j++)
-        count += n->is_concerned[j] && !n->is_guessed[j] ? PER_UNKNOWN : 0;
-    return (int)fmax(1, fmin(fmin(count, MOST), WORK / (columns * columns * columns)));
+    for (int j = 0; j < n->s.rows.columns && count < GUESS_MOST_POINTS; j++)
+        count += n->is_concerned[j] && !n->is_guessed[j] ? GUESS_POINTS_PER_COLUMN : 0;
+    return (int)fmax(
+        1, fmin(fmin(count, GUESS_MOST_POINTS), GUESS_WORK / (columns * columns * columns)));
 }
 
 /* Search from the first initial point, then from the others. */
@@ -172,8 +161,9 @@ static void search_starts(Nearest *n)
     memcpy(n->s.p->c, n->begun, bytes);
     find_concerned(n, step);
     count = count_starts(n);
-    for (int k = 1; k < count && n->distance > MET && monitor_poll(n->s.rows.watch) == OK; k++) {
-        begin_anywhere(n, k % 4 < 2 ? NEAR_GUESS : NOT_FAR, &seed, step);
+    for (int k = 1; k < count && n->distance > GUESSES_MET && monitor_poll(n->s.rows.watch) == OK;
+         k++) {
+        begin_anywhere(n, k % 4 < 2 ? GUESS_SPREAD : GUESS_WIDE_SPREAD, &seed, step);
         /* move columns without a guess first, towards the guesses */
         minimise(n, 1, n->is_guessed);
         /* from the minimum of loops and guesses together it may be impossible to close the loops */
@@ -192,8 +182,8 @@ static void descend_along_loops(Nearest *n)
     memcpy(n->s.p->c, n->best, bytes);
     double weight = 1;
 
-    while (weight > 1.5 * NARROW) {
-        weight *= NARROWER;
+    while (weight > 1.5 * GUESS_LEAST_WEIGHT) {
+        weight *= GUESS_WEIGHT_FACTOR;
         minimise(n, weight, NULL);
     }
     /* at a minimum of the sum the loops may be open */
@@ -270,7 +260,7 @@ void place_remark_guesses(Placing *p)
         if (!wish->is_guess)
             continue;
         off = place_missed(p, i, &is_length);
-        if (fabs(off) > FAR * (is_length ? size : 1))
+        if (fabs(off) > GUESS_FAR * (is_length ? size : 1))
             remarks_add(&p->a->out->remarks, (Remark){.kind = REMARK_GUESS_MISSED,
                                                       .what = wish->name,
                                                       .size = wish->value,

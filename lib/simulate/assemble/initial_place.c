@@ -9,12 +9,11 @@
 #include "simulate/assemble/initial_place_impl.h"
 
 #include "algebra/matrix3.h"
+#include "simulate/assemble/assemble_limits.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define FAR 2.0 /* rad or m: a remark reports a coordinate that moved further */
 
 enum { MOST_COLUMNS = 300 }; /* of bodies' coordinates: the cost is their number cubed */
 
@@ -235,7 +234,7 @@ done:
 static void remark_moved(Placing *p, const double *from)
 {
     int link = -1, which = 0;
-    double furthest = FAR, to = 0;
+    double furthest = PLACE_FAR, to = 0;
 
     for (int i = 0; i < p->s->link_count; i++)
         for (int k = 0; k < p->s->links[i].instance->pose_count; k++) {

@@ -2,6 +2,7 @@
 #ifndef COTREE_SIMULATE_ASSEMBLE_INITIAL_PLACE_IMPL_H
 #define COTREE_SIMULATE_ASSEMBLE_INITIAL_PLACE_IMPL_H
 
+#include "simulate/assemble/assemble_limits.h"
 #include "simulate/assemble/initial_impl.h"
 
 typedef enum Knowledge { KNOWN_NOT, KNOWN_GUESSED, KNOWN_GIVEN } Knowledge;
@@ -95,8 +96,6 @@ double place_size(const Placing *p);
 void place_row_scales(const PlaceSearch *search, double size, double guesses, double *scale);
 /* the residual of guess `number` at the current poses; whether it is a length (m) */
 double place_missed(Placing *p, int number, bool *is_length);
-
-#define PLACE_APPROACHED 1e-12 /* scaled: guesses count as met */
 
 /* The assembly that meets all guesses, or the one with the least distance from them. Where no loop
  * closes from any initial point, the point where the first search ends. Without guesses nothing

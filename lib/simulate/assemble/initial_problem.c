@@ -3,14 +3,11 @@
 #include "simulate/assemble/initial_impl.h"
 
 #include "algebra/levenberg_marquardt.h"
+#include "simulate/assemble/assemble_limits.h"
 #include "simulate/equations/rows.h"
 
 #include <math.h>
 #include <string.h>
-
-#define TOLERANCE      1e-12 /* of scaled residuals */
-#define CLOSED         1e-13 /* m, rad: rounding error of residuals */
-#define LEAST_REPORTED 1e-9  /* m, rad: a smaller residual isn't reported next to larger ones */
 
 bool initial_is_of_states(const GivenValue *given)
 {
@@ -78,13 +75,14 @@ Rows initial_rows(Problem *p)
 
 bool initial_misses(double residual)
 {
-    return !(fabs(residual) <= CLOSED);
+    return !(fabs(residual) <= INITIAL_CLOSED);
 }
 
 bool initial_meet(const Rows *rows, const bool *held, double *v, double *residual)
 {
     double *left = NEW_ARRAY(double, rows->rows);
-    bool met = levenberg_marquardt_solve(rows, held, NULL, TOLERANCE, v, left), missed = false;
+    bool met = levenberg_marquardt_solve(rows, held, NULL, INITIAL_TOLERANCE, v, left),
+         missed = false;
 
     for (int i = 0; i < rows->rows && !met; i++)
         missed = missed || initial_misses(left[i]);
@@ -115,7 +113,7 @@ static double least_reported(const double *residual, int count)
 
     for (int k = 0; k < count; k++)
         most = isfinite(residual[k]) ? fmax(most, fabs(residual[k])) : INFINITY;
-    return fmin(LEAST_REPORTED, 0.1 * most);
+    return fmin(INITIAL_LEAST_REPORTED, 0.1 * most);
 }
 
 /* "h9 (x) is missed by 0.03; ..." with the values that were given */

@@ -6,14 +6,10 @@
 
 #include "algebra/matrix3.h"
 #include "base/random.h"
+#include "simulate/assemble/assemble_limits.h"
 
 #include <math.h>
 #include <string.h>
-
-#define AT_ONCE    8    /* further initial guesses at a distance: near ones, */
-#define TRIES      24   /* then more distant ones, so many in all; */
-#define MOST_TRIES 56   /* of few unknowns, which are cheap, */
-#define WORK       1680 /* as many as give this product with the number of unknowns */
 
 /* --- unknowns --- */
 
@@ -330,7 +326,10 @@ static void keep_unconcerned(const Placing *p, const Rows *rows, const bool *mis
 
 static double size_of_try(int k)
 {
-    return k < AT_ONCE ? 0.1 : k < 2 * AT_ONCE ? 0.5 : k < TRIES || k % 2 == 0 ? 1.5 : 3;
+    return k < SEARCH_AT_ONE_DISTANCE       ? 0.1
+           : k < 2 * SEARCH_AT_ONE_DISTANCE ? 0.5
+           : k < SEARCH_TRIES || k % 2 == 0 ? 1.5
+                                            : 3;
 }
 
 /* Further initial guesses about the first one; of those at the smallest distance that converge the
@@ -340,10 +339,12 @@ static bool try_around(Placing *p, const Rows *rows, const double *from, const b
     const size_t bytes = (size_t)rows->length * sizeof(double);
     double *step = NEW_ARRAY(double, rows->columns);
     uint64_t seed = 1;
-    int tries = WORK / rows->columns;
+    int tries = SEARCH_WORK / rows->columns;
     bool met = false;
 
-    tries = tries < TRIES ? TRIES : tries > MOST_TRIES ? MOST_TRIES : tries;
+    tries = tries < SEARCH_TRIES        ? SEARCH_TRIES
+            : tries > SEARCH_MOST_TRIES ? SEARCH_MOST_TRIES
+                                        : tries;
     for (int k = 0; k < tries && !met && monitor_poll(rows->watch) == OK; k++) {
         const double size = size_of_try(k);
 

@@ -8,6 +8,7 @@
  * The rates are A u. Among all u (nu) with C u = d, which are Phi_u u = nu and the given values,
  * the one with the least |A u| is wanted. Let L L^T = A^T A + P^T P with P the rows of Phi_u scaled
  * to length 1: |P u| is the same for all of them, so that it is the one with the least |L^T u|. */
+#include "simulate/assemble/assemble_limits.h"
 #include "simulate/assemble/initial_place_impl.h"
 #include "simulate/assemble/perturbed_points.h"
 
@@ -18,11 +19,6 @@
 
 #include <math.h>
 #include <string.h>
-
-#define STEP       1e-5    /* m, rad: the error of a central difference is about its square */
-#define GRID       0x1p-30 /* of rates, above the error of differences; 0 and 1 are exact */
-#define TOLERANCE  1e-11
-#define RANK_RATIO 1e-9
 
 enum {
     MANY = 64,
@@ -119,11 +115,11 @@ static double column_rate(const Placing *p, const PlaceColumn *column, const Pos
     memcpy(after, before, sizeof after);
     read_at(link, high, after, &last);
     if (column->kind != COLUMN_FREE)
-        return (after[k] - before[k]) / (2 * STEP);
+        return (after[k] - before[k]) / (2 * SPEED_DIFFERENCE);
     matrix3_transpose(first.R, R);
     matrix3_times(R, last.R, R);
     matrix3_log(R, turn);
-    return turn[column->k] / (2 * STEP);
+    return turn[column->k] / (2 * SPEED_DIFFERENCE);
 }
 
 /* terms of a matrix, several of which may have one position */
@@ -161,7 +157,7 @@ static double *sum_terms(InitialSpeedTerms *terms, int rows, int columns, Patter
 static double *find_rates(const Placing *p, Pattern *pattern)
 {
     const int nu = p->a->eq->nu;
-    PerturbedPoints *sides = perturbed_points_new(p->s, p->a->eq, p->a->y, STEP);
+    PerturbedPoints *sides = perturbed_points_new(p->s, p->a->eq, p->a->y, SPEED_DIFFERENCE);
     InitialSpeedTerms terms = {0};
 
     for (int j = 0; j < nu; j++) {
@@ -174,7 +170,7 @@ static double *find_rates(const Placing *p, Pattern *pattern)
                 continue;
             rate =
                 column_rate(p, column, perturbed_points_low(sides), perturbed_points_high(sides));
-            rate = GRID * round(rate / GRID);
+            rate = SPEED_RATE_GRID * round(rate / SPEED_RATE_GRID);
             if (rate != 0)
                 push_term(&terms, j, i, rate);
         }
@@ -284,7 +280,7 @@ static Status solve(Assembly *a, const double *factor, bool guesses, Diag *diag)
     rows.evaluate = evaluate;
     rows.move = move;
     /* equations that can't be satisfied are reported later */
-    (void)levenberg_marquardt_solve(&rows, NULL, NULL, TOLERANCE, a->y + a->l->n, NULL);
+    (void)levenberg_marquardt_solve(&rows, NULL, NULL, SPEED_TOLERANCE, a->y + a->l->n, NULL);
 done:
     initial_close_problem(&p);
     mem_free(w.jacobian);
@@ -295,7 +291,7 @@ done:
 static bool are_met(const Pattern *rows, const double *values, const double *residual)
 {
     for (int i = 0; i < rows->columns; i++)
-        if (!(fabs(residual[i]) <= TOLERANCE * pattern_largest(rows, values, i)))
+        if (!(fabs(residual[i]) <= SPEED_TOLERANCE * pattern_largest(rows, values, i)))
             return false;
     return true;
 }
@@ -327,7 +323,7 @@ static Status solve_sparse(Assembly *a, const Pattern *square, const double *wei
     bottom = NEW_ARRAY(double, rows.rows);
     lambda = NEW_ARRAY(double, rows.rows);
     rows.evaluate(rows.context, u, residual, values);
-    CHECK(rank_columns(rows.pattern, values, RANK_RATIO, a->setting->watch, &rank, order));
+    CHECK(rank_columns(rows.pattern, values, SPEED_RANK, a->setting->watch, &rank, order));
     kkt = kkt_new(square, rows.pattern, order, rank);
     kkt_set_watch(kkt, a->setting->watch);
     sound = kkt_factor(kkt, weight, values, order) && !kkt_is_regularised(kkt);
@@ -357,7 +353,7 @@ static void rest(Assembly *a)
         const GivenValue *given = &a->given[i];
 
         if (given->is_own && given->level == LEVEL_VELOCITY &&
-            fabs(a->y[a->l->n + given->place]) < TOLERANCE)
+            fabs(a->y[a->l->n + given->place]) < SPEED_TOLERANCE)
             a->y[a->l->n + given->place] = 0;
     }
 }
@@ -420,7 +416,7 @@ static Status is_open(Assembly *a, bool *open, Diag *diag)
     for (int i = 0; i < rows.rows; i++)
         moves = moves || residual[i] != 0;
     if (moves)
-        CHECK(rank_columns(rows.pattern, values, RANK_RATIO, a->setting->watch, &rank, order));
+        CHECK(rank_columns(rows.pattern, values, SPEED_RANK, a->setting->watch, &rank, order));
     *open = moves && rank < rows.columns;
 done:
     initial_close_problem(&p);

@@ -9,11 +9,10 @@
 #include "algebra/elementary.h"
 #include "algebra/matrix3.h"
 #include "base/memory.h"
+#include "simulate/assemble/assemble_limits.h"
 
 #include <math.h>
 #include <string.h>
-
-#define REVERSED 1.0 /* rad: more than the error of any assembled joint */
 
 static void undo_constant(const Link *link, const double R[9], double E[9])
 {
@@ -234,11 +233,11 @@ static Reversal find_reversal(const KinematicTree *s, const Pose *poses)
             size = hypot(size, rows[k].value);
             found.about[k] = rows[k].value; /* of a joint without any rotation */
         }
-        if (size > REVERSED)
+        if (size > JOINT_REVERSED)
             return found;
         if (link->is_tied) {
             link_tie_row(link, &relative, rows);
-            found.is_twisted = fabs(rows[0].value) > REVERSED * fabs(link->shift[0].scale);
+            found.is_twisted = fabs(rows[0].value) > JOINT_REVERSED * fabs(link->shift[0].scale);
         }
         if (found.is_twisted)
             return found;

@@ -1,4 +1,5 @@
 libcore_la_SOURCES += \
+  lib/simulate/assemble/assemble_limits.h \
   lib/simulate/assemble/reinitialise.c \
   lib/simulate/assemble/reinitialise.h \
   lib/simulate/assemble/reinitialise_impl.h \
