@@ -11,6 +11,7 @@
 
 #include "algebra/linear.h"
 #include "base/memory.h"
+#include "simulate/analyse/analyse_limits.h"
 #include "simulate/analyse/search.h"
 #include "simulate/equations/factors.h"
 #include "simulate/equations/failure_diagnosis.h"
@@ -19,13 +20,6 @@
 
 #include <math.h>
 #include <string.h>
-
-#define CREEP_STEPS 500
-#define CREEP       0.3   /* rad or m: largest step of pseudo-transient continuation */
-#define GROWTH      100   /* largest growth of residuals in such a step */
-#define LEAST_SHARE 1e-4  /* least step of a path from 0 to 1 */
-#define GMIN        1e-1  /* S, at first */
-#define LEAST_GMIN  1e-14 /* S, below which it is 0 */
 
 typedef struct Quest {
     EquilibriumResidual *equations;
@@ -192,7 +186,7 @@ static bool creep_step(Quest *e, Creep *c, double resistance)
     equilibrium_add_inertia(e->equations, c->w, resistance, c->jacobian);
     return factors_make(c->factors, c->jacobian) &&
            factors_solve(c->factors, c->right, c->step) >= 0 &&
-           vector_largest(c->step, e->l->nu) <= CREEP;
+           vector_largest(c->step, e->l->nu) <= CREEP_STEP;
 }
 
 /* make the step, or a part of it for which residuals are defined; returns the growth of the
@@ -202,7 +196,7 @@ static double creep_on(Quest *e, Creep *c)
     const double before = search_growth(e->search, c->w);
     double growth = before > 0 ? INFINITY : 0;
 
-    for (double share = 1; growth > GROWTH && share > LEAST_SHARE; share /= 4) {
+    for (double share = 1; growth > CREEP_GROWTH && share > LEAST_SHARE; share /= 4) {
         for (int k = 0; k < e->n; k++)
             c->right[k] = c->w[k] + share * c->step[k];
         growth = search_growth(e->search, c->right) / before;

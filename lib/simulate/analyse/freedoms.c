@@ -8,14 +8,13 @@
 #include "algebra/dense.h"
 #include "base/memory.h"
 #include "base/text.h"
+#include "simulate/analyse/analyse_limits.h"
 #include "simulate/run/result_reader_impl.h"
 
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-#define LOST 1e-6 /* rad/s per unit of speed: less is rounding error */
 
 typedef struct Turning {
     double at[3]; /* axes of the datum */
@@ -118,13 +117,13 @@ static bool find_lost(const Turnings *real, const Turnings *with, double out[3])
 {
     Turning basis[3];
     int count = 0;
-    double largest = LOST;
+    double largest = FREEDOM_LOST;
 
     for (int i = 0; i < with->count && count < 3; i++) {
         Turning t = with->at[i];
         double size = reduce(t.at, basis, count);
 
-        if (size < LOST)
+        if (size < FREEDOM_LOST)
             continue;
         for (int k = 0; k < 3; k++)
             t.at[k] /= size;
@@ -138,7 +137,7 @@ static bool find_lost(const Turnings *real, const Turnings *with, double out[3])
             out[k] = t.at[k] / size;
         largest = fmax(largest, size);
     }
-    return largest > LOST;
+    return largest > FREEDOM_LOST;
 }
 
 /* "x", or "[0, 0.6, 0.8]" */

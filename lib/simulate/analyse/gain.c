@@ -8,10 +8,9 @@
 
 #include "algebra/markov_parameters.h"
 #include "base/memory.h"
+#include "simulate/analyse/analyse_limits.h"
 
 #include <float.h>
-
-#define LEAST 1e-290 /* products below this lose digits */
 
 /* A^k b, the bound of its error, and that of rounding */
 typedef struct Power {
@@ -78,7 +77,8 @@ static inline void add(DoubleDouble *sum, GainValue *bound, double by, double er
     *sum = dd_add(*sum, dd_times(p->v[j], by));
     bound->off += fabs(by) * p->off[j] + error * (size + p->off[j] + p->noise[j]);
     if (size != 0 || p->noise[j] != 0)
-        bound->noise += fmax(fabs(by) * (p->noise[j] + n * DOUBLE_DOUBLE_ROUNDING * size), LEAST);
+        bound->noise +=
+            fmax(fabs(by) * (p->noise[j] + n * DOUBLE_DOUBLE_ROUNDING * size), GAIN_LEAST);
 }
 
 /* c times the power */

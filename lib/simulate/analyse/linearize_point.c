@@ -8,14 +8,10 @@
 #include "algebra/rank.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "simulate/analyse/analyse_limits.h"
 #include "simulate/equations/failure_diagnosis.h"
 
 #include <string.h>
-
-#define AHEAD 0.1  /* of the time in which the fastest oscillation moves by a radian */
-#define SAME  1e-5 /* change over that time, relative to the largest coefficient of its row */
-
-#define BESIDE 0x1p-52 /* relative perturbation of coefficients */
 
 enum { MOST_STEPS = 8 }; /* of Newton's method; linear equations take two */
 
@@ -60,7 +56,8 @@ double linear_moved(const Work *w, int r, int column, double value)
 {
     uint64_t seed = w->beside + (uint64_t)r * 0xD1B54A32D192ED03U + (uint64_t)column;
 
-    return w->beside == 0 || value == 0 ? value : value * (1 + BESIDE * random_unit(&seed));
+    return w->beside == 0 || value == 0 ? value
+                                        : value * (1 + LINEAR_PERTURBATION * random_unit(&seed));
 }
 
 /* Copy E_e from the tangents. Returns whether it has changed. */
@@ -481,7 +478,7 @@ static bool row_changes(const double *here, const double *there, int count)
         largest = fmax(largest, fabs(here[k]));
         change = fmax(change, fabs(there[k] - here[k]));
     }
-    return !(change <= SAME * largest);
+    return !(change <= LINEAR_CONSTANT * largest);
 }
 
 /* these coefficients of balances and velocity rows in use, at the tangents' point; new */
@@ -511,7 +508,7 @@ static double *coefficients(const Work *w)
 
 bool linear_is_passing(Work *w, const Linear *linear)
 {
-    const double quick = quickness(linear), time = quick > 0 ? AHEAD / quick : AHEAD;
+    const double quick = quickness(linear), time = quick > 0 ? LINEAR_AHEAD / quick : LINEAR_AHEAD;
     const int count = w->at.rates;
     double *y = NEW_ARRAY(double, w->phase->length), *here, *there;
     bool passes = false;

@@ -7,11 +7,7 @@
 
 #include "algebra/linear.h"
 #include "base/memory.h"
-
-#define ROUNDED 1e-12 /* of the largest entry of a row: rounding error */
-/* Largest relative difference of an entry at perturbed points; one rounding error in 1e5 differs no
- * more at all of them. */
-#define ALIKE 5e-2
+#include "simulate/analyse/analyse_limits.h"
 
 /* a matrix of a Linear, row by row, with its bounds */
 typedef struct Entries {
@@ -41,7 +37,7 @@ static bool is_doubtful(const Entries *m, int row, int k)
         return false;
     for (int i = 0; i < m->columns; i++)
         largest = fmax(largest, fabs(at[i]));
-    return fabs(at[k]) > ROUNDED * largest;
+    return fabs(at[k]) > LINEAR_ROUNDED * largest;
 }
 
 static bool has_doubtful(const Linear *linear)
@@ -73,7 +69,7 @@ static void settle(Linear *linear, Linear *const *samples, int count)
                                                                (int)(at % m[i].columns));
 
             for (int s = 0; s < count && is_constant; s++)
-                is_constant = fabs(sampled[s][i].at[at] - value) <= ALIKE * fabs(value);
+                is_constant = fabs(sampled[s][i].at[at] - value) <= LINEAR_ALIKE * fabs(value);
             if (linear_is_undetermined(value, m[i].error[at]) && !is_constant) {
                 m[i].error[at] += fabs(value);
                 m[i].at[at] = 0;

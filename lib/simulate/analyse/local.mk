@@ -1,4 +1,5 @@
 libcore_la_SOURCES += \
+  lib/simulate/analyse/analyse_limits.h \
   lib/simulate/analyse/equilibrium.c \
   lib/simulate/analyse/freedoms.c \
   lib/simulate/analyse/freedoms.h \

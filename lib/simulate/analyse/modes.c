@@ -9,11 +9,10 @@
 #include "algebra/modal.h"
 #include "algebra/spectrum.h"
 #include "base/memory.h"
+#include "simulate/analyse/analyse_limits.h"
 
 #include <math.h>
 #include <string.h>
-
-#define SAME 1e-6 /* relative difference of amplitudes that count as equal */
 
 /* amplitudes and phases relative to the largest part, the first of equal ones */
 static void scale_shape(Mode *mode, int parts)
@@ -23,13 +22,13 @@ static void scale_shape(Mode *mode, int parts)
     for (int p = 0; p < parts; p++)
         largest = fmax(largest, mode->amplitude[p]);
     for (int p = parts - 1; p >= 0; p--)
-        if (mode->amplitude[p] >= (1 - SAME) * largest)
+        if (mode->amplitude[p] >= (1 - MODE_SAME) * largest)
             turn = mode->phase[p];
     for (int p = 0; p < parts && largest > 0; p++) {
         mode->amplitude[p] /= largest;
         mode->phase[p] = remainder(mode->phase[p] - turn, 2 * M_PI);
         /* slightly more or less than half a turn counts as half a turn */
-        if (mode->phase[p] < -M_PI + SAME || mode->amplitude[p] == 0)
+        if (mode->phase[p] < -M_PI + MODE_SAME || mode->amplitude[p] == 0)
             mode->phase[p] = mode->amplitude[p] == 0 ? 0 : M_PI;
     }
 }

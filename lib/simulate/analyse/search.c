@@ -4,6 +4,7 @@
 #include "algebra/dense.h"
 #include "algebra/linear.h"
 #include "base/memory.h"
+#include "simulate/analyse/analyse_limits.h"
 #include "simulate/equations/factors.h"
 
 #include <gsl/gsl_linalg.h>
@@ -12,29 +13,6 @@
 #include <nvector/nvector_serial.h>
 #include <string.h>
 #include <sunmatrix/sunmatrix_sparse.h>
-
-/* convergence */
-#define ENOUGH 1e-9  /* residual over the terms of its row */
-#define LEAST  1e-15 /* residual over the largest entry of its row: for unknowns of size 0 */
-#define FINE   1e-12 /* residual over its weight: no further round is needed */
-
-/* rounds */
-#define ROUNDS       12
-#define ROUND        20    /* iterations in one */
-#define SLOW         0.99  /* ratio of residuals after a round: no progress */
-#define SETTLED      1e-15 /* residual over its weight: ends a round */
-#define STILL        1e-15 /* relative step, likewise */
-#define LITTLE       1e-6  /* least scale of a state, reaction or voltage for relative steps */
-#define LITTLE_SHARE 1e-9  /* of the largest force, or entry of a row: least weight in the end */
-
-/* steps */
-#define LONGEST 1.0  /* rad or m */
-#define SHORT   1e-4 /* fraction of a step, below which the line search ends */
-#define LARGEST 1e60 /* residual over its weight at points where it is undefined */
-
-/* full matrices */
-#define MOST_FULL 300 /* unknowns of a network, at most */
-#define FEW_SVD   100 /* unknowns, at most, for a singular value decomposition */
 
 struct EquilibriumSearch {
     Cleanup cleanup;
@@ -90,9 +68,9 @@ static double length_of(const EquilibriumSearch *s, const double *step)
     return length;
 }
 
-/* Shorten the step so that no part moves further than LONGEST. `right` is unchanged, as for the
- * whole step: the predicted decrease of the residuals is then never exceeded, and KINSOL makes no
- * longer step. */
+/* Shorten the step so that no part moves further than SEARCH_LONGEST_STEP. `right` is unchanged, as
+ * for the whole step: the predicted decrease of the residuals is then never exceeded, and KINSOL
+ * makes no longer step. */
 static int solver_solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector step, N_Vector right,
                         realtype tolerance)
 {
@@ -104,9 +82,10 @@ static int solver_solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector step,
     if (factors_solve(s->factors, N_VGetArrayPointer(right), w) < 0)
         return SUNLS_PACKAGE_FAIL_UNREC;
     furthest = vector_largest(w, s->speeds);
-    for (int i = 0; i < s->n && furthest > LONGEST; i++)
-        w[i] *= LONGEST / furthest;
-    return KINSetScaledStepTol(s->memory, fmax(STILL, SHORT * length_of(s, w))) == 0
+    for (int i = 0; i < s->n && furthest > SEARCH_LONGEST_STEP; i++)
+        w[i] *= SEARCH_LONGEST_STEP / furthest;
+    return KINSetScaledStepTol(s->memory,
+                               fmax(SEARCH_ROUND_STEP, SEARCH_LEAST_STEP * length_of(s, w))) == 0
                ? SUNLS_SUCCESS
                : SUNLS_PACKAGE_FAIL_UNREC;
 }
@@ -127,8 +106,8 @@ static int residual(N_Vector w, N_Vector out, void *data)
         return -1;
     residual_at(s, N_VGetArrayPointer(w), values);
     for (int i = 0; i < s->n; i++)
-        if (!(fabs(values[i]) * NV_Ith_S(s->weight, i) <= LARGEST))
-            values[i] = LARGEST / NV_Ith_S(s->weight, i);
+        if (!(fabs(values[i]) * NV_Ith_S(s->weight, i) <= SEARCH_UNDEFINED))
+            values[i] = SEARCH_UNDEFINED / NV_Ith_S(s->weight, i);
     return 0;
 }
 
@@ -196,7 +175,7 @@ static bool open_solver(EquilibriumSearch *s)
     s->unit = MEM_GIVEN(N_VNew_Serial(s->n, s->context));
     s->weight = MEM_GIVEN(N_VNew_Serial(s->n, s->context));
     for (int i = 0; i < s->n; i++)
-        NV_Ith_S(s->unit, i) = i < s->speeds ? 1 : 1 / LITTLE;
+        NV_Ith_S(s->unit, i) = i < s->speeds ? 1 : 1 / SEARCH_LEAST_SCALE;
     s->matrix = MEM_GIVEN(SUNSparseMatrix(s->n, s->n, s->start[s->n] + 1, CSC_MAT, s->context));
     s->memory = MEM_GIVEN(KINCreate(s->context));
     open_linear(s);
@@ -214,12 +193,12 @@ static bool open_solver(EquilibriumSearch *s)
     if (code == 0)
         code = KINSetMaxSetupCalls(s->memory, 1);
     if (code == 0)
-        code = KINSetNumMaxIters(s->memory, ROUND);
+        code = KINSetNumMaxIters(s->memory, SEARCH_ITERATIONS);
     if (code == 0)
-        code = KINSetMaxNewtonStep(s->memory, LARGEST);
+        code = KINSetMaxNewtonStep(s->memory, SEARCH_UNDEFINED);
     if (code == 0)
-        code = KINSetFuncNormTol(s->memory, SETTLED);
-    return code == 0 && KINSetScaledStepTol(s->memory, STILL) == 0;
+        code = KINSetFuncNormTol(s->memory, SEARCH_ROUND_RESIDUAL);
+    return code == 0 && KINSetScaledStepTol(s->memory, SEARCH_ROUND_STEP) == 0;
 }
 
 EquilibriumSearch *search_new(EquilibriumResidual *equations, const CallMonitor *watch)
@@ -236,7 +215,7 @@ EquilibriumSearch *search_new(EquilibriumResidual *equations, const CallMonitor 
     s->speeds = equilibrium_layout(equations)->nu;
     equilibrium_pattern(equations, &s->start, &s->row);
     s->factors = factors_new(s->n, s->start, s->row,
-                             !equilibrium_is_network(equations) || s->n <= MOST_FULL);
+                             !equilibrium_is_network(equations) || s->n <= SEARCH_MOST_DENSE);
     if (s->n == 0 || open_solver(s))
         return s;
     search_free(s);
@@ -275,7 +254,8 @@ static bool look(EquilibriumSearch *s)
 
 static bool holds(const EquilibriumSearch *s, int i, double missed)
 {
-    return fabs(missed) <= fmax(ENOUGH * s->size[i], LEAST * s->entry[i]);
+    return fabs(missed) <=
+           fmax(SEARCH_CONVERGED * s->size[i], SEARCH_CONVERGED_ENTRY * s->entry[i]);
 }
 
 /* Weights of residuals, after look(): the size of their terms or of themselves; but at least
@@ -333,7 +313,7 @@ static bool go_on(EquilibriumSearch *s)
 
     if (!look(s))
         return false;
-    for (int round = 0; round < ROUNDS; round++) {
+    for (int round = 0; round < SEARCH_ROUNDS; round++) {
         double before;
         int code;
 
@@ -346,12 +326,12 @@ static bool go_on(EquilibriumSearch *s)
         equilibrium_rebase(s->equations);
         if (!look(s))
             return false;
-        if (code == KIN_MAXITER_REACHED && measure(s) < SLOW * before)
+        if (code == KIN_MAXITER_REACHED && measure(s) < SEARCH_SLOW * before)
             continue;
         if (all_hold(s)) {
-            share = LITTLE_SHARE;
+            share = SEARCH_LEAST_WEIGHT;
             weigh(s, share);
-            if (code < 0 || worst(s, s->missed) <= FINE)
+            if (code < 0 || worst(s, s->missed) <= SEARCH_FINE)
                 return true;
         } else if (code < 0) {
             /* the decrease may show with new weights */
@@ -448,7 +428,7 @@ int search_undetermined(EquilibriumSearch *s)
         return -1;
     values = equilibrium_jacobian(s->equations, N_VGetArrayPointer(s->w));
     column = factors_singular(s->factors, values);
-    return column < 0 && s->n <= FEW_SVD ? loosest(s, values) : column;
+    return column < 0 && s->n <= SEARCH_MOST_SVD ? loosest(s, values) : column;
 }
 
 bool search_may_be_full(const EquilibriumSearch *s)

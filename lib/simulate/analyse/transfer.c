@@ -6,14 +6,12 @@
 #include "simulate/analyse/transfer.h"
 
 #include "base/memory.h"
+#include "simulate/analyse/analyse_limits.h"
 #include "simulate/analyse/siso.h"
 #include "simulate/analyse/zeros.h"
 
 #include <math.h>
 #include <stdlib.h>
-
-#define MET   1e-13 /* relative: a frequency so near to a zero counts as the zero */
-#define KNOWN 1e-3  /* a root with a larger relative error isn't cancelled */
 
 static const double LEAST_RESPONSE = 1e-200, MOST_RESPONSE = 1e200;
 
@@ -64,7 +62,7 @@ static bool is_same(const Root *pole, const Root *zero)
     const double apart = hypot(pole->real - zero->real, pole->imaginary - zero->imaginary);
     const double error = pole->error + zero->error;
 
-    return apart <= error && (error <= KNOWN * size_of(*pole) || size_of(*pole) == 0);
+    return apart <= error && (error <= TRANSFER_KNOWN * size_of(*pole) || size_of(*pole) == 0);
 }
 
 /* the closest pair of those, on or above the real axis */
@@ -236,7 +234,7 @@ static bool is_zero(const Transfer *t, double omega)
 {
     for (int i = 0; i < t->zeros; i++)
         if (hypot(t->zero[i].real, omega - t->zero[i].imaginary) <=
-            t->zero[i].error + MET * size_of(t->zero[i]))
+            t->zero[i].error + TRANSFER_AT_ZERO * size_of(t->zero[i]))
             return true;
     return false;
 }

@@ -3,16 +3,16 @@
  * null vectors, l_x and x their entries for states (Stewart and Sun 1990, chapter VI). */
 #include "simulate/analyse/zero_pencil.h"
 
+#include "algebra/algebra_limits.h"
 #include "algebra/roots.h"
 #include "base/memory.h"
+#include "simulate/analyse/analyse_limits.h"
 
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
 enum { SWEEPS = 3 };
-
-#define UNIT 0x1p-53
 
 typedef double complex Complex;
 
@@ -38,7 +38,7 @@ static void factor(Complex *p, int m, int *pivot)
 
     for (int i = 0; i < m * m; i++)
         norm = fmax(norm, cabs(p[i]));
-    norm = fmax(norm * UNIT, DBL_MIN);
+    norm = fmax(norm * UNIT_ROUNDOFF, DBL_MIN);
     for (int k = 0; k < m; k++) {
         pivot[k] = k;
         for (int i = k + 1; i < m; i++)
@@ -100,7 +100,7 @@ static void null_vector(Complex *p, int m, Complex *v)
 
 static double off(double value, double error)
 {
-    return fmax(error, UNIT * fabs(value));
+    return fmax(error, UNIT_ROUNDOFF * fabs(value));
 }
 
 /* |l|^T |dP| |r| */
@@ -149,5 +149,5 @@ double zero_pencil_error(const Siso *s, double complex z)
         slope += left[i] * right[i];
     by = moved(s, left, right) + left_over(p, m, left, right);
     MEM_FREE(p, turned, factors, left, right);
-    return slope != 0 ? by / cabs(slope) + UNIT * cabs(z) : INFINITY;
+    return slope != 0 ? by / cabs(slope) + UNIT_ROUNDOFF * cabs(z) : INFINITY;
 }

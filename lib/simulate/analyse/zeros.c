@@ -10,9 +10,11 @@
  * root of m s^(m-1) times that, where s is the distance of a split one from the mean. */
 #include "simulate/analyse/zeros.h"
 
+#include "algebra/algebra_limits.h"
 #include "algebra/enclosure.h"
 #include "algebra/schur.h"
 #include "base/memory.h"
+#include "simulate/analyse/analyse_limits.h"
 #include "simulate/analyse/zero_pencil.h"
 
 #include <stdlib.h>
@@ -22,16 +24,6 @@ enum {
     MOST_STEPS = 6,
     PLACES = 3 /* points of the check against the response: by sizes of roots */
 };
-
-#define UNIT   0x1p-53
-#define ALONE  0.1  /* largest step, relative to the distance to the next zero */
-#define APART  1e-6 /* likewise: such a zero needs no more digits as initial guess */
-#define NEAR   1e-3 /* relative to its error: as good as 0 */
-#define CLOSE  4    /* roundings: the limit of double precision */
-#define LITTLE 1e-9 /* largest relative error of a zero for which H is reliable */
-#define SAME   1e-6 /* relative difference of responses */
-#define ASIDE  0.6  /* rad, of the points, from the positive real axis */
-#define SPLIT  1e-7 /* relative difference; below its square two zeros are the same */
 
 /* in double-double */
 typedef struct Wider {
@@ -101,8 +93,8 @@ static bool enclosed_values(const DoubleDouble *a, int n, double complex *value)
 
     for (int k = 0; k < n && sound; k++) {
         value[k] = e.value[k];
-        sound = e.error[k] <= CLOSE * UNIT * cabs(e.value[k]) ||
-                e.error[k] <= APART * nearest_of(e.value, n, k);
+        sound = e.error[k] <= ZERO_DOUBLE * UNIT_ROUNDOFF * cabs(e.value[k]) ||
+                e.error[k] <= ZERO_APART * nearest_of(e.value, n, k);
     }
     enclosure_free(&e);
     return sound;
@@ -116,8 +108,8 @@ static bool disturbed_values(DoubleDouble *a, int n, double complex *value)
 
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
-            a[i * n + j] =
-                dd_add(a[i * n + j], dd_product(a[i * n + j].high, UNIT * disturbance(i, j)));
+            a[i * n + j] = dd_add(a[i * n + j],
+                                  dd_product(a[i * n + j].high, UNIT_ROUNDOFF * disturbance(i, j)));
     sound = schur(a, n, t, NULL);
     for (int i = 0; i < n; i++)
         value[i] = dd_to(t[i * n + i]);
@@ -186,7 +178,7 @@ static void trial_free(ZerosTrial *at)
 
 static double least_error(double value, double error)
 {
-    return fmax(error, UNIT * fabs(value));
+    return fmax(error, UNIT_ROUNDOFF * fabs(value));
 }
 
 /* |dH|: |y|^T |dA| |x| + |y|^T |db| + |dc| |x| + |dd| */
@@ -243,12 +235,12 @@ static double complex split_of(const double complex *first, int count, int k, do
     double angle;
 
     for (int i = 0; i < count; i++)
-        if (cabs(first[i] - first[k]) <= SPLIT * SPLIT * size) {
+        if (cabs(first[i] - first[k]) <= ZERO_SPLIT * ZERO_SPLIT * size) {
             equal++;
             before += i < k;
         }
     angle = 2 * M_PI * before / equal;
-    return equal > 1 ? SPLIT * size * cexp(I * (cimag(first[k]) < 0 ? -angle : angle)) : 0;
+    return equal > 1 ? ZERO_SPLIT * size * cexp(I * (cimag(first[k]) < 0 ? -angle : angle)) : 0;
 }
 
 /* Newton's method where others are far; returns the error afterwards */
@@ -263,8 +255,8 @@ static double improve(ZerosTrial *at, const double complex *first, double comple
     for (int step = 0; step < MOST_STEPS; step++) {
         const double complex by = at->value / at->slope;
 
-        if (!(cabs(by) <= ALONE * nearest) || cabs(at->value) <= NEAR * at->error ||
-            cabs(by) <= UNIT * cabs(value[k]))
+        if (!(cabs(by) <= ZERO_ALONE * nearest) || cabs(at->value) <= ZERO_REACHED * at->error ||
+            cabs(by) <= UNIT_ROUNDOFF * cabs(value[k]))
             break;
         value[k] -= cimag(value[k]) == 0 ? creal(by) : by;
         go_to(at, value[k]);
@@ -283,9 +275,9 @@ static void take_from_pencil(const Siso *s, const double complex *first, int cou
                              double complex *value, double *error)
 {
     const double by_pencil = zero_pencil_error(s, first[k]);
-    const bool is_lost = *value == 0 && by_pencil <= ALONE * cabs(first[k]);
+    const bool is_lost = *value == 0 && by_pencil <= ZERO_ALONE * cabs(first[k]);
 
-    if ((by_pencil < *error || is_lost) && by_pencil <= ALONE * nearest_of(first, count, k)) {
+    if ((by_pencil < *error || is_lost) && by_pencil <= ZERO_ALONE * nearest_of(first, count, k)) {
         *value = first[k];
         *error = by_pencil;
     }
@@ -322,12 +314,13 @@ static void bound_zeros(const Siso *s, const Wider *wide, double least, double c
     memcpy(first, value, (size_t)count * sizeof *first);
     for (int k = 0; k < count; k++) {
         /* one of a pair determines the other, unless they are about equal and have to split */
-        if (k > 0 && -cimag(first[k]) > SPLIT * cabs(first[k]) && first[k] == conj(first[k - 1])) {
+        if (k > 0 && -cimag(first[k]) > ZERO_SPLIT * cabs(first[k]) &&
+            first[k] == conj(first[k - 1])) {
             value[k] = conj(value[k - 1]);
             error[k] = error[k - 1];
         } else {
             error[k] = improve(&at, first, value, count, k);
-            if (!(error[k] <= LITTLE * cabs(first[k])) || value[k] == 0)
+            if (!(error[k] <= ZERO_RELIABLE * cabs(first[k])) || value[k] == 0)
                 take_from_pencil(s, first, count, k, &value[k], &error[k]);
         }
     }
@@ -441,8 +434,9 @@ static bool agrees_at(ZerosTrial *at, const Answer *a, double complex z, double 
     if (isfinite(cabs(at->value) + open))
         *largest = fmax(*largest, cabs(at->value) + open);
     /* a value with a large error is not checked */
-    return !(error < ALONE) || !isfinite(cabs(product)) || !isfinite(cabs(at->value)) ||
-           cabs(at->value - product) <= SAME * cabs(at->value) + 2 * error * cabs(product) + open;
+    return !(error < ZERO_ALONE) || !isfinite(cabs(product)) || !isfinite(cabs(at->value)) ||
+           cabs(at->value - product) <=
+               RESPONSE_SAME * cabs(at->value) + 2 * error * cabs(product) + open;
 }
 
 bool zeros_agree(const Siso *single, const Answer *answer, double *largest)
@@ -467,7 +461,7 @@ bool zeros_agree(const Siso *single, const Answer *answer, double *largest)
     for (int k = 0; k < PLACES && agrees; k++) {
         const double about = count == 0 ? 1 : size[k * (count - 1) / (PLACES - 1)];
 
-        agrees = agrees_at(&at, answer, about * cexp(I * ASIDE), largest);
+        agrees = agrees_at(&at, answer, about * cexp(I * RESPONSE_ANGLE), largest);
     }
     trial_free(&at);
     wider_free(&whole);
