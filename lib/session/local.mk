@@ -17,6 +17,7 @@ libcore_la_SOURCES += \
   lib/session/session_store.c \
   lib/session/session_input.c \
   lib/session/session_keep.c \
+  lib/session/session_limits.h \
   lib/session/session_linear.c \
   lib/session/session_look.c \
   lib/session/session_model.c \

@@ -5,11 +5,10 @@
  * give meaningless results. */
 #include "session/session_impl.h"
 
+#include "session/session_limits.h"
+
 #include <math.h>
 #include <string.h>
-
-/* relative to the measure's initial value: the law ends there, and the results are still finite */
-#define AT_BOUND 1e-6
 
 void watch_free(BoundWatch *watch)
 {
@@ -31,7 +30,7 @@ static const char *keep(BoundWatch *watch, Text *text)
 /* `measure < limit`, or the other way round where it is negative at the start */
 static Event event_of(BoundWatch *watch, Arena *arena, const Bound *bound, double from)
 {
-    const Expr limit = expr_real(arena, AT_BOUND * from);
+    const Expr limit = expr_real(arena, LAW_BOUND * from);
     Text name = {0}, condition = {0};
     char *measure = expr_text(bound->measure);
     Event event = {.action = EVENT_STOP,
@@ -40,7 +39,7 @@ static Event event_of(BoundWatch *watch, Arena *arena, const Bound *bound, doubl
                                     : expr_call2(arena, OP_LT, limit, bound->measure)};
 
     text_addf(&name, "%s at its bound", bound->instance);
-    text_addf(&condition, "%s %c %.3g", measure, from > 0 ? '<' : '>', AT_BOUND * from);
+    text_addf(&condition, "%s %c %.3g", measure, from > 0 ? '<' : '>', LAW_BOUND * from);
     event.name = keep(watch, &name);
     event.condition = event.text = keep(watch, &condition);
     mem_free(measure);

@@ -9,16 +9,12 @@
 #include "algebra/dense.h"
 #include "algebra/linear.h"
 #include "session/session_impl.h"
+#include "session/session_limits.h"
 
 #include <gsl/gsl_linalg.h>
 #include <math.h>
 
 enum { MOST_STEPS = 200, MOST_HALVES = 60, MOST_SWEEPS = 20, CONFIRMED = 3 };
-#define LEAST_PIVOT 1e-14 /* over the largest: below, equations are singular */
-#define SAME_ROW    1e-10 /* of independence: rows closer to others repeat them */
-#define OPEN        1e-7  /* of slopes: entries that constraints don't determine */
-#define NEAR        1e-9  /* of s: a Newton step after which they converge quadratically */
-#define ON          1e-13 /* what constraints may be off */
 
 /* square equations of one size */
 typedef struct SessionEvaluatorSolver {
@@ -106,9 +102,9 @@ static bool solver_factor(SessionEvaluatorSolver *solver)
                                  : gsl_matrix_ptr(solver->a, (size_t)i, (size_t)j)) =
                 a[i * w + j] / solver->scale[j];
     if (solver->lu != NULL)
-        return lu_factor(solver->lu) && lu_pivot_ratio(solver->lu) > LEAST_PIVOT;
+        return lu_factor(solver->lu) && lu_pivot_ratio(solver->lu) > EVALUATOR_SINGULAR;
     return gsl_linalg_COD_decomp_e(solver->a, solver->tau[0], solver->tau[1], solver->order,
-                                   SAME_ROW, &solver->rank, solver->work) == GSL_SUCCESS;
+                                   EVALUATOR_RANK, &solver->rank, solver->work) == GSL_SUCCESS;
 }
 
 /* b, scaled as the rows are, becomes x */
@@ -279,7 +275,8 @@ static bool is_near(const ct_evaluator *e, const CodeGroup *group, int lane)
     const int lanes = e->model->lanes;
     const double change = largest_in(e->step + lane, group->count, lanes);
 
-    return change <= NEAR * largest_in(e->old + lane, group->count, lanes) || !(e->lack[lane] > 0);
+    return change <= EVALUATOR_NEAR * largest_in(e->old + lane, group->count, lanes) ||
+           !(e->lack[lane] > 0);
 }
 
 /* Newton's method, its steps shortened where they lead away */
@@ -396,7 +393,7 @@ static bool project_positions(ct_evaluator *e, const double *p, const double *t,
 
     for (int sweep = 0; sweep < MOST_SWEEPS; sweep++) {
         ct_evaluate(e, constraints, p, t, y, NULL, e->numbers);
-        if (largest_in(e->numbers, model->m * lanes, 1) <= ON)
+        if (largest_in(e->numbers, model->m * lanes, 1) <= EVALUATOR_CLOSED)
             break;
         put(e, e->values[jacobian], p, t, y, NULL);
         put(e, e->values[map], p, t, y, NULL);
@@ -564,7 +561,7 @@ static bool lose_open_entries(const ct_evaluator *e, const ModelFunction *f, con
             sum += slope * e->step[slopes->column[next]];
             size += fabs(slope);
         }
-        if (fabs(sum) <= OPEN * size)
+        if (fabs(sum) <= EVALUATOR_UNDETERMINED * size)
             continue;
         lose(e, values + (size_t)row * columns * e->model->lanes, columns, lane);
         none = false;

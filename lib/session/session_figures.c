@@ -7,6 +7,8 @@
  */
 #include "session/session_impl.h"
 
+#include "session/session_limits.h"
+
 #include <assert.h>
 #include <math.h>
 #include <stdlib.h>
@@ -24,16 +26,6 @@ enum {
     ABOUT = 16     /* with so many instants each, evenly spaced, and those of a parabola's top and a
                       corner */
 };
-#define INSIDE 1e-9  /* relative to a piece: distance of sampled ends from its ends */
-#define AGREE  1e-12 /* of the mean size: halves of a piece that differ by less agree */
-#define ROUGH  1e-6  /* of their size: a kink, a jump or a pole is in halves that differ by more; */
-#define LASTS  0.4   /* about a pole these add up to as much in the end, however short they are, */
-#define WEIGHS 1e-3  /* and to so much of the whole, */
-#define NARROW 1e-2  /* within so little of the span; */
-#define NOISY  0.25  /* what is rough in so much of it, in short pieces, is rounding of what is 0 */
-#define POLAR  2     /* times as large in each pass: a pole */
-#define APART  1e-6  /* of its neighbour's: so short an interval spans a corner */
-#define EVEN   0.1   /* crossings that are less regular determine no period */
 
 static const double nodes[POINTS] = {
     -0.9491079123427585, -0.7415311855993945, -0.4058451513773972, 0,
@@ -112,7 +104,7 @@ static Status course_sample(FigureCourse *course, Diag *diag)
         LIST_PUSH(course->times, a);
         for (int k = 0; k < POINTS; k++)
             LIST_PUSH(course->times, (a + b) / 2 + (b - a) / 2 * nodes[k]);
-        LIST_PUSH(course->times, b - INSIDE * (b - a));
+        LIST_PUSH(course->times, b - FIGURES_END * (b - a));
     }
     LIST_PUSH(course->times, course->ends.at[course->ends.count - 1]);
     LIST_ROOM(course->values, course->times.count);
@@ -197,7 +189,7 @@ static Status mean_of(const FigureCourse *course, int power, double *out, Diag *
         LIST_PUSH(open, piece);
     }
     for (int k = 0; open.count > 0; k++) {
-        const bool is_noise = k > SHORT && last_width > NOISY * span;
+        const bool is_noise = k > SHORT && last_width > FIGURES_NOISE * span;
         double rough = 0, width = 0; /* what the rough pieces add up to, of the course and of t */
         int left = 0;
 
@@ -206,10 +198,11 @@ static Status mean_of(const FigureCourse *course, int power, double *out, Diag *
         assert(halves.at != NULL);
         for (int i = 0; i < open.count; i++) {
             const double both = halves.at[2 * i].sum + halves.at[2 * i + 1].sum;
-            const double bound = AGREE * size * fmax((open.at[i].b - open.at[i].a) / span, 1e-3);
+            const double bound =
+                FIGURES_AGREE * size * fmax((open.at[i].b - open.at[i].a) / span, 1e-3);
 
             const double own = fabs(halves.at[2 * i].sum) + fabs(halves.at[2 * i + 1].sum);
-            const bool is_rough = fabs(both - open.at[i].sum) > ROUGH * own;
+            const bool is_rough = fabs(both - open.at[i].sum) > FIGURES_ROUGH * own;
 
             rough += is_rough ? own : 0;
             width += is_rough ? open.at[i].b - open.at[i].a : 0;
@@ -222,8 +215,8 @@ static Status mean_of(const FigureCourse *course, int power, double *out, Diag *
         }
         if (k <= SHORT)
             least = fmin(least, rough);
-        else if (k == HALVINGS && rough > fmax(LASTS * least, WEIGHS * size) &&
-                 width <= NARROW * span)
+        else if (k == HALVINGS && rough > fmax(FIGURES_POLE * least, FIGURES_POLE_SIZE * size) &&
+                 width <= FIGURES_POLE_SPAN * span)
             CHECK(refuse_pole(course, &halves, diag));
         halves.count = left;
         last_width = width;
@@ -304,10 +297,10 @@ static void peak_about(const double *t, const double *f, int count, int k, Peak 
 {
     int before = k > 0 ? k - 1 : k, after = k < count - 1 ? k + 1 : k;
 
-    if (before > 0 && t[k] - t[before] < APART * (t[before] - t[before - 1]) &&
+    if (before > 0 && t[k] - t[before] < FIGURES_CORNER * (t[before] - t[before - 1]) &&
         f[before - 1] <= f[k])
         before--;
-    if (after < count - 1 && t[after] - t[k] < APART * (t[after + 1] - t[after]) &&
+    if (after < count - 1 && t[after] - t[k] < FIGURES_CORNER * (t[after + 1] - t[after]) &&
         f[after + 1] <= f[k])
         after++;
     *peak = (Peak){.t = {t[before], t[k], t[after]}, .f = {f[before], f[k], f[after]}};
@@ -446,8 +439,8 @@ static Status extreme(const FigureCourse *course, double sign, double *out, Diag
 
         TRY(peaks_search(course, sign, &peaks, diag));
         for (int k = 0; k < peaks.count; k++)
-            grows[k] =
-                grows[k] && before.at[k].f[1] > 0 && peaks.at[k].f[1] > POLAR * before.at[k].f[1];
+            grows[k] = grows[k] && before.at[k].f[1] > 0 &&
+                       peaks.at[k].f[1] > FIGURES_GROWTH * before.at[k].f[1];
     }
     for (int k = 0; k < peaks.count && isfinite(best); k++) {
         if (grows[k] && peaks.at[k].f[1] > best)
@@ -583,7 +576,7 @@ static Status figure_period(const FigureCourse *course, double band, double *out
     TRY(instant(course, first, is_above, mean, 0, &from, diag));
     TRY(instant(course, last, is_above, mean, 0, &to, diag));
     *out = (to - from) / (crossings - 1);
-    if (most - least > EVEN * *out && crossings > 2) {
+    if (most - least > FIGURES_IRREGULAR * *out && crossings > 2) {
         (void)diag_at(diag, E_VALUE, course->call->place,
                       "it isn't periodic: it rises through its mean after %.3g to %.3g s", least,
                       most);

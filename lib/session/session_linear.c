@@ -2,12 +2,11 @@
 #include "session/session_impl.h"
 
 #include "present/show.h"
+#include "session/session_limits.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define MOST_NAMES 6 /* names in a remark */
 
 static const Syntax *value_of_key(const Statement *s, const char *key)
 {

@@ -8,13 +8,13 @@
 #include "base/clock.h"
 #include "formulate/system_build/tree_search.h"
 #include "language/verbs.h"
+#include "session/session_limits.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { MOST_ROWS = 8 };
-#define PATIENCE 10.0 /* s */
 
 static const char as_it_was[] = "as it was";
 
@@ -37,7 +37,7 @@ static bool stop(void *context)
     TreesSought *search = context;
 
     search->is_stopped = search->is_stopped || monitor_poll(&search->session->watch) != OK;
-    search->is_late = search->is_late || clock_now() - search->began > PATIENCE;
+    search->is_late = search->is_late || clock_now() - search->began > TREE_SEARCH_TIME;
     return search->is_stopped || search->is_late;
 }
 
@@ -357,7 +357,7 @@ Status session_best_trees(ct_session *session, Diag *diag)
     if (is_short)
         text_addf(&session->remarks,
                   "the search ended at %d choices or %g s: there may be cheaper ones\n",
-                  TREE_SEARCH_MOST, PATIENCE);
+                  TREE_SEARCH_MOST, TREE_SEARCH_TIME);
     if (best->called != as_it_was)
         CHECK(choose(&search, best, diag));
     else

@@ -1,12 +1,11 @@
 /* session_value.c: what a formula is worth: at an instant, or over the rows of a run */
 #include "session/session_impl.h"
 
+#include "session/session_limits.h"
+
 #include <assert.h>
 #include <float.h>
 #include <math.h>
-
-#define SAME     1e-9  /* of the way between two rows: an instant that near to one is that one */
-#define ROUNDING 1e-14 /* of the instant, likewise */
 
 typedef struct LeafValues {
     const Formula *formula;
@@ -52,7 +51,7 @@ static double snap(const Result *result, double t)
             high = middle;
     }
     for (int i = low; i <= high; i++)
-        if (fabs(times[i] - t) <= SAME * (times[high] - times[low]) + ROUNDING * fabs(t))
+        if (fabs(times[i] - t) <= ROW_TIME * (times[high] - times[low]) + TIME_ROUNDING * fabs(t))
             return times[i];
     return t;
 }
@@ -164,11 +163,6 @@ done:
 
 /* --- noise --- */
 
-#define LOOKED_AT                                                                                  \
-    1e-6           /* larger values aren't held against their rounding, which takes a program      \
-                    */
-#define NO_DIGIT 8 /* roundings: a value of no more has no digit that is true */
-
 /* numbers of a leaf's parameters, each a rounding larger or smaller */
 typedef struct Shaken {
     ct_session *session;
@@ -213,7 +207,7 @@ bool formula_may_be_rounding(const Syntax *item, double value)
 {
     const bool is_shown_in = item->has_unit && item->kind != SYNTAX_NUMBER;
 
-    return value != 0 && fabs(value) * (is_shown_in ? item->unit.factor : 1) <= LOOKED_AT;
+    return value != 0 && fabs(value) * (is_shown_in ? item->unit.factor : 1) <= NOISE_LARGEST;
 }
 
 Status formula_rounding(ct_session *session, const Formula *formula, Run *source, const double *at,
@@ -252,7 +246,7 @@ Status formula_round(ct_session *session, const Formula *formula, Run *source, c
     double open;
 
     TRY(formula_rounding(session, formula, source, at, &open, diag));
-    if (fabs(*value) <= NO_DIGIT * open)
+    if (fabs(*value) <= NOISE_ROUNDINGS * open)
         *value = 0;
     return OK;
 }
