@@ -1,4 +1,5 @@
 libcore_la_SOURCES += \
+	lib/formulate/formulate_limits.h \
 	lib/formulate/system/constraints.h lib/formulate/system/dynamics.h \
 	lib/formulate/system/kinematics.h lib/formulate/system/nonsmooth_points.c lib/formulate/system/network.h \
 	lib/formulate/system/origin.h lib/formulate/system/rates.c lib/formulate/system/rates.h \

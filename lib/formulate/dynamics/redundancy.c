@@ -14,6 +14,7 @@
 #include "formulate/dynamics/efforts.h"
 #include "formulate/dynamics/loads.h"
 #include "formulate/dynamics/reactions.h"
+#include "formulate/formulate_limits.h"
 #include "formulate/system/constraints.h"
 #include "formulate/system/kinematics.h"
 #include "formulate/system/origin.h"
@@ -24,8 +25,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-
-#define NONE 1e-9 /* a pivot this small is 0; directions have unit length */
 
 /* --- the equations --- */
 
@@ -114,7 +113,7 @@ static void swap_rows(RedundancyElimination *e, int a, int b)
 /* makes the largest remaining entry the pivot; false: it is 0 */
 static bool choose_pivot(RedundancyElimination *e)
 {
-    double largest = NONE;
+    double largest = REDUNDANCY_ZERO;
     int row = -1;
     int place = -1;
 
@@ -167,7 +166,7 @@ static void find_open(System *system, const RedundancyElimination *e, Recovery *
         for (int i = 0; i < e->rank; i++) {
             double share = -e->at[i * e->columns + column];
 
-            recovery->open[e->column[i] * count + j] = fabs(share) > NONE ? share : 0;
+            recovery->open[e->column[i] * count + j] = fabs(share) > REDUNDANCY_ZERO ? share : 0;
         }
     }
 }

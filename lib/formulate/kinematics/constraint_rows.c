@@ -5,6 +5,7 @@
  * cancel. Symbols as in system/kinematics.h; D_j is the part of d that speed j turns. So the rate
  * of d is the sum of k_j x D_j u_j and the slides. */
 #include "formulate/kinematics/constraint_rows.h"
+#include "formulate/formulate_limits.h"
 #include "formulate/kinematics/circuits.h"
 #include "formulate/kinematics/coordinate.h"
 #include "formulate/kinematics/frames.h"
@@ -23,8 +24,6 @@
 
 #include <math.h>
 #include <string.h>
-
-#define MISFIT 1e-9 /* m or 1: smaller differences are treated as 0 */
 
 enum { SAMPLES = 3 }; /* positions at which a row is evaluated to test whether it vanishes */
 
@@ -392,7 +391,7 @@ static Status row_vanishes(System *system, const Row *row, Sample *const *sample
         return OK;
     if (row->kind == ROW_ANGLE)
         value = remainder(value, 2 * M_PI); /* full turns count as 0 */
-    if (fabs(value) > MISFIT) {
+    if (fabs(value) > CONSTRAINT_MISFIT) {
         (void)diag_set(diag, E_ASSEMBLE,
                        "%s can't be assembled: its equation along %s is %.6g = 0 in every position",
                        joint, row->reported.direction, value);
@@ -417,7 +416,7 @@ bool system_holds(const System *system, uint64_t revision,
         Expr phi = system->constraints->redundant_rows.at[k].phi;
 
         if (expr_kinds(phi) == 1U << SYMBOL_PARAMETER)
-            holds = fabs(number(context, phi)) <= MISFIT;
+            holds = fabs(number(context, phi)) <= CONSTRAINT_MISFIT;
     }
     return holds;
 }

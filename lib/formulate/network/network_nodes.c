@@ -10,14 +10,13 @@
  *
  * (of one that stores the unknown is its rate), so that all rows are short and their factors remain
  * sparse. p is the across variable against the datum up to its sign. */
+#include "formulate/formulate_limits.h"
 #include "formulate/network/network_impl.h"
 #include "formulate/network/scalar_edges.h"
 #include "formulate/system/network.h"
 #include "formulate/system/origin.h"
 #include "formulate/system/rates.h"
 #include "formulate/system/system_impl.h"
-
-#define LONG 8 /* terms; a sum of no more remains a sum */
 
 static bool is_between_resistances(const Branchlike *branch)
 {
@@ -67,7 +66,8 @@ bool network_nodes_across(System *system, const Branchlike *chord, int path, Exp
     const Edge *edge = graph_edge(system->origin->graph, chord->edge);
     const Tree *tree = system->origin->trees[branch_tree(system, chord)];
 
-    if (path <= LONG || system->network->form != NETWORK_STATE || !is_between_resistances(chord))
+    if (path <= NETWORK_LONG_SUM || system->network->form != NETWORK_STATE ||
+        !is_between_resistances(chord))
         return false;
     *out = expr_sub(system->arena, network_nodes_potential(system, tree, edge->head),
                     network_nodes_potential(system, tree, edge->tail));
@@ -86,7 +86,7 @@ bool network_nodes_through(System *system, Branchlike *branch, Expr *out)
     for (int c = cutsets->start[branch->cutset]; c < cutsets->start[branch->cutset + 1]; c++)
         terms += is_between_resistances(
             &system->network->branches.at[system->network->scalar_of_edge[cutsets->column[c]]]);
-    if (terms <= LONG)
+    if (terms <= NETWORK_LONG_SUM)
         return false;
     branch->is_balanced = kind == RELATION_CAPACITIVE;
     if (!branch->is_balanced)

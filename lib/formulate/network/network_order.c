@@ -5,6 +5,7 @@
  * row without highest rates. That row determines a lower rate of one of its unknowns.
  * Differentiated, it determines the higher rates, which are substituted in the other rows: this
  * lowers the order of the unknown. theory 8. */
+#include "formulate/formulate_limits.h"
 #include "formulate/network/network_impl.h"
 #include "formulate/network/scalar_edges.h"
 #include "formulate/system/network.h"
@@ -16,9 +17,6 @@
 
 #include <math.h>
 #include <string.h>
-
-#define ROUNDS 200
-#define ROOM   20000 /* nodes of expressions; above, nobody would read the equations */
 
 typedef struct Order {
     System *system;
@@ -93,7 +91,7 @@ static Status check_room(const Order *o, Diag *diag)
 {
     Status status = monitor_poll(o->system->watch);
 
-    if (status == OK && arena_nodes(o->system->arena) - o->nodes > ROOM) {
+    if (status == OK && arena_nodes(o->system->arena) - o->nodes > NETWORK_MOST_NODES) {
         status = diag_set(diag, E_MODEL, "the equations of this tree grow too long");
         diag_hint(diag, "set network state integrates the state form, which any network has");
     }
@@ -363,7 +361,7 @@ Status network_bring_order(System *system, Diag *diag)
         CHECK(form_leading(&o, diag));
         if (rank_at(&o, 1) == o.count || rank_at(&o, 2) == o.count)
             break;
-        if (round == ROUNDS)
+        if (round == NETWORK_ROUNDS)
             CHECK(cant_order(&o, 0, diag));
         CHECK(lower_order(&o, diag));
     }

@@ -6,6 +6,8 @@
  * the polynomials. */
 #include "formulate/reduced/response.h"
 
+#include "formulate/formulate_limits.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -15,8 +17,6 @@ enum {
     DEEPEST = 60,       /* of nested sums and products that are multiplied out */
     SAMPLES = 2         /* points at which a pivot with functions is evaluated */
 };
-
-#define ROUGHLY_ZERO 1e-9 /* relative to the sum of the sizes of its terms */
 
 typedef struct ResponseSolver {
     LinearNetwork net;
@@ -389,7 +389,7 @@ static bool may_be_zero(const ResponseSolver *s, const Multinomial *p)
         double size;
         const double value = sampled(s, p, k, &size);
 
-        may = !(fabs(value) > ROUGHLY_ZERO * size);
+        may = !(fabs(value) > RESPONSE_ZERO * size);
     }
     return may;
 }

@@ -6,15 +6,10 @@
 #include "formulate/system_build/continuity.h"
 
 #include "base/memory.h"
+#include "formulate/formulate_limits.h"
 #include "formulate/system/surfaces.h"
 
 #include <math.h>
-
-/* relative to the point: distance for the size elsewhere of an expression that is 0 there */
-#define AWAY   1.0
-#define CLOSED 1e-9
-#define NEXT   1e-14 /* relative to the point: a neighbour, */
-#define BESIDE 1e-6  /* whose difference is less than this fraction of the one at AWAY */
 
 enum { SPOTS = 6 };
 
@@ -110,15 +105,16 @@ static Finding choice_meets(Arena *arena, Expr choice, int k, ContinuitySpot *sp
 
     (void)arena;
     (void)k;
-    if (isfinite(yes) && isfinite(no) && fabs(yes - no) <= CLOSED * (fabs(yes) + fabs(no)))
+    if (isfinite(yes) && isfinite(no) &&
+        fabs(yes - no) <= CONTINUITY_CLOSED * (fabs(yes) + fabs(no)))
         return HOLDS;
     for (int way = -1; way <= 1; way += 2) {
-        const double beside = gap_at(choice, *spot, spot->at + way * NEXT * size);
-        const double away = gap_at(choice, *spot, spot->at + way * AWAY * size);
+        const double beside = gap_at(choice, *spot, spot->at + way * CONTINUITY_NEXT * size);
+        const double away = gap_at(choice, *spot, spot->at + way * CONTINUITY_AWAY * size);
 
         if (!isfinite(beside) || !isfinite(away))
             continue;
-        if (!(beside <= BESIDE * away))
+        if (!(beside <= CONTINUITY_BESIDE * away))
             return FAILS;
         found = true;
     }
@@ -167,11 +163,11 @@ static Finding factors_vanish(Arena *arena, Expr product, int k, ContinuitySpot 
     there =
         expr_change(arena, rest, write_nonsmooth_point, (void *)surface_of(arena, condition, &way));
     size = fabs(expr_evaluate(there, value_on, spot));
-    spot->at += AWAY;
+    spot->at += CONTINUITY_AWAY;
     away = fabs(expr_evaluate(rest, value_on, spot));
     if (!isfinite(size) || !isfinite(away))
         return NO_VALUE;
-    return size <= CLOSED * away ? HOLDS : FAILS;
+    return size <= CONTINUITY_CLOSED * away ? HOLDS : FAILS;
 }
 
 bool jump_only_bends(Arena *arena, Expr e, int k)

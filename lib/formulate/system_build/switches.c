@@ -4,6 +4,7 @@
  * The equations jump on surfaces: the zeros of a condition, whatever its scale and sign. On either
  * side of a surface the functions that jump there are constant; on it they take any value
  * between. */
+#include "formulate/formulate_limits.h"
 #include "formulate/system/constraints.h"
 #include "formulate/system/kinematics.h"
 #include "formulate/system/network.h"
@@ -19,8 +20,6 @@
 typedef LIST(Expr) SwitchesExprs;
 
 /* --- surfaces --- */
-
-#define SAME 1e-14 /* relative rounding error of a constant */
 
 typedef struct Putting {
     const Surface *surfaces;
@@ -124,8 +123,9 @@ static bool vanishes_on(Arena *arena, const Putting *put, Expr e)
         const Expr constant =
             expr_kind(condition) == EXPR_SUM ? expr_arg(condition, 0) : expr_int(arena, 0);
 
-        if (expr_is_zero(off) || (expr_is_number(off) && expr_is_number(constant) &&
-                                  fabs(expr_value(off)) <= SAME * fabs(expr_value(constant))))
+        if (expr_is_zero(off) ||
+            (expr_is_number(off) && expr_is_number(constant) &&
+             fabs(expr_value(off)) <= SWITCH_ROUNDING * fabs(expr_value(constant))))
             return true;
     }
     return false;
