@@ -215,15 +215,16 @@ typedef struct Switched {
 
 /* The last tenth of the rows of C1.v, the first and the last of them by half: edges of the switch
  * fall on them. */
-static double average_of(Result *result, Diag *diag)
+static double average_of(ResultReader *reader, Diag *diag)
 {
+    const Result *result = result_reader_result(reader);
     const int rows = result_rows(result), from = rows - 1 - rows / 10;
     double *values = NEW_ARRAY(double, rows);
     double average = NAN;
     Expr output;
 
     if (system_variable(result_system(result), "C1.v", 0, &output, diag) == OK &&
-        result_values(result, &output, 1, values, diag) == OK) {
+        result_reader_values(reader, &output, 1, values, diag) == OK) {
         average = (values[from] + values[rows - 1]) / 2;
         for (int i = from + 1; i < rows - 1; i++)
             average += values[i];
@@ -239,6 +240,7 @@ static Switched run_circuit(const char *name, Text *text, const RunOptions *opti
     StartValues none = {0};
     Switched out = {.report = {.wall = NAN}, .average = NAN};
     System *system = NULL;
+    ResultReader *reader = NULL;
     Result *result = NULL;
     Diag diag = {0};
     Model *model = bench_model(text->at);
@@ -249,12 +251,13 @@ static Switched run_circuit(const char *name, Text *text, const RunOptions *opti
 
     text_free(text);
     if (model != NULL && form_system(model, &system, &diag) == OK && system_run(system) != NULL &&
-        run_simulate(system, &setting, options, &result, NULL, &diag) == OK) {
+        run_simulate(system, &setting, options, &result, &reader, &diag) == OK) {
         out.report = *result_report(result);
         if (averaged)
-            out.average = average_of(result, &diag);
+            out.average = average_of(reader, &diag);
     } else
         printf("# %s: %s\n", name, diag.message);
+    result_reader_free(reader);
     result_free(result);
     system_free(system);
     model_free(model);

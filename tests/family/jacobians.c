@@ -174,7 +174,6 @@ static void try_near(JacobianTrial *trial, const Phase *phase, const double *y)
 
 void jacobian_try(JacobianTrial *trial)
 {
-    ResultReader *reader = NULL;
     const double *y, *driven;
     Script script;
     Diag diag = {0};
@@ -182,10 +181,9 @@ void jacobian_try(JacobianTrial *trial)
 
     trial->worst = trial->implicit = NAN;
     script_open(&script, trial->text, &(Changes){.method = trial->method});
-    if (script.status == OK && result_reader_new(script.result, &reader, &diag) == OK &&
-        result_reader_at(reader, trial->at, &phase, &y, &driven, &diag) == OK)
+    if (script.status == OK && script.reader != NULL &&
+        result_reader_at(script.reader, trial->at, &phase, &y, &driven, &diag) == OK)
         try_near(trial, phase, y);
     (void)snprintf(trial->reason, sizeof trial->reason, "%s%s", script.diag.message, diag.message);
-    result_reader_free(reader);
     script_close(&script);
 }

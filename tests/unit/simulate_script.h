@@ -24,7 +24,8 @@ typedef struct Script {
     Model *model;
     System *system;
     Result *result;
-    LIST(Expr) items; /* of the last export */
+    ResultReader *reader; /* of the result */
+    LIST(Expr) items;     /* of the last export */
     int expects;
     Diag diag; /* of the run */
     Status status;
@@ -92,24 +93,27 @@ static void script_run(Script *script, const Statement *statement, const Changes
     if (changes->rtol > 0)
         options.rtol = options.atol = changes->rtol;
     options.method = changes->method;
+    result_reader_free(script->reader);
     result_free(script->result);
     system_free(script->system);
+    script->reader = NULL;
     script->result = NULL;
     script->system = NULL;
     setting.form = model_form(script->model, &setting.independent, &setting.independent_count);
     script_start(script, &start);
     status = form_system(script->model, &script->system, &script->diag);
     if (status == OK && strcmp(statement->verb, "simulate") == 0)
-        status =
-            run_simulate(script->system, &setting, &options, &script->result, NULL, &script->diag);
+        status = run_simulate(script->system, &setting, &options, &script->result, &script->reader,
+                              &script->diag);
     else if (status == OK && strcmp(statement->verb, "inverse") == 0)
-        status =
-            run_inverse(script->system, &setting, &options, &script->result, NULL, &script->diag);
+        status = run_inverse(script->system, &setting, &options, &script->result, &script->reader,
+                             &script->diag);
     else if (status == OK && strcmp(statement->verb, "kinematics") == 0)
-        status = run_kinematics(script->system, &setting, &options, &script->result, NULL,
-                                &script->diag);
+        status = run_kinematics(script->system, &setting, &options, &script->result,
+                                &script->reader, &script->diag);
     else if (status == OK)
-        status = run_assemble(script->system, &setting, &script->result, NULL, &script->diag);
+        status =
+            run_assemble(script->system, &setting, &script->result, &script->reader, &script->diag);
     script->status = status;
     mem_free(start.at);
 }
@@ -136,7 +140,7 @@ static void script_expect(Script *script, const Statement *statement)
     within = script_number(script, statement->within);
     at = statement->at != NULL ? script_number(script, statement->at)
                                : result_times(script->result)[result_rows(script->result) - 1];
-    if (result_values_at(script->result, &got, 1, at, &value, &diag) != OK) {
+    if (result_reader_values_at(script->reader, &got, 1, at, &value, &diag) != OK) {
         script_fail(statement->text, &diag);
         return;
     }
@@ -209,6 +213,7 @@ __attribute__((unused)) static void script_close(Script *script)
 {
     LIST_FREE(script->items);
     text_free(&script->remarks);
+    result_reader_free(script->reader);
     result_free(script->result);
     system_free(script->system);
     model_free(script->model);
@@ -225,7 +230,7 @@ __attribute__((unused)) static double value_at(Script *script, const char *text,
 
     if (script->result == NULL || syntax_parse_expression(text, pool, &syntax, &diag) != OK ||
         model_expression(script->model, syntax, &e, &diag) != OK ||
-        result_values_at(script->result, &e, 1, at, &value, &diag) != OK)
+        result_reader_values_at(script->reader, &e, 1, at, &value, &diag) != OK)
         script_fail(text, &diag);
     pool_free(pool);
     return value;

@@ -129,10 +129,12 @@ static double parameter_value(void *context, Expr symbol)
     return model_parameter_value(context, symbol);
 }
 
-static Result *assembled(Model *model, System *system, Diag *diag)
+/* a reader of the assembled positions, and of the speeds; assembled_free(). NULL: there are none */
+static ResultReader *assembled(Model *model, System *system, Diag *diag)
 {
     StartValues start = {model_start_count(model), NULL};
     SimulationInput setting = {.parameter = parameter_value, .context = model, .start = &start};
+    ResultReader *reader = NULL;
     Result *result = NULL;
 
     start.at = NEW_ARRAY(struct StartValue, start.count);
@@ -142,15 +144,24 @@ static Result *assembled(Model *model, System *system, Diag *diag)
         start.at[i] = (struct StartValue){from->name, from->primes,
                                           model_number(model, from->value), from->is_guess};
     }
-    if (run_assemble(system, &setting, &result, NULL, diag) != OK)
-        result = NULL;
+    if (run_assemble(system, &setting, &result, &reader, diag) != OK)
+        reader = NULL;
     mem_free(start.at);
-    return result;
+    return reader;
+}
+
+static void assembled_free(ResultReader *reader)
+{
+    Result *result = reader != NULL ? (Result *)result_reader_result(reader) : NULL;
+
+    result_reader_free(reader);
+    result_free(result);
 }
 
 /* values of names, each of them a variable, all at once; where some can't be determined each for
  * itself, and those are NAN */
-static double *values_of(const Model *model, Result *result, const char *const *names, int count)
+static double *values_of(const Model *model, ResultReader *reader, const char *const *names,
+                         int count)
 {
     double *values = NEW_ARRAY(double, count);
     Items items = {0};
@@ -158,17 +169,17 @@ static double *values_of(const Model *model, Result *result, const char *const *
 
     for (int i = 0; i < count; i++)
         push(model, &items, names[i]);
-    if (items.count < count || result_values(result, items.at, count, values, &diag) != OK)
+    if (items.count < count || result_reader_values(reader, items.at, count, values, &diag) != OK)
         for (int i = 0; i < items.count; i++)
-            if (result_values(result, &items.at[i], 1, &values[i], &diag) != OK)
+            if (result_reader_values(reader, &items.at[i], 1, &values[i], &diag) != OK)
                 values[i] = NAN;
     LIST_FREE(items);
     return values;
 }
 
-static double value_of(const Model *model, Result *result, const char *name)
+static double value_of(const Model *model, ResultReader *reader, const char *name)
 {
-    double *values = values_of(model, result, &name, 1);
+    double *values = values_of(model, reader, &name, 1);
     double value = values[0];
 
     mem_free(values);
@@ -221,7 +232,7 @@ static const char *const places[] = {"x", "y", "z", "q0", "q1", "q2", "q3"};
 static const char *const motions[] = {"vx", "vy", "vz", "wx", "wy", "wz"};
 
 /* lines `verb b3.x = value` of members of all bodies */
-static void start_bodies(const Model *model, Result *result, int bodies, const char *verb,
+static void start_bodies(const Model *model, ResultReader *reader, int bodies, const char *verb,
                          const char *const *members, int count, Text *text)
 {
     Words names = {0};
@@ -233,7 +244,7 @@ static void start_bodies(const Model *model, Result *result, int bodies, const c
         snprintf(name, sizeof name, "b%d.%s", i / count, members[i % count]);
         LIST_PUSH(names, mem_text(name, strlen(name)));
     }
-    values = values_of(model, result, (const char *const *)names.at, names.count);
+    values = values_of(model, reader, (const char *const *)names.at, names.count);
     for (int i = 0; i < names.count; i++) {
         text_addf(text, "%s %s = %.17g\n", verb, names.at[i], values[i]);
         mem_free(names.at[i]);
@@ -244,18 +255,18 @@ static void start_bodies(const Model *model, Result *result, int bodies, const c
 
 /* --- closing a loop in the position that the open tree is in --- */
 
-static void matrix_of(const Model *model, Result *result, int body, double r[3], double R[9])
+static void matrix_of(const Model *model, ResultReader *reader, int body, double r[3], double R[9])
 {
     char name[16];
     double p[4];
 
     for (int k = 0; k < 3; k++) {
         snprintf(name, sizeof name, "b%d.%s", body, places[k]);
-        r[k] = value_of(model, result, name);
+        r[k] = value_of(model, reader, name);
     }
     for (int k = 0; k < 4; k++) {
         snprintf(name, sizeof name, "b%d.%s", body, places[3 + k]);
-        p[k] = value_of(model, result, name);
+        p[k] = value_of(model, reader, name);
     }
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
@@ -270,14 +281,15 @@ static void matrix_of(const Model *model, Result *result, int body, double r[3],
 }
 
 /* an arm on ground that lies where the last body is, and a joint between the two */
-static void close_loop(const Model *model, Result *result, int bodies, uint64_t *random, Text *text)
+static void close_loop(const Model *model, ResultReader *reader, int bodies, uint64_t *random,
+                       Text *text)
 {
     static const char *const closing[] = {"spherical", "universal", "cylindrical", "planarjoint"};
     double r[3];
     double R[9];
     char head[16];
 
-    matrix_of(model, result, bodies - 1, r, R);
+    matrix_of(model, reader, bodies - 1, r, R);
     /* R = Rz Ry Rx */
     text_addf(
         text, "arm closing ground [%.17g, %.17g, %.17g] rotation=z(%.17g)*y(%.17g)*x(%.17g)\n",
@@ -289,7 +301,7 @@ static void close_loop(const Model *model, Result *result, int bodies, uint64_t 
 /* --- comparing --- */
 
 /* smallest over largest singular value of Phi_u; 1 without constraints */
-static double condition(Result *result, const System *system)
+static double condition(ResultReader *reader, const System *system)
 {
     int m = system_m(system);
     int n = system_nu(system);
@@ -310,7 +322,7 @@ static double condition(Result *result, const System *system)
     s = gsl_vector_alloc((size_t)m);
     work = gsl_vector_alloc((size_t)m);
     entries = NEW_ARRAY(double, m *n);
-    EXPECT(result_values(result, system_run(system)->phi_u, m * n, entries, &diag) == OK);
+    EXPECT(result_reader_values(reader, system_run(system)->phi_u, m * n, entries, &diag) == OK);
     for (int i = 0; i < m * n; i++)
         gsl_matrix_set(a, (size_t)(i % n), (size_t)(i / n), entries[i]);
     mem_free(entries);

@@ -219,6 +219,7 @@ static bool run(Model *model, const Network *net, bool rates, System **system, T
     StartValues start = {model_start_count(model), NULL};
     SimulationInput setting = {.parameter = parameter_value, .context = model, .start = &start};
     Items items = {0};
+    ResultReader *reader = NULL;
     Diag diag = {0};
     Status status;
 
@@ -233,18 +234,19 @@ static bool run(Model *model, const Network *net, bool rates, System **system, T
 
         start.at[i] = (StartValue){from->name, from->primes, 0.0, from->is_guess};
     }
-    status = run_simulate(*system, &setting, &options, &told->result, NULL, &diag);
+    status = run_simulate(*system, &setting, &options, &told->result, &reader, &diag);
     if (status == OK) {
         told->rows = result_rows(told->result);
         told->columns = items.count;
         told->times = result_times(told->result);
         told->values = NEW_ARRAY(double, (size_t)told->rows *(size_t)items.count);
-        status = result_values(told->result, items.at, items.count, told->values, &diag);
+        status = result_reader_values(reader, items.at, items.count, told->values, &diag);
     }
     if (status != OK) {
         test_faults++;
         printf("%s (%s)\n", diag.message, diag.hint);
     }
+    result_reader_free(reader);
     mem_free(start.at);
     LIST_FREE(items);
     return status == OK;

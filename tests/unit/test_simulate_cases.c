@@ -85,7 +85,8 @@ static double compare(const Case *c)
         goto done;
     }
     values = NEW_ARRAY(double, result_rows(script.result) * script.items.count);
-    EXPECT(result_values(script.result, script.items.at, script.items.count, values, &diag) == OK);
+    EXPECT(result_reader_values(script.reader, script.items.at, script.items.count, values,
+                                &diag) == OK);
     EXPECT_TEXT(diag.message, "");
     worst = 0;
     for (int k = 0; k < script.items.count && (c->columns == 0 || k < c->columns); k++) {

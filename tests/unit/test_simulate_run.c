@@ -326,12 +326,15 @@ static void a_resumed_run_is_one_run(void)
                                .context = script.model,
                                .scene = model_scene_source(script.model)};
     RunOptions options = {.duration = 2, .every = 0.1, .rtol = 1e-11};
+    ResultReader *reader = NULL;
     Result *resumed = NULL;
     Diag diag = {0};
 
-    EXPECT(run_resume(script.result, &setting, &options, &resumed, NULL, &diag) == OK);
+    EXPECT(run_resume(script.result, &setting, &options, &resumed, &reader, &diag) == OK);
     EXPECT(result_rows(resumed) == result_rows(whole.result));
+    result_reader_free(script.reader);
     result_free(script.result);
+    script.reader = reader;
     script.result = resumed;
     EXPECT_NEAR(value_at(&script, "h", 3), value_at(&whole, "h", 3), 1e-9);
     EXPECT_NEAR(value_at(&script, "h", 0.5), value_at(&whole, "h", 0.5), 1e-10);
@@ -377,7 +380,7 @@ static void an_instant_outside_the_run_is_refused(void)
     Diag diag = {0};
     double value;
 
-    EXPECT(result_values_at(script.result, &e, 1, 1.5, &value, &diag) == E_VALUE);
+    EXPECT(result_reader_values_at(script.reader, &e, 1, 1.5, &value, &diag) == E_VALUE);
     EXPECT_TEXT(diag.message, "t = 1.5 s is outside the run, which goes from 0 to 1 s");
     script_close(&script);
 }
@@ -393,22 +396,25 @@ static void a_second_run_estimates_the_error(void)
                                .start = &start};
     RunOptions options = {.duration = 20, .rtol = 1e-6, .check = true};
     RunOptions exact = {.duration = 20, .rtol = 1e-12};
+    ResultReader *reader = NULL;
     Result *fine = NULL;
     Expr e[2];
     double got[2], wanted[2], off;
     Diag diag = {0};
 
     EXPECT(form_system(script.model, &script.system, &diag) == OK);
-    EXPECT(run_simulate(script.system, &setting, &options, &script.result, NULL, &diag) == OK);
-    EXPECT(run_simulate(script.system, &setting, &exact, &fine, NULL, &diag) == OK);
+    EXPECT(run_simulate(script.system, &setting, &options, &script.result, &script.reader, &diag) ==
+           OK);
+    EXPECT(run_simulate(script.system, &setting, &exact, &fine, &reader, &diag) == OK);
     e[0] = expr_symbol(system_arena(script.system), "h", SYMBOL_VARIABLE);
     e[1] = expr_symbol(system_arena(script.system), "h'", SYMBOL_VARIABLE);
-    EXPECT(result_values_at(script.result, e, 2, 20, got, &diag) == OK);
-    EXPECT(result_values_at(fine, e, 2, 20, wanted, &diag) == OK);
+    EXPECT(result_reader_values_at(script.reader, e, 2, 20, got, &diag) == OK);
+    EXPECT(result_reader_values_at(reader, e, 2, 20, wanted, &diag) == OK);
     off = fmax(fabs(got[0] - wanted[0]), fabs(got[1] - wanted[1]));
     EXPECT(result_report(script.result)->global_error > off);
     EXPECT(result_report(script.result)->global_error < 100 * off);
     EXPECT(isnan(result_report(fine)->global_error));
+    result_reader_free(reader);
     result_free(fine);
     script_close(&script);
 }
@@ -429,7 +435,8 @@ static void an_unresolved_run_is_told(void)
     Diag diag = {0};
 
     EXPECT(form_system(script.model, &script.system, &diag) == OK);
-    EXPECT(run_simulate(script.system, &setting, &options, &script.result, NULL, &diag) == OK);
+    EXPECT(run_simulate(script.system, &setting, &options, &script.result, &script.reader, &diag) ==
+           OK);
     EXPECT(script.result != NULL && strstr(script_remarks(&script), "not resolved: ") != NULL);
     EXPECT(result_report(script.result)->is_unresolved);
     EXPECT(isnan(result_report(script.result)->global_error));

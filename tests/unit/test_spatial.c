@@ -55,7 +55,7 @@ static void check_scene(const char *scene, const char *positions, int bodies, ui
         Model *model = scene_new(scene);
         char *trees = choose_trees(model, choice, random);
         System *system;
-        Result *result = NULL;
+        ResultReader *reader = NULL;
         Diag diag = {0};
 
         scene_add(model, trees);
@@ -67,19 +67,19 @@ static void check_scene(const char *scene, const char *positions, int bodies, ui
         else
             scene_add(model, motion.at);
         if (system != NULL)
-            result = assembled(model, system, &diag);
-        if (system != NULL && result == NULL) {
+            reader = assembled(model, system, &diag);
+        if (system != NULL && reader == NULL) {
             test_faults++;
             printf("%s%s%s: %s (%s)\n", scene, trees, positions, diag.message, diag.hint);
         }
-        if (result != NULL && condition(result, system) > 1e-2) {
+        if (reader != NULL && condition(reader, system) > 1e-2) {
             double *values;
 
             if (names.count == 0)
                 compared_names(model, bodies, &names, &of_bodies);
-            values = values_of(model, result, (const char *const *)names.at, names.count);
+            values = values_of(model, reader, (const char *const *)names.at, names.count);
             if (first == NULL) {
-                start_bodies(model, result, bodies, "init", motions, COUNT(motions), &motion);
+                start_bodies(model, reader, bodies, "init", motions, COUNT(motions), &motion);
                 first = values;
                 values = NULL;
             } else {
@@ -92,7 +92,7 @@ static void check_scene(const char *scene, const char *positions, int bodies, ui
         } else if (first == NULL) {
             choice = CHOICES; /* near a singular position: another model */
         }
-        result_free(result);
+        assembled_free(reader);
         system_free(system);
         mem_free(trees);
         model_free(model);
@@ -116,7 +116,7 @@ static void check_models(bool loop, bool twins)
         char *open = random_tree_of_bodies(&random, bodies);
         Model *model = scene_new(open);
         System *system;
-        Result *result = NULL;
+        ResultReader *reader = NULL;
         Diag diag = {0};
 
         text_add(&scene, open);
@@ -125,14 +125,14 @@ static void check_models(bool loop, bool twins)
         scene_add(model, positions.at != NULL ? positions.at : "");
         system = scene_system(model);
         if (system != NULL)
-            result = assembled(model, system, &diag);
-        if (result == NULL) {
+            reader = assembled(model, system, &diag);
+        if (reader == NULL) {
             test_faults++;
             printf("%s: %s\n", open, diag.message);
         } else {
-            start_bodies(model, result, bodies, "guess", places, COUNT(places), &positions);
+            start_bodies(model, reader, bodies, "guess", places, COUNT(places), &positions);
             if (loop)
-                close_loop(model, result, bodies, &random, &scene);
+                close_loop(model, reader, bodies, &random, &scene);
             if (twins) {
                 char *real = mem_text(scene.at, scene.length);
                 char *guesses = mem_text(positions.at, positions.length);
@@ -144,7 +144,7 @@ static void check_models(bool loop, bool twins)
             }
             check_scene(scene.at, positions.at, bodies, &random, &compared);
         }
-        result_free(result);
+        assembled_free(reader);
         system_free(system);
         model_free(model);
         mem_free(open);

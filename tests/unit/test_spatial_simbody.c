@@ -66,7 +66,7 @@ static double answered(const Answer *answer, const char *name)
     return NAN;
 }
 
-static void state_lines(const Model *model, Result *result, int bodies, Text *text)
+static void state_lines(const Model *model, ResultReader *reader, int bodies, Text *text)
 {
     for (int i = 0; i < bodies; i++) {
         text_addf(text, "state b%d", i);
@@ -75,7 +75,7 @@ static void state_lines(const Model *model, Result *result, int bodies, Text *te
 
             snprintf(name, sizeof name, "b%d.%s", i,
                      k < COUNT(places) ? places[k] : motions[k - COUNT(places)]);
-            text_addf(text, " %.17g", value_of(model, result, name));
+            text_addf(text, " %.17g", value_of(model, reader, name));
         }
         text_char(text, '\n');
     }
@@ -123,8 +123,8 @@ typedef struct Case {
     char *positions; /* guesses */
 } Case;
 
-static void compare_choice(const Case *c, const Model *model, Result *result, const char *trees,
-                           Compared *compared)
+static void compare_choice(const Case *c, const Model *model, ResultReader *reader,
+                           const char *trees, Compared *compared)
 {
     Text question = {0};
     Words names = {0};
@@ -133,10 +133,10 @@ static void compare_choice(const Case *c, const Model *model, Result *result, co
     Answer answer;
 
     text_add(&question, c->scene);
-    state_lines(model, result, c->bodies, &question);
+    state_lines(model, reader, c->bodies, &question);
     answer = ask(question.at);
     compared_names(model, c->bodies, &names, &of_bodies);
-    values = values_of(model, result, (const char *const *)names.at, names.count);
+    values = values_of(model, reader, (const char *const *)names.at, names.count);
     if (answer.ended_well) {
         compare(c->scene, trees, &answer, &names, values, of_bodies, compared);
     } else {
@@ -157,7 +157,7 @@ static void check_choice(const Case *c, int choice, uint64_t *random, Compared *
     Model *model = scene_new(c->scene);
     char *trees = choose_trees(model, choice, random);
     System *system;
-    Result *result = NULL;
+    ResultReader *reader = NULL;
     Diag diag = {0};
 
     scene_add(model, trees);
@@ -165,15 +165,15 @@ static void check_choice(const Case *c, int choice, uint64_t *random, Compared *
     if (system != NULL) {
         add_guesses(model, system, c->positions);
         guess_speeds(model, system, random);
-        result = assembled(model, system, &diag);
-        if (result == NULL) {
+        reader = assembled(model, system, &diag);
+        if (reader == NULL) {
             test_faults++;
             printf("%s%s: %s (%s)\n", c->scene, trees, diag.message, diag.hint);
         }
     }
-    if (result != NULL && condition(result, system) > 1e-2)
-        compare_choice(c, model, result, trees, compared);
-    result_free(result);
+    if (reader != NULL && condition(reader, system) > 1e-2)
+        compare_choice(c, model, reader, trees, compared);
+    assembled_free(reader);
     system_free(system);
     mem_free(trees);
     model_free(model);
@@ -187,7 +187,7 @@ static void check_model(bool loop, uint64_t *random, Compared *compared)
     Text scene = {0}, start = {0};
     Model *model;
     System *system;
-    Result *position = NULL;
+    ResultReader *position = NULL;
     Diag diag = {0};
 
     model = scene_new(open);
@@ -210,7 +210,7 @@ static void check_model(bool loop, uint64_t *random, Compared *compared)
         for (int choice = 0; choice < CHOICES && test_faults == 0; choice++)
             check_choice(&c, choice, random, compared);
     }
-    result_free(position);
+    assembled_free(position);
     system_free(system);
     model_free(model);
     mem_free(open);

@@ -251,6 +251,7 @@ static double *run_pair(Model *model, const Case *one, int *rows, int *count, in
     RunOptions options = {
         .duration = one->duration, .every = one->every, .rtol = 1e-11, .atol = 1e-12};
     SimulationInput setting = {.parameter = parameter_value, .context = model, .start = &start};
+    ResultReader *reader = NULL;
     Result *result = NULL;
     Items items = {0};
     double *values = NULL;
@@ -269,10 +270,10 @@ static double *run_pair(Model *model, const Case *one, int *rows, int *count, in
     *balances = items.count;
     push_balances(model, one, &items);
     *count = items.count;
-    if (run_simulate(system, &setting, &options, &result, NULL, &diag) == OK) {
+    if (run_simulate(system, &setting, &options, &result, &reader, &diag) == OK) {
         *rows = result_rows(result);
         values = NEW_ARRAY(double, (size_t)*rows *(size_t)*count);
-        if (result_values(result, items.at, items.count, values, &diag) != OK) {
+        if (result_reader_values(reader, items.at, items.count, values, &diag) != OK) {
             mem_free(values);
             values = NULL;
         }
@@ -281,6 +282,7 @@ static double *run_pair(Model *model, const Case *one, int *rows, int *count, in
         test_faults++;
         printf("%s: %s (%s)\n", one->name, diag.message, diag.hint);
     }
+    result_reader_free(reader);
     result_free(result);
     mem_free(start.at);
     LIST_FREE(items);

@@ -488,7 +488,7 @@ Status run_equilibrium(System *system, const SimulationInput *setting, Result **
     motion_residuals(r->phase->motion, setting->at, r->begin, &position, &velocity);
     r->result->monitor_report.position_residual = position;
     r->result->monitor_report.velocity_residual = velocity;
-    active_run_finish(r, setting, out, reader);
+    active_run_finish(r, out, reader);
     r = NULL;
 done:
     quest_close(&e);

@@ -57,34 +57,9 @@ void active_run_free(ActiveRun *r)
 
 /* --- at the end --- */
 
-static Manner manner_of(const ActiveRun *r, const SimulationInput *setting)
-{
-    return (Manner){.embedded = setting->form == FORM_EMBEDDED && r->kind == RUN_SIMULATE,
-                    .independent = setting->independent,
-                    .independent_count = setting->independent_count,
-                    .rows = r->result->start.rows,
-                    .row_count = r->result->start.row_count,
-                    .watch = setting->watch,
-                    .host = setting->host};
-}
-
 static const char *keep_text(Result *result, const char *text)
 {
     return pool_text(result->pool, text, strlen(text));
-}
-
-/* copy the manner, whose names are the setting's, with its names */
-static void keep_manner(const ActiveRun *r, const SimulationInput *setting)
-{
-    Result *result = r->result;
-    const size_t size = (size_t)setting->independent_count * sizeof(char *);
-    const char **names = setting->independent_count > 0 ? pool_alloc(result->pool, size) : NULL;
-
-    for (int i = 0; i < setting->independent_count; i++)
-        names[i] = keep_text(result, setting->independent[i]);
-    result->manner = manner_of(r, setting);
-    result->manner.independent = names;
-    result->manner.watch = NULL;
 }
 
 static void keep_phases(const ActiveRun *r)
@@ -95,8 +70,7 @@ static void keep_phases(const ActiveRun *r)
         const Phase *phase = r->phases->at[i];
         PhaseKey key = {.system = phase->system,
                         .on = NEW_ARRAY(OnSurface, phase->on_count),
-                        .on_count = phase->on_count,
-                        .is_open = phase->motion != NULL};
+                        .on_count = phase->on_count};
 
         for (int k = 0; k < phase->on_count; k++)
             key.on[k] = phase->on[k];
@@ -126,19 +100,16 @@ static void keep_events(const ActiveRun *r)
     }
 }
 
-void active_run_finish(ActiveRun *r, const SimulationInput *setting, Result **out,
-                       ResultReader **reader)
+void active_run_finish(ActiveRun *r, Result **out, ResultReader **reader)
 {
     Result *result = r->result;
 
     result->pool = pool_new(POOL);
-    keep_manner(r, setting);
     keep_phases(r);
     r->result->parameters = parameters_like(&r->phases->parameters);
     keep_events(r);
     result->first = r->phase->number;
     result->freedoms = r->phase->layout->nu - result->start.row_count;
-    result->tolerance = r->phases->tolerance;
     *out = result;
     r->result = NULL;
     if (reader != NULL) {
@@ -152,7 +123,13 @@ void active_run_finish(ActiveRun *r, const SimulationInput *setting, Result **ou
 
 Status active_run_open_phase(ActiveRun *r, Phase *phase, const SimulationInput *setting, Diag *diag)
 {
-    const Manner manner = manner_of(r, setting);
+    const Manner manner = {.embedded = setting->form == FORM_EMBEDDED && r->kind == RUN_SIMULATE,
+                           .independent = setting->independent,
+                           .independent_count = setting->independent_count,
+                           .rows = r->result->start.rows,
+                           .row_count = r->result->start.row_count,
+                           .watch = setting->watch,
+                           .host = setting->host};
 
     return phases_open(r->phases, phase, &manner, diag);
 }

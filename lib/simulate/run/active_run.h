@@ -26,8 +26,7 @@ typedef struct ActiveRun {
 ActiveRun *active_run_new(RunKind kind, System *system, const SimulationInput *setting);
 void active_run_free(ActiveRun *run); /* NULL is fine */
 /* The finished result, and a reader with the phases (NULL: not wanted); frees the rest. */
-void active_run_finish(ActiveRun *run, const SimulationInput *setting, Result **out,
-                       ResultReader **reader);
+void active_run_finish(ActiveRun *run, Result **out, ResultReader **reader);
 
 /* Make the solvers of a phase's equations, for the start and the setting; fails as phases_open()
  * does. */

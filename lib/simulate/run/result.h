@@ -2,8 +2,8 @@
  *
  * A Result is const once it is returned, and outlives the integrator. It contains coordinates,
  * speeds and network states on an output grid, and borrows its System, which the session stores as
- * long as a result refers to it. A ResultReader (result_reader.h) computes every other variable
- * from them on demand. Several threads may have one each. */
+ * long as a result refers to it. The ResultReader of the run (result_reader.h) computes every
+ * other variable from them on demand. */
 #ifndef COTREE_SIMULATE_RUN_RESULT_H
 #define COTREE_SIMULATE_RUN_RESULT_H
 

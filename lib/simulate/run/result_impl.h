@@ -8,13 +8,12 @@
 #include "simulate/run/phases.h"
 #include "simulate/run/result.h"
 
-/* identifies the equations of some of its rows: phase_new_on() makes a phase from it again */
+/* identifies the equations of some of its rows: a run that resumes has the same phases */
 typedef struct PhaseKey {
     System *system; /* of the mode: borrowed, like that of the result */
     bool *closed;   /* states of the switches of the whole model; NULL: without modes */
     OnSurface *on;
     int on_count;
-    bool is_open; /* it may have rows */
 } PhaseKey;
 
 struct Result {
@@ -24,12 +23,10 @@ struct Result {
     LIST(PhaseKey) phases; /* in the order of the run's */
     int first;             /* number of the phase of the start */
     int freedoms;
-    Manner manner;   /* its arrays belong to the result, except for the watch, which is NULL */
     Assembled start; /* of the whole model */
-    double tolerance;
-    Grid grid;    /* ends and starts of phases, two rows each */
-    Grid corners; /* times at which its equations change by time alone */
-    Jumps jumps;  /* where its equations change at times of their own */
+    Grid grid;       /* ends and starts of phases, two rows each */
+    Grid corners;    /* times at which its equations change by time alone */
+    Jumps jumps;     /* where its equations change at times of their own */
     Driven driven;
     LIST(EventRecord) events;
     Pool *pool; /* of names and times in these; NULL: none */

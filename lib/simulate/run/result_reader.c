@@ -16,58 +16,6 @@ ResultReader *result_reader_of_run(const Result *result, Phases *phases)
     return reader;
 }
 
-/* an existing phase with these equations; NULL */
-static Phase *find_like(const Phases *phases, const PhaseKey *key)
-{
-    for (int i = 1; i < phases->count; i++) {
-        Phase *phase = phases->at[i];
-        bool is_same = phase->system == key->system && phase->on_count == key->on_count;
-
-        for (int k = 0; k < key->on_count && is_same; k++)
-            is_same =
-                phase->on[k].surface == key->on[k].surface && phase->on[k].side == key->on[k].side;
-        if (is_same)
-            return phase;
-    }
-    return NULL;
-}
-
-static Status add_phase(Phases *phases, const PhaseKey *key, const Manner *manner, Diag *diag)
-{
-    const int switches = system_ideal_count(phases->system);
-    Phase *phase = find_like(phases, key);
-
-    if (phase != NULL) {
-        phases_add(phases, phase_new_like(phase, key->closed, switches));
-        return OK;
-    }
-    TRY(phase_new_on(key->system, &phases->parameters, key->closed, switches, key->on,
-                     key->on_count, &phase, diag));
-    phases_add(phases, phase);
-    if (key->is_open)
-        TRY(phases_open(phases, phase, manner, diag));
-    return OK;
-}
-
-Status result_reader_new(const Result *result, ResultReader **out, Diag *diag)
-{
-    Phases *phases = NEW(Phases);
-    Status status = OK;
-
-    phases->system = result->system;
-    phases->tolerance = result->tolerance;
-    phases->parameters = parameters_like(&result->parameters);
-    for (int i = 0; i < result->phases.count; i++)
-        CHECK(add_phase(phases, &result->phases.at[i], &result->manner, diag));
-    if (result->phases.at[0].is_open && result->start.network != NULL)
-        motion_guess(phases_whole(phases)->motion, result->start.network);
-    *out = result_reader_of_run(result, phases);
-    phases = NULL;
-done:
-    phases_free(phases);
-    return status;
-}
-
 static void free_later(void *object)
 {
     result_reader_free(object);
@@ -240,32 +188,5 @@ Status result_reader_rounding(ResultReader *reader, Expr item, const double *tim
     }
 done:
     MEM_FREE(by, moved);
-    return status;
-}
-
-/* --- single queries --- */
-
-Status result_values(const Result *result, const Expr *items, int count, double *out, Diag *diag)
-{
-    ResultReader *reader = NULL;
-    Status status = OK;
-
-    CHECK(result_reader_new(result, &reader, diag));
-    CHECK(result_reader_values(reader, items, count, out, diag));
-done:
-    result_reader_free(reader);
-    return status;
-}
-
-Status result_values_at(const Result *result, const Expr *items, int count, double at, double *out,
-                        Diag *diag)
-{
-    ResultReader *reader = NULL;
-    Status status = OK;
-
-    CHECK(result_reader_new(result, &reader, diag));
-    CHECK(result_reader_values_at(reader, items, count, at, out, diag));
-done:
-    result_reader_free(reader);
     return status;
 }

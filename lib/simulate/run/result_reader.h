@@ -1,17 +1,15 @@
 /* result_reader.h: any variable of a result, at its rows and between them
  *
  * A result contains coordinates, speeds and network states; everything else is solved for on
- * demand. A reader has the programs, the workspace and the rows between those of the result that it
- * computed last. So a result never changes, and each thread uses a reader of its own. */
+ * demand. A reader, which the run returns with its result, has the programs of the run, a workspace
+ * and the rows between those of the result that it computed last. So a result never changes. */
 #ifndef COTREE_SIMULATE_RUN_RESULT_READER_H
 #define COTREE_SIMULATE_RUN_RESULT_READER_H
 
 #include "simulate/run/result.h"
 
-/* New; result_reader_free(), before the result. Borrows the result. Compiles its equations; a
- * reader that a run returns has those of the run. Fails as program_new() does. */
-MUST_USE Status result_reader_new(const Result *result, ResultReader **out, Diag *diag);
-void result_reader_free(ResultReader *reader); /* NULL is fine */
+/* before the result, which it borrows; NULL is fine */
+void result_reader_free(ResultReader *reader);
 const Result *result_reader_result(const ResultReader *reader);
 /* whether a switch of the system is closed at the start of the result */
 bool result_reader_side(const ResultReader *reader, int which);
@@ -37,11 +35,5 @@ MUST_USE Status result_reader_values_along(ResultReader *reader, Expr item, cons
  * largest state of a kind in the run: smaller values are 0 within rounding. 0 for driven runs. */
 MUST_USE Status result_reader_rounding(ResultReader *reader, Expr item, const double *times,
                                        int count, double *open, Diag *diag);
-
-/* Both for a single query, with a reader of its own. */
-MUST_USE Status result_values(const Result *result, const Expr *items, int count, double *out,
-                              Diag *diag);
-MUST_USE Status result_values_at(const Result *result, const Expr *items, int count, double at,
-                                 double *out, Diag *diag);
 
 #endif

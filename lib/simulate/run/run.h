@@ -1,7 +1,7 @@
 /* run.h: runs of a system: assembly, forward dynamics, kinematics, inverse
  *
- * Each returns a new Result, and a new ResultReader of it unless `reader` is NULL: with the
- * programs of the run, so that later queries compile nothing. */
+ * Each returns a new Result, and the ResultReader of it unless `reader` is NULL: with the programs
+ * of the run, so that queries compile nothing. */
 #ifndef COTREE_SIMULATE_RUN_RUN_H
 #define COTREE_SIMULATE_RUN_RUN_H
 

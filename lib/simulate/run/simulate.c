@@ -269,7 +269,7 @@ Status run_assemble(System *system, const SimulationInput *setting, Result **out
                      &monitor_report->velocity_residual);
     if (monitor_poll(setting->watch) != OK)
         CHECK(diag_set(diag, E_STOPPED, "stopped at the start"));
-    active_run_finish(r, setting, out, reader);
+    active_run_finish(r, out, reader);
     r = NULL;
 done:
     active_run_free(r);
@@ -277,8 +277,7 @@ done:
 }
 
 /* return the result, unless it is empty */
-static void give(ActiveRun *r, const SimulationInput *setting, Status status, Result **out,
-                 ResultReader **reader)
+static void give(ActiveRun *r, Status status, Result **out, ResultReader **reader)
 {
     const bool kept = r != NULL && r->result->grid.count > 0 &&
                       (status == OK || status == E_STOPPED || status == E_SOLVER);
@@ -289,7 +288,7 @@ static void give(ActiveRun *r, const SimulationInput *setting, Status status, Re
     if (kept)
         r->result->monitor_report.stopped = status == E_STOPPED;
     if (kept)
-        active_run_finish(r, setting, out, reader);
+        active_run_finish(r, out, reader);
     else
         active_run_free(r);
 }
@@ -304,7 +303,7 @@ Status run_simulate(System *system, const SimulationInput *setting, const RunOpt
     CHECK(phase_refuse_by(r->phase, diag));
     CHECK(go(r, setting, options, 0, false, diag));
 done:
-    give(r, setting, status, out, reader);
+    give(r, status, out, reader);
     return status;
 }
 
@@ -315,13 +314,13 @@ Status run_resume(const Result *old, const SimulationInput *setting, const RunOp
     Status status = OK;
 
     if (old->kind != RUN_SIMULATE || old->grid.count == 0) {
-        give(NULL, setting, E_MISSING, out, reader);
+        give(NULL, E_MISSING, out, reader);
         return diag_set(diag, E_MISSING, "only a forward run can be resumed");
     }
     CHECK(run_reopen(old, setting, &r, diag));
     CHECK(go(r, setting, options, old->grid.times[old->grid.count - 1], true, diag));
 done:
-    give(r, setting, status, out, reader);
+    give(r, status, out, reader);
     return status;
 }
 
@@ -584,7 +583,7 @@ Status run_kinematics(System *system, const SimulationInput *setting, const RunO
     CHECK(phase_refuse_open(r->phase, diag));
     CHECK(drive(r, setting, options, diag));
 done:
-    give(r, setting, status, out, reader);
+    give(r, status, out, reader);
     return status;
 }
 
@@ -610,6 +609,6 @@ Status run_inverse(System *system, const SimulationInput *setting, const RunOpti
     CHECK(status);
     status = driven;
 done:
-    give(r, setting, status, out, reader);
+    give(r, status, out, reader);
     return status;
 }
