@@ -19,7 +19,6 @@ struct Model {
     const char *undone;
     char *remarks;
     uint64_t revision;
-    uint64_t values;
 };
 
 static Model *model_around(Arena *arena, State *state)
@@ -72,14 +71,6 @@ void model_free(Model *model)
         arena_free(model->arena);
     history_close(&model->history);
     MEM_FREE(model->remarks, model);
-}
-
-static void count_effect(Model *model, Effect effect)
-{
-    if (effect == EFFECT_EQUATIONS)
-        model->revision++;
-    if (effect != EFFECT_NONE)
-        model->values++;
 }
 
 static void set_remarks(Model *model, Text *remarks)
@@ -165,7 +156,7 @@ static Status end_definition(Model *model, const Statement *statement, Outcome *
     TRY(opened_end(model->opened, statement->place, &whole, diag));
     TRY(history_restore(&model->history, &model->state, whole, outcome, diag));
     model_drop_definition(model);
-    count_effect(model, outcome->effect);
+    model->revision += outcome->changes_equations;
     return OK;
 }
 
@@ -182,7 +173,7 @@ static Status apply_in_definition(Model *model, const Statement *statement, Outc
 Status model_apply(Model *model, const Statement *statement, Diag *diag)
 {
     Status status = OK;
-    Outcome outcome = {EFFECT_NONE, {0}};
+    Outcome outcome = {0};
 
     mem_keep(model);
     CHECK(data_read_statement(&model->finder, model->arena, statement, !model->finder.given, diag));
@@ -192,7 +183,7 @@ Status model_apply(Model *model, const Statement *statement, Diag *diag)
     }
     CHECK(history_restore(&model->history, &model->state, statement, &outcome, diag));
     set_remarks(model, &outcome.remarks);
-    count_effect(model, outcome.effect);
+    model->revision += outcome.changes_equations;
 done:
     if (status != OK) {
         Text none = {0};
@@ -221,17 +212,17 @@ const char *model_remarks(const Model *model)
 
 /* --- undo and redo --- */
 
-static Status move(Model *model, Status (*go)(History *, State **, const char **, Effect *, Diag *),
+static Status move(Model *model, Status (*go)(History *, State **, const char **, bool *, Diag *),
                    Diag *diag)
 {
-    Effect effect = EFFECT_NONE;
+    bool changes_equations = false;
     Text none = {0};
     Status status = OK;
 
     mem_keep(model);
-    CHECK(go(&model->history, &model->state, &model->undone, &effect, diag));
+    CHECK(go(&model->history, &model->state, &model->undone, &changes_equations, diag));
     set_remarks(model, &none);
-    count_effect(model, effect);
+    model->revision += changes_equations;
 done:
     return status;
 }
@@ -264,7 +255,7 @@ void model_clear(Model *model)
     mem_keep(model);
     history_clear(&model->history, &model->state);
     set_remarks(model, &none);
-    count_effect(model, EFFECT_EQUATIONS);
+    model->revision++;
 }
 
 char *model_save(const Model *model)
@@ -280,11 +271,6 @@ char *model_save(const Model *model)
 uint64_t model_revision(const Model *model)
 {
     return model->revision;
-}
-
-uint64_t model_values(const Model *model)
-{
-    return model->values;
 }
 
 Arena *model_arena(const Model *model)

@@ -47,11 +47,10 @@ const char *model_undone(const Model *model); /* text of the statement that was 
 void model_clear(Model *model);               /* as model_new(); can be undone */
 char *model_save(const Model *model);         /* new: a script that rebuilds it */
 
-/* Two counters: `revision` changes whenever equations may have changed (a part, a tree, a law),
- * `values` whenever only numbers have (a parameter, an initial value). A number is never used
- * again, not even after undo. */
+/* It changes whenever equations may have changed (a part, a tree, a law), and not where numbers
+ * alone have (a parameter, an initial value). A number is never used again, not even after undo.
+ */
 uint64_t model_revision(const Model *model);
-uint64_t model_values(const Model *model);
 
 Arena *model_arena(const Model *model);
 const Graph *model_graph(const Model *model);
@@ -89,7 +88,7 @@ MUST_USE Status model_scene(const Model *model, Scene *out, Diag *diag);
 SceneSource model_scene_source(const Model *model);
 
 /* Parameters: symbols of kind SYMBOL_PARAMETER with a defining expression each. A new one changes
- * neither revision nor values, so refer to them by symbol, not by number. */
+ * no revision, so refer to them by symbol, not by number. */
 int model_parameter_count(const Model *model);
 Expr model_parameter(const Model *model, int i, Expr *definition);
 double model_parameter_value(const Model *model, Expr symbol); /* current value, SI */
@@ -99,7 +98,7 @@ double model_number(const Model *model, Expr e);
 double model_scene_number(const void *model, Expr e);
 
 /* Outputs: name = expression over variables (SYMBOL_VARIABLE), t and parameters. They change no
- * equation: a new one changes neither revision nor values. Where an expression contains the name of
+ * equation, nor the revision. Where an expression contains the name of
  * an output, the output is substituted. */
 int model_output_count(const Model *model);
 Expr model_output(const Model *model, int i, const char **name);

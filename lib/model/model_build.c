@@ -480,7 +480,7 @@ Status apply_component(State **state, const Statement *statement, Outcome *outco
 
     text = statement_full_text(statement);
     part_draft_commit(&draft, text);
-    outcome->effect = EFFECT_EQUATIONS;
+    outcome->changes_equations = true;
 done:
     if (status != OK)
         pool_release((*state)->pool, mark);

@@ -104,7 +104,7 @@ static Status check_new_name(const State *state, const char *name, DefinitionKin
 /* Replaces the line of a definition: rebuilds the state from its lines. On failure nothing has
  * changed. */
 static Status replace_line(State **state, int index, const char *text, const Scope *scope,
-                           Place place, Effect effect, Outcome *outcome, Diag *diag)
+                           Place place, bool changes_equations, Outcome *outcome, Diag *diag)
 {
     Line *line = &(*state)->lines.at[(*state)->definitions.at[index].line];
     Line before = *line;
@@ -124,7 +124,7 @@ static Status replace_line(State **state, int index, const char *text, const Sco
         return status;
     }
     state_replace(state, next);
-    outcome->effect = effect;
+    outcome->changes_equations = outcome->changes_equations || changes_equations;
     return OK;
 }
 
@@ -163,7 +163,6 @@ static Status change_parameter(State **in, Definition *d, Expr body, Measure mea
     State *state = *in;
     Line *line = &state->lines.at[d->line];
     const Expr before = d->body;
-    const Effect effect = body != before ? EFFECT_VALUES : EFFECT_NONE;
     Status status = OK;
 
     CHECK(check_circle(state, definition_index(state, d), scope->uses.at, scope->uses.count,
@@ -171,12 +170,11 @@ static Status change_parameter(State **in, Definition *d, Expr body, Measure mea
     CHECK(try_body(state, d, body, statement, outcome, diag));
     if (!measure_same(d->measure, measure)) {
         status = replace_line(in, definition_index(state, d), text, scope, statement->value->place,
-                              effect, outcome, diag);
+                              false, outcome, diag);
         if (status != OK)
             set_body(state, d, before);
         return status;
     }
-    outcome->effect = effect;
     state_retain_line(state, d->line);
     line->text = state_text(state, text);
     line_uses(state, line, scope);
@@ -267,7 +265,6 @@ Status set_inside_parameter(State *state, const Pair *pair, Outcome *outcome, Di
     }
     CHECK(check_circle(state, definition_index(state, d), scope.uses.at, scope.uses.count,
                        pair->name_place, diag));
-    outcome->effect = body != d->body ? EFFECT_VALUES : EFFECT_NONE;
     CHECK(try_body(state, d, body, &statement, outcome, diag));
     state_retain_line(state, d->line);
     line_uses(state, &state->lines.at[d->line], &scope);
@@ -324,9 +321,9 @@ Status apply_law(State **state, const Statement *statement, Outcome *outcome, Di
                            statement->name_place, diag));
         /* also with another text of equal value: its units may differ */
         if (strcmp(s->lines.at[law->line].text, text) != 0)
-            status = replace_line(
-                state, definition_index(s, law), text, &scope, statement->name_place,
-                is_same_law(law, statement, body) ? EFFECT_NONE : EFFECT_EQUATIONS, outcome, diag);
+            status =
+                replace_line(state, definition_index(s, law), text, &scope, statement->name_place,
+                             !is_same_law(law, statement, body), outcome, diag);
         goto done;
     }
     (void)definition_add(s,
@@ -367,7 +364,7 @@ static Status change_output(State **state, Definition *output, Expr body, Measur
     if (is_used(s, definition_index(s, output)) &&
         !(is_same && measure_same(output->measure, measure))) {
         return replace_line(state, definition_index(s, output), text, scope, pair->name_place,
-                            is_same ? EFFECT_NONE : EFFECT_EQUATIONS, outcome, diag);
+                            !is_same, outcome, diag);
     }
     state_retain_line(s, output->line);
     state_retain_definition(s, definition_index(s, output));

@@ -212,6 +212,7 @@ Status apply_event(State **state, const Statement *statement, Outcome *outcome, 
     NewValue *values;
     Status status = OK;
 
+    (void)outcome;
     if (!is_event)
         CHECK(name_is_free(s, name, operand->place, diag));
     if (names_find(s->terminals, name) >= 0) {
@@ -229,7 +230,6 @@ Status apply_event(State **state, const Statement *statement, Outcome *outcome, 
     if (r.values.count > 0)
         r.event->action = EVENT_SET;
     put_event(s, text, r.event, &r.scope);
-    outcome->effect = EFFECT_VALUES;
 done:
     LIST_FREE(r.scope.uses);
     LIST_FREE(r.values);

@@ -20,11 +20,12 @@ void history_close(History *history)
     LIST_FREE(history->list);
 }
 
-static Accepted *add(History *history, const char *text, Effect effect, const StateMark *mark)
+static Accepted *add(History *history, const char *text, bool changes_equations,
+                     const StateMark *mark)
 {
     history->list.count = history->done;
     LIST_PUSH(history->list, (Accepted){.text = pool_text(history->texts, text, strlen(text)),
-                                        .effect = effect,
+                                        .changes_equations = changes_equations,
                                         .mark = *mark,
                                         .serial = ++history->serial});
     history->done++;
@@ -61,7 +62,8 @@ Status history_restore(History *history, State **state, const Statement *stateme
     CHECK(apply_marked(state, statement, &mark, outcome, diag));
     if (statement->kind != STATEMENT_EMPTY) {
         text = statement_full_text(statement);
-        add(history, text, outcome->effect, &mark)->called = name_of_block(history, text);
+        add(history, text, outcome->changes_equations, &mark)->called =
+            name_of_block(history, text);
     }
 done:
     mem_free(text);
@@ -74,7 +76,7 @@ void history_clear(History *history, State **state)
 
     state_replace(state, state_new((*state)->arena, (*state)->apply));
     state_forget_before(*state, most_kept);
-    add(history, verb_row(VERB_clear).name, EFFECT_EQUATIONS, &mark)->clears = true;
+    add(history, verb_row(VERB_clear).name, true, &mark)->clears = true;
 }
 
 void history_join(History *history, int count, const char *called)
@@ -93,7 +95,7 @@ static Status take_again(History *history, int i, State **state, Diag *diag)
 {
     Accepted *step = &history->list.at[i];
     Statement *statement = NULL;
-    Outcome outcome = {EFFECT_NONE, {0}};
+    Outcome outcome = {0};
     Status status = OK;
 
     mem_keep_part(history->list.at, &step->mark, sizeof step->mark);
@@ -130,14 +132,12 @@ done:
     return status;
 }
 
-static Effect effect_of(const History *history, int from, int to)
+static bool change_equations(const History *history, int from, int to)
 {
-    Effect effect = EFFECT_NONE;
-
     for (int i = from; i < to; i++)
-        if (history->list.at[i].effect > effect)
-            effect = history->list.at[i].effect;
-    return effect;
+        if (history->list.at[i].changes_equations)
+            return true;
+    return false;
 }
 
 static const char *name_of(const Accepted *step)
@@ -145,7 +145,8 @@ static const char *name_of(const Accepted *step)
     return step->called != NULL ? step->called : step->text;
 }
 
-Status history_undo(History *history, State **state, const char **over, Effect *effect, Diag *diag)
+Status history_undo(History *history, State **state, const char **over, bool *changes_equations,
+                    Diag *diag)
 {
     const Accepted *last;
     int to;
@@ -157,14 +158,15 @@ Status history_undo(History *history, State **state, const char **over, Effect *
     if (!state_go_back(state, &history->list.at[to].mark))
         TRY(make_anew(history, to, state, diag));
     *over = name_of(last);
-    *effect = effect_of(history, to, history->done);
+    *changes_equations = change_equations(history, to, history->done);
     history->done = to;
     if (to < history->low)
         history->low = to;
     return OK;
 }
 
-Status history_redo(History *history, State **state, const char **over, Effect *effect, Diag *diag)
+Status history_redo(History *history, State **state, const char **over, bool *changes_equations,
+                    Diag *diag)
 {
     const int from = history->done;
     Status status = OK;
@@ -182,7 +184,7 @@ Status history_redo(History *history, State **state, const char **over, Effect *
         }
     }
     *over = name_of(&history->list.at[to - 1]);
-    *effect = effect_of(history, from, to);
+    *changes_equations = change_equations(history, from, to);
     history->done = to;
 done:
     return status;

@@ -9,7 +9,7 @@
 
 typedef struct Accepted {
     const char *text; /* the statement in full */
-    Effect effect;
+    bool changes_equations;
     bool clears;
     int before;         /* number of steps before it that are undone with it */
     int after;          /* number of steps after it that are redone with it */
@@ -35,10 +35,10 @@ void history_clear(History *history, State **state);
 /* Makes the last `count` steps one. */
 void history_join(History *history, int count, const char *called);
 /* Undoes the last step, or redoes the next one, with those that belong to it; returns their name
- * and effect. */
-MUST_USE Status history_undo(History *history, State **state, const char **over, Effect *effect,
-                             Diag *diag);
-MUST_USE Status history_redo(History *history, State **state, const char **over, Effect *effect,
-                             Diag *diag);
+ * and whether they change equations. */
+MUST_USE Status history_undo(History *history, State **state, const char **over,
+                             bool *changes_equations, Diag *diag);
+MUST_USE Status history_redo(History *history, State **state, const char **over,
+                             bool *changes_equations, Diag *diag);
 
 #endif

@@ -130,11 +130,8 @@ typedef struct Change {
 
 typedef struct State State;
 
-/* effect of a statement, in ascending order */
-typedef enum Effect { EFFECT_NONE, EFFECT_VALUES, EFFECT_EQUATIONS } Effect;
-
 typedef struct Outcome {
-    Effect effect;
+    bool changes_equations; /* a statement may have */
     Text remarks;
 } Outcome;
 

@@ -72,7 +72,7 @@ const char *opened_name(const Opened *opened)
 Status opened_add(Opened *opened, const Statement *statement, Diag *diag)
 {
     const StateMark mark = state_mark(opened->trial);
-    Outcome outcome = {EFFECT_NONE, {0}};
+    Outcome outcome = {0};
     Status status;
 
     mem_keep(opened);

@@ -56,7 +56,6 @@ Status apply_pairs(State **state, const Statement *statement, ApplyPair *apply, 
                    Diag *diag)
 {
     State *work = *state;
-    Effect effect = EFFECT_NONE; /* the largest of the pairs' */
     Status status = OK;
 
     if (statement->pairs.count == 0)
@@ -65,11 +64,8 @@ Status apply_pairs(State **state, const Statement *statement, ApplyPair *apply, 
     /* several pairs are applied to a copy, so that a failure undoes the earlier pairs */
     if (statement->pairs.count > 1)
         CHECK(state_rebuild(*state, -1, &work, NULL, NULL, diag));
-    for (int i = 0; i < statement->pairs.count; i++) {
+    for (int i = 0; i < statement->pairs.count; i++)
         CHECK(apply(&work, &statement->pairs.at[i], outcome, diag));
-        effect = outcome->effect > effect ? outcome->effect : effect;
-    }
-    outcome->effect = effect;
     if (statement->pairs.count > 1)
         state_replace(state, work);
     else

@@ -79,7 +79,7 @@ Status apply_scene(State **state, const Statement *statement, Outcome *outcome, 
 
     TRY(check_scene(s, operand, planar, diag));
     if (planar != s->setup.planar)
-        outcome->effect = EFFECT_EQUATIONS;
+        outcome->changes_equations = true;
     if (line == NULL) {
         s->setup.planar = planar;
         add_only_line(s, statement, NULL);
@@ -100,7 +100,7 @@ Status apply_gravity(State **state, const Statement *statement, Outcome *outcome
         param_read(&scope, (Wanted){&param, false}, statement->operands.at[0].value, &value, diag));
     for (int i = 0; i < 3; i++) {
         if (s->setup.gravity[i] != value.at[i])
-            outcome->effect = EFFECT_EQUATIONS;
+            outcome->changes_equations = true;
         s->setup.gravity[i] = value.at[i];
     }
     add_only_line(s, statement, &scope);
@@ -233,7 +233,7 @@ static Status change_shapes(State **state, const Instance *part, const Pair *pai
         return status;
     }
     state_replace(state, next);
-    outcome->effect = EFFECT_EQUATIONS;
+    outcome->changes_equations = true;
     return OK;
 }
 
@@ -325,7 +325,7 @@ static Status set_pair(State **state, const Pair *pair, Outcome *outcome, Diag *
     line_supersede(s, part->number, part->row->params[index].name);
     line = line_add(s, text.at, -1, part->number, &scope);
     s->lines.at[line].key = part->row->params[index].name;
-    outcome->effect = EFFECT_EQUATIONS;
+    outcome->changes_equations = true;
 done:
     LIST_FREE(scope.uses);
     text_free(&text);
@@ -411,7 +411,7 @@ Status apply_delete(State **state, const Statement *statement, Outcome *outcome,
         diag_hint(diag, "delete what uses it first");
         goto done;
     }
-    outcome->effect = (*state)->lines.at[line].definition >= 0 ? EFFECT_NONE : EFFECT_EQUATIONS;
+    outcome->changes_equations = (*state)->lines.at[line].definition < 0;
     if (definition_find(next, name, DEFINES_PARAMETER) != NULL)
         text_addf(&outcome->remarks, "the parameter %s is still there\n", name);
     state_replace(state, next);

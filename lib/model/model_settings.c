@@ -8,14 +8,13 @@
 #include <string.h>
 
 static const struct {
-    Effect effect;
+    bool changes_equations;
     const char *hint;
     int most;                 /* for whole numbers from 1; 0: the values are words */
     const char *const *words; /* the name, then the values */
 } settings[] = {
-#define SETTING(id, effect, hint, ...) {EFFECT_##effect, hint, 0, WORDS(__VA_ARGS__)},
-#define NUMBER_SETTING(id, effect, hint, most, ...)                                                \
-    {EFFECT_##effect, hint, most, WORDS(__VA_ARGS__)},
+#define SETTING(id, changes, hint, ...)              {changes, hint, 0, WORDS(__VA_ARGS__)},
+#define NUMBER_SETTING(id, changes, hint, most, ...) {changes, hint, most, WORDS(__VA_ARGS__)},
 #include "model/model_settings.def"
 };
 
@@ -92,7 +91,7 @@ Status setting_apply(State *state, ModelSetting setting, const Statement *statem
                                              : statement->pairs.at[0].name_place,
                               diag);
     state->setup.settings.at[setting] = value;
-    outcome->effect = settings[setting].effect;
+    outcome->changes_equations = settings[setting].changes_equations;
     if (setting == SETTING_EVALUATOR && value == EVALUATOR_NATIVE && !code_memory_is_there())
         text_add(&outcome->remarks, "no native code can be run here: the interpreter evaluates\n");
     return OK;

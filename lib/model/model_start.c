@@ -104,8 +104,7 @@ static void forget_starts(State *state, bool guesses)
             remove_start(state, i);
 }
 
-static Status apply_starts(State *state, const Statement *statement, bool is_guess,
-                           Outcome *outcome, Diag *diag)
+static Status apply_starts(State *state, const Statement *statement, bool is_guess, Diag *diag)
 {
     LIST(StartEntry) entries = {0};
     Status status = OK;
@@ -119,7 +118,6 @@ static Status apply_starts(State *state, const Statement *statement, bool is_gue
     for (int i = 0; i < entries.count; i++)
         put_start(state, &entries.at[i]);
     state->setup.group_count++;
-    outcome->effect = EFFECT_VALUES;
 done:
     LIST_FREE(entries);
     return status;
@@ -127,12 +125,14 @@ done:
 
 Status apply_init(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
 {
-    return apply_starts(*state, statement, false, outcome, diag);
+    (void)outcome;
+    return apply_starts(*state, statement, false, diag);
 }
 
 Status apply_guess(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
 {
-    return apply_starts(*state, statement, true, outcome, diag);
+    (void)outcome;
+    return apply_starts(*state, statement, true, diag);
 }
 
 /* --- form --- */
@@ -178,7 +178,7 @@ Status apply_form(State **state, const Statement *statement, Outcome *outcome, D
     LIST_FREE(s->independent);
     for (int i = 0; i < names.count; i++)
         LIST_PUSH(s->independent, names.at[i]);
-    outcome->effect = EFFECT_EQUATIONS;
+    outcome->changes_equations = true;
 done:
     LIST_FREE(names);
     return status;

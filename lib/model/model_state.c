@@ -208,7 +208,7 @@ Status state_apply(State **state, const Statement *statement, Outcome *outcome, 
 Status state_apply_text(State **state, const char *text, Text *remarks, Diag *diag)
 {
     Statement *statement = NULL;
-    Outcome outcome = {EFFECT_NONE, {0}};
+    Outcome outcome = {0};
     Status status = OK;
 
     CHECK(statement_parse(text, 1, (SyntaxOptions){.whole = true}, NULL, &statement, diag));

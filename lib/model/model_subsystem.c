@@ -180,7 +180,7 @@ static Status try_definition(State **state, const Statement *statement, Subsyste
 {
     const int first = (*state)->lines.count;
     const int definitions = (*state)->definitions.count;
-    Outcome outcome = {EFFECT_NONE, {0}};
+    Outcome outcome = {0};
     int use = -1;
     Status status = OK;
 

@@ -525,7 +525,7 @@ static void request_commit(Request *request)
         *choice = request->choices[kind];
         request->choices[kind] = before;
     }
-    request->outcome->effect = EFFECT_EQUATIONS;
+    request->outcome->changes_equations = true;
     state_forget_trees(request->state);
 }
 
@@ -676,13 +676,13 @@ static void keep_inside(const Request *request, TreeKind kind, bool excluded)
 Status apply_tree_inside(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
 {
     const bool excluded = strcmp(statement->verb, "cotree") == 0;
-    Outcome unsaid = {EFFECT_NONE, {0}}; /* how it would be completed if these were all edges */
+    Outcome unsaid = {0}; /* how it would be completed if these were all edges */
     Request request = request_start(*state, statement, &unsaid, diag);
     const char *word = NULL;
     int first = 0;
     Status status = OK;
 
-    outcome->effect = EFFECT_EQUATIONS;
+    outcome->changes_equations = true;
     if (!excluded)
         CHECK(read_words(&request, &first, &word));
     if (word != NULL || statement->operands.at[first].sign != 0) {

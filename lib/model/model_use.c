@@ -550,7 +550,7 @@ Status apply_use(State **state, const Statement *statement, Outcome *outcome, Di
     }
     if (status != OK)
         (void)state_go_back(state, &mark);
-    outcome->effect = EFFECT_EQUATIONS;
+    outcome->changes_equations = true;
     LIST_FREE(draft.scope.uses);
     return status;
 }

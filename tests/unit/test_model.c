@@ -259,14 +259,12 @@ static void parameters_follow_one_another(void)
 {
     Model *model = model_of("k1 = 2\nk2 = 3*k1\nf(x) = x + k2\nk3 = f(1)\ntitle \"x\"");
     uint64_t revision = model_revision(model);
-    uint64_t values = model_values(model);
 
     EXPECT_NEAR(parameter(model, "k3"), 7, 0);
     EXPECT(apply(model, "k1 = 10") == OK);
     EXPECT_NEAR(parameter(model, "k2"), 30, 0);
     EXPECT_NEAR(parameter(model, "k3"), 31, 0);
     EXPECT(model_revision(model) == revision);
-    EXPECT(model_values(model) > values);
     EXPECT(apply(model, "k0 = 1; k1 = 2*k0") == OK);
     EXPECT_NEAR(parameter(model, "k3"), 7, 0);
     EXPECT(model_parameter_count(model) == 4);

@@ -223,7 +223,6 @@ static void check_wrong(Model *model, const Wrong *w, const char *saved, const c
 {
     Diag diag = {0};
     uint64_t revision = model_revision(model);
-    uint64_t values = model_values(model);
     Status status = apply_text(model, w->text, &diag);
     char *after = model_save(model);
     char *graph_after = graph_text(model);
@@ -237,7 +236,7 @@ static void check_wrong(Model *model, const Wrong *w, const char *saved, const c
                diag.place.column, diag.message, diag.hint, w->column, w->message, w->hint);
     }
     if (strcmp(after, saved) != 0 || strcmp(graph_after, graph) != 0 ||
-        model_revision(model) != revision || model_values(model) != values) {
+        model_revision(model) != revision) {
         test_faults++;
         printf("%s: has changed the model\n", w->text);
     }
