@@ -6,7 +6,8 @@
 #include <string.h>
 
 static const char step[] =
-    "\n$STEP(const real *p, real t, real step, real *y, real *s, real *work)\n{\n"
+    "\n$STATIC"
+    "int model_$SMOOTH(const real *p, real t, real step, real *y, real *s, real *work)\n{\n"
     "    real *rate = work, *sum = rate + MODEL_Y, *at = sum + MODEL_Y, *rest = at + MODEL_Y;\n"
     "    int i, k;\n\n    for (i = 0; i < MODEL_Y; i++) {\n        at[i] = y[i];\n"
     "        sum[i] = 0;\n    }\n"
@@ -23,47 +24,33 @@ static const char step[] =
 
 /* step: that of what is smooth between two instants */
 static const char sampled_step[] =
+    "\nstatic const int model_sampled[] = {$SAMPLED}; /* in y */\n"
     "\n/* sampled states that are due at t: at whole multiples of their periods */\n"
-    "static int model_sample($P *p, real t, real *y, real *s, real *work)\n{\n"
+    "static int model_sample($CONST"
+    "real *p, real t, real *y, real *s, real *work)\n{\n"
     "    const real near = R(sizeof(real) > 4 ? 1e-9 : 1e-4);\n"
-    "    real period[$COUNT], next[$COUNT];\n"
+    "    real period[$SAMPLES], next[$SAMPLES];\n"
     "    int i, due = 0, status = MODEL_OK;\n\n    model_periods(p, t, y, s, period);\n"
-    "    for (i = 0; i < $COUNT; i++)\n"
+    "    for (i = 0; i < $SAMPLES; i++)\n"
     "        due |= fabs(t / period[i] - floor(t / period[i] + 0.5)) <= near;\n"
     "    if (due)\n        status = model_solve(p, t, y, s, work);\n"
     "    if (!due || status != MODEL_OK)\n        return status;\n"
-    "    model_samples(p, t, y, s, next);\n    for (i = 0; i < $COUNT; i++)\n"
+    "    model_samples(p, t, y, s, next);\n    for (i = 0; i < $SAMPLES; i++)\n"
     "        if (fabs(t / period[i] - floor(t / period[i] + 0.5)) <= near)\n"
     "            y[model_sampled[i]] = next[i];\n    return MODEL_OK;\n}\n"
-    "\nint model_step($P *p, real t, real step, real *y, real *s, real *work)\n{\n"
+    "\nint model_step($CONST"
+    "real *p, real t, real step, real *y, real *s, real *work)\n{\n"
     "    const real near = R(sizeof(real) > 4 ? 1e-9 : 1e-4), end = t + step;\n"
-    "    real period[$COUNT], until;\n    int i, status = MODEL_OK;\n\n"
+    "    real period[$SAMPLES], until;\n    int i, status = MODEL_OK;\n\n"
     "    model_periods(p, t, y, s, period);\n"
     "    for (; status == MODEL_OK && t < end; t = until) {\n        until = end;\n"
-    "        for (i = 0; i < $COUNT; i++) {\n"
+    "        for (i = 0; i < $SAMPLES; i++) {\n"
     "            const real instant = period[i] * R(floor(t / period[i] + near) + 1);\n\n"
     "            if (instant < until - near * period[i])\n                until = instant;\n"
     "        }\n        status = model_sample(p, t, y, s, work);\n"
     "        if (status == MODEL_OK)\n"
     "            status = model_step_between(p, t, until - t, y, s, work);\n    }\n"
     "    return status;\n}\n";
-
-/* a step over sampling instants, from model_step_between() */
-static void add_sampled_step(const Code *code, Text *out)
-{
-    Text body = {0}, count = {0};
-
-    text_add(out, "\nstatic const int model_sampled[] = {");
-    for (int i = 0; i < code->live.samples.count; i++)
-        text_addf(out, "%s%d", i > 0 ? ", " : "",
-                  code->layout->n + code->layout->nu + code->live.samples.at[i]);
-    text_add(out, "}; /* in y */\n");
-    text_addf(&count, "%d", code->live.samples.count);
-    code_fill_word(sampled_step, "$COUNT", count.at, &body);
-    code_fill_word(body.at, "$P", code_has_modes(code) ? "real" : "const real", out);
-    text_free(&body);
-    text_free(&count);
-}
 
 /* a step through modes, with sampling instants if there are any */
 void c_step_add_modes(const Code *code, Text *out)
@@ -76,17 +63,12 @@ void c_step_add_modes(const Code *code, Text *out)
         else
             text_add(out, *line);
     if (code_is_sampled(code))
-        add_sampled_step(code, out);
+        code_fill(code, &language_c, sampled_step, out);
 }
 
 void c_step_add(const Code *code, Text *out)
 {
-    Text name = {0};
-
-    text_addf(&name, "%sint model_%s", strcmp(code_step_name(code), "step") == 0 ? "" : "static ",
-              code_step_name(code));
-    code_fill_word(step, "$STEP", name.at, out);
-    text_free(&name);
+    code_fill(code, &language_c, step, out);
     if (code_is_sampled(code) && !code_has_modes(code))
-        add_sampled_step(code, out);
+        code_fill(code, &language_c, sampled_step, out);
 }

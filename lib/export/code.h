@@ -185,10 +185,6 @@ MUST_USE Status code_resolve(Code *code, Expr user, Expr *out, const char *name,
 MUST_USE Status code_live_events(Code *code, Diag *diag);
 /* Sampled states, and functions `periods` and `samples`: their next values. */
 MUST_USE Status code_add_samples(Code *code, Diag *diag);
-/* `text` with `value` for each `word` */
-void code_fill_word(const char *text, const char *word, const char *value, Text *out);
-/* what the step of smooth equations is called: step, or what a longer one is made of */
-const char *code_step_name(const Code *code);
 /* a step sets sampled states at whole multiples of their periods */
 static inline bool code_is_sampled(const Code *code)
 {
@@ -239,6 +235,28 @@ void code_sizes(const Code *code, double sizes[CODE_PARTS]);
 
 /* --- a language (languages.c) --- */
 
+struct Language;
+
+/* a word of texts, $NAME, and what is written there */
+typedef struct CodeWord {
+    const char *name;
+    void (*write)(const Code *code, const struct Language *language, Text *out);
+} CodeWord;
+
+/* a part of a file, and which files have it */
+typedef enum CodeWhen {
+    CODE_ALWAYS,
+    CODE_WITH_TABLES,
+    CODE_WITH_MODES,
+    CODE_WITH_SAMPLES,
+    CODE_WITH_REDUNDANCE,
+    CODE_WITHOUT_REDUNDANCE
+} CodeWhen;
+typedef struct CodeText {
+    const char *text;
+    CodeWhen when;
+} CodeText;
+
 typedef struct Language {
     Notation notation;
     const char *array;            /* "%s[%d]" */
@@ -249,10 +267,19 @@ typedef struct Language {
     const char *power[3];         /* text before, between and after base and exponent */
     void (*open)(Text *out, const Code *code, const CodeFunction *function, const char *locals);
     const char *close;
-    const char *check;   /* the command for a file FILE that checks itself */
-    bool differentiates; /* constraints of states in a mode of ideal switches */
-    /* the whole file */
+    const char *check;    /* the command for a file FILE that checks itself */
+    bool differentiates;  /* constraints of states in a mode of ideal switches */
+    const char *between;  /* places in a list */
+    const char *truth[2]; /* no, yes */
+    const char *ideal[2]; /* around the name of an ideal part; between two */
+    /* a part of s by Newton's method: of a function, a place and a count; by linear equations: of
+     * two places and a function; accelerations: of two places */
+    const char *solve[3];
+    const char *state, *sums; /* a case of a number; the sums of a function in it */
+    const CodeWord *words;    /* of its own, which may replace those of all; last NULL */
+    const CodeText *texts;    /* of the whole file; last NULL. Or: */
     void (*file)(const Code *code, const struct Language *language, Text *out);
+    void (*wrap)(Text *out, size_t from); /* what was written from there on; NULL */
 } Language;
 
 extern const Language language_c, language_fortran, language_matlab, language_python;
@@ -266,12 +293,16 @@ OpCount code_count(const Code *code, int function);
 /* The description of the file, each line after `lead`: model, trees, arrays with their entries,
  * functions and their costs, the self-check. (code_head.c) */
 void code_head(const Code *code, const Language *language, const char *lead, Text *out);
-/* A text of the runtime with its $NAMES replaced by the code's numbers. (code_head.c) */
-void code_fill(const Code *code, const char *text, Text *out);
+/* A text with its words written: the code's numbers, its lists, its parts. (code_text.c) */
+void code_fill(const Code *code, const Language *language, const char *text, Text *out);
+/* the whole file (code_text.c) */
+void code_file(const Code *code, const Language *language, Text *out);
 /* "name[i]" */
 void code_element(const Language *language, const char *name, int i, Text *out);
 /* a number as the language writes it */
 void code_number(const Language *language, double value, Text *out);
+/* a line that sets `left` */
+void code_set(const Language *language, const char *left, const char *right, Text *out);
 /* name[i] = value; a line each */
 void code_set_array(const Language *language, const char *name, const double *values, int count,
                     Text *out);

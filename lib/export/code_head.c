@@ -1,12 +1,9 @@
-/* code_head.c: description at the head of exported files, and the sizes that they are written
- * for */
+/* code_head.c: description at the head of exported files */
 #include "export/code.h"
 
 #include "present/count.h"
 
 #include <inttypes.h>
-#include <stdio.h>
-#include <string.h>
 
 typedef struct Heading {
     const Language *language;
@@ -141,73 +138,4 @@ void code_head(const Code *code, const Language *language, const char *lead, Tex
     if (!code->live.is_wanted)
         SAY(&head, "It checks itself by numbers from where it was made:  %s", language->check);
     mem_free(brief);
-}
-
-void code_fill(const Code *code, const char *text, Text *out)
-{
-    const VariableIndex *l = code->layout;
-    const int k = l->nx + l->nz, both = l->nu + l->m;
-    const int most = k + both;
-    int quaternion_count = 0;
-
-    while (system_quaternion(l->system, quaternion_count) >= 0)
-        quaternion_count++;
-    const struct {
-        const char *name;
-        int value;
-    } sizes[] = {{"$NP", code->parameters.count + code->derived_count},
-                 {"$PARAMETERS", code->parameters.count},
-                 {"$Q", l->n},
-                 {"$U", l->nu},
-                 {"$X", l->nx},
-                 {"$A", l->multi_turns},
-                 {"$Y", code->ny},
-                 {"$Z", l->nz},
-                 {"$M", l->m},
-                 {"$S", code->ns},
-                 {"$OUTPUTS", code->outputs.count},
-                 {"$CONDITIONS", code->conditions.count},
-                 {"$LARGEST", most},
-                 {"$WORK", 2 * (most + 1) * (most + 2) + 8 * (code->ny + 1) +
-                               (code_has_modes(code)
-                                    ? 9 * (most + 1) * (most + 2) + 2 * (code->ny + code->ns) +
-                                          2 * code->modes.gives.count + 4 * code->modes.ideals.count
-                                    : 0)},
-                 {"$QUATERNIONS", quaternion_count},
-                 {"$STATES", code->states.count}};
-
-    for (const char *c = text; *c != '\0';) {
-        const size_t plain = strcspn(c, "$");
-        size_t length = 1;
-        int found = -1;
-
-        text_add_n(out, c, plain);
-        c += plain;
-        if (*c == '\0')
-            break;
-        while ((c[length] >= 'A' && c[length] <= 'Z'))
-            length++;
-        for (int i = 0; i < COUNT(sizes); i++)
-            if (strlen(sizes[i].name) == length && strncmp(sizes[i].name, c, length) == 0)
-                found = i;
-        if (found >= 0)
-            text_addf(out, "%d", sizes[found].value);
-        else
-            text_add_n(out, c, length);
-        c += length;
-    }
-}
-
-void code_fill_word(const char *text, const char *word, const char *value, Text *out)
-{
-    for (const char *at; (at = strstr(text, word)) != NULL; text = at + strlen(word)) {
-        text_add_n(out, text, (size_t)(at - text));
-        text_add(out, value);
-    }
-    text_add(out, text);
-}
-
-const char *code_step_name(const Code *code)
-{
-    return code_has_modes(code) ? "smooth_step" : code_is_sampled(code) ? "step_between" : "step";
 }

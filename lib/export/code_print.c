@@ -82,6 +82,11 @@ static void write_assignment(Text *out, const Language *language, const char *fo
     text_free(&line);
 }
 
+void code_set(const Language *language, const char *left, const char *right, Text *out)
+{
+    write_assignment(out, language, language->result, left, right);
+}
+
 void code_number(const Language *language, double value, Text *out)
 {
     Text digits = {0};
@@ -102,7 +107,7 @@ void code_set_array(const Language *language, const char *name, const double *va
         code_element(language, name, i, &left);
         code_number(language, values[i], &number);
         text_addf(&right, language->rounded != NULL ? language->rounded : "%s", number.at);
-        write_assignment(out, language, language->result, left.at, right.at);
+        code_set(language, left.at, right.at, out);
         text_free(&left);
         text_free(&number);
         text_free(&right);
@@ -387,7 +392,7 @@ static void write_result(Printing *pr, const char *left, uint32_t v)
     Text right = {0};
 
     rounded(pr, &pr->parts[v], &right);
-    write_assignment(pr->out, pr->language, pr->language->result, left, right.at);
+    code_set(pr->language, left, right.at, pr->out);
     text_free(&right);
 }
 

@@ -12,6 +12,7 @@ libcore_la_SOURCES += \
   lib/export/code_modes.c \
   lib/export/code_print.c \
   lib/export/code_states.c \
+  lib/export/code_text.c \
   lib/export/fmu.h \
   lib/export/fmu_description.c \
   lib/export/formats.c \

@@ -64,6 +64,12 @@ static const char modes_declaration[] =
     "/* one step, in pieces where a switch goes over, with the classical Runge-Kutta method */\n"
     "int model_step(real *p, real t, real step, real *y, real *s, real *work);\n";
 
+static const char numbers[] =
+    "\nvoid model_prepare(real *p)\n{\n    (void)p;\n$PREPARE}\n"
+    "\nvoid model_parameters(real *p)\n{\n$VALUES    model_prepare(p);\n}\n"
+    "\nvoid model_start(real *y, real *s)\n{\n    int i;\n\n    (void)y, (void)s;\n"
+    "    for (i = 0; i < MODEL_S; i++)\n        s[i] = 0;\n$START}\n$CODE";
+
 static const char partial_pivots[] =
     "\n/* A x = b from the rows [A | b], in which it works: elimination with row pivots */\n"
     "static int model_eliminate(real *a, int n, real *x, real *work)\n{\n"
@@ -199,8 +205,8 @@ static const char projection[] =
     "    const int status = model_solve(p, t, y, s, work);\n\n"
     "    model_derivative(p, t, y, s, rates);\n    return status;\n}\n"
     "\nstatic void model_normalise(real *y)\n{\n"
-    "    static const int first[] = {$FIRSTS};\n    int k, i;\n\n"
-    "    for (k = 0; first[k] >= 0; k++) {\n        real sum = 0;\n\n"
+    "    static const int first[] = {0, $FIRSTS}; /* from 1 on */\n    int k, i;\n\n"
+    "    for (k = 1; k <= $QUATERNIONS; k++) {\n        real sum = 0;\n\n"
     "        for (i = 0; i < 4; i++)\n            sum += y[first[k] + i] * y[first[k] + i];\n"
     "        for (i = 0; i < 4; i++)\n            y[first[k] + i] /= R(sqrt(sum));\n    }\n}\n"
     "\n/* rows [1 Phi_u^T; Phi_u 0 | 0; b] */\n"
@@ -442,25 +448,11 @@ static void add_list(Text *out, const double *values, int count)
     }
 }
 
-static void add_check(const Code *code, Text *out)
+static void add_check(const Code *code, const Language *language, Text *out)
 {
     double sizes[CODE_PARTS];
-    int room = 1;
-    Text begin = {0};
 
-    for (int f = 0; f < code->functions.count; f++) {
-        const int count = code->functions.at[f].rows * code->functions.at[f].columns;
-
-        room = count > room ? count : room;
-    }
-    for (const char *c = check_begin; *c != '\0'; c++)
-        if (strncmp(c, "$ROOM", 5) == 0) {
-            text_addf(&begin, "%d", room);
-            c += 4;
-        } else
-            text_char(&begin, *c);
-    text_add(out, begin.at);
-    text_free(&begin);
+    code_fill(code, language, check_begin, out);
     for (int f = 0; f < code->functions.count; f++) {
         const CodeFunction *function = &code->functions.at[f];
 
@@ -592,21 +584,6 @@ static void add_tables(const Code *code, Text *out)
              " : 0;\n}\n");
 }
 
-static void add_projection(const Code *code, Text *out)
-{
-    Text firsts = {0}, body = {0};
-
-    for (int i = 0, first; (first = system_quaternion(code->layout->system, i)) >= 0; i++)
-        text_addf(&firsts, "%d, ", first);
-    text_add(&firsts, "-1");
-    code_fill_word(projection, "$FIRSTS", firsts.at, &body);
-    code_fill_word(body.at, "$PROJECTED",
-                   code_has_modes(code) ? "model_drifted(p, t, y, work)" : "MODEL_OK", out);
-    c_step_add(code, out);
-    text_free(&firsts);
-    text_free(&body);
-}
-
 /* of each state of networks: the first that is a current, a voltage ... as it is */
 static void add_kinds(const VariableIndex *l, Text *out)
 {
@@ -677,30 +654,12 @@ static void add_inverse(const Code *code, Text *out)
                   "    model_efforts(p, t, y, s, efforts);\n    return status;\n}\n");
 }
 
-static void add_values(const Code *code, const Language *language, Text *out)
-{
-    char *locals;
-
-    text_add(out, "\nvoid model_prepare(real *p)\n{\n    (void)p;\n");
-    locals = code_print_derived(code, language, out);
-    mem_free(locals);
-    text_add(out, "}\n\nvoid model_parameters(real *p)\n{\n");
-    code_set_array(language, "p", code->values, code->parameters.count, out);
-    text_add(out, "    model_prepare(p);\n}\n\nvoid model_start(real *y, real *s)\n{\n"
-                  "    int i;\n\n    (void)y, (void)s;\n"
-                  "    for (i = 0; i < MODEL_S; i++)\n        s[i] = 0;\n");
-    code_set_array(language, "y", code->values + code->parameters.count, code->ny, out);
-    if (code->states.count > 0)
-        code_set_array(language, "s", code->states.at[0].s, code->ns, out);
-    text_add(out, "}\n");
-}
-
 static void write_file(const Code *code, const Language *language, Text *out)
 {
     text_add(out, "/*\n");
     code_head(code, language, " * ", out);
     text_add(out, " */\n#ifndef MODEL_H\n#define MODEL_H\n");
-    code_fill(code, declarations, out);
+    code_fill(code, language, declarations, out);
     text_add(out, code_has_modes(code) ? modes_declaration : step_declaration);
     if (code_has_modes(code))
         code_modes_begin(code, out);
@@ -716,9 +675,7 @@ static void write_file(const Code *code, const Language *language, Text *out)
     text_add(out, "#endif\n\n"
                   "#ifndef MODEL_DECLARED /* define it to have the declarations alone */\n");
     add_tables(code, out);
-    add_values(code, language, out);
-    for (int f = 0; f < code->functions.count; f++)
-        code_print(code, f, language, out);
+    code_fill(code, language, numbers, out);
     text_add(out, code->is_redundant ? full_pivots : partial_pivots);
     for (int g = 0, written = 0; g < code->group_count && !code_has_modes(code); g++)
         if (code->groups[g].iterates && !written++)
@@ -726,7 +683,8 @@ static void write_file(const Code *code, const Language *language, Text *out)
     if (code_has_modes(code))
         add_modes(code, out);
     add_rows(code, out);
-    add_projection(code, out);
+    code_fill(code, language, projection, out);
+    c_step_add(code, out);
     if (code_has_modes(code)) {
         text_add(out, "\n#ifdef MODEL_CHECK\n#include <stdio.h>\n#endif\n");
         c_step_add_modes(code, out);
@@ -737,7 +695,7 @@ static void write_file(const Code *code, const Language *language, Text *out)
         add_tangent(code, out);
         add_open(code, out);
     } else {
-        add_check(code, out);
+        add_check(code, language, out);
         add_driver(code, out);
     }
     text_add(out, "#endif\n");
@@ -755,5 +713,6 @@ const Language language_c = {
     .open = open_function,
     .close = "}\n",
     .check = "cc -DMODEL_CHECK FILE.c -lm && ./a.out",
+    .between = ", ",
     .file = write_file,
 };

@@ -10,7 +10,7 @@ static Status write_in(const Exported *what, const Language *language, const cha
     CHECK(code_new(what, false, &code, diag));
     if (code_has_modes(code) && !language->differentiates)
         CHECK(code_modes_check(code, name, diag));
-    language->file(code, language, out);
+    code_file(code, language, out);
 done:
     code_free(code);
     return status;

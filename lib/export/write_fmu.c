@@ -265,7 +265,7 @@ static Status pack(const Exported *what, Archive **out, Diag *diag)
     TRY(code_new(what, true, &code, diag));
     archive = NEW(Archive);
     archive->binary = binary_place(what->version);
-    language_c.file(code, &language_c, &model);
+    code_file(code, &language_c, &model);
     make_token(model.at, what, token);
     fmu_describe(code, what, token, &text);
     take_text(archive, "modelDescription.xml", &text);

@@ -36,6 +36,7 @@ static void open_function(Text *out, const Code *code, const CodeFunction *f, co
 }
 
 static const char head[] =
+    "$HEAD"
     "module model\nuse, intrinsic :: iso_fortran_env, only: wp => real64\nimplicit none\n\n"
     "integer, parameter :: model_parameters_n = $PARAMETERS, model_p = $NP, model_q = $Q, "
     "model_u = $U\n"
@@ -45,10 +46,44 @@ static const char head[] =
     "integer, parameter :: model_ok = 0, model_singular = 1, model_no_solution = 2, model_left = "
     "3\n";
 
+static const char ideals[] =
+    "integer, parameter :: model_ideals = $IDEALS, model_edges_n = $EDGES\n"
+    "integer, parameter :: model_closed = $CLOSED ! where p has the sides of\n$IDEALNAMES";
+
+static const char sampled[] = "integer, parameter :: model_sampled(*) = [$SAMPLED] ! in y\n";
+
 static const char interfaces[] =
     "\nabstract interface\n    subroutine model_rows(p, t, y, s, out)\n        import :: wp\n"
     "        real(wp), intent(in) :: p(:), t, y(:), s(:)\n"
     "        real(wp), intent(out) :: out(:, :)\n    end subroutine\nend interface\n\ncontains\n";
+
+static const char tables[] =
+    "\n! a spline through data, or a derivative of it\n"
+    "pure function model_table(number, v, order) result(value)\n"
+    "    integer, intent(in) :: number, order\n    real(wp), intent(in) :: v\n"
+    "    real(wp) :: value, h, a, b\n    real(wp), allocatable :: d(:)\n"
+    "    integer :: n, i\n\n    n = 0\n    select case (number)\n$TABLES"
+    "    end select\n    if (v < d(1) .or. v > d(n)) then\n"
+    "        value = merge(0.0_wp, merge(d(n + 1), d(2*n), v < d(1)), order > 0)\n"
+    "        return\n    end if\n    i = min(max(count(d(1:n) <= v), 1), n - 1)\n"
+    "    h = d(i + 1) - d(i)\n    a = (d(i + 1) - v)/h\n    b = (v - d(i))/h\n"
+    "    select case (order)\n    case (0)\n"
+    "        value = a*d(n + i) + b*d(n + i + 1) + &\n"
+    "            ((a**3 - a)*d(2*n + i) + (b**3 - b)*d(2*n + i + 1))*h*h/6\n    case (1)\n"
+    "        value = (d(n + i + 1) - d(n + i))/h + &\n"
+    "            ((3*b*b - 1)*d(2*n + i + 1) - (3*a*a - 1)*d(2*n + i))*h/6\n    case (2)\n"
+    "        value = a*d(2*n + i) + b*d(2*n + i + 1)\n    case (3)\n"
+    "        value = (d(2*n + i + 1) - d(2*n + i))/h\n    case default\n"
+    "        value = 0\n    end select\nend function\n";
+
+static const char values[] =
+    "\n! what follows from parameters alone: after one has changed\n"
+    "subroutine model_prepare(p)\n    real(wp), intent(inout) :: p(:)\n$PREPARE"
+    "end subroutine\n\n! their values, with model_prepare()\n"
+    "subroutine model_parameters(p)\n    real(wp), intent(out) :: p(:)\n\n    p = 0\n$VALUES"
+    "    call model_prepare(p)\nend subroutine\n\n! initial conditions, and s there\n"
+    "subroutine model_start(y, s)\n    real(wp), intent(out) :: y(:), s(:)\n\n    s = 0\n$START"
+    "end subroutine\n$CODE";
 
 static const char partial_pivots[] =
     "\n! A x = b from the rows [A | b]: elimination with row pivots\n"
@@ -124,7 +159,7 @@ static const char newton[] =
     "        if (near > 2) return\n    end do\n    status = model_no_solution\nend subroutine\n";
 
 static const char after[] =
-    "\n! y' and s\nsubroutine model_rates(p, t, y, s, rates, status)\n"
+    "$SOLVE\n! y' and s\nsubroutine model_rates(p, t, y, s, rates, status)\n"
     "    real(wp), intent(in) :: p(:), t, y(:)\n    real(wp), intent(inout) :: s(:)\n"
     "    real(wp), intent(out) :: rates(:)\n    integer, intent(out) :: status\n\n"
     "    call model_solve(p, t, y, s, status)\n    call model_derivative(p, t, y, s, rates)\n"
@@ -163,10 +198,7 @@ static const char after[] =
     "    end if\n    if (model_a > 0) then\n        call model_angles(p, t, y, y, turned)\n"
     "        y(model_q + model_u + model_x + 1:) = turned\n    end if\nend subroutine\n"
     "\n! one step of the classical Runge-Kutta method, with projection\n"
-    "subroutine model_";
-
-static const char step[] =
-    "(p, t, h, y, s, status)\n    real(wp), intent(in) :: p(:), t, h\n"
+    "subroutine model_$SMOOTH(p, t, h, y, s, status)\n    real(wp), intent(in) :: p(:), t, h\n"
     "    real(wp), intent(inout) :: y(:), s(:)\n    integer, intent(out) :: status\n"
     "    real(wp), dimension(model_y) :: k1, k2, k3, k4\n\n"
     "    call model_rates(p, t, y, s, k1, status)\n    if (status /= model_ok) return\n"
@@ -228,24 +260,21 @@ static const char sampled_step[] =
     "            call model_step_between(p, now, until - now, y, s, status)\n"
     "        now = until\n    end do\nend subroutine\n";
 
-static const char begin_check[] =
+static const char check[] =
     "\nend module\n"
     "\n#ifdef MODEL_CHECK\nprogram check\nuse model\nimplicit none\n"
     "real(wp) :: p(model_p), y(model_y), s(model_s), right(model_s), t, worst\n"
     "real(wp) :: sums(2, $FUNCTIONS), sizes(4)\ninteger :: bad, at, parts(4), part, i, k, "
     "status\n\n"
-    "call model_parameters(p)\nworst = 0\nbad = 0\nparts = [model_x, model_z, model_u, model_m]\n";
-
-static const char check[] =
+    "call model_parameters(p)\nworst = 0\nbad = 0\nparts = [model_x, model_z, model_u, "
+    "model_m]\nsizes = $SIZES\n"
     "do k = 1, $STATES\n    call state(k, t, y, right, sums)\n"
     "    s = right*(1 + 1e-3_wp) ! a guess that is near\n"
     "    call model_solve(p, t, y, s, status)\n    if (status /= model_ok) bad = bad + 1\n"
     "    at = 0\n    do part = 1, 4\n        do i = at + 1, at + parts(part)\n"
     "            call compare(s(i), right(i), sizes(part))\n        end do\n"
     "        at = at + parts(part)\n    end do\n    do i = 1, model_y ! away from the constraints\n"
-    "        y(i) = y(i)*(1 + (mod(i - 1, 5) + 1)/32.0_wp)\n    end do\n";
-
-static const char compare[] =
+    "        y(i) = y(i)*(1 + (mod(i - 1, 5) + 1)/32.0_wp)\n    end do\n$SUMS"
     "end do\nprint '(i0, 3a, es8.1, a)', $STATES, ' states: ', &\n"
     "    merge('all as they were', 'NOT as they were', bad == 0), ', off by', worst, ' at most'\n"
     "if (bad > 0) error stop\n\ncontains\n"
@@ -255,26 +284,16 @@ static const char compare[] =
     "    worst = max(worst, off)\n    if (.not. off <= 1e-12_wp) bad = bad + 1\nend subroutine\n"
     "\nfunction total(v) result(value)\n    real(wp), intent(in) :: v(:)\n"
     "    real(wp) :: value\n    integer :: j\n\n    value = 0\n    do j = 1, size(v)\n"
-    "        value = value + (1 + mod(j - 1, 7))*v(j)\n    end do\nend function\n";
+    "        value = value + (1 + mod(j - 1, 7))*v(j)\n    end do\nend function\n"
+    "\nsubroutine state(k, t, y, s, sums)\n    integer, intent(in) :: k\n"
+    "    real(wp), intent(out) :: t, y(model_y), s(model_s), sums(:, :)\n\n"
+    "    select case (k)\n$CASES    end select\nend subroutine\nend program\n#endif\n";
 
-/* a text with its numbers, and with these words */
-static void fill_words(const Code *code, const char *text, const char *word, const char *by,
-                       Text *out)
-{
-    Text filled = {0};
-    const char *at = strstr(text, word);
-
-    text_add_n(&filled, text, (size_t)(at - text));
-    text_add(&filled, by);
-    text_add(&filled, at + strlen(word));
-    code_fill(code, filled.at, out);
-    text_free(&filled);
-}
-
-static void add_solve(const Code *code, Text *out)
+static void write_solve(const Code *code, const Language *language, Text *out)
 {
     const int first = code->layout->nx + code->layout->nz;
 
+    (void)language;
     text_add(out, "\n! s for a state; s as it was is where Newton's method begins\n"
                   "subroutine model_solve(p, t, y, s, status)\n"
                   "    real(wp), intent(in) :: p(:), t, y(:)\n"
@@ -309,58 +328,10 @@ static void add_solve(const Code *code, Text *out)
     text_add(out, "end subroutine\n");
 }
 
-static void add_states(const Code *code, const Language *language, Text *out)
+/* each function's sum in a state */
+static void write_sums(const Code *code, const Language *language, Text *out)
 {
-    text_add(out, "\nsubroutine state(k, t, y, s, sums)\n    integer, intent(in) :: k\n"
-                  "    real(wp), intent(out) :: t, y(model_y), s(model_s), sums(:, :)\n\n"
-                  "    select case (k)\n");
-    for (int k = 0; k < code->states.count; k++) {
-        const CodeState *state = &code->states.at[k];
-
-        text_addf(out, "    case (%d)\n    t = ", k + 1);
-        code_number(language, state->t, out);
-        text_char(out, '\n');
-        code_set_array(language, "y", state->y, code->ny, out);
-        code_set_array(language, "s", state->s, code->ns, out);
-        for (int f = 0; f < code->functions.count; f++) {
-            text_addf(out, "    sums(:, %d) = [", f + 1);
-            code_number(language, state->sums[f], out);
-            text_add(out, ", ");
-            code_number(language, state->size[f], out);
-            text_add(out, "]\n");
-        }
-    }
-    text_add(out, "    end select\nend subroutine\nend program\n#endif\n");
-}
-
-static void add_check(const Code *code, const Language *language, Text *out)
-{
-    Text count = {0}, firsts = {0};
-    double sizes[CODE_PARTS];
-
-    text_addf(&count, "%d", code->functions.count);
-    for (int i = 0, first; (first = system_quaternion(code->layout->system, i)) >= 0; i++)
-        text_addf(&firsts, "%s%d", i > 0 ? ", " : "", first + 1);
-    {
-        Text half = {0};
-        const char *at = strstr(after, "$FIRSTS");
-
-        text_add_n(&half, after, (size_t)(at - after));
-        text_add(&half, firsts.at != NULL ? firsts.at : "");
-        text_add(&half, at + strlen("$FIRSTS"));
-        code_fill(code, half.at, out);
-        text_free(&half);
-    }
-    text_add(out, code_step_name(code));
-    text_add(out, step);
-    if (code_has_modes(code))
-        code_fill_word(step_in_mode, "$STEP", code_is_sampled(code) ? "step_between" : "step", out);
-    if (code_is_sampled(code))
-        text_add(out, sampled_step);
-    fill_words(code, begin_check, "$FUNCTIONS", count.at, out);
-    code_sizes(code, sizes);
-    code_set_array(language, "sizes", sizes, CODE_PARTS, out);
-    code_fill(code, check, out);
+    (void)language;
     for (int f = 0; f < code->functions.count; f++) {
         const CodeFunction *function = &code->functions.at[f];
         const int entries = function->rows * function->columns;
@@ -379,97 +350,50 @@ static void add_check(const Code *code, const Language *language, Text *out)
                   function->is_matrix ? "reshape(transpose(out), [size(out)])" : "out", f + 1,
                   f + 1);
     }
-    code_fill(code, compare, out);
-    add_states(code, language, out);
-    text_free(&count);
-    text_free(&firsts);
 }
 
-static void add_tables(const Code *code, const Language *language, Text *out)
+static void write_tables(const Code *code, const Language *language, Text *out)
 {
-    if (code->lowered.tables.count == 0)
-        return;
-    text_add(out, "\n! a spline through data, or a derivative of it\n"
-                  "pure function model_table(number, v, order) result(value)\n"
-                  "    integer, intent(in) :: number, order\n    real(wp), intent(in) :: v\n"
-                  "    real(wp) :: value, h, a, b\n    real(wp), allocatable :: d(:)\n"
-                  "    integer :: n, i\n\n    n = 0\n    select case (number)\n");
     for (int i = 0; i < code->lowered.tables.count; i++) {
         const Curve *curve = code->lowered.tables.at[i];
 
         text_addf(out, "    case (%d)\n    n = %d\n    allocate(d(3*n))\n", i + 1, curve->count);
         code_set_array(language, "d", curve->data, 3 * curve->count, out);
     }
-    text_add(out,
-             "    end select\n    if (v < d(1) .or. v > d(n)) then\n"
-             "        value = merge(0.0_wp, merge(d(n + 1), d(2*n), v < d(1)), order > 0)\n"
-             "        return\n    end if\n    i = min(max(count(d(1:n) <= v), 1), n - 1)\n"
-             "    h = d(i + 1) - d(i)\n    a = (d(i + 1) - v)/h\n    b = (v - d(i))/h\n"
-             "    select case (order)\n    case (0)\n"
-             "        value = a*d(n + i) + b*d(n + i + 1) + &\n"
-             "            ((a**3 - a)*d(2*n + i) + (b**3 - b)*d(2*n + i + 1))*h*h/6\n    case (1)\n"
-             "        value = (d(n + i + 1) - d(n + i))/h + &\n"
-             "            ((3*b*b - 1)*d(2*n + i + 1) - (3*a*a - 1)*d(2*n + i))*h/6\n    case (2)\n"
-             "        value = a*d(2*n + i) + b*d(2*n + i + 1)\n    case (3)\n"
-             "        value = (d(2*n + i + 1) - d(2*n + i))/h\n    case default\n"
-             "        value = 0\n    end select\nend function\n");
 }
 
-/* ideal parts, in the order of model_looks() */
-static void add_ideals(const Code *code, Text *out)
-{
-    text_addf(out,
-              "integer, parameter :: model_ideals = %d, model_edges_n = %d\n"
-              "integer, parameter :: model_closed = %d ! where p has the sides of\n",
-              code->modes.ideals.count, code->modes.gives.count / 2, code->modes.first + 1);
-    for (int k = 0; k < code->modes.ideals.count; k++)
-        text_addf(out, "! %s\n", code->modes.ideals.at[k].ideal.name);
-}
-
-static void write_file(const Code *code, const Language *language, Text *out)
+/* the names that the lines make come first */
+static void write_prepare(const Code *code, const Language *language, Text *out)
 {
     Text derived = {0};
-    const size_t from = out->length;
     char *locals = code_print_derived(code, language, &derived);
 
-    code_head(code, language, "! ", out);
-    code_fill(code, head, out);
-    if (code_has_modes(code))
-        add_ideals(code, out);
-    if (code_is_sampled(code)) {
-        text_add(out, "integer, parameter :: model_sampled(*) = [");
-        for (int i = 0; i < code->live.samples.count; i++)
-            text_addf(out, "%s%d", i > 0 ? ", &\n    " : "",
-                      code->layout->n + code->layout->nu + code->live.samples.at[i] + 1);
-        text_add(out, "] ! in y\n");
-    }
-    text_add(out, interfaces);
-    add_tables(code, language, out);
-    text_add(out, "\n! what follows from parameters alone: after one has changed\n"
-                  "subroutine model_prepare(p)\n    real(wp), intent(inout) :: p(:)\n");
     add_locals(out, locals);
-    text_addf(out,
-              "\n%send subroutine\n\n! their values, with model_prepare()\n"
-              "subroutine model_parameters(p)\n    real(wp), intent(out) :: p(:)\n\n    p = 0\n",
-              derived.at != NULL ? derived.at : "");
-    code_set_array(language, "p", code->values, code->parameters.count, out);
-    text_add(out, "    call model_prepare(p)\nend subroutine\n\n! initial conditions, and s there\n"
-                  "subroutine model_start(y, s)\n    real(wp), intent(out) :: y(:), s(:)\n\n"
-                  "    s = 0\n");
-    code_set_array(language, "y", code->values + code->parameters.count, code->ny, out);
-    if (code->states.count > 0)
-        code_set_array(language, "s", code->states.at[0].s, code->ns, out);
-    text_add(out, "end subroutine\n");
-    for (int f = 0; f < code->functions.count; f++)
-        code_print(code, f, language, out);
-    text_add(out, code->is_redundant ? full_pivots : partial_pivots);
-    text_add(out, newton);
-    add_solve(code, out);
-    add_check(code, language, out);
-    fortran_wrap(out, from);
+    text_addf(out, "\n%s", derived.at != NULL ? derived.at : "");
     mem_free(locals);
     text_free(&derived);
 }
+
+static const CodeWord words[] = {{"TABLES", write_tables},
+                                 {"PREPARE", write_prepare},
+                                 {"SOLVE", write_solve},
+                                 {"SUMS", write_sums},
+                                 {NULL, NULL}};
+
+static const CodeText texts[] = {{head, CODE_ALWAYS},
+                                 {ideals, CODE_WITH_MODES},
+                                 {sampled, CODE_WITH_SAMPLES},
+                                 {interfaces, CODE_ALWAYS},
+                                 {tables, CODE_WITH_TABLES},
+                                 {values, CODE_ALWAYS},
+                                 {full_pivots, CODE_WITH_REDUNDANCE},
+                                 {partial_pivots, CODE_WITHOUT_REDUNDANCE},
+                                 {newton, CODE_ALWAYS},
+                                 {after, CODE_ALWAYS},
+                                 {step_in_mode, CODE_WITH_MODES},
+                                 {sampled_step, CODE_WITH_SAMPLES},
+                                 {check, CODE_ALWAYS},
+                                 {NULL, CODE_ALWAYS}};
 
 const Language language_fortran = {
     .notation = NOTATION_FORTRAN,
@@ -483,5 +407,11 @@ const Language language_fortran = {
     .open = open_function,
     .close = "end subroutine\n",
     .check = "gfortran -cpp -frecursive -DMODEL_CHECK FILE.f90 && ./a.out",
-    .file = write_file,
+    .between = ", &\n    ",
+    .ideal = {"! %s\n", ""},
+    .state = "    case (%d)\n",
+    .sums = "sums(:, %d)",
+    .words = words,
+    .texts = texts,
+    .wrap = fortran_wrap,
 };

@@ -1,8 +1,6 @@
 /* write_matlab.c: a model as a function file of Matlab and Octave, model('mass', p, t, y, s) */
 #include "export/code.h"
 
-#include <string.h>
-
 static void open_function(Text *out, const Code *code, const CodeFunction *f, const char *locals)
 {
     (void)code;
@@ -12,19 +10,42 @@ static void open_function(Text *out, const Code *code, const CodeFunction *f, co
 }
 
 static const char head[] =
+    "$HEAD"
     "function varargout = model(name, varargin)\n"
     "    [varargout{1:nargout}] = feval(['model_' name], varargin{:});\nend\n"
     "\n% how many numbers there are in p, q, u, x, references, y, z, lambda, s\n"
     "function out = model_sizes()\n"
     "    out = struct('P', $NP, 'Q', $Q, 'U', $U, 'X', $X, 'A', $A, 'Y', $Y, ...\n"
-    "        'Z', $Z, 'M', $M, 'S', $S, 'quaternions', [";
+    "        'Z', $Z, 'M', $M, 'S', $S, 'quaternions', [$FIRSTS]);\nend\n"
+    "\n% what follows from parameters alone: after one has changed\n"
+    "function p = model_prepare(p)\n$PREPARE"
+    "end\n\n% their values\nfunction p = model_parameters()\n    p = zeros($NP, 1);\n$VALUES"
+    "    p = model_prepare(p);\nend\n\n% initial conditions, and s there\n"
+    "function [y, s] = model_start()\n    y = zeros($Y, 1);\n    s = zeros($S, 1);\n$START"
+    "end\n";
+
+static const char tables[] =
+    "\n% a spline through data, or a derivative of it\n"
+    "function out = model_table(number, v, order)\n    switch number\n$TABLES"
+    "    end\n    n = numel(d)/3;\n    x = d(1:n);\n    f = d(n + 1:2*n);\n"
+    "    m = d(2*n + 1:end);\n    if v < x(1) || v > x(n)\n"
+    "        ends = [f(1), f(n)];\n"
+    "        out = (order == 0)*ends(1 + (v > x(n)));\n        return\n    end\n"
+    "    k = min(max(sum(x <= v), 1), n - 1);\n    h = x(k + 1) - x(k);\n"
+    "    a = (x(k + 1) - v)/h;\n    b = (v - x(k))/h;\n    switch order\n    case 0\n"
+    "        out = a*f(k) + b*f(k + 1) + ((a^3 - a)*m(k) + (b^3 - b)*m(k + 1))*h*h/6;\n"
+    "    case 1\n"
+    "        out = (f(k + 1) - f(k))/h + ((3*b*b - 1)*m(k + 1) - (3*a*a - 1)*m(k))*h/6;"
+    "\n    case 2\n        out = a*m(k) + b*m(k + 1);\n    case 3\n"
+    "        out = (m(k + 1) - m(k))/h;\n    otherwise\n        out = 0;\n    end\n"
+    "end\n";
 
 static const char runtime[] =
-    "\n% c where it isn't 0, else\nfunction out = model_if(c, yes, no)\n    if c ~= 0\n"
+    "$CODE\n% c where it isn't 0, else\nfunction out = model_if(c, yes, no)\n    if c ~= 0\n"
     "        out = yes;\n    else\n        out = no;\n    end\nend\n"
     "\n% A x = b from the rows [A | b]\nfunction x = model_linear(a)\n    n = rows_of(a);\n"
     "    d = max(abs(a(:, 1:n)), [], 2);\n    d(d == 0) = 1;\n    a = a./repmat(d, 1, n + 1);\n"
-    "    if REDUNDANT % the least of all solutions\n"
+    "    if $REDUNDANT % the least of all solutions\n"
     "        x = pinv(a(:, 1:n), 1e-10)*a(:, n + 1);\n        return\n    end\n"
     "    d = max(abs(a(:, 1:n)), [], 1);\n    if any(d == 0)\n"
     "        error('the equations are singular');\n    end\n"
@@ -54,7 +75,11 @@ static const char runtime[] =
     "    error('no solution of the equations was found');\nend\n";
 
 static const char after[] =
-    "\n% y', and s\nfunction [out, s] = model_rates(p, t, y, s)\n    s = model_solve(p, t, y, s);\n"
+    "\n% s for a state; the s that is given is where Newton's method begins\n"
+    "function s = model_solve(p, t, y, s)\n$SOLVE"
+    "end\n"
+    "\n% y', and s\nfunction [out, s] = model_rates(p, t, y, s)\n    s = model_solve(p, t, "
+    "y, s);\n"
     "    out = model_derivative(p, t, y, s);\nend\n"
     "\nfunction du = model_nearest(p, t, y, b)\n    k = model_sizes();\n"
     "    phi_u = model_jacobian(p, t, y, []);\n"
@@ -73,10 +98,7 @@ static const char after[] =
     "        y(u) = y(u) + model_nearest(p, t, y, lack);\n    end\n    if k.A > 0\n"
     "        y(k.Q + k.U + k.X + 1:end) = model_angles(p, t, y, []);\n    end\nend\n"
     "\n% one step of the classical Runge-Kutta method, with projection\n"
-    "function [y, s] = model_";
-
-static const char step[] =
-    "(p, t, h, y, s)\n    [k1, s] = model_rates(p, t, y, s);\n"
+    "function [y, s] = model_$SMOOTH(p, t, h, y, s)\n    [k1, s] = model_rates(p, t, y, s);\n"
     "    [k2, s] = model_rates(p, t + h/2, y + h/2*k1, s);\n"
     "    [k3, s] = model_rates(p, t + h/2, y + h/2*k2, s);\n"
     "    [k4, s] = model_rates(p, t + h, y + h*k3, s);\n"
@@ -84,6 +106,8 @@ static const char step[] =
 
 /* in the mode of ideal parts that p has, which code in this language doesn't leave by itself */
 static const char step_in_mode[] =
+    "\n% fails where an ideal part is on the other side than p has it\n"
+    "function model_hold_sides(p, t, y, s)\n    first = $CLOSED;\n    names = {$IDEALNAMES};\n"
     "    look = model_looks(p, t, y, s);\n    most = 1e-9*max(abs(model_edges(p, t, y, s)), [], "
     "1);\n"
     "    for k = 1:numel(names)\n        closed = p(first + k - 1) > 0.5;\n"
@@ -100,6 +124,8 @@ static const char step_in_mode[] =
 
 /* steps over sampling instants, whole multiples of the periods */
 static const char sampled_step[] =
+    "\n% the sampled states that are due at t\n"
+    "function [y, s] = model_sample(p, t, y, s)\n    sampled = [$SAMPLED];\n"
     "    period = model_periods(p, t, y, s);\n"
     "    due = abs(t./period - round(t./period)) <= 1e-9;\n    if any(due)\n"
     "        s = model_solve(p, t, y, s);\n        next = model_samples(p, t, y, s);\n"
@@ -116,89 +142,27 @@ static const char sampled_step[] =
 static const char check[] =
     "\nfunction bad = model_check()\n    k = model_sizes();\n    p = model_parameters();\n"
     "    worst = 0;\n    bad = 0;\n    scales = [];\n    parts = [k.X, k.Z, k.U, k.M];\n"
-    "    sizes = SIZES;\n    for part = 1:4\n"
+    "    sizes = $SIZES;\n    for part = 1:4\n"
     "        scales = [scales; repmat(sizes(part) + (sizes(part) == 0), parts(part), 1)];\n"
     "    end\n    for number = 1:$STATES\n        [t, y, right, sums] = model_state(number);\n"
     "        s = model_solve(p, t, y, right*(1 + 1e-3));\n"
     "        offs = abs(s - right)./scales;\n"
     "        y = y.*(1 + (mod((0:k.Y - 1)', 5) + 1)/32); % away from the constraints\n"
-    "        names = FUNCTIONS;\n        for f = 1:numel(names)\n"
+    "        names = $NAMES;\n        for f = 1:numel(names)\n"
     "            out = feval(['model_' names{f}], p, t, y, right)';\n            out = out(:);\n"
     "            total = sum((1 + mod((0:numel(out) - 1)', 7)).*out);\n"
     "            offs(end + 1, 1) = abs(total - sums(f, 1))/(sums(f, 2) + (sums(f, 2) == 0));\n"
     "        end\n        worst = max([worst; offs]);\n        bad = bad + ~all(offs <= 1e-12);\n"
     "    end\n    said = {'all as they were', 'NOT as they were'};\n"
     "    fprintf('%d states: %s, off by %.1e at most\\n', $STATES, said{1 + (bad > 0)}, worst);\n"
-    "end\n";
+    "end\n"
+    "\nfunction [t, y, s, sums] = model_state(number)\n    t = 0;\n"
+    "    y = zeros($Y, 1);\n    s = zeros($S, 1);\n    sums = zeros($FUNCTIONS, 2);\n"
+    "    switch number\n$CASES    end\nend\n";
 
-/* the text with these words in the place of some */
-static char *replaced(const char *text, const char *word, const char *by)
+static void write_tables(const Code *code, const Language *language, Text *out)
 {
-    const char *at = strstr(text, word);
-    Text out = {0};
-
-    for (; at != NULL; text = at + strlen(word), at = strstr(text, word)) {
-        text_add_n(&out, text, (size_t)(at - text));
-        text_add(&out, by);
-    }
-    text_add(&out, text);
-    return text_done(&out);
-}
-
-static void add_solve(const Code *code, Text *out)
-{
-    const int first = code->layout->nx + code->layout->nz;
-
-    text_add(out, "\n% s for a state; the s that is given is where Newton's method begins\n"
-                  "function s = model_solve(p, t, y, s)\n");
-    for (int g = 0; g < code->group_count; g++) {
-        const CodeGroup *group = &code->groups[g];
-        const char *name = code->functions.at[group->function].name;
-
-        if (group->iterates)
-            text_addf(out, "    s = model_newton('model_%s', p, t, y, s, %d, %d);\n", name,
-                      group->first + 1, group->count);
-        else
-            text_addf(out, "    s(%d:%d) = model_linear(model_%s(p, t, y, s));\n", group->first + 1,
-                      group->first + group->count, name);
-    }
-    if (code->is_explicit)
-        text_addf(out, "    s(%d:%d) = model_accelerations(p, t, y, s);\n", first + 1, code->ns);
-    text_add(out, "end\n");
-}
-
-static void add_states(const Code *code, const Language *language, Text *out)
-{
-    text_addf(out,
-              "\nfunction [t, y, s, sums] = model_state(number)\n    t = 0;\n"
-              "    y = zeros(%d, 1);\n    s = zeros(%d, 1);\n    sums = zeros(%d, 2);\n"
-              "    switch number\n",
-              code->ny, code->ns, code->functions.count);
-    for (int k = 0; k < code->states.count; k++) {
-        const CodeState *state = &code->states.at[k];
-
-        text_addf(out, "    case %d\n    t = ", k + 1);
-        code_number(language, state->t, out);
-        text_add(out, ";\n");
-        code_set_array(language, "y", state->y, code->ny, out);
-        code_set_array(language, "s", state->s, code->ns, out);
-        for (int f = 0; f < code->functions.count; f++) {
-            text_addf(out, "    sums(%d, :) = [", f + 1);
-            code_number(language, state->sums[f], out);
-            text_add(out, ", ");
-            code_number(language, state->size[f], out);
-            text_add(out, "];\n");
-        }
-    }
-    text_add(out, "    end\nend\n");
-}
-
-static void add_tables(const Code *code, Text *out)
-{
-    if (code->lowered.tables.count == 0)
-        return;
-    text_add(out, "\n% a spline through data, or a derivative of it\n"
-                  "function out = model_table(number, v, order)\n    switch number\n");
+    (void)language;
     for (int i = 0; i < code->lowered.tables.count; i++) {
         const Curve *curve = code->lowered.tables.at[i];
 
@@ -209,107 +173,30 @@ static void add_tables(const Code *code, Text *out)
         }
         text_add(out, "];\n");
     }
-    text_add(out,
-             "    end\n    n = numel(d)/3;\n    x = d(1:n);\n    f = d(n + 1:2*n);\n"
-             "    m = d(2*n + 1:end);\n    if v < x(1) || v > x(n)\n"
-             "        ends = [f(1), f(n)];\n"
-             "        out = (order == 0)*ends(1 + (v > x(n)));\n        return\n    end\n"
-             "    k = min(max(sum(x <= v), 1), n - 1);\n    h = x(k + 1) - x(k);\n"
-             "    a = (x(k + 1) - v)/h;\n    b = (v - x(k))/h;\n    switch order\n    case 0\n"
-             "        out = a*f(k) + b*f(k + 1) + ((a^3 - a)*m(k) + (b^3 - b)*m(k + 1))*h*h/6;\n"
-             "    case 1\n"
-             "        out = (f(k + 1) - f(k))/h + ((3*b*b - 1)*m(k + 1) - (3*a*a - 1)*m(k))*h/6;"
-             "\n    case 2\n        out = a*m(k) + b*m(k + 1);\n    case 3\n"
-             "        out = (m(k + 1) - m(k))/h;\n    otherwise\n        out = 0;\n    end\n"
-             "end\n");
 }
 
-static void add_check(const Code *code, Text *out)
+static void write_names(const Code *code, const Language *language, Text *out)
 {
-    double sizes[CODE_PARTS];
-    Text list = {0}, names = {0};
-    char *with_sizes, *whole;
-
-    code_sizes(code, sizes);
-    for (int i = 0; i < CODE_PARTS; i++) {
-        text_char(&list, i == 0 ? '[' : ' ');
-        text_number(&list, sizes[i], 17);
-    }
-    text_char(&list, ']');
+    (void)language;
     for (int f = 0; f < code->functions.count; f++)
-        text_addf(&names, "%s'%s'",
+        text_addf(out, "%s'%s'",
                   f == 0       ? "{"
                   : f % 5 == 0 ? ", ...\n            "
                                : ", ",
                   code->functions.at[f].name);
-    text_char(&names, '}');
-    with_sizes = replaced(check, "SIZES", list.at);
-    whole = replaced(with_sizes, "FUNCTIONS", names.at);
-    code_fill(code, whole, out);
-    MEM_FREE(with_sizes, whole);
-    text_free(&list);
-    text_free(&names);
+    text_char(out, '}');
 }
 
-static void add_modes(const Code *code, Text *out)
-{
-    text_addf(out,
-              "\n%% fails where an ideal part is on the other side than p has it\n"
-              "function model_hold_sides(p, t, y, s)\n    first = %d;\n    names = {",
-              code->modes.first + 1);
-    for (int k = 0; k < code->modes.ideals.count; k++)
-        text_addf(out, "%s'%s'", k > 0 ? ", ...\n        " : "",
-                  code->modes.ideals.at[k].ideal.name);
-    text_add(out, "};\n");
-    code_fill_word(step_in_mode, "$STEP", code_is_sampled(code) ? "step_between" : "step", out);
-}
+static const CodeWord words[] = {{"TABLES", write_tables}, {"NAMES", write_names}, {NULL, NULL}};
 
-static void write_file(const Code *code, const Language *language, Text *out)
-{
-    char *solver = replaced(runtime, "REDUNDANT", code->is_redundant ? "true" : "false");
-
-    code_head(code, language, "% ", out);
-    code_fill(code, head, out);
-    for (int i = 0, first; (first = system_quaternion(code->layout->system, i)) >= 0; i++)
-        text_addf(out, "%s%d", i > 0 ? ", " : "", first + 1);
-    text_add(out, "]);\nend\n\n% what follows from parameters alone: after one has changed\n"
-                  "function p = model_prepare(p)\n");
-    mem_free(code_print_derived(code, language, out));
-    code_fill(code,
-              "end\n\n% their values\nfunction p = model_parameters()\n    p = zeros($NP, 1);\n",
-              out);
-    code_set_array(language, "p", code->values, code->parameters.count, out);
-    code_fill(code,
-              "    p = model_prepare(p);\nend\n\n% initial conditions, and s there\n"
-              "function [y, s] = model_start()\n    y = zeros($Y, 1);\n    s = zeros($S, 1);\n",
-              out);
-    code_set_array(language, "y", code->values + code->parameters.count, code->ny, out);
-    if (code->states.count > 0)
-        code_set_array(language, "s", code->states.at[0].s, code->ns, out);
-    text_add(out, "end\n");
-    add_tables(code, out);
-    for (int f = 0; f < code->functions.count; f++)
-        code_print(code, f, language, out);
-    text_add(out, solver);
-    add_solve(code, out);
-    text_add(out, after);
-    text_add(out, code_step_name(code));
-    text_add(out, step);
-    if (code_has_modes(code))
-        add_modes(code, out);
-    if (code_is_sampled(code)) {
-        text_add(out, "\n% the sampled states that are due at t\n"
-                      "function [y, s] = model_sample(p, t, y, s)\n    sampled = [");
-        for (int i = 0; i < code->live.samples.count; i++)
-            text_addf(out, "%s%d", i > 0 ? "; " : "",
-                      code->layout->n + code->layout->nu + code->live.samples.at[i] + 1);
-        text_add(out, "];\n");
-        text_add(out, sampled_step);
-    }
-    add_check(code, out);
-    add_states(code, language, out);
-    mem_free(solver);
-}
+static const CodeText texts[] = {{head, CODE_ALWAYS},
+                                 {tables, CODE_WITH_TABLES},
+                                 {runtime, CODE_ALWAYS},
+                                 {after, CODE_ALWAYS},
+                                 {step_in_mode, CODE_WITH_MODES},
+                                 {sampled_step, CODE_WITH_SAMPLES},
+                                 {check, CODE_ALWAYS},
+                                 {NULL, CODE_ALWAYS}};
 
 const Language language_matlab = {
     .notation = NOTATION_MATLAB,
@@ -322,5 +209,14 @@ const Language language_matlab = {
     .open = open_function,
     .close = "end\n",
     .check = "octave --eval \"FILE('check')\"",
-    .file = write_file,
+    .between = "; ",
+    .truth = {"false", "true"},
+    .ideal = {"'%s'", ", ...\n        "},
+    .solve = {"    s = model_newton('model_%s', p, t, y, s, %d, %d);\n",
+              "    s(%d:%d) = model_linear(model_%s(p, t, y, s));\n",
+              "    s(%d:%d) = model_accelerations(p, t, y, s);\n"},
+    .state = "    case %d\n",
+    .sums = "sums(%d, :)",
+    .words = words,
+    .texts = texts,
 };

@@ -17,7 +17,35 @@ static void open_function(Text *out, const Code *code, const CodeFunction *f, co
     text_add(out, ") + shape_of(t, y))\n");
 }
 
+static const char head[] =
+    "# \n$HEAD\nimport sys\n\nimport numpy as np\n\n"
+    "P, Q, U, X, A, Y, Z, M, S = $NP, $Q, $U, $X, $A, $Y, $Z, $M, $S\nREDUNDANT = $REDUNDANT\n"
+    "MODES = $MODES  # of ideal parts\nQUATERNIONS = [$FIRSTS]\n"
+    "\n# array, place, name\nNAMES = [$NAMES\n]\n";
+
+static const char tables[] =
+    "\n\nTABLES = [$TABLES"
+    "\n]  # x, y and y'' at the points of splines\n"
+    "\n\ndef model_table(number, v, order):\n    x, y, m = TABLES[number - 1]\n"
+    "    v = np.asarray(v, float)\n"
+    "    i = np.clip(np.searchsorted(x, v, 'right') - 1, 0, len(x) - 2)\n"
+    "    h = x[i + 1] - x[i]\n    a, b = (x[i + 1] - v)/h, (v - x[i])/h\n"
+    "    inside = [\n"
+    "        a*y[i] + b*y[i + 1] + ((a*a*a - a)*m[i] + (b*b*b - b)*m[i + 1])*h*h/6,\n"
+    "        (y[i + 1] - y[i])/h + ((3*b*b - 1)*m[i + 1] - (3*a*a - 1)*m[i])*h/6,\n"
+    "        a*m[i] + b*m[i + 1],\n        (m[i + 1] - m[i])/h,\n        0*v][min(order, 4)]\n"
+    "    end = np.where(v < x[0], y[0], y[-1]) if order == 0 else 0\n"
+    "    return np.where((v < x[0]) | (v > x[-1]), end, inside)\n";
+
+static const char numbers[] =
+    "\n\ndef prepare(p):\n"
+    "    \"\"\"what follows from parameters alone: after one has changed\"\"\"\n$PREPARE"
+    "    return p\n\n\ndef parameters():\n    p = np.zeros(P)\n$VALUES"
+    "    return prepare(p)\n\n\ndef start():\n    \"\"\"y and s\"\"\"\n"
+    "    y, s = np.zeros(Y), np.zeros(S)\n$START    return y, s\n";
+
 static const char runtime[] =
+    "$CODE\n\nmap_ = map\n"
     "\n\ndef shape_of(t, y):\n"
     "    return np.broadcast_shapes(np.shape(t), np.shape(y)[1:])\n"
     "\n\ndef linear(a):\n"
@@ -60,6 +88,9 @@ static const char runtime[] =
     "    raise ArithmeticError('no solution of the equations was found')\n";
 
 static const char after[] =
+    "\n\ndef solve(p, t, y, s):\n"
+    "    \"\"\"s at a state; the s that is given is where Newton's method begins\"\"\"\n"
+    "    s = np.zeros((S,) + shape_of(t, y)) + s\n$SOLVE    return s\n"
     "\n\ndef rates(p, t, y, s):\n    \"\"\"y', and s\"\"\"\n    s = solve(p, t, y, s)\n"
     "    return derivative(p, t, y, s), s\n"
     "\n\ndef nearest(p, t, y, b):\n"
@@ -81,10 +112,7 @@ static const char after[] =
     "            jacobian(p, t, y, None), y[Q:Q + U])\n"
     "        y[Q:Q + U] += nearest(p, t, y, lack)\n"
     "    if A > 0:\n        y[Q + U + X:] = angles(p, t, y, None)\n    return y\n"
-    "\n\ndef ";
-
-static const char step[] =
-    "(p, t, h, y, s):\n"
+    "\n\ndef $SMOOTH(p, t, h, y, s):\n"
     "    \"\"\"y and s one step of the classical Runge-Kutta method on, with projection\"\"\"\n"
     "    k1, s = rates(p, t, y, s)\n    k2, s = rates(p, t + h/2, y + h/2*k1, s)\n"
     "    k3, s = rates(p, t + h/2, y + h/2*k2, s)\n    k4, s = rates(p, t + h, y + h*k3, s)\n"
@@ -92,6 +120,7 @@ static const char step[] =
 
 /* in the mode of ideal parts that p has, which code in this language doesn't leave by itself */
 static const char step_in_mode[] =
+    "\n\nCLOSED = $CLOSED  # where p has the sides of\nIDEAL = [$IDEALNAMES]\n"
     "\n\ndef hold_sides(p, t, y, s):\n"
     "    \"\"\"fails where an ideal part is on the other side than p has it\"\"\"\n"
     "    look, edge = looks(p, t, y, s), edges(p, t, y, s)\n"
@@ -115,6 +144,7 @@ static const char step_in_mode[] =
 
 /* steps over sampling instants, whole multiples of the periods */
 static const char sampled_step[] =
+    "\n\nSAMPLED = np.array([$SAMPLED])  # in y\n"
     "\n\ndef sample(p, t, y, s):\n"
     "    \"\"\"y with the sampled states that are due at t\"\"\"\n"
     "    period = periods(p, t, y, s)\n    count = t/period\n"
@@ -128,6 +158,10 @@ static const char sampled_step[] =
     "        until = np.min(np.where(instants < end - 1e-9*period, instants, end))\n"
     "        y, s = sample(p, t, y, s)\n        y, s = step_between(p, t, until - t, y, s)\n"
     "        t = until\n    return y, s\n";
+
+static const char states[] =
+    "\n\nSIZES = $SIZES\nFUNCTIONS = [$CALLS]\n# t, y, s, and sums over what each function gives\n"
+    "STATES = [$CASES\n]\n";
 
 /* The same functions with SymPy in place of np: then they compute with symbols. */
 static const char symbols[] =
@@ -212,38 +246,9 @@ static void add_list(Text *out, const double *values, int count)
     text_char(out, ']');
 }
 
-static void add_solve(const Code *code, Text *out)
+static void write_calls(const Code *code, const Language *language, Text *out)
 {
-    const int first = code->layout->nx + code->layout->nz;
-
-    text_add(out,
-             "\n\ndef solve(p, t, y, s):\n"
-             "    \"\"\"s at a state; the s that is given is where Newton's method begins\"\"\"\n"
-             "    s = np.zeros((S,) + shape_of(t, y)) + s\n");
-    for (int g = 0; g < code->group_count; g++) {
-        const CodeGroup *group = &code->groups[g];
-        const char *name = code->functions.at[group->function].name;
-
-        if (group->iterates)
-            text_addf(out, "    s = newton(%s, p, t, y, s, %d, %d)\n", name, group->first,
-                      group->count);
-        else
-            text_addf(out, "    s[%d:%d] = linear(%s(p, t, y, s))\n", group->first,
-                      group->first + group->count, name);
-    }
-    if (code->is_explicit)
-        text_addf(out, "    s[%d:] = accelerations(p, t, y, s)\n", first);
-    text_add(out, "    return s\n");
-}
-
-static void add_states(const Code *code, Text *out)
-{
-    double sizes[CODE_PARTS];
-
-    code_sizes(code, sizes);
-    text_add(out, "\n\nSIZES = ");
-    add_list(out, sizes, CODE_PARTS);
-    text_add(out, "\nFUNCTIONS = [");
+    (void)language;
     for (int f = 0; f < code->functions.count; f++)
         text_addf(out, "%s%s%s",
                   f == 0       ? ""
@@ -251,7 +256,11 @@ static void add_states(const Code *code, Text *out)
                                : ", ",
                   code->functions.at[f].name,
                   strcmp(code->functions.at[f].name, "map") == 0 ? "_" : "");
-    text_add(out, "]\n# t, y, s, and sums over what each function gives\nSTATES = [");
+}
+
+static void write_states(const Code *code, const Language *language, Text *out)
+{
+    (void)language;
     for (int k = 0; k < code->states.count; k++) {
         const CodeState *state = &code->states.at[k];
 
@@ -271,14 +280,13 @@ static void add_states(const Code *code, Text *out)
         }
         text_add(out, "]),");
     }
-    text_add(out, "\n]\n");
 }
 
-static void add_names(const Code *code, Text *out)
+static void write_names(const Code *code, const Language *language, Text *out)
 {
     static const char letters[] = {[CODE_P] = 'p', [CODE_Y] = 'y', [CODE_S] = 's'};
 
-    text_add(out, "\n# array, place, name\nNAMES = [");
+    (void)language;
     for (int i = 0; i < code->inputs.count; i++) {
         const CodeInput *input = &code->inputs.at[i];
         const int of_layout = i - code->parameters.count;
@@ -289,14 +297,11 @@ static void add_names(const Code *code, Text *out)
             text_addf(out, "\n    ('%c', %d, \"%s\"),", letters[input->array], input->place,
                       expr_name(symbol));
     }
-    text_add(out, "\n]\n");
 }
 
-static void add_tables(const Code *code, Text *out)
+static void write_tables(const Code *code, const Language *language, Text *out)
 {
-    if (code->lowered.tables.count == 0)
-        return;
-    text_add(out, "\n\nTABLES = [");
+    (void)language;
     for (int i = 0; i < code->lowered.tables.count; i++) {
         const Curve *curve = code->lowered.tables.at[i];
 
@@ -304,79 +309,26 @@ static void add_tables(const Code *code, Text *out)
         add_list(out, curve->data, 3 * curve->count);
         text_addf(out, ", (3, %d))", curve->count);
     }
-    text_add(
-        out,
-        "\n]  # x, y and y'' at the points of splines\n"
-        "\n\ndef model_table(number, v, order):\n    x, y, m = TABLES[number - 1]\n"
-        "    v = np.asarray(v, float)\n"
-        "    i = np.clip(np.searchsorted(x, v, 'right') - 1, 0, len(x) - 2)\n"
-        "    h = x[i + 1] - x[i]\n    a, b = (x[i + 1] - v)/h, (v - x[i])/h\n"
-        "    inside = [\n"
-        "        a*y[i] + b*y[i + 1] + ((a*a*a - a)*m[i] + (b*b*b - b)*m[i + 1])*h*h/6,\n"
-        "        (y[i + 1] - y[i])/h + ((3*b*b - 1)*m[i + 1] - (3*a*a - 1)*m[i])*h/6,\n"
-        "        a*m[i] + b*m[i + 1],\n        (m[i + 1] - m[i])/h,\n        0*v][min(order, 4)]\n"
-        "    end = np.where(v < x[0], y[0], y[-1]) if order == 0 else 0\n"
-        "    return np.where((v < x[0]) | (v > x[-1]), end, inside)\n");
 }
 
-static void add_modes(const Code *code, Text *out)
-{
-    text_addf(out, "\n\nCLOSED = %d  # where p has the sides of\nIDEAL = [", code->modes.first);
-    for (int k = 0; k < code->modes.ideals.count; k++)
-        text_addf(out, "%s'%s'", k > 0 ? ",\n    " : "", code->modes.ideals.at[k].ideal.name);
-    text_add(out, "]\n");
-    code_fill_word(step_in_mode, "$STEP", code_is_sampled(code) ? "step_between" : "step", out);
-}
+static const CodeWord words[] = {{"NAMES", write_names},
+                                 {"TABLES", write_tables},
 
-static void write_file(const Code *code, const Language *language, Text *out)
-{
-    text_add(out, "# ");
-    text_char(out, '\n');
-    code_head(code, language, "# ", out);
-    code_fill(code,
-              "\nimport sys\n\nimport numpy as np\n\n"
-              "P, Q, U, X, A, Y, Z, M, S = $NP, $Q, $U, $X, $A, $Y, $Z, $M, $S\nREDUNDANT = ",
-              out);
-    text_addf(out, "%s\nMODES = %s  # of ideal parts\nQUATERNIONS = (",
-              code->is_redundant ? "True" : "False", code_has_modes(code) ? "True" : "False");
-    for (int i = 0, first; (first = system_quaternion(code->layout->system, i)) >= 0; i++)
-        text_addf(out, "%d, ", first);
-    text_add(out, ")\n");
-    add_names(code, out);
-    add_tables(code, out);
-    text_add(out, "\n\ndef prepare(p):\n"
-                  "    \"\"\"what follows from parameters alone: after one has changed\"\"\"\n");
-    mem_free(code_print_derived(code, language, out));
-    text_add(out, "    return p\n\n\ndef parameters():\n    p = np.zeros(P)\n");
-    code_set_array(language, "p", code->values, code->parameters.count, out);
-    text_add(out, "    return prepare(p)\n\n\ndef start():\n    \"\"\"y and s\"\"\"\n"
-                  "    y, s = np.zeros(Y), np.zeros(S)\n");
-    code_set_array(language, "y", code->values + code->parameters.count, code->ny, out);
-    if (code->states.count > 0)
-        code_set_array(language, "s", code->states.at[0].s, code->ns, out);
-    text_add(out, "    return y, s\n");
-    for (int f = 0; f < code->functions.count; f++)
-        code_print(code, f, language, out);
-    text_add(out, "\n\nmap_ = map\n");
-    text_add(out, runtime);
-    add_solve(code, out);
-    text_add(out, after);
-    text_add(out, code_step_name(code));
-    text_add(out, step);
-    if (code_has_modes(code))
-        add_modes(code, out);
-    if (code_is_sampled(code)) {
-        text_add(out, "\n\nSAMPLED = np.array([");
-        for (int i = 0; i < code->live.samples.count; i++)
-            text_addf(out, "%s%d", i > 0 ? ", " : "",
-                      code->layout->n + code->layout->nu + code->live.samples.at[i]);
-        text_add(out, "])  # in y\n");
-        text_add(out, sampled_step);
-    }
-    add_states(code, out);
-    text_add(out, symbols);
-    text_add(out, check);
-}
+                                 {"CALLS", write_calls},
+                                 {"CASES", write_states},
+                                 {NULL, NULL}};
+
+static const CodeText texts[] = {{head, CODE_ALWAYS},
+                                 {tables, CODE_WITH_TABLES},
+                                 {numbers, CODE_ALWAYS},
+                                 {runtime, CODE_ALWAYS},
+                                 {after, CODE_ALWAYS},
+                                 {step_in_mode, CODE_WITH_MODES},
+                                 {sampled_step, CODE_WITH_SAMPLES},
+                                 {states, CODE_ALWAYS},
+                                 {symbols, CODE_ALWAYS},
+                                 {check, CODE_ALWAYS},
+                                 {NULL, CODE_ALWAYS}};
 
 const Language language_python = {
     .notation = NOTATION_NUMPY,
@@ -389,5 +341,11 @@ const Language language_python = {
     .open = open_function,
     .close = "    return out\n",
     .check = "python3 FILE.py",
-    .file = write_file,
+    .between = ", ",
+    .truth = {"False", "True"},
+    .ideal = {"'%s'", ",\n    "},
+    .solve = {"    s = newton(%s, p, t, y, s, %d, %d)\n", "    s[%d:%d] = linear(%s(p, t, y, s))\n",
+              "    s[%d:%d] = accelerations(p, t, y, s)\n"},
+    .words = words,
+    .texts = texts,
 };
