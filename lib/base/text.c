@@ -43,17 +43,14 @@ void text_add(Text *text, const char *more)
 
 enum { USUAL = 60 }; /* characters of what is formatted; longer ones are twice */
 
-void text_addf(Text *text, const char *format, ...)
+void text_addv(Text *text, const char *format, va_list args)
 {
-    va_list args;
     va_list again;
     int length;
 
-    va_start(args, format);
     va_copy(again, args);
     reserve(text, USUAL);
     length = vsnprintf(text->at + text->length, USUAL + 1, format, args);
-    va_end(args);
     if (length > USUAL) {
         reserve(text, (size_t)length);
         (void)vsnprintf(text->at + text->length, (size_t)length + 1, format, again);
@@ -62,6 +59,15 @@ void text_addf(Text *text, const char *format, ...)
     if (length > 0)
         text->length += (size_t)length;
     text->at[text->length] = '\0';
+}
+
+void text_addf(Text *text, const char *format, ...)
+{
+    va_list args;
+
+    va_start(args, format);
+    text_addv(text, format, args);
+    va_end(args);
 }
 
 void text_char(Text *text, char c)

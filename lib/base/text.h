@@ -6,6 +6,7 @@
 
 #include "base/diag.h"
 
+#include <stdarg.h>
 #include <stddef.h>
 
 typedef struct Text {
@@ -17,6 +18,7 @@ typedef struct Text {
 void text_add(Text *text, const char *more);
 void text_add_n(Text *text, const char *more, size_t length);
 void text_addf(Text *text, const char *format, ...) PRINTF(2, 3);
+void text_addv(Text *text, const char *format, va_list args) PRINTF(2, 0);
 void text_char(Text *text, char c);
 void text_fill(Text *text, char c, int count);
 /* Room for so many more characters at the end. After writing, call text_extend() with their end. */

@@ -61,28 +61,13 @@ static const char *keep(Import *import, Text *text)
     return kept;
 }
 
-static void add_formatted(Text *text, const char *format, va_list args)
-{
-    va_list again;
-    char *line;
-    int length;
-
-    va_copy(again, args);
-    length = vsnprintf(NULL, 0, format, again);
-    va_end(again);
-    line = mem_new((size_t)length + 1);
-    (void)vsnprintf(line, (size_t)length + 1, format, args);
-    text_add(text, line);
-    mem_free(line);
-}
-
 const char *import_text(Import *import, const char *format, ...)
 {
     Text text = {0};
     va_list args;
 
     va_start(args, format);
-    add_formatted(&text, format, args);
+    text_addv(&text, format, args);
     va_end(args);
     return keep(import, &text);
 }
@@ -221,7 +206,7 @@ void import_comment(Import *import, int line, const char *format, ...)
     va_list args;
 
     va_start(args, format);
-    add_formatted(&text, format, args);
+    text_addv(&text, format, args);
     va_end(args);
     text_add(&import->script, "# ");
     add_plain(&import->script, text.at != NULL ? text.at : "");
@@ -244,7 +229,7 @@ void import_remark(Import *import, int line, const char *format, ...)
     va_list args;
 
     va_start(args, format);
-    add_formatted(&said, format, args);
+    text_addv(&said, format, args);
     va_end(args);
     remark(import, line, "", &said);
     text_free(&said);
@@ -256,7 +241,7 @@ void import_leave(Import *import, int line, bool is_part, const char *what, cons
     va_list args;
 
     va_start(args, format);
-    add_formatted(&why, format, args);
+    text_addv(&why, format, args);
     va_end(args);
     if (is_part && import->missing++ == 0) {
         import->missing_line = line;
@@ -278,7 +263,7 @@ bool import_add(Import *import, int line, const char *format, ...)
     va_list args;
 
     va_start(args, format);
-    add_formatted(&text, format, args);
+    text_addv(&text, format, args);
     va_end(args);
 
     /* the file's contents may be invalid here: that is reported here and not when it is applied */
@@ -319,7 +304,7 @@ Status import_refuse(const Import *import, int line, Diag *diag, const char *for
     va_list args;
 
     va_start(args, format);
-    add_formatted(&why, format, args);
+    text_addv(&why, format, args);
     va_end(args);
     if (line > 0)
         (void)diag_set(diag, E_VALUE, "line %d of %s: %.400s", line, import->file, why.at);

@@ -98,9 +98,9 @@ static void count_cell(Table *table, int64_t count)
     const int64_t exact = 1000000000;
 
     if (count < exact)
-        table_cellf(table, "%" PRId64, count);
+        table_cells(table, "%" PRId64, count);
     else
-        table_cellf(table, count < (int64_t)1 << 62 ? "%.1e" : ">%.1e", (double)count);
+        table_cells(table, count < (int64_t)1 << 62 ? "%.1e" : ">%.1e", (double)count);
 }
 
 static void count_cells(Table *table, OpCount count)
@@ -112,11 +112,8 @@ static void count_cells(Table *table, OpCount count)
 
 static void heading(Table *table)
 {
-    for (int twice = 0; twice < 2; twice++) {
-        table_cell(table, "add");
-        table_cell(table, "mul");
-        table_cell(table, "fun");
-    }
+    for (int twice = 0; twice < 2; twice++)
+        table_cells(table, "add\tmul\tfun");
 }
 
 static Status block_row(Table *table, const View *view, const char *name, Diag *diag)
@@ -297,19 +294,15 @@ static void print_costs(const View *view, const TreeCosts *costs, Text *out)
     char lead[16];
 
     table_cell(&table, "");
-    if (moves) {
-        table_cell(&table, "n");
-        table_cell(&table, "m");
-    }
+    if (moves)
+        table_cells(&table, "n\tm");
     heading(&table);
     for (int i = 0; i < costs->count; i++) {
         const TreeCost *cost = costs->at + i;
 
-        table_cellf(&table, "%d", i + 1);
-        if (moves) {
-            table_cellf(&table, "%d", cost->n);
-            table_cellf(&table, "%d", cost->m);
-        }
+        table_cells(&table, "%d", i + 1);
+        if (moves)
+            table_cells(&table, "%d\t%d", cost->n, cost->m);
         count_cells(&table, cost->written);
         count_cells(&table, cost->shared);
     }

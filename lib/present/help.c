@@ -24,52 +24,29 @@ bool component_key(const Component *row, int i, KeyText *out)
     return true;
 }
 
-/* "parameters|zxz|zyz": the first word is the default; all are listed after the meaning */
-static void add_choice(Table *table, const KeyText *key)
-{
-    const size_t first = strcspn(key->fallback, "|");
-    Text meaning = {0};
-
-    text_add_n(&meaning, key->fallback, first);
-    table_cell(table, meaning.at);
-    text_free(&meaning);
-    text_addf(&meaning, "%s: ", key->meaning);
-    for (const char *c = key->fallback; *c != '\0'; c++)
-        if (*c == '|')
-            text_add(&meaning, ", ");
-        else
-            text_char(&meaning, *c);
-    table_cell(table, meaning.at);
-    text_free(&meaning);
-}
-
 static void add_keys(Text *out, const Component *row)
 {
     Table table = table_for("llll");
     KeyText key;
 
     for (int i = 0; component_key(row, i, &key); i++) {
-        table_cell(&table, key.name);
-        table_cell(&table, strcmp(key.unit, "1") == 0 ? "" : key.unit);
-        if (strlen(key.fallback) > WIDE) {
-            add_choice(&table, &key);
-        } else {
-            table_cell(&table, key.fallback);
-            table_cell(&table, key.meaning);
-        }
+        /* "parameters|zxz|zyz": the first word is the default; all are listed after the meaning */
+        const bool is_choice = strlen(key.fallback) > WIDE;
+        const size_t first = is_choice ? strcspn(key.fallback, "|") : strlen(key.fallback);
+        Text words = {0};
+
+        for (const char *c = key.fallback; is_choice && *c != '\0'; c++)
+            text_add_n(&words, *c == '|' ? ", " : c, *c == '|' ? 2 : 1);
+        if (i == 0)
+            table_cells(&table, "key\tunit\tdefault\tmeaning");
+        table_cells(&table, "%s\t%s\t%.*s\t%s%s%s", key.name,
+                    strcmp(key.unit, "1") == 0 ? "" : key.unit, (int)first, key.fallback,
+                    key.meaning, is_choice ? ": " : "", is_choice ? words.at : "");
+        text_free(&words);
     }
     if (table.cells.count > 0) {
-        Table headed = table_for("llll");
-
-        table_cell(&headed, "key");
-        table_cell(&headed, "unit");
-        table_cell(&headed, "default");
-        table_cell(&headed, "meaning");
-        for (int i = 0; i < table.cells.count; i++)
-            table_cell(&headed, table.cells.at[i]);
         text_char(out, '\n');
-        table_wrap(out, &headed, 2, HELP_WIDTH);
-        table_free(&headed);
+        table_wrap(out, &table, 2, HELP_WIDTH);
     }
     table_free(&table);
 }
@@ -79,12 +56,10 @@ static void add_members(Text *out, const Component *row)
     Table table = table_for("lll");
     const Member *member;
 
-    for (int i = 0; (member = component_member(row, false, i)) != NULL; i++) {
-        table_cellf(&table, "NAME.%s", member->name);
-        table_cell(&table,
-                   member->unit == NULL || strcmp(member->unit, "1") == 0 ? "" : member->unit);
-        table_cell(&table, member->meaning);
-    }
+    for (int i = 0; (member = component_member(row, false, i)) != NULL; i++)
+        table_cells(&table, "NAME.%s\t%s\t%s", member->name,
+                    member->unit == NULL || strcmp(member->unit, "1") == 0 ? "" : member->unit,
+                    member->meaning);
     if (table.cells.count > 0) {
         text_add(out, "\nVariables:\n");
         table_wrap(out, &table, 2, HELP_WIDTH);
@@ -398,14 +373,12 @@ void help_apropos(Text *out, const char *word)
     for (int i = 0; verb_at(i, &verb); i++)
         if (verb.room != ROOM_LATER && (mentions(verb.name, word) || mentions(verb.brief, word) ||
                                         mentions(verb.help, word))) {
-            table_cell(&table, verb.name);
-            table_cell(&table, verb.brief);
+            table_cells(&table, "%s\t%s", verb.name, verb.brief);
         }
     for (int i = 0; topic_at(i) != NULL; i++)
         if (topic_at(i)->show != NULL &&
             (mentions(topic_at(i)->name, word) || mentions(topic_at(i)->brief, word))) {
-            table_cellf(&table, "show %s", topic_at(i)->name);
-            table_cell(&table, topic_at(i)->brief);
+            table_cells(&table, "show %s\t%s", topic_at(i)->name, topic_at(i)->brief);
         }
     for (int i = 0; help_topic_at(i) != NULL; i++) {
         Text body = {0};
@@ -413,8 +386,7 @@ void help_apropos(Text *out, const char *word)
         help_topic_at(i)->write(&body);
         if (mentions(help_topic_at(i)->name, word) || mentions(help_topic_at(i)->brief, word) ||
             mentions(body.at, word)) {
-            table_cellf(&table, "help %s", help_topic_at(i)->name);
-            table_cell(&table, help_topic_at(i)->brief);
+            table_cells(&table, "help %s\t%s", help_topic_at(i)->name, help_topic_at(i)->brief);
         }
         text_free(&body);
     }

@@ -29,9 +29,8 @@ static void write_units(Text *out)
             continue;
         dimension_print(&dimension, unit.dimension);
         text_number(&factor, unit.factor, 10);
-        table_cell(&table, name);
-        table_cellf(&table, "= %s", factor.at);
-        table_cell(&table, dimension.at != NULL ? dimension.at : "");
+        table_cells(&table, "%s\t= %s\t%s", name, factor.at,
+                    dimension.at != NULL ? dimension.at : "");
         text_free(&dimension);
         text_free(&factor);
     }
@@ -78,10 +77,8 @@ static void write_pairs(Text *out, const char *const (*rows)[2], int count)
 {
     Table table = table_for("ll");
 
-    for (int i = 0; i < count; i++) {
-        table_cell(&table, rows[i][0]);
-        table_cell(&table, rows[i][1]);
-    }
+    for (int i = 0; i < count; i++)
+        table_cells(&table, "%s\t%s", rows[i][0], rows[i][1]);
     table_wrap(out, &table, 2, TOPIC_WIDTH);
     table_free(&table);
 }
@@ -92,10 +89,8 @@ static void write_methods(Text *out)
     const char *name, *brief;
 
     layout_words(out, TOPIC_WIDTH, "", "simulate 10 method=WORD takes one of these:");
-    for (int i = 0; (name = run_method(i, &brief)) != NULL; i++) {
-        table_cell(&table, name);
-        table_cell(&table, brief);
-    }
+    for (int i = 0; (name = run_method(i, &brief)) != NULL; i++)
+        table_cells(&table, "%s\t%s", name, brief);
     table_wrap(out, &table, 2, TOPIC_WIDTH);
     table_free(&table);
 }
@@ -106,10 +101,8 @@ static void write_notations(Text *out)
 
     layout_words(out, TOPIC_WIDTH, "", "show mass as WORD takes one of these:");
     for (Notation i = NOTATION_TEXT; i < NOTATIONS; i++)
-        if (notation_row(i)->word != NULL) {
-            table_cell(&table, notation_row(i)->word);
-            table_cell(&table, notation_row(i)->brief);
-        }
+        if (notation_row(i)->word != NULL)
+            table_cells(&table, "%s\t%s", notation_row(i)->word, notation_row(i)->brief);
     table_wrap(out, &table, 2, TOPIC_WIDTH);
     table_free(&table);
 }
@@ -186,17 +179,14 @@ static void write_topics(Text *out)
 
     text_add(out, "Topics:\n");
     for (int i = 0; topic_at(i) != NULL; i++)
-        if (topic_at(i)->show != NULL) {
-            table_cell(&table, topic_at(i)->name);
-            table_cell(&table, topic_at(i)->brief);
-        }
+        if (topic_at(i)->show != NULL)
+            table_cells(&table, "%s\t%s", topic_at(i)->name, topic_at(i)->brief);
     table_print(out, &table, 2);
     table_free(&table);
 }
 
 static void write_keys(Text *out)
 {
-    Table table = table_for("ll");
     /* clang-format off */
     static const char *const rows[][2] = {
         {"Tab", "complete the word; twice: list what fits"},
@@ -207,12 +197,7 @@ static void write_keys(Text *out)
     };
     /* clang-format on */
 
-    for (int i = 0; i < COUNT(rows); i++) {
-        table_cell(&table, rows[i][0]);
-        table_cell(&table, rows[i][1]);
-    }
-    table_print(out, &table, 2);
-    table_free(&table);
+    write_pairs(out, rows, COUNT(rows));
 }
 
 static void write_language(Text *out)

@@ -53,7 +53,7 @@ static void add_standing(Table *table, const View *view, int edge, bool several)
             table_cell(table, graph_edge(graph, edge)->name);
         else
             table_cell(table, tree_kind_name((TreeKind)k));
-        table_cellf(table, "%s%s", tree_has(trees[k], edge) ? "branch (tree)" : "chord (cotree)",
+        table_cells(table, "%s%s", tree_has(trees[k], edge) ? "branch (tree)" : "chord (cotree)",
                     tree_has(trees[k], edge) && tree_was_completed(trees[k], edge) ? ", completed"
                                                                                    : "");
     }
@@ -69,31 +69,24 @@ static void add_ends(Table *table, const View *view, const Instance *instance)
 
         if (edge == NULL)
             continue;
-        table_cell(table, domain_name(edge->domain));
-        table_cellf(table, "%s -> %s", graph_node(graph, edge->tail)->name,
-                    graph_node(graph, edge->head)->name);
+        table_cells(table, "%s\t%s -> %s", domain_name(edge->domain),
+                    graph_node(graph, edge->tail)->name, graph_node(graph, edge->head)->name);
     }
-    if (instance->joint >= 0) {
-        table_cell(table, "acts on");
-        table_cell(table, model_instance(view->model, instance->joint)->name);
-    }
-    if (instance->parts[0] >= 0) {
-        table_cell(table, "couples");
-        table_cellf(table, "%s %s", model_instance(view->model, instance->parts[0])->name,
+    if (instance->joint >= 0)
+        table_cells(table, "acts on\t%s", model_instance(view->model, instance->joint)->name);
+    if (instance->parts[0] >= 0)
+        table_cells(table, "couples\t%s %s", model_instance(view->model, instance->parts[0])->name,
                     model_instance(view->model, instance->parts[1])->name);
-    }
     if (instance->given != NULL && instance->scalar_count > 0) {
         char *text = expr_text(instance->given->equation);
 
-        table_cell(table, "0 =");
-        table_cell(table, text);
+        table_cells(table, "0 =\t%s", text);
         mem_free(text);
     }
     if (instance->sensed != NULL) {
         char *text = expr_text(instance->sensed);
 
-        table_cell(table, "of");
-        table_cell(table, text);
+        table_cells(table, "of\t%s", text);
         mem_free(text);
     }
 }
@@ -145,9 +138,9 @@ static void add_values(Table *table, const View *view, const Instance *instance)
             add_value(&text, view, value, unit);
             table_cell(table, param->name);
             if (force == i)
-                table_cellf(table, "%s%s", text.at, value->given ? "" : "  (not said)");
+                table_cells(table, "%s%s", text.at, value->given ? "" : "  (not said)");
             else
-                table_cellf(table, "%s  (as %s)", text.at, instance->row->params[force].name);
+                table_cells(table, "%s  (as %s)", text.at, instance->row->params[force].name);
         }
         text_free(&text);
         mem_free(unit);
@@ -246,10 +239,9 @@ static void print_instance(Text *out, const View *view, const Instance *instance
         add_standing(&table, view, instance->scalar_edges[k], instance->scalar_count > 1);
     for (int c = 0; c < instance->coord_count; c++)
         layout_item(&coordinates, instance->coord[c]);
-    if (coordinates.length > 0) {
-        table_cell(&table, instance->coord_count == 1 ? "coordinate" : "coordinates");
-        table_cell(&table, coordinates.at);
-    }
+    if (coordinates.length > 0)
+        table_cells(&table, "%s\t%s", instance->coord_count == 1 ? "coordinate" : "coordinates",
+                    coordinates.at);
     text_free(&coordinates);
     add_values(&table, view, instance);
     table_print(out, &table, 2);

@@ -213,15 +213,19 @@ void table_cell(Table *table, const char *text)
     LIST_PUSH(table->cells, mem_text(text, strlen(text)));
 }
 
-void table_cellf(Table *table, const char *format, ...)
+void table_cells(Table *table, const char *format, ...)
 {
-    char cell[512];
+    Text cells = {0};
     va_list args;
 
     va_start(args, format);
-    vsnprintf(cell, sizeof cell, format, args);
+    text_addv(&cells, format, args);
     va_end(args);
-    table_cell(table, cell);
+    for (const char *cell = cells.at, *end; cell != NULL; cell = *end != '\0' ? end + 1 : NULL) {
+        end = cell + strcspn(cell, "\t");
+        LIST_PUSH(table->cells, mem_text(cell, (size_t)(end - cell)));
+    }
+    text_free(&cells);
 }
 
 static int column_width(const Table *table, int column)

@@ -42,7 +42,8 @@ typedef struct Table {
 
 Table table_for(const char *align);
 void table_cell(Table *table, const char *text);
-void table_cellf(Table *table, const char *format, ...) PRINTF(2, 3);
+/* one or more, with a tab between two */
+void table_cells(Table *table, const char *format, ...) PRINTF(2, 3);
 int table_width(const Table *table);
 int table_widest_cell(const Table *table);
 void table_print(Text *out, const Table *table, int indent);

@@ -92,11 +92,8 @@ static void coordinate_rows(Table *table, const View *view)
         const Variable *q = system_q(view->system, i);
         char *rate = expr_text(system_q_rate(view->system, i));
 
-        table_cellf(table, "%d", i + 1);
-        table_cell(table, q->name);
-        table_cell(table, coordinate_kind(view->system, i));
-        table_cell(table, edge_name(view, q));
-        table_cell(table, rate);
+        table_cells(table, "%d\t%s\t%s\t%s\t%s", i + 1, q->name, coordinate_kind(view->system, i),
+                    edge_name(view, q), rate);
         mem_free(rate);
     }
 }
@@ -108,11 +105,8 @@ static void unknown_rows(Table *table, const View *view)
         const Variable *v = is_state ? system_x(view->system, i)
                                      : system_z(view->system, i - system_nx(view->system));
 
-        table_cellf(table, "%d", i + 1);
-        table_cell(table, v->name);
-        table_cell(table, is_state ? "state" : "algebraic");
-        table_cell(table, edge_name(view, v));
-        table_cell(table, "");
+        table_cells(table, "%d\t%s\t%s\t%s\t", i + 1, v->name, is_state ? "state" : "algebraic",
+                    edge_name(view, v));
     }
 }
 
@@ -121,11 +115,7 @@ Status show_coordinates(const View *view, const Selection *selection, Text *out,
     Table table = table_for("rllll");
 
     (void)selection, (void)diag;
-    table_cell(&table, "");
-    table_cell(&table, "variable");
-    table_cell(&table, "kind");
-    table_cell(&table, "of");
-    table_cell(&table, "rate");
+    table_cells(&table, "\tvariable\tkind\tof\trate");
     coordinate_rows(&table, view);
     unknown_rows(&table, view);
     add_freedom(out, view);

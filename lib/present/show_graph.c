@@ -35,9 +35,7 @@ Status show_nodes(const View *view, const Selection *selection, Text *out, Diag 
     Table table = table_for("lll");
 
     (void)selection, (void)diag;
-    table_cell(&table, "node");
-    table_cell(&table, "domain");
-    table_cell(&table, "edges");
+    table_cells(&table, "node\tdomain\tedges");
     for (int n = 0; n < graph_node_count(graph); n++) {
         const Node *node = graph_node(graph, n);
         const int *edges;
@@ -48,9 +46,8 @@ Status show_nodes(const View *view, const Selection *selection, Text *out, Diag 
             continue;
         for (int i = 0; i < count; i++)
             text_addf(&names, "%s%s", i > 0 ? " " : "", graph_edge(graph, edges[i])->name);
-        table_cellf(&table, "%s%s", node->name, node->datum ? " (datum)" : "");
-        table_cell(&table, domain_name(node->domain));
-        table_cell(&table, names.at != NULL ? names.at : "");
+        table_cells(&table, "%s%s\t%s\t%s", node->name, node->datum ? " (datum)" : "",
+                    domain_name(node->domain), names.at != NULL ? names.at : "");
         text_free(&names);
     }
     table_print(out, &table, 0);
@@ -70,11 +67,7 @@ Status show_edges(const View *view, const Selection *selection, Text *out, Diag 
     /* edges can be looked at before they make a tree */
     if (model_trees(view->model, trees, &ignored) != OK)
         memset(trees, 0, sizeof trees);
-    table_cell(&table, "edge");
-    table_cell(&table, "type");
-    table_cell(&table, "tail -> head");
-    table_cell(&table, "translation");
-    table_cell(&table, "rotation");
+    table_cells(&table, "edge\ttype\ttail -> head\ttranslation\trotation");
     for (int e = 0; e < graph_edge_count(graph); e++) {
         const Edge *edge = graph_edge(graph, e);
         char type[64];
@@ -82,10 +75,8 @@ Status show_edges(const View *view, const Selection *selection, Text *out, Diag 
         if (!is_selected(selection, edge->name))
             continue;
         edge_type(type, sizeof type, view->model, e);
-        table_cell(&table, edge->name);
-        table_cell(&table, type);
-        table_cellf(&table, "%s -> %s", graph_node(graph, edge->tail)->name,
-                    graph_node(graph, edge->head)->name);
+        table_cells(&table, "%s\t%s\t%s -> %s", edge->name, type,
+                    graph_node(graph, edge->tail)->name, graph_node(graph, edge->head)->name);
         for (int half = 0; half < 2; half++) {
             const TreeKind kind =
                 edge->domain == DOMAIN_MECHANICAL
@@ -97,7 +88,7 @@ Status show_edges(const View *view, const Selection *selection, Text *out, Diag 
                 where = "";
             completed = completed || strchr(where, '*') != NULL;
             if (half == 0 && edge->domain != DOMAIN_MECHANICAL && where[0] != '\0')
-                table_cellf(&table, "%s (%s)", where, domain_name(edge->domain));
+                table_cells(&table, "%s (%s)", where, domain_name(edge->domain));
             else
                 table_cell(&table, where);
         }

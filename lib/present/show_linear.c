@@ -40,13 +40,13 @@ static void print_rounded(Text *out, const LinearMatrix *m, int columns)
     text_char(&align, 'l');
     text_fill(&align, 'r', m->columns);
     table = table_for(align.at);
-    table_cellf(&table, "%c", m->letter);
+    table_cells(&table, "%c", m->letter);
     for (int j = 0; j < m->columns; j++)
         table_cell(&table, m->column_names[j]);
     for (int i = 0; i < m->rows; i++) {
         table_cell(&table, m->row_names[i]);
         for (int j = 0; j < m->columns; j++)
-            table_cellf(&table, "%.6g", m->at[i * m->columns + j]);
+            table_cells(&table, "%.6g", m->at[i * m->columns + j]);
     }
     table_blocks(out, &table, 0, columns);
     table_free(&table);
@@ -108,8 +108,7 @@ static void add_names(Table *table, const char *title, char *const *names, int c
         return;
     for (int i = 0; i < count; i++)
         layout_item(&text, names[i]);
-    table_cell(table, title);
-    table_cell(table, text.at);
+    table_cells(table, "%s\t%s", title, text.at);
     text_free(&text);
 }
 
@@ -147,21 +146,17 @@ void linear_print(const View *view, const Linear *linear, Text *out)
     Table table = table_for("ll");
 
     if (kind != NOTATION_TYPESET && kind != NOTATION_SOURCE) {
-        table_cell(&table, "about");
-        table_cellf(&table, "t = %.6g s", linear->at);
+        table_cells(&table, "about\tt = %.6g s", linear->at);
         add_names(&table, "states", linear->state_names, linear->states);
         if (linear->states == 0) {
             Text why = {0};
 
             print_why_empty(view->model, &why);
-            table_cell(&table, "states");
-            table_cellf(&table, "none: %s", why.at);
+            table_cells(&table, "states\tnone: %s", why.at);
             text_free(&why);
         }
-        if (linear->is_shifted) {
-            table_cell(&table, "");
-            table_cell(&table, "less what jumps with the inputs");
-        }
+        if (linear->is_shifted)
+            table_cells(&table, "\tless what jumps with the inputs");
         add_names(&table, "inputs", linear->input_names, linear->inputs);
         add_names(&table, "outputs", linear->output_names, linear->outputs);
         table_wrap(out, &table, 0, view->page.columns);
@@ -256,7 +251,7 @@ static void add_figures(Table *table, const Mode *mode, int number)
     const double error = mode->error;
     Text text = {0};
 
-    table_cellf(table, "%d", number);
+    table_cells(table, "%d", number);
     linear_known(&text, mode->real, error);
     text_add(&text, mode->is_doubtful ? "?" : "");
     if (mode->imaginary > 0) {
@@ -320,8 +315,6 @@ static void print_shapes(const Table *figures, char *const *shapes, int columns,
 
 void modes_print(const View *view, const Modes *modes, Text *out)
 {
-    static const char *const titles[] = {"mode", "eigenvalue [1/s]", "omega [rad/s]", "f [Hz]",
-                                         "damping"};
     Table figures = table_for("rrrrr");
     char **shapes;
 
@@ -334,8 +327,7 @@ void modes_print(const View *view, const Modes *modes, Text *out)
         return;
     }
     shapes = NEW_ARRAY(char *, modes->count + 1);
-    for (int i = 0; i < COUNT(titles); i++)
-        table_cell(&figures, titles[i]);
+    table_cells(&figures, "mode\teigenvalue [1/s]\tomega [rad/s]\tf [Hz]\tdamping");
     shapes[0] = mem_text("what moves", strlen("what moves"));
     for (int i = 0; i < modes->count; i++) {
         add_figures(&figures, &modes->at[i], i + 1);

@@ -19,9 +19,8 @@ Status show_params(const View *view, const Selection *selection, Text *out, Diag
 
         view_quantity(view, expr_name(symbol), model_parameter_value(view->model, symbol), 10,
                       &value);
-        table_cell(&table, expr_name(symbol));
-        table_cellf(&table, "= %s", value.at);
-        table_cell(&table, expr_is_number(definition) ? "" : text);
+        table_cells(&table, "%s\t= %s\t%s", expr_name(symbol), value.at,
+                    expr_is_number(definition) ? "" : text);
         text_free(&value);
         mem_free(text);
     }
@@ -63,21 +62,18 @@ Status show_settings(const View *view, const Selection *selection, Text *out, Di
     Text text = {0};
 
     (void)selection, (void)diag;
-    table_cell(&table, "scene");
-    table_cell(&table, model_is_planar(view->model) ? "planar" : "spatial");
+    table_cells(&table, "scene\t%s", model_is_planar(view->model) ? "planar" : "spatial");
     for (int i = 0; i < (model_is_planar(view->model) ? 2 : 3); i++) {
         char *component = expr_text(gravity[i]);
 
         layout_item(&text, component);
         mem_free(component);
     }
-    table_cell(&table, "gravity");
-    table_cellf(&table, "[%s]", text.at);
+    table_cells(&table, "gravity\t[%s]", text.at);
     text_free(&text);
     for (int i = 0; i < count; i++)
         layout_item(&text, independent[i]);
-    table_cell(&table, "form");
-    table_cellf(&table, "%s%s%s", form == FORM_EMBEDDED ? "embedded" : "augmented",
+    table_cells(&table, "form\t%s%s%s", form == FORM_EMBEDDED ? "embedded" : "augmented",
                 form == FORM_EMBEDDED ? ", independent " : "",
                 form != FORM_EMBEDDED ? ""
                 : count > 0           ? text.at
@@ -109,24 +105,16 @@ static const char *kind_name(RunKind kind)
 
 static void add_work(Table *table, const RunReport *monitor_report)
 {
-    if (monitor_report->steps > 0) {
-        table_cell(table, "steps");
-        table_cellf(table, "%" PRId64 " (%" PRId64 " rejected)", monitor_report->steps,
+    if (monitor_report->steps > 0)
+        table_cells(table, "steps\t%" PRId64 " (%" PRId64 " rejected)", monitor_report->steps,
                     monitor_report->rejected);
-    }
-    if (monitor_report->evaluations > 0) {
-        table_cell(table, "evaluations");
-        table_cellf(table, "%" PRId64, monitor_report->evaluations);
-    }
-    if (monitor_report->factorisations > 0) {
-        table_cell(table, "factorisations");
-        table_cellf(table, "%" PRId64, monitor_report->factorisations);
-    }
-    if (monitor_report->regularised > 0) {
-        table_cell(table, "near singular");
-        table_cellf(table, "%" PRId64 " factorisations, first at t = %.6g s",
+    if (monitor_report->evaluations > 0)
+        table_cells(table, "evaluations\t%" PRId64, monitor_report->evaluations);
+    if (monitor_report->factorisations > 0)
+        table_cells(table, "factorisations\t%" PRId64, monitor_report->factorisations);
+    if (monitor_report->regularised > 0)
+        table_cells(table, "near singular\t%" PRId64 " factorisations, first at t = %.6g s",
                     monitor_report->regularised, monitor_report->singular_time);
-    }
 }
 
 /* whether a relative energy drift can be shown: drift and scale are both known */
@@ -149,34 +137,24 @@ static void add_quality(Table *table, const RunReport *monitor_report)
 {
     Text error = {0};
 
-    table_cell(table, "position residual");
-    table_cellf(table, "%.2g", monitor_report->position_residual);
-    table_cell(table, "velocity residual");
-    table_cellf(table, "%.2g", monitor_report->velocity_residual);
-    if (reports_energy(monitor_report)) {
-        table_cell(table, "energy drift");
-        table_cellf(table, "%.2g J of %.3g J", monitor_report->energy_drift,
+    table_cells(table, "position residual\t%.2g", monitor_report->position_residual);
+    table_cells(table, "velocity residual\t%.2g", monitor_report->velocity_residual);
+    if (reports_energy(monitor_report))
+        table_cells(table, "energy drift\t%.2g J of %.3g J", monitor_report->energy_drift,
                     monitor_report->energy_scale);
-    }
     write_error(&error, monitor_report);
-    if (error.length > 0) {
-        table_cell(table, "global error");
-        table_cell(table, error.at);
-    }
+    if (error.length > 0)
+        table_cells(table, "global error\t%s", error.at);
     text_free(&error);
 }
 
 /* the user's settings of steps */
 static void add_step(Table *table, const RunReport *monitor_report)
 {
-    if (monitor_report->step > 0) {
-        table_cell(table, "step");
-        table_cellf(table, "%.3g s", monitor_report->step);
-    }
-    if (monitor_report->most > 0) {
-        table_cell(table, "largest step");
-        table_cellf(table, "%.3g s", monitor_report->most);
-    }
+    if (monitor_report->step > 0)
+        table_cells(table, "step\t%.3g s", monitor_report->step);
+    if (monitor_report->most > 0)
+        table_cells(table, "largest step\t%.3g s", monitor_report->most);
 }
 
 /* how well it followed the clock in real time */
@@ -184,13 +162,14 @@ static void add_pace(Table *table, const Pace *pace)
 {
     if (!(pace->step > 0))
         return;
-    table_cell(table, "real time");
     if (pace->late == 0)
-        table_cellf(table, "kept; the worst step took %.2g %% of its %.3g s, at t = %.6g s",
+        table_cells(table,
+                    "real time\tkept; the worst step took %.2g %% of its %.3g s, at t = %.6g s",
                     100 * pace->worst, pace->step, pace->worst_at);
     else
-        table_cellf(table,
-                    "%" PRId64 " steps took longer than they are, %.2g times at t = %.6g s; "
+        table_cells(table,
+                    "real time\t%" PRId64
+                    " steps took longer than they are, %.2g times at t = %.6g s; "
                     "behind the clock by %.2g s at most",
                     pace->late, pace->worst, pace->worst_at, pace->behind);
 }
@@ -202,19 +181,17 @@ void report_print(Text *out, const Result *result, const char *name)
     const int rows = result_rows(result);
     Table table = table_for("ll");
 
-    table_cell(&table, name);
-    table_cellf(&table, "%s%s%s%s", kind_name(result_kind(result)),
+    table_cells(&table, "%s\t%s%s%s%s", name, kind_name(result_kind(result)),
                 monitor_report->method != NULL ? ", " : "",
                 monitor_report->method != NULL ? monitor_report->method : "",
                 monitor_report->stopped ? ", stopped" : "");
-    table_cell(&table, "time");
     if (rows > 1)
-        table_cellf(&table, "%.6g ... %.6g s, %d rows", times[0], times[rows - 1], rows);
+        table_cells(&table, "time\t%.6g ... %.6g s, %d rows", times[0], times[rows - 1], rows);
     else
-        table_cellf(&table, "%.6g s", rows > 0 ? times[0] : 0.0);
+        table_cells(&table, "time\t%.6g s", rows > 0 ? times[0] : 0.0);
     if (result_kind(result) == RUN_SIMULATE) {
-        table_cell(&table, "tolerances");
-        table_cellf(&table, "rtol %.3g, atol %.3g", monitor_report->rtol, monitor_report->atol);
+        table_cells(&table, "tolerances\trtol %.3g, atol %.3g", monitor_report->rtol,
+                    monitor_report->atol);
         add_step(&table, monitor_report);
         add_pace(&table, &monitor_report->pace);
     }
@@ -264,7 +241,6 @@ Status show_run(const View *view, const Selection *selection, Text *out, Diag *d
 
 Status show_runs(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
-    static const char *const heads[] = {"run", "what", "time", "rows", "method", "steps"};
     Table table = table_for("lllrlr");
 
     (void)selection, (void)diag;
@@ -272,23 +248,20 @@ Status show_runs(const View *view, const Selection *selection, Text *out, Diag *
         view_comment(out, view, "no run yet: 'simulate 10' makes one");
         return OK;
     }
-    for (int i = 0; i < COUNT(heads); i++)
-        table_cell(&table, heads[i]);
+    table_cells(&table, "run\twhat\ttime\trows\tmethod\tsteps");
     for (int i = 0; i < view->run_count; i++) {
         const Result *result = view->run(view->session, i);
         const RunReport *monitor_report = result_report(result);
         const double *times = result_times(result);
         const int rows = result_rows(result);
 
-        table_cellf(&table, "run%d", i + 1);
-        table_cell(&table, kind_name(result_kind(result)));
-        table_cellf(&table, "%.6g ... %.6g s%s", rows > 0 ? times[0] : 0,
-                    rows > 0 ? times[rows - 1] : 0, monitor_report->stopped ? ", stopped" : "");
-        table_cellf(&table, "%d", rows);
-        table_cell(&table, monitor_report->steps > 0 && monitor_report->method != NULL
-                               ? monitor_report->method
-                               : "");
-        table_cellf(&table, "%" PRId64, monitor_report->steps);
+        table_cells(
+            &table, "run%d\t%s\t%.6g ... %.6g s%s\t%d\t%s\t%" PRId64, i + 1,
+            kind_name(result_kind(result)), rows > 0 ? times[0] : 0, rows > 0 ? times[rows - 1] : 0,
+            monitor_report->stopped ? ", stopped" : "", rows,
+            monitor_report->steps > 0 && monitor_report->method != NULL ? monitor_report->method
+                                                                        : "",
+            monitor_report->steps);
     }
     table_print(out, &table, 0);
     table_free(&table);

@@ -53,10 +53,8 @@ static void name_symbols(Table *table, const View *view, const char *title, cons
         layout_item(&text, name);
         mem_free(name);
     }
-    if (count > 0) {
-        table_cell(table, title);
-        table_cell(table, text.at);
-    }
+    if (count > 0)
+        table_cells(table, "%s\t%s", title, text.at);
     text_free(&text);
 }
 

@@ -31,8 +31,7 @@ static void add_sizes(const View *view, Text *out)
     for (int i = 0; i < COUNT(sizes); i++) {
         if (!sizes[i].applies)
             continue;
-        table_cell(&table, sizes[i].what);
-        table_cellf(&table, "%d", sizes[i].count);
+        table_cells(&table, "%s\t%d", sizes[i].what, sizes[i].count);
     }
     table_print(out, &table, 0);
     table_free(&table);
@@ -137,9 +136,8 @@ static int lines_of(const Lines *lines, int instance)
 static void add_counts(Table *table, const Lines *speeds, const Lines *rows, const Lines *network,
                        int instance)
 {
-    table_cellf(table, "%d", lines_of(speeds, instance));
-    table_cellf(table, "%d", lines_of(rows, instance));
-    table_cellf(table, "%d", lines_of(network, instance));
+    table_cells(table, "%d\t%d\t%d", lines_of(speeds, instance), lines_of(rows, instance),
+                lines_of(network, instance));
 }
 
 /* the instance whose equations were reused for this one, by itself or with the enclosing one;
@@ -161,28 +159,24 @@ static bool taken_from(const System *system, int instance, Text *out)
 static void add_blocks(const System *system, const Lines *speeds, const Lines *rows,
                        const Lines *network, Text *out)
 {
-    static const char *const heads[] = {"block", "of", "speeds", "rows", "network", "equations"};
     Table table = table_for("llrrrl");
     const Instanced *one;
 
-    for (int i = 0; i < COUNT(heads); i++)
-        table_cell(&table, heads[i]);
+    table_cells(&table, "block\tof\tspeeds\trows\tnetwork\tequations");
     for (int i = 0; (one = system_instanced(system, i)) != NULL; i++) {
         Text first = {0};
 
-        table_cell(&table, one->name);
-        table_cell(&table, one->definition);
+        table_cells(&table, "%s\t%s", one->name, one->definition);
         add_counts(&table, speeds, rows, network, i);
         if (one->is_recalled)
             table_cell(&table, "recalled");
         else if (taken_from(system, i, &first))
-            table_cellf(&table, "those of %s", first.at);
+            table_cells(&table, "those of %s", first.at);
         else
             table_cell(&table, "derived");
         text_free(&first);
     }
-    table_cell(&table, "between");
-    table_cell(&table, "");
+    table_cells(&table, "between\t");
     add_counts(&table, speeds, rows, network, -1);
     table_cell(&table, "derived");
     table_print(out, &table, 0);

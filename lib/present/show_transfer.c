@@ -101,21 +101,17 @@ static void add_doubts(Table *table, const Transfer *t)
 {
     double largest = 0;
 
-    if (t->within > 0) {
-        table_cell(table, "?");
-        table_cellf(table, "0 within %.2g: rounding leaves open whether anything gets through",
+    if (t->within > 0)
+        table_cells(table, "?\t0 within %.2g: rounding leaves open whether anything gets through",
                     t->within);
-    }
     for (int i = 0; i < t->zeros + t->poles; i++) {
         const Root *root = i < t->zeros ? &t->zero[i] : &t->pole[i - t->zeros];
 
         if (wants_mark(t, root))
             largest = fmax(largest, root->error);
     }
-    if (largest > 0) {
-        table_cell(table, "?");
-        table_cellf(table, "0 within %.2g 1/s: rounding leaves open on which side", largest);
-    }
+    if (largest > 0)
+        table_cells(table, "?\t0 within %.2g 1/s: rounding leaves open on which side", largest);
 }
 
 /* "0, -1, -2 +- 3i" */
@@ -132,8 +128,7 @@ static void add_roots(Table *table, const char *title, const Transfer *t, const 
         text_add(&text, text.length > 0 ? ", " : "");
         add_root(&text, t, &roots[i]);
     }
-    table_cell(table, title);
-    table_cell(table, text.at);
+    table_cells(table, "%s\t%s", title, text.at);
     text_free(&text);
 }
 
@@ -152,10 +147,8 @@ static void add_left_out(Table *table, const Transfer *t)
         layout_count(&text, t->cancelled, "pole", "poles");
         text_add(&text, t->cancelled == 1 ? " equal to a zero" : " equal to zeros");
     }
-    if (text.length > 0) {
-        table_cell(table, "left out");
-        table_cell(table, text.at);
-    }
+    if (text.length > 0)
+        table_cells(table, "left out\t%s", text.at);
     text_free(&text);
 }
 
@@ -186,11 +179,11 @@ static void add_at_rest(Table *table, const Transfer *t)
     const double last = t->denominator[t->poles];
     const bool is_doubtful = is_open(t->zero, t->zeros) || is_open(t->pole, t->poles);
 
-    table_cell(table, "at rest");
     if (last != 0)
-        table_cellf(table, "%.*g%s", DIGITS, t->numerator[t->zeros] / last, is_doubtful ? "?" : "");
+        table_cells(table, "at rest\t%.*g%s", DIGITS, t->numerator[t->zeros] / last,
+                    is_doubtful ? "?" : "");
     else
-        table_cellf(table, "no bound%s", is_doubtful ? "?" : "");
+        table_cells(table, "at rest\tno bound%s", is_doubtful ? "?" : "");
 }
 
 static void print_text(Text *out, const View *view, const Transfer *t, int output, int input)
@@ -212,8 +205,7 @@ static void print_text(Text *out, const View *view, const Transfer *t, int outpu
     }
     layout_formula(out, &view->page, lead.at, body.at);
     if (t->gain != 0 && t->poles > 0) {
-        table_cell(&table, "gain");
-        table_cellf(&table, "%.*g", DIGITS, t->gain);
+        table_cells(&table, "gain\t%.*g", DIGITS, t->gain);
         if (has_coefficients(t))
             add_at_rest(&table, t);
         add_roots(&table, "zeros", t, t->zero, t->zeros);

@@ -420,7 +420,7 @@ static void print_configuration(Text *out, const View *view, const Run *start)
             view_quantity(view, unknown->name, values[i], 9, &value);
             table_cell(&table, unknown->name);
             if (i < system_n(system) && unknown->is_angle && in_radians)
-                table_cellf(&table, "%s (%.6g deg)", value.at, values[i] * 180 / M_PI);
+                table_cells(&table, "%s (%.6g deg)", value.at, values[i] * 180 / M_PI);
             else
                 table_cell(&table, value.at);
             text_free(&value);

@@ -256,25 +256,19 @@ static void run_search(TreesSought *search)
 
 static void add_row(Table *table, int number, const TreePair *c)
 {
-    table_cellf(table, "%d", number);
-    table_cellf(table, "%d", c->n);
-    table_cellf(table, "%d", c->m);
-    table_cellf(table, "%lld", (long long)c->count.add);
-    table_cellf(table, "%lld", (long long)c->count.mul);
-    table_cellf(table, "%lld", (long long)c->count.fun);
-    table_cellf(table, "%.0f", c->price);
+    table_cells(table, "%d\t%d\t%d\t%lld\t%lld\t%lld\t%.0f", number, c->n, c->m,
+                (long long)c->count.add, (long long)c->count.mul, (long long)c->count.fun,
+                c->price);
 }
 
 /* the cheapest ones and the starts, cheapest first */
 static void print_table(const TreesSought *search, Text *out)
 {
-    static const char *const heads[] = {"", "n", "m", "add", "mul", "fun", "price"};
     Table table = table_for("rrrrrrr");
     Text trees = {0};
     int compared = 0, number = 0;
 
-    for (int i = 0; i < COUNT(heads); i++)
-        table_cell(&table, heads[i]);
+    table_cells(&table, "\tn\tm\tadd\tmul\tfun\tprice");
     for (int i = 0; i < search->pairs.seen.count; i++) {
         const TreePair *c = search->pairs.seen.at[i];
         char lead[16];

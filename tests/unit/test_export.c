@@ -153,7 +153,7 @@ static void tables_align_and_leave_no_blanks_behind(void)
     Text out = {0};
 
     table_cell(&table, "a");
-    table_cellf(&table, "%d", 5);
+    table_cells(&table, "%d", 5);
     table_cell(&table, "long");
     table_cell(&table, "");
     EXPECT(table_width(&table) == 7);
