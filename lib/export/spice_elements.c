@@ -152,20 +152,12 @@ static bool read_positions(Spice *s, const Card *card, const char *type, const D
     return true;
 }
 
-static const SpiceKey passive_model_keys[] = {{"r", TAKEN, NULL},
-                                              {"res", TAKEN, NULL},
-                                              {"cap", TAKEN, NULL},
-                                              {"ind", TAKEN, NULL},
-                                              {"tc1", TAKEN, NULL},
-                                              {"tc2", TAKEN, NULL},
-                                              {"tnom", TAKEN, NULL},
-                                              {"t_measured", TAKEN, NULL},
-                                              {"kf", WITHOUT_EFFECT, NULL},
-                                              {"af", WITHOUT_EFFECT, NULL},
-                                              {"bv_max", WITHOUT_EFFECT, NULL},
-                                              {"rsh", REFUSED_UNLESS_ZERO, "sheet resistance"},
-                                              {"cj", REFUSED_UNLESS_ZERO, "capacitance an area"},
-                                              {NULL, REFUSED, NULL}};
+static const SpiceKey passive_model_keys[] = {
+    {"r res cap ind tc1 tc2 tnom t_measured", TAKEN, NULL},
+    {"kf af bv_max", WITHOUT_EFFECT, NULL},
+    {"rsh", REFUSED_UNLESS_ZERO, "sheet resistance"},
+    {"cj", REFUSED_UNLESS_ZERO, "capacitance an area"},
+    {NULL, REFUSED, NULL}};
 
 /* R, C, L: name, two nodes, a value and a model or KEY=value, ic= */
 static void two_terminals(Spice *s, const Card *card, const char *verb, const char *letter,
@@ -173,24 +165,13 @@ static void two_terminals(Spice *s, const Card *card, const char *verb, const ch
 {
     const SpiceKey keys[] = {{letter, TAKEN, NULL},
                              {long_name, TAKEN, NULL},
-                             {"ic", TAKEN, NULL},
-                             {"m", TAKEN, NULL},
-                             {"scale", TAKEN, NULL},
-                             {"tc", TAKEN, NULL},
-                             {"tc1", TAKEN, NULL},
-                             {"tc2", TAKEN, NULL},
-                             {"temp", TAKEN, NULL},
-                             {"dtemp", TAKEN, NULL},
-                             {"noisy", WITHOUT_EFFECT, NULL},
-                             {"noise", WITHOUT_EFFECT, NULL},
-                             {"ac", WITHOUT_EFFECT, NULL},
-                             {"bv_max", WITHOUT_EFFECT, NULL},
+                             {"ic m scale tc tc1 tc2 temp dtemp", TAKEN, NULL},
+                             {"noisy noise ac bv_max", WITHOUT_EFFECT, NULL},
                              {"rser", REFUSED_UNLESS_ZERO, "a resistor in series"},
                              {"rpar", REFUSED_UNLESS_ZERO, "a resistor in parallel"},
                              {"cpar", REFUSED_UNLESS_ZERO, "a capacitor in parallel"},
                              {"lser", REFUSED_UNLESS_ZERO, "an inductor in series"},
-                             {"w", REFUSED, "geometry"},
-                             {"nt", REFUSED, "geometry"},
+                             {"w nt", REFUSED, "geometry"},
                              {"tce", REFUSED_UNLESS_ZERO, "exponential in the temperature"},
                              {NULL, REFUSED, NULL}};
     const char *given = card_key(card, 3, letter), *initial = card_key(card, 3, "ic");
@@ -323,41 +304,19 @@ static void write_by_current(Spice *s, const Card *card)
                spice_node(s, card->words.at[2]), source, gain.alone);
 }
 
-static const SpiceKey diode_keys[] = {{"area", TAKEN, NULL},
-                                      {"m", TAKEN, NULL},
-                                      {"temp", TAKEN, NULL},
-                                      {"dtemp", TAKEN, NULL},
-                                      {NULL, REFUSED, NULL}};
+static const SpiceKey diode_keys[] = {{"area m temp dtemp", TAKEN, NULL}, {NULL, REFUSED, NULL}};
 static const SpiceKey diode_model_keys[] = {
-    {"is", TAKEN, NULL},
-    {"js", TAKEN, NULL},
-    {"n", TAKEN, NULL},
-    {"rs", TAKEN, NULL},
-    {"eg", TAKEN, NULL},
-    {"xti", TAKEN, NULL},
-    {"tnom", TAKEN, NULL},
-    {"level", TAKEN, NULL},
-    {"kf", WITHOUT_EFFECT, NULL}, /* noise */
-    {"af", WITHOUT_EFFECT, NULL},
-    {"vj", WITHOUT_EFFECT, NULL}, /* of a capacitance that is refused */
-    {"pb", WITHOUT_EFFECT, NULL},
-    {"m", WITHOUT_EFFECT, NULL},
-    {"mj", WITHOUT_EFFECT, NULL},
-    {"fc", WITHOUT_EFFECT, NULL},
-    {"ibv", WITHOUT_EFFECT, NULL}, /* of a breakdown that is refused */
-    {"nbv", WITHOUT_EFFECT, NULL},
+    {"is js n rs eg xti tnom level", TAKEN, NULL},
+    {"kf af", WITHOUT_EFFECT, NULL},         /* noise */
+    {"vj pb m mj fc", WITHOUT_EFFECT, NULL}, /* of a capacitance that is refused */
+    {"ibv nbv", WITHOUT_EFFECT, NULL},       /* of a breakdown that is refused */
     {"bv", REFUSED, "breakdown"},
-    {"cjo", REFUSED_UNLESS_ZERO, "junction capacitance"},
-    {"cj0", REFUSED_UNLESS_ZERO, "junction capacitance"},
-    {"cj", REFUSED_UNLESS_ZERO, "junction capacitance"},
+    {"cjo cj0 cj", REFUSED_UNLESS_ZERO, "junction capacitance"},
     {"tt", REFUSED_UNLESS_ZERO, "transit time"},
-    {"ikf", REFUSED_UNLESS_ZERO, "high injection"},
-    {"ik", REFUSED_UNLESS_ZERO, "high injection"},
-    {"ikr", REFUSED_UNLESS_ZERO, "high injection"},
+    {"ikf ik ikr", REFUSED_UNLESS_ZERO, "high injection"},
     {"isr", REFUSED_UNLESS_ZERO, "recombination current"},
     {"jsw", REFUSED_UNLESS_ZERO, "sidewall current"},
-    {"trs1", REFUSED_UNLESS_ZERO, "rs= over the temperature"},
-    {"trs2", REFUSED_UNLESS_ZERO, "rs= over the temperature"},
+    {"trs1 trs2", REFUSED_UNLESS_ZERO, "rs= over the temperature"},
     {NULL, REFUSED, NULL}};
 
 /* area, which needs no key, times m */
@@ -419,16 +378,8 @@ static void write_diode(Spice *s, const Card *card)
 static void write_switch(Spice *s, const Card *card)
 {
     static const SpiceKey none[] = {{NULL, REFUSED, NULL}};
-    static const SpiceKey by_voltage[] = {{"vt", TAKEN, NULL},
-                                          {"vh", TAKEN, NULL},
-                                          {"ron", TAKEN, NULL},
-                                          {"roff", TAKEN, NULL},
-                                          {NULL, REFUSED, NULL}};
-    static const SpiceKey by_current[] = {{"it", TAKEN, NULL},
-                                          {"ih", TAKEN, NULL},
-                                          {"ron", TAKEN, NULL},
-                                          {"roff", TAKEN, NULL},
-                                          {NULL, REFUSED, NULL}};
+    static const SpiceKey by_voltage[] = {{"vt vh ron roff", TAKEN, NULL}, {NULL, REFUSED, NULL}};
+    static const SpiceKey by_current[] = {{"it ih ron roff", TAKEN, NULL}, {NULL, REFUSED, NULL}};
     const bool current = tolower((unsigned char)card->words.at[0][0]) == 'w';
     const int at = current ? 4 : 5;
     const DeviceModel *model =

@@ -67,9 +67,9 @@ const DeviceModel *spice_find_model(Spice *s, const char *name, const char *type
 bool spice_model_value(Spice *s, const DeviceModel *model, const char *name, const char *other,
                        SpiceValue *out);
 
-/* what a key of an element or of a model does here; rows of an array end with name NULL */
+/* what keys of an element or of a model do here; rows of an array end with names NULL */
 typedef struct SpiceKey {
-    const char *name;
+    const char *names; /* blanks between */
     enum { TAKEN, WITHOUT_EFFECT, REFUSED_UNLESS_ZERO, REFUSED } effect;
     const char *meaning; /* of what is refused */
 } SpiceKey;

@@ -6,6 +6,7 @@
 #include <ctype.h>
 #include <math.h>
 #include <string.h>
+#include <strings.h>
 
 const char *spice_lower(Import *import, const char *word)
 {
@@ -51,6 +52,15 @@ bool spice_model_value(Spice *s, const DeviceModel *model, const char *name, con
 
 /* False: a key of the card changes values and isn't supported; the element is omitted. Keys without
  * effect are reported in a remark. */
+/* in small or capital letters */
+static bool is_listed(const char *names, const char *word)
+{
+    for (; *names != '\0'; names += strcspn(names, " "), names += strspn(names, " "))
+        if (strcspn(names, " ") == strlen(word) && strncasecmp(names, word, strlen(word)) == 0)
+            return true;
+    return false;
+}
+
 bool spice_check_keys(Spice *s, const Card *element, const Card *card, int first,
                       const SpiceKey *keys)
 {
@@ -66,19 +76,19 @@ bool spice_check_keys(Spice *s, const Card *element, const Card *card, int first
 
         if (!card_is_key(card, i))
             continue;
-        while (key->name != NULL && !spice_is(card->words.at[i], key->name))
+        while (key->names != NULL && !is_listed(key->names, card->words.at[i]))
             key++;
-        if (key->name != NULL && key->effect == WITHOUT_EFFECT)
+        if (key->names != NULL && key->effect == WITHOUT_EFFECT)
             text_addf(&others, "%s%s", others.length > 0 ? " " : "", card->words.at[i]);
         good =
-            key->name != NULL && (key->effect <= WITHOUT_EFFECT ||
-                                  (key->effect == REFUSED_UNLESS_ZERO &&
-                                   spice_number(card_word(card, i + 2), &number) && number == 0));
+            key->names != NULL && (key->effect <= WITHOUT_EFFECT ||
+                                   (key->effect == REFUSED_UNLESS_ZERO &&
+                                    spice_number(card_word(card, i + 2), &number) && number == 0));
         if (!good)
             import_leave(s->import, card->line, true, element->words.at[0],
                          "%s= of %s%s%s%s isn't modelled; delete it where it has no effect",
-                         card->words.at[i], owner, key->name != NULL ? " (" : "",
-                         key->name != NULL ? key->meaning : "", key->name != NULL ? ")" : "");
+                         card->words.at[i], owner, key->names != NULL ? " (" : "",
+                         key->names != NULL ? key->meaning : "", key->names != NULL ? ")" : "");
     }
     if (good && others.length > 0)
         import_leave(s->import, card->line, false,
