@@ -253,9 +253,7 @@ static Status write_entry(Narrative *story, Block block, const char *letter, int
                                              : "too long to be listed one by one");
     view_value(&story->equations,
                view_entry_name(view, block_name(block), letter, row, vector ? -1 : column), e);
-    view_open(story->out, view);
-    view_equations(story->out, view, &story->equations);
-    view_close(story->out, view);
+    view_block(story->out, view, &story->equations);
 done:
     equations_free(&story->equations);
     for (int i = 0; i < story->reasons.count; i++)

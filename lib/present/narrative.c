@@ -27,12 +27,9 @@ void narrative_add_mark(Text *out, const View *view)
 
 void narrative_add_formula(Text *out, const View *view, Expr e)
 {
-    char *text = view_expression(view, system_plain(view->system, e));
-
     narrative_add_mark(out, view);
-    text_add(out, text);
+    view_add(out, view, e);
     narrative_add_mark(out, view);
-    mem_free(text);
 }
 
 const char *narrative_edge(const View *view, int edge)
@@ -208,7 +205,5 @@ void narrative_title(Narrative *story, Text *title)
 void narrative_add_equations(Narrative *story)
 {
     narrative_add(story->out, story->view, "equation", "");
-    view_open(story->out, story->view);
-    view_equations(story->out, story->view, &story->equations);
-    view_close(story->out, story->view);
+    view_block(story->out, story->view, &story->equations);
 }

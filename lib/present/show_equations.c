@@ -149,13 +149,6 @@ static bool is_chosen(const Selection *selection, int row, int column)
            (selection->number_count < 2 || selection->numbers[1] == column + 1);
 }
 
-static void write_equations(Text *out, const View *view, EquationList *equations)
-{
-    view_open(out, view);
-    view_equations(out, view, equations);
-    view_close(out, view);
-}
-
 /* Entries of a block under their names; of a symmetric one those on and above the diagonal, unless
  * a row was requested. Zeros are left out where many entries are written. */
 static Status add_entries(Text *out, const View *view, Block block, const char *letter,
@@ -182,7 +175,7 @@ static Status add_entries(Text *out, const View *view, Block block, const char *
             view_value(&equations,
                        view_entry_name(view, block_name(block), letter, r, vector ? -1 : c), e);
         }
-    write_equations(out, view, &equations);
+    view_block(out, view, &equations);
 done:
     equations_free(&equations);
     return status;
@@ -355,7 +348,7 @@ Status show_constraints(const View *view, const Selection *selection, Text *out,
     if (selection->number_count == 0 && !says_nothing_moves(out, view, "constraints"))
         add_freedom(out, view);
     if (equations.count > 0)
-        write_equations(out, view, &equations);
+        view_block(out, view, &equations);
     if (selection->number_count == 0)
         add_dropped(out, view);
 done:
@@ -465,7 +458,7 @@ Status show_network(const View *view, const Selection *selection, Text *out, Dia
         return OK;
     }
     push_network(view, &equations, edge_lead_width(view));
-    write_equations(out, view, &equations);
+    view_block(out, view, &equations);
     return OK;
 }
 
@@ -482,7 +475,7 @@ Status show_equations(const View *view, const Selection *selection, Text *out, D
     push_network(view, &equations, width);
     add_freedom(out, view);
     if (equations.count > 0)
-        write_equations(out, view, &equations);
+        view_block(out, view, &equations);
     else if (!view_is_mechanical(view))
         view_comment(out, view, "no equations: the model has no unknowns");
 done:
@@ -538,6 +531,6 @@ Status show_expression(const View *view, const Syntax *syntax, int number, Text 
     TRY(system_resolve(view->system, user, &e, diag));
     view_value(&equations, left_side(view, syntax, user, e, number),
                expr_fold(model_arena(view->model), system_plain(view->system, e)));
-    write_equations(out, view, &equations);
+    view_block(out, view, &equations);
     return OK;
 }

@@ -53,31 +53,6 @@ static void print_rounded(Text *out, const LinearMatrix *m, int columns)
     text_free(&align);
 }
 
-static void print_matlab(Text *out, const LinearMatrix *m)
-{
-    text_addf(out, "%c = [", m->letter);
-    for (int i = 0; i < m->rows; i++)
-        for (int j = 0; j < m->columns; j++) {
-            text_add(out, j > 0 ? ", " : i > 0 ? "; " : "");
-            text_number(out, m->at[i * m->columns + j], 17);
-        }
-    text_add(out, "];\n");
-}
-
-static void print_c(Text *out, const LinearMatrix *m)
-{
-    text_addf(out, "static const double %c[%d][%d] = {", m->letter, m->rows, m->columns);
-    for (int i = 0; i < m->rows; i++) {
-        text_add(out, i > 0 ? ", {" : "{");
-        for (int j = 0; j < m->columns; j++) {
-            text_add(out, j > 0 ? ", " : "");
-            text_number(out, m->at[i * m->columns + j], 17);
-        }
-        text_char(out, '}');
-    }
-    text_add(out, "};\n");
-}
-
 void linear_latex(Text *out, double value, int digits)
 {
     Text number = {0};
@@ -87,17 +62,37 @@ void linear_latex(Text *out, double value, int digits)
     text_free(&number);
 }
 
-static void print_latex(Text *out, const LinearMatrix *m)
+void linear_entries(Text *out, const double *at, int count, int columns, const char *between,
+                    const char *rows)
 {
-    text_addf(out, "%c &= \\begin{bmatrix}", m->letter);
-    for (int i = 0; i < m->rows; i++) {
-        text_add(out, i > 0 ? " \\\\ " : " ");
-        for (int j = 0; j < m->columns; j++) {
-            text_add(out, j > 0 ? " & " : "");
-            linear_latex(out, m->at[i * m->columns + j], 6);
-        }
+    for (int i = 0; i < count; i++) {
+        text_add(out, i == 0 ? "" : i % columns == 0 ? rows : between);
+        if (between[0] == ',')
+            text_number(out, at[i], 17);
+        else
+            linear_latex(out, at[i], DIGITS);
     }
-    text_add(out, " \\end{bmatrix} \\\\\n");
+}
+
+static void print_matrix(Text *out, const View *view, const LinearMatrix *m)
+{
+    const int count = m->rows * m->columns;
+
+    if (view_kind(view) == NOTATION_TYPESET) {
+        text_addf(out, "%c &= \\begin{bmatrix} ", m->letter);
+        linear_entries(out, m->at, count, m->columns, " & ", " \\\\ ");
+        text_add(out, " \\end{bmatrix} \\\\\n");
+    } else if (view->page.notation == NOTATION_C) {
+        text_addf(out, "static const double %c[%d][%d] = {{", m->letter, m->rows, m->columns);
+        linear_entries(out, m->at, count, m->columns, ", ", "}, {");
+        text_add(out, "}};\n");
+    } else if (view_kind(view) == NOTATION_SOURCE) {
+        text_addf(out, "%c = [", m->letter);
+        linear_entries(out, m->at, count, m->columns, ", ", "; ");
+        text_add(out, "];\n");
+    } else {
+        print_rounded(out, m, view->page.columns);
+    }
 }
 
 static void add_names(Table *table, const char *title, char *const *names, int count)
@@ -165,16 +160,8 @@ void linear_print(const View *view, const Linear *linear, Text *out)
     for (int k = 0; letters[k] != '\0'; k++) {
         const LinearMatrix m = linear_matrix(linear, letters[k]);
 
-        if (m.rows == 0 || m.columns == 0)
-            continue;
-        if (kind == NOTATION_TYPESET)
-            print_latex(out, &m);
-        else if (view->page.notation == NOTATION_C)
-            print_c(out, &m);
-        else if (kind == NOTATION_SOURCE)
-            print_matlab(out, &m);
-        else
-            print_rounded(out, &m, view->page.columns);
+        if (m.rows > 0 && m.columns > 0)
+            print_matrix(out, view, &m);
     }
     view_close(out, view);
     table_free(&table);

@@ -11,54 +11,20 @@ static bool is_typeset(const View *view)
     return view_kind(view) == NOTATION_TYPESET;
 }
 
-static void bracket(Text *out, const View *view, const char *inside)
-{
-    text_addf(out, is_typeset(view) ? "\\left(%s\\right)" : "(%s)", inside);
-}
-
-static const char *times_of(const View *view)
-{
-    return is_typeset(view) ? " " : notation_row(view->page.notation)->times;
-}
-
-static void add_power(Text *out, const View *view, Expr s, int power)
-{
-    Arena *arena = model_arena(view->model);
-    char *text = view_expression(view, expr_pow(arena, s, expr_int(arena, power)));
-
-    text_add(out, text);
-    mem_free(text);
-}
-
 /* "R*C*s^2 + (R + 1)*s + 1" */
 static void add_polynomial(Text *out, const View *view, const Factor *factor, Expr s)
 {
-    const char *times = times_of(view);
-    bool any = false;
+    Arena *arena = model_arena(view->model);
+    LIST(ViewTerm) terms = {0};
 
     for (int k = 0; k <= factor->degree; k++) {
         const int power = factor->degree - k;
-        const Expr at = factor->at[k];
-        char *text = view_expression(view, at);
-        const bool is_negative = text[0] == '-' && expr_kind(at) != EXPR_SUM;
-        const char *size = text + is_negative;
 
-        if (!expr_is_zero(at)) {
-            text_add(out, any ? is_negative ? " - " : " + " : is_negative ? "-" : "");
-            any = true;
-            if (power > 0 && expr_kind(at) == EXPR_SUM)
-                bracket(out, view, size);
-            else if (power == 0 || strcmp(size, "1") != 0)
-                text_add(out, size);
-            if (power > 0 && strcmp(size, "1") != 0)
-                text_add(out, times);
-            if (power > 0)
-                add_power(out, view, s, power);
-        }
-        mem_free(text);
+        LIST_PUSH(terms, (ViewTerm){factor->at[k],
+                                    power > 0 ? expr_pow(arena, s, expr_int(arena, power)) : NULL});
     }
-    if (!any)
-        text_char(out, '0');
+    view_add_sum(out, view, terms.at, terms.count);
+    LIST_FREE(terms);
 }
 
 static int terms_of(const Factor *factor)
@@ -79,6 +45,7 @@ static bool is_sum(const Factor *factor)
 static void add_product(Text *out, const View *view, const Product *product, Expr s,
                         bool *is_single)
 {
+    const char *times = notation_row(view->page.notation)->times;
     const int count = product->factors.count;
     bool any = false;
 
@@ -95,15 +62,16 @@ static void add_product(Text *out, const View *view, const Product *product, Exp
             continue;
         }
         add_polynomial(&text, view, factor, s);
-        text_add(out, any ? times_of(view) : "");
+        text_add(out, any ? times : "");
         if (brackets)
-            bracket(out, view, text.at);
+            view_bracket(out, view, text.at);
         else
             text_add(out, text.at);
         if (factor->times > 1)
             text_addf(out, is_typeset(view) ? "^{%d}" : "^%d", factor->times);
-        *is_single = count == 1 && (brackets || (strpbrk(text.at, "+-/ ") == NULL &&
-                                                 strstr(text.at, times_of(view)) == NULL));
+        *is_single =
+            count == 1 &&
+            (brackets || (strpbrk(text.at, "+-/ ") == NULL && strstr(text.at, times) == NULL));
         any = true;
         text_free(&text);
     }

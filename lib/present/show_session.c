@@ -46,9 +46,7 @@ Status show_outputs(const View *view, const Selection *selection, Text *out, Dia
 
         view_value(&equations, mem_text(name, strlen(name)), e);
     }
-    view_open(out, view);
-    view_equations(out, view, &equations);
-    view_close(out, view);
+    view_block(out, view, &equations);
     return OK;
 }
 
@@ -275,11 +273,11 @@ Status show_init(const View *view, const Selection *selection, Text *out, Diag *
         view_comment(out, view, "nothing was given: what is free starts at 0");
     for (int i = 0; i < model_start_count(view->model); i++) {
         const Start *start = model_start(view->model, i);
-        char *value = view_expression(view, start->value);
 
-        text_addf(out, "%s %s%.*s = %s\n", start->is_guess ? "guess" : "init", start->name,
-                  start->primes, "'''''''''", value);
-        mem_free(value);
+        text_addf(out, "%s %s%.*s = ", start->is_guess ? "guess" : "init", start->name,
+                  start->primes, "'''''''''");
+        view_add(out, view, start->value);
+        text_char(out, '\n');
     }
     return OK;
 }
@@ -294,11 +292,9 @@ void event_print(Text *out, const Event *event)
     text_add(out, actions[event->action]);
     for (int i = 0; i < event->value_count; i++) {
         const NewValue *value = &event->values[i];
-        char *text = expr_text(value->value);
 
-        text_addf(out, "%s%s%.*s = %s", i > 0 ? ", " : "", value->name, value->primes, "'''''''''",
-                  text);
-        mem_free(text);
+        text_addf(out, "%s%s%.*s = ", i > 0 ? ", " : "", value->name, value->primes, "'''''''''");
+        expr_print(out, value->value, NOTATION_TEXT);
     }
 }
 

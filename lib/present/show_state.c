@@ -30,16 +30,20 @@ static int matrices_of(const StateSpace *space, Matrix out[MATRICES])
     return count;
 }
 
-/* "E1''"; new string */
-static char *symbol_text(const View *view, Expr symbol, int primes)
+/* "E1''" */
+static void add_symbol(Text *out, const View *view, Expr symbol, int primes)
 {
-    char *name = view_expression(view, symbol);
+    view_add(out, view, symbol);
+    text_fill(out, '\'', primes);
+}
+
+static void symbol_cell(Table *table, const View *view, Expr symbol, int primes)
+{
     Text text = {0};
 
-    text_add(&text, name);
-    text_fill(&text, '\'', primes);
-    mem_free(name);
-    return text_done(&text);
+    add_symbol(&text, view, symbol, primes);
+    table_cell(table, text.at);
+    text_free(&text);
 }
 
 static void name_symbols(Table *table, const View *view, const char *title, const Expr *symbols,
@@ -48,10 +52,8 @@ static void name_symbols(Table *table, const View *view, const char *title, cons
     Text text = {0};
 
     for (int i = 0; i < count; i++) {
-        char *name = symbol_text(view, symbols[i], 0);
-
-        layout_item(&text, name);
-        mem_free(name);
+        text_add(&text, i > 0 ? ", " : "");
+        view_add(&text, view, symbols[i]);
     }
     if (count > 0)
         table_cells(table, "%s\t%s", title, text.at);
@@ -66,23 +68,12 @@ static Table make_table(const View *view, const Matrix *m, Text *align)
     text_fill(align, 'r', m->columns);
     table = table_for(align->at);
     table_cell(&table, m->name);
-    for (int j = 0; j < m->columns; j++) {
-        char *name = symbol_text(view, m->column_symbols[j], m->order);
-
-        table_cell(&table, name);
-        mem_free(name);
-    }
+    for (int j = 0; j < m->columns; j++)
+        symbol_cell(&table, view, m->column_symbols[j], m->order);
     for (int i = 0; i < m->rows; i++) {
-        char *name = symbol_text(view, m->row_symbols[i], 0);
-
-        table_cell(&table, name);
-        mem_free(name);
-        for (int j = 0; j < m->columns; j++) {
-            char *entry = view_expression(view, m->at[i * m->columns + j]);
-
-            table_cell(&table, entry);
-            mem_free(entry);
-        }
+        symbol_cell(&table, view, m->row_symbols[i], 0);
+        for (int j = 0; j < m->columns; j++)
+            symbol_cell(&table, view, m->at[i * m->columns + j], 0);
     }
     return table;
 }
@@ -150,10 +141,8 @@ static void add_column(Text *out, const View *view, const Expr *symbols, int cou
 {
     text_add(out, "\\begin{bmatrix} ");
     for (int i = 0; i < count; i++) {
-        char *name = symbol_text(view, symbols[i], primes);
-
-        text_addf(out, "%s%s", i > 0 ? " \\\\ " : "", name);
-        mem_free(name);
+        text_add(out, i > 0 ? " \\\\ " : "");
+        add_symbol(out, view, symbols[i], primes);
     }
     text_add(out, " \\end{bmatrix}");
 }
@@ -171,11 +160,8 @@ static void print_latex(Text *out, const View *view, const StateSpace *space)
 
         text_add(out, k == 0 ? " &= \\begin{bmatrix} " : " \\\\\n  &\\quad + \\begin{bmatrix} ");
         for (int i = 0; i < m->rows * m->columns; i++) {
-            char *entry = view_expression(view, m->at[i]);
-
             text_add(out, i == 0 ? "" : i % m->columns == 0 ? " \\\\ " : " & ");
-            text_add(out, entry);
-            mem_free(entry);
+            view_add(out, view, m->at[i]);
         }
         text_add(out, " \\end{bmatrix} ");
         add_column(out, view, m->column_symbols, m->columns, m->order);

@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-enum { DIGITS = 6, ALL_DIGITS = 17 };
+enum { DIGITS = 6 };
 
 #define SLIGHT 1e-9 /* errors of zeros, relative */
 
@@ -233,14 +233,6 @@ static void print_latex(Text *out, const Transfer *t, int output, int input)
     text_add(out, " \\\\\n");
 }
 
-static void add_numbers(Text *out, const double *at, int count)
-{
-    for (int i = 0; i < count; i++) {
-        text_add(out, i > 0 ? ", " : "");
-        text_number(out, at[i], ALL_DIGITS);
-    }
-}
-
 /* coefficients by falling powers, under the names of their row and column */
 static void print_code(Text *out, const Transfer *t, int output, int input, bool is_c)
 {
@@ -254,7 +246,7 @@ static void print_code(Text *out, const Transfer *t, int output, int input, bool
                       counts[k]);
         else
             text_addf(out, "%s{%d,%d} = [", names[k], output + 1, input + 1);
-        add_numbers(out, at[k], counts[k]);
+        linear_entries(out, at[k], counts[k], counts[k], ", ", "");
         text_add(out, is_c ? "};\n" : "];\n");
     }
 }

@@ -33,12 +33,16 @@ const char *view_edge_type(const View *view, int edge)
     return owner != NULL ? owner->row->name : "edge";
 }
 
+void view_add(Text *out, const View *view, Expr e)
+{
+    expr_print(out, view->system != NULL ? system_plain(view->system, e) : e, view->page.notation);
+}
+
 char *view_expression(const View *view, Expr e)
 {
     Text text = {0};
 
-    expr_print(&text, view->system != NULL ? system_plain(view->system, e) : e,
-               view->page.notation);
+    view_add(&text, view, e);
     return text_done(&text);
 }
 
@@ -211,33 +215,37 @@ static const char *free_prefix(const Model *model)
     return prefixes[COUNT(prefixes) - 1];
 }
 
+void view_bracket(Text *out, const View *view, const char *inside)
+{
+    text_addf(out, view_kind(view) == NOTATION_TYPESET ? "\\left(%s\\right)" : "(%s)", inside);
+}
+
 /* "(a + b)*x", or the coefficient or symbol alone */
 static char *write_term(const View *view, const ViewTerm *term)
 {
-    const char *times = notation_row(view->page.notation)->times;
     const Expr c = term->coefficient;
     Text text = {0};
-    char *coefficient, *symbol;
+    char *coefficient = view_expression(view, c);
 
-    if (term->symbol == NULL)
-        return view_expression(view, c);
-    symbol = view_expression(view, term->symbol);
-    coefficient = view_expression(view, c);
-    if (expr_is(c, 1) || expr_is(c, -1))
-        text_addf(&text, "%s%s", expr_is(c, -1) ? "-" : "", symbol);
-    else if (expr_kind(c) == EXPR_SUM)
-        text_addf(&text, view_kind(view) == NOTATION_TYPESET ? "\\left(%s\\right)%s%s" : "(%s)%s%s",
-                  coefficient, times, symbol);
+    if (term->symbol != NULL && expr_kind(c) == EXPR_SUM)
+        view_bracket(&text, view, coefficient);
+    else if (term->symbol == NULL || !(expr_is(c, 1) || expr_is(c, -1)))
+        text_add(&text, coefficient);
     else
-        text_addf(&text, "%s%s%s", coefficient, times, symbol);
-    MEM_FREE(coefficient, symbol);
+        text_add(&text, expr_is(c, -1) ? "-" : "");
+    if (term->symbol != NULL) {
+        if (!(expr_is(c, 1) || expr_is(c, -1)))
+            text_add(&text, notation_row(view->page.notation)->times);
+        view_add(&text, view, term->symbol);
+    }
+    mem_free(coefficient);
     return text_done(&text);
 }
 
-/* consecutive terms; a term's own sign becomes the sum's */
-static char *write_sum(const View *view, const ViewTerm *terms, int count)
+/* a term's own sign becomes the sum's */
+void view_add_sum(Text *out, const View *view, const ViewTerm *terms, int count)
 {
-    Text text = {0};
+    bool any = false;
 
     for (int i = 0; i < count; i++) {
         char *term;
@@ -245,27 +253,30 @@ static char *write_sum(const View *view, const ViewTerm *terms, int count)
         if (expr_is_zero(terms[i].coefficient))
             continue;
         term = write_term(view, &terms[i]);
-        if (text.length == 0)
-            text_add(&text, term);
+        if (!any)
+            text_add(out, term);
         else if (term[0] == '-')
-            text_addf(&text, " - %s", term + 1 + (term[1] == ' '));
+            text_addf(out, " - %s", term + 1 + (term[1] == ' '));
         else
-            text_addf(&text, " + %s", term);
+            text_addf(out, " + %s", term);
+        any = true;
         mem_free(term);
     }
-    if (text.length == 0)
-        text_add(&text, "0");
-    return text_done(&text);
+    text_add(out, any ? "" : "0");
 }
 
 static void print_equation(Text *out, const View *view, const ShownEquation *equation)
 {
-    char *left = equation->name != NULL ? mem_text(equation->name, strlen(equation->name))
-                                        : write_sum(view, equation->left.at, equation->left.count);
-    char *right = write_sum(view, equation->right.at, equation->right.count);
+    Text left = {0}, right = {0};
 
-    add_line(out, view, equation->lead != NULL ? equation->lead : "", left, " = ", right);
-    MEM_FREE(left, right);
+    if (equation->name != NULL)
+        text_add(&left, equation->name);
+    else
+        view_add_sum(&left, view, equation->left.at, equation->left.count);
+    view_add_sum(&right, view, equation->right.at, equation->right.count);
+    add_line(out, view, equation->lead != NULL ? equation->lead : "", left.at, " = ", right.at);
+    text_free(&left);
+    text_free(&right);
 }
 
 /* left - right = 0 under a name */
@@ -292,15 +303,14 @@ static void print_definitions(Text *out, const View *view, const Abbreviation *n
 {
     for (int i = 0; i < names->definitions.count; i++) {
         const Abbreviated *definition = names->definitions.at + i;
-        char *left = view_expression(view, definition->symbol);
         char *right = view_expression(view, definition->value);
-        Text typed = {0};
+        Text left = {0};
 
-        text_add(&typed, notation_row(view->page.notation)->fresh);
-        text_add(&typed, left);
-        add_line(out, view, i == 0 ? "where " : "      ", typed.at, " = ", right);
-        text_free(&typed);
-        MEM_FREE(left, right);
+        text_add(&left, notation_row(view->page.notation)->fresh);
+        view_add(&left, view, definition->symbol);
+        add_line(out, view, i == 0 ? "where " : "      ", left.at, " = ", right);
+        text_free(&left);
+        mem_free(right);
     }
 }
 
@@ -450,6 +460,13 @@ void view_equations(Text *out, const View *view, EquationList *equations)
     named_laws_free(&laws);
     mem_free(terms);
     equations_free(equations);
+}
+
+void view_block(Text *out, const View *view, EquationList *equations)
+{
+    view_open(out, view);
+    view_equations(out, view, equations);
+    view_close(out, view);
 }
 
 double view_unit(const View *view, const char *si, Text *out)

@@ -49,7 +49,9 @@ void view_freedoms(Text *out, const System *system, int freedoms);
 /* what the user called it: "mass(1,2)", "(h8 - s11)"; new string */
 char *view_name(const Syntax *syntax);
 
-/* an expression in the view's notation; new string */
+/* Append an expression in the view's notation. */
+void view_add(Text *out, const View *view, Expr e);
+/* the same as a new string */
 char *view_expression(const View *view, Expr e);
 
 /* An equation between sums, or a name and its value: terms are written in their order, each a
@@ -58,6 +60,11 @@ typedef struct ViewTerm {
     Expr coefficient;
     Expr symbol;
 } ViewTerm;
+
+/* Append "a*s^2 + (b + c)*s - 1"; "0" where nothing is left. */
+void view_add_sum(Text *out, const View *view, const ViewTerm *terms, int count);
+/* Append "(inside)". */
+void view_bracket(Text *out, const View *view, const char *inside);
 
 typedef struct ShownEquation {
     char *lead; /* text before it: "h9 x: "; owned; NULL: none */
@@ -72,6 +79,8 @@ typedef LIST(ShownEquation) EquationList;
  * no equations: they get `residual = left - right`. */
 enum { VIEW_BUDGET = 2000 };
 void view_equations(Text *out, const View *view, EquationList *equations);
+/* the same between view_open() and view_close() */
+void view_block(Text *out, const View *view, EquationList *equations);
 void equations_free(EquationList *equations); /* an empty list is fine */
 /* the commonest one: name = e */
 void view_value(EquationList *equations, char *name, Expr e);
