@@ -83,6 +83,29 @@ void text_fill(Text *text, char c, int count)
         text_char(text, c);
 }
 
+void text_replace(Text *text, const char *more, const char *from, const char *const *to)
+{
+    for (; *more != '\0'; more++) {
+        const char *at = strchr(from, *more);
+
+        if (at != NULL)
+            text_add(text, to[at - from]);
+        else
+            text_char(text, *more);
+    }
+}
+
+void text_xml(Text *text, const char *more)
+{
+    static const char *const to[] = {"&lt;", "&gt;", "&amp;", "&quot;"};
+    const size_t from = text->length;
+
+    text_replace(text, more, "<>&\"", to);
+    for (size_t i = from; i < text->length; i++)
+        if ((unsigned char)text->at[i] < ' ')
+            text->at[i] = ' ';
+}
+
 char *text_room(Text *text, size_t most)
 {
     reserve(text, most);

@@ -21,6 +21,9 @@ void text_addf(Text *text, const char *format, ...) PRINTF(2, 3);
 void text_addv(Text *text, const char *format, va_list args) PRINTF(2, 0);
 void text_char(Text *text, char c);
 void text_fill(Text *text, char c, int count);
+/* `more` with to[i] instead of the i-th character of `from` */
+void text_replace(Text *text, const char *more, const char *from, const char *const *to);
+void text_xml(Text *text, const char *more); /* as content or attribute; no control characters */
 /* Room for so many more characters at the end. After writing, call text_extend() with their end. */
 char *text_room(Text *text, size_t most);
 void text_extend(Text *text, char *end);

@@ -32,27 +32,6 @@ typedef struct Description {
     int states;        /* inputs among them */
 } Description;
 
-static void write_escaped(Text *out, const char *text)
-{
-    for (const char *c = text; *c != '\0'; c++)
-        switch (*c) {
-        case '<':
-            text_add(out, "&lt;");
-            break;
-        case '>':
-            text_add(out, "&gt;");
-            break;
-        case '&':
-            text_add(out, "&amp;");
-            break;
-        case '"':
-            text_add(out, "&quot;");
-            break;
-        default:
-            text_char(out, (unsigned char)*c < ' ' ? ' ' : *c);
-        }
-}
-
 /* those that change with states: what is jumped at, margins of diodes */
 static int indicator_count(const Code *code)
 {
@@ -206,7 +185,7 @@ static void write_value(Description *d, const Described *v)
 
     if (v->unit != NULL) {
         text_add(d->out, " unit=\"");
-        write_escaped(d->out, v->unit);
+        text_xml(d->out, v->unit);
         text_char(d->out, '"');
     }
     if (v->group == GROUP_P && !code->live.depends[v->i])
@@ -235,7 +214,7 @@ static void write_units(Description *d)
             continue;
         (void)names_add(known, v->unit);
         text_add(d->out, "    <Unit name=\"");
-        write_escaped(d->out, v->unit);
+        text_xml(d->out, v->unit);
         text_add(d->out, "\"><BaseUnit");
         for (int k = 0; k < COUNT(bases); k++)
             if (v->dimension.power[k] != 0)
@@ -253,7 +232,7 @@ static void write_variables(Description *d)
         const Described *v = &d->variables.at[i];
 
         text_addf(d->out, "    <%s name=\"", d->what->version == 2 ? "ScalarVariable" : "Float64");
-        write_escaped(d->out, v->name);
+        text_xml(d->out, v->name);
         text_addf(d->out, "\" valueReference=\"%d\"", v->reference);
         write_kind(d, v);
         if (d->what->version == 2) {
@@ -411,7 +390,7 @@ static void write_head(const Description *d, const char *token)
               "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
               "<fmiModelDescription fmiVersion=\"%s\" modelName=\"",
               is_2 ? "2.0" : "3.0");
-    write_escaped(d->out, title != NULL && title[0] != '\0' ? title : "model");
+    text_xml(d->out, title != NULL && title[0] != '\0' ? title : "model");
     text_addf(d->out, "\" %s=\"%s\" generationTool=\"cotree\" variableNamingConvention=\"flat\"",
               is_2 ? "guid" : "instantiationToken", token);
     if (is_2)

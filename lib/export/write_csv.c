@@ -8,17 +8,12 @@
 
 static void add_name(Text *out, const char *name)
 {
-    if (strpbrk(name, ",\"\n") == NULL) {
-        text_add(out, name);
-        return;
-    }
-    text_char(out, '"');
-    for (; *name != '\0'; name++) {
-        if (*name == '"')
-            text_char(out, '"');
-        text_char(out, *name);
-    }
-    text_char(out, '"');
+    static const char *const to[] = {"\"\""};
+    const char *quote = strpbrk(name, ",\"\n") != NULL ? "\"" : "";
+
+    text_add(out, quote);
+    text_replace(out, name, "\"", to);
+    text_add(out, quote);
 }
 
 static void add_row(Text *out, const double *values, int columns)

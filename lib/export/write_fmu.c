@@ -67,14 +67,12 @@ static void add_targets(const CodeLive *live, Text *out)
 /* the requested items as text, which may contain strings */
 static void add_output_names(const Code *code, Text *out)
 {
+    static const char *const to[] = {"\\\"", "\\\\"};
+
     text_add(out, "static const char *const fmu_output_name[] = {");
     for (int i = 0; i < code->outputs.count; i++) {
         text_char(out, '"');
-        for (const char *c = code->outputs.at[i]; *c != '\0'; c++) {
-            if (*c == '"' || *c == '\\')
-                text_char(out, '\\');
-            text_char(out, *c);
-        }
+        text_replace(out, code->outputs.at[i], "\"\\", to);
         text_add(out, "\", ");
     }
     text_add(out, "0};\n");

@@ -258,16 +258,8 @@ void latex_wrap(Text *out, const char *formula, double room)
 
 void latex_text(Text *out, const char *text)
 {
-    for (; *text != '\0'; text++) {
-        if (*text == '\\')
-            text_add(out, "\\textbackslash{}");
-        else if (*text == '~' || *text == '^')
-            text_addf(out, "\\%c{}", *text);
-        else {
-            if (*text == '#' || *text == '$' || *text == '%' || *text == '&' || *text == '_' ||
-                *text == '{' || *text == '}')
-                text_char(out, '\\');
-            text_char(out, *text);
-        }
-    }
+    static const char *const to[] = {
+        "\\textbackslash{}", "\\~{}", "\\^{}", "\\#", "\\$", "\\%", "\\&", "\\_", "\\{", "\\}"};
+
+    text_replace(out, text, "\\~^#$%&_{}", to);
 }

@@ -5,17 +5,6 @@
 
 static const char FONT[] = "font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\"";
 
-static void write_escaped(Text *out, const char *text)
-{
-    for (; *text != '\0'; text++)
-        if (*text == '<' || *text == '>')
-            text_add(out, *text == '<' ? "&lt;" : "&gt;");
-        else if (*text == '&' || *text == '"')
-            text_add(out, *text == '&' ? "&amp;" : "&quot;");
-        else if ((unsigned char)*text >= ' ')
-            text_char(out, *text);
-}
-
 /* a tenth of a px is finer than any screen */
 static void write_coordinate(Text *out, double value)
 {
@@ -71,7 +60,7 @@ static void write_shape(Text *out, const Picture *picture, const Shape *shape)
                   "<text x=\"%.1f\" y=\"%.1f\" font-size=\"%.3g\" text-anchor=\"%s\" fill=\"%s\" "
                   "paint-order=\"stroke\" stroke=\"#ffffff\" stroke-width=\"3\">",
                   at.x, at.y, shape->size, anchors[shape->anchor], shape->ink.stroke);
-        write_escaped(out, shape->text);
+        text_xml(out, shape->text);
         text_add(out, "</text>\n");
         break;
     }
@@ -91,7 +80,7 @@ static void write_shapes(Text *out, const Picture *picture)
             open = shape->what;
             if (*open != '\0') {
                 text_addf(out, "<g class=\"%.*s\"><title>", (int)strcspn(open, " "), open);
-                write_escaped(out, open);
+                text_xml(out, open);
                 text_add(out, "</title>\n");
             }
         }
@@ -112,7 +101,7 @@ static void open_svg(Text *out, const Animation *film, bool alone)
     text_addf(out, " %s>\n", FONT);
     if (film->title != NULL && *film->title != '\0') {
         text_add(out, "<title>");
-        write_escaped(out, film->title);
+        text_xml(out, film->title);
         text_add(out, "</title>\n");
     }
     text_add(out, "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n");
@@ -182,7 +171,7 @@ void picture_html(const Animation *film, Text *out)
     const char *title = film->title != NULL && *film->title != '\0' ? film->title : "mechanism";
 
     text_add(out, "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n<title>");
-    write_escaped(out, title);
+    text_xml(out, title);
     text_addf(out, "</title>\n%s</head><body><main>\n", STYLE);
     open_svg(out, film, false);
     for (int i = 0; i < film->count; i++) {

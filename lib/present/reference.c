@@ -7,11 +7,9 @@
 
 static void add_texinfo(Text *out, const char *text)
 {
-    for (; *text != '\0'; text++) {
-        if (strchr("@{}", *text) != NULL)
-            text_char(out, '@');
-        text_char(out, *text);
-    }
+    static const char *const to[] = {"@@", "@{", "@}"};
+
+    text_replace(out, text, "@{}", to);
 }
 
 static void add_texinfo_example(Text *out, const char *lines)
