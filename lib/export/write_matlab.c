@@ -167,10 +167,7 @@ static void write_tables(const Code *code, const Language *language, Text *out)
         const Curve *curve = code->lowered.tables.at[i];
 
         text_addf(out, "    case %d\n        d = [", i + 1);
-        for (int k = 0; k < 3 * curve->count; k++) {
-            text_add(out, k == 0 ? "" : k % 4 == 0 ? ", ...\n            " : ", ");
-            text_number(out, curve->data[k], 17);
-        }
+        layout_numbers(out, curve->data, 3 * curve->count, ", ...\n            ");
         text_add(out, "];\n");
     }
 }

@@ -239,10 +239,7 @@ static const char check[] =
 static void add_list(Text *out, const double *values, int count)
 {
     text_char(out, '[');
-    for (int i = 0; i < count; i++) {
-        text_add(out, i == 0 ? "" : i % 4 == 0 ? ",\n        " : ", ");
-        text_number(out, values[i], 17);
-    }
+    layout_numbers(out, values, count, ",\n        ");
     text_char(out, ']');
 }
 

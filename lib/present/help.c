@@ -390,8 +390,7 @@ void help_apropos(Text *out, const char *word)
         }
         text_free(&body);
     }
-    table_print(out, &table, 0);
-    table_free(&table);
+    table_finish(out, &table, 0);
 }
 
 bool help_example(int i, const char **name, const char **text)

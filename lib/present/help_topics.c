@@ -34,8 +34,7 @@ static void write_units(Text *out)
         text_free(&dimension);
         text_free(&factor);
     }
-    table_print(out, &table, 2);
-    table_free(&table);
+    table_finish(out, &table, 2);
 }
 
 static void write_functions(Text *out)
@@ -181,8 +180,7 @@ static void write_topics(Text *out)
     for (int i = 0; topic_at(i) != NULL; i++)
         if (topic_at(i)->show != NULL)
             table_cells(&table, "%s\t%s", topic_at(i)->name, topic_at(i)->brief);
-    table_print(out, &table, 2);
-    table_free(&table);
+    table_finish(out, &table, 2);
 }
 
 static void write_keys(Text *out)

@@ -244,8 +244,7 @@ static void print_instance(Text *out, const View *view, const Instance *instance
                     coordinates.at);
     text_free(&coordinates);
     add_values(&table, view, instance);
-    table_print(out, &table, 2);
-    table_free(&table);
+    table_finish(out, &table, 2);
     add_convention(out, view, instance->row);
     add_variables(out, view, instance);
     if (instance->text != NULL)
@@ -257,17 +256,16 @@ static bool print_parameter(Text *out, const View *view, const char *name)
     for (int i = 0; i < model_parameter_count(view->model); i++) {
         Expr definition;
         const Expr symbol = model_parameter(view->model, i, &definition);
-        char *text;
 
         if (strcmp(expr_name(symbol), name) != 0)
             continue;
-        text = expr_text(definition);
         text_addf(out, "%s: parameter, %s = ", name, name);
-        if (!expr_is_number(definition))
-            text_addf(out, "%s = ", text);
+        if (!expr_is_number(definition)) {
+            expr_print(out, definition, NOTATION_TEXT);
+            text_add(out, " = ");
+        }
         view_quantity(view, name, model_parameter_value(view->model, symbol), 10, out);
         text_char(out, '\n');
-        mem_free(text);
         return true;
     }
     return false;
@@ -278,16 +276,15 @@ static bool print_law(Text *out, const View *view, const char *name)
     const Expr *arguments;
     int count;
     const Expr body = model_law(view->model, name, &arguments, &count);
-    char *text;
 
     if (body == NULL)
         return false;
     text_addf(out, "%s: law, %s(", name, name);
     for (int i = 0; i < count; i++)
         text_addf(out, "%s%s", i > 0 ? ", " : "", expr_name(arguments[i]));
-    text = expr_text(body);
-    text_addf(out, ") = %s\n", text);
-    mem_free(text);
+    text_add(out, ") = ");
+    expr_print(out, body, NOTATION_TEXT);
+    text_char(out, '\n');
     return true;
 }
 
@@ -296,13 +293,12 @@ static bool print_output(Text *out, const View *view, const char *name)
     for (int i = 0; i < model_output_count(view->model); i++) {
         const char *output;
         const Expr e = model_output(view->model, i, &output);
-        char *text;
 
         if (strcmp(output, name) != 0)
             continue;
-        text = expr_text(e);
-        text_addf(out, "%s: output, %s = %s\n", name, name, text);
-        mem_free(text);
+        text_addf(out, "%s: output, %s = ", name, name);
+        expr_print(out, e, NOTATION_TEXT);
+        text_char(out, '\n');
         return true;
     }
     return false;

@@ -208,6 +208,11 @@ Table table_for(const char *align)
     return (Table){.columns = (int)strlen(align), .align = align, .cells = {0}};
 }
 
+Table table_of_columns(int count)
+{
+    return (Table){.columns = count, .align = NULL, .cells = {0}};
+}
+
 void table_cell(Table *table, const char *text)
 {
     LIST_PUSH(table->cells, mem_text(text, strlen(text)));
@@ -276,13 +281,14 @@ static void add_cells(Text *out, const Table *table, const int *width, int first
     for (int c = from; c < to; c++) {
         const char *cell = table->cells.at[first + c];
         const int blanks = width[c] - text_width(cell);
+        const char align = table->align != NULL ? table->align[c] : c == 0 ? 'l' : 'r';
 
         if (c > from)
             text_add(out, "  ");
-        if (table->align[c] == 'r')
+        if (align == 'r')
             text_fill(out, ' ', blanks);
         text_add(out, cell);
-        if (table->align[c] == 'l')
+        if (align == 'l')
             text_fill(out, ' ', blanks);
     }
 }
@@ -369,4 +375,20 @@ void table_free(Table *table)
     for (int i = 0; i < table->cells.count; i++)
         mem_free(table->cells.at[i]);
     LIST_FREE(table->cells);
+}
+
+void table_finish(Text *out, Table *table, int indent)
+{
+    table_print(out, table, indent);
+    table_free(table);
+}
+
+void layout_numbers(Text *out, const double *at, int count, const char *line)
+{
+    enum { A_LINE = 4, EXACT = 17 };
+
+    for (int i = 0; i < count; i++) {
+        text_add(out, i == 0 ? "" : line != NULL && i % A_LINE == 0 ? line : ", ");
+        text_number(out, at[i], EXACT);
+    }
 }

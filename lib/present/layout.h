@@ -36,11 +36,12 @@ void layout_count(Text *out, int count, const char *one, const char *many);
 /* A table of short cells: columns as wide as their widest cell, separated by two blanks. */
 typedef struct Table {
     int columns;
-    const char *align; /* one letter a column: l or r */
+    const char *align; /* one letter a column: l or r; NULL: l, then r */
     LIST(char *) cells;
 } Table;
 
 Table table_for(const char *align);
+Table table_of_columns(int count); /* the first is one of names, the others have numbers */
 void table_cell(Table *table, const char *text);
 /* one or more, with a tab between two */
 void table_cells(Table *table, const char *format, ...) PRINTF(2, 3);
@@ -53,5 +54,10 @@ void table_blocks(Text *out, const Table *table, int indent, int columns);
  * them if the page is too narrow. */
 void table_wrap(Text *out, const Table *table, int indent, int columns);
 void table_free(Table *table);
+/* table_print(), then table_free() */
+void table_finish(Text *out, Table *table, int indent);
+/* Numbers with all digits and commas between; four a line where there is a `line`, which then
+ * stands between lines. */
+void layout_numbers(Text *out, const double *at, int count, const char *line);
 
 #endif

@@ -102,9 +102,6 @@ ShowFunction show_symbolic_transfer, show_thevenin, show_norton;
 MUST_USE Status linear_check_pairs(const Linear *linear, Diag *diag);
 /* a number of which `error` is open: six digits, or those that are known, one at least */
 void linear_known(Text *out, double value, double error);
-/* Numbers of rows of so many columns: all digits where commas are `between` entries, else LaTeX. */
-void linear_entries(Text *out, const double *at, int count, int columns, const char *between,
-                    const char *rows);
 void linear_latex(Text *out, double value, int digits); /* 1.5 \cdot 10^{-9} */
 /* a line a mode, or why there are none; what moves on lines of its own where that is wider than the
  * page (0: never) */

@@ -50,8 +50,7 @@ Status show_nodes(const View *view, const Selection *selection, Text *out, Diag 
                     domain_name(node->domain), names.at != NULL ? names.at : "");
         text_free(&names);
     }
-    table_print(out, &table, 0);
-    table_free(&table);
+    table_finish(out, &table, 0);
     return OK;
 }
 
@@ -180,12 +179,8 @@ static int entry(const SignMatrix *matrix, int row, int column)
 static void add_sign_table(Text *out, const SignTable *signs, const char *const *rows,
                            const bool *chosen, int columns)
 {
-    Table table;
-    char *align = NEW_ARRAY(char, signs->column_count + 2);
+    Table table = table_of_columns(signs->column_count + 1);
 
-    memset(align, 'r', (size_t)signs->column_count + 1);
-    align[0] = 'l';
-    table = table_for(align);
     table_cell(&table, "");
     for (int c = 0; c < signs->column_count; c++)
         table_cell(&table, graph_edge(signs->graph, signs->columns[c])->name);
@@ -200,9 +195,7 @@ static void add_sign_table(Text *out, const SignTable *signs, const char *const 
         }
     }
     if (columns == 0 || table_width(&table) + 2 <= columns)
-        table_print(out, &table, 2);
-    table_free(&table);
-    mem_free(align);
+        table_finish(out, &table, 2);
 }
 
 /* the row as signed names: "h9 + r5 - r6 = 0" is clearer than a wide matrix */

@@ -34,12 +34,8 @@ LinearMatrix linear_matrix(const Linear *linear, char letter)
 
 static void print_rounded(Text *out, const LinearMatrix *m, int columns)
 {
-    Text align = {0};
-    Table table;
+    Table table = table_of_columns(m->columns + 1);
 
-    text_char(&align, 'l');
-    text_fill(&align, 'r', m->columns);
-    table = table_for(align.at);
     table_cells(&table, "%c", m->letter);
     for (int j = 0; j < m->columns; j++)
         table_cell(&table, m->column_names[j]);
@@ -50,7 +46,6 @@ static void print_rounded(Text *out, const LinearMatrix *m, int columns)
     }
     table_blocks(out, &table, 0, columns);
     table_free(&table);
-    text_free(&align);
 }
 
 void linear_latex(Text *out, double value, int digits)
@@ -62,33 +57,31 @@ void linear_latex(Text *out, double value, int digits)
     text_free(&number);
 }
 
-void linear_entries(Text *out, const double *at, int count, int columns, const char *between,
-                    const char *rows)
+/* all digits where commas are `between` entries, else LaTeX */
+static void add_entries(Text *out, const LinearMatrix *m, const char *between, const char *rows)
 {
-    for (int i = 0; i < count; i++) {
-        text_add(out, i == 0 ? "" : i % columns == 0 ? rows : between);
+    for (int i = 0; i < m->rows * m->columns; i++) {
+        text_add(out, i == 0 ? "" : i % m->columns == 0 ? rows : between);
         if (between[0] == ',')
-            text_number(out, at[i], 17);
+            text_number(out, m->at[i], 17);
         else
-            linear_latex(out, at[i], DIGITS);
+            linear_latex(out, m->at[i], DIGITS);
     }
 }
 
 static void print_matrix(Text *out, const View *view, const LinearMatrix *m)
 {
-    const int count = m->rows * m->columns;
-
     if (view_kind(view) == NOTATION_TYPESET) {
         text_addf(out, "%c &= \\begin{bmatrix} ", m->letter);
-        linear_entries(out, m->at, count, m->columns, " & ", " \\\\ ");
+        add_entries(out, m, " & ", " \\\\ ");
         text_add(out, " \\end{bmatrix} \\\\\n");
     } else if (view->page.notation == NOTATION_C) {
         text_addf(out, "static const double %c[%d][%d] = {{", m->letter, m->rows, m->columns);
-        linear_entries(out, m->at, count, m->columns, ", ", "}, {");
+        add_entries(out, m, ", ", "}, {");
         text_add(out, "}};\n");
     } else if (view_kind(view) == NOTATION_SOURCE) {
         text_addf(out, "%c = [", m->letter);
-        linear_entries(out, m->at, count, m->columns, ", ", "; ");
+        add_entries(out, m, ", ", "; ");
         text_add(out, "];\n");
     } else {
         print_rounded(out, m, view->page.columns);

@@ -26,8 +26,7 @@ Status show_params(const View *view, const Selection *selection, Text *out, Diag
     }
     if (table.cells.count == 0)
         text_add(out, "no parameters\n");
-    table_print(out, &table, 0);
-    table_free(&table);
+    table_finish(out, &table, 0);
     return OK;
 }
 
@@ -83,8 +82,7 @@ Status show_settings(const View *view, const Selection *selection, Text *out, Di
         table_cell(&table, text.at);
         text_free(&text);
     }
-    table_print(out, &table, 0);
-    table_free(&table);
+    table_finish(out, &table, 0);
     return OK;
 }
 
@@ -195,8 +193,7 @@ void report_print(Text *out, const Result *result, const char *name)
     }
     add_work(&table, monitor_report);
     add_quality(&table, monitor_report);
-    table_print(out, &table, 0);
-    table_free(&table);
+    table_finish(out, &table, 0);
 }
 
 void report_line(Text *out, const Result *result, const char *name)
@@ -261,8 +258,7 @@ Status show_runs(const View *view, const Selection *selection, Text *out, Diag *
                                                                         : "",
             monitor_report->steps);
     }
-    table_print(out, &table, 0);
-    table_free(&table);
+    table_finish(out, &table, 0);
     return OK;
 }
 
@@ -335,8 +331,7 @@ Status show_events(const View *view, const Selection *selection, Text *out, Diag
         table_cell(&table, action.at);
         text_free(&action);
     }
-    table_print(out, &table, 0);
-    table_free(&table);
+    table_finish(out, &table, 0);
     for (int i = 0; i < all; i++) {
         const EventRecord record = result_event(view->result, i);
 

@@ -60,13 +60,10 @@ static void name_symbols(Table *table, const View *view, const char *title, cons
     text_free(&text);
 }
 
-static Table make_table(const View *view, const Matrix *m, Text *align)
+static Table make_table(const View *view, const Matrix *m)
 {
-    Table table;
+    Table table = table_of_columns(m->columns + 1);
 
-    text_char(align, 'l');
-    text_fill(align, 'r', m->columns);
-    table = table_for(align->at);
     table_cell(&table, m->name);
     for (int j = 0; j < m->columns; j++)
         symbol_cell(&table, view, m->column_symbols[j], m->order);
@@ -102,18 +99,16 @@ enum {
 static void print_matrix(Text *out, const View *view, const Matrix *m)
 {
     const int room = view->page.columns > 0 ? view->page.columns : USUAL_WIDTH;
-    Text align = {0};
     Table table = {0};
 
     if (m->columns <= MOST_COLUMNS)
-        table = make_table(view, m, &align);
+        table = make_table(view, m);
     if (m->columns <= MOST_COLUMNS &&
         (table_width(&table) <= room || table_widest_cell(&table) <= SHORT))
         table_blocks(out, &table, 0, room);
     else
         list_entries(out, view, m);
     table_free(&table);
-    text_free(&align);
 }
 
 static void print_text(Text *out, const View *view, const StateSpace *space)

@@ -33,8 +33,7 @@ static void add_sizes(const View *view, Text *out)
             continue;
         table_cells(&table, "%s\t%d", sizes[i].what, sizes[i].count);
     }
-    table_print(out, &table, 0);
-    table_free(&table);
+    table_finish(out, &table, 0);
 }
 
 /* --- blocks --- */
@@ -179,8 +178,7 @@ static void add_blocks(const System *system, const Lines *speeds, const Lines *r
     table_cells(&table, "between\t");
     add_counts(&table, speeds, rows, network, -1);
     table_cell(&table, "derived");
-    table_print(out, &table, 0);
-    table_free(&table);
+    table_finish(out, &table, 0);
 }
 
 /* how often each definition was derived, at the first of its instances; never where earlier

@@ -213,8 +213,7 @@ static void print_text(Text *out, const View *view, const Transfer *t, int outpu
     }
     add_doubts(&table, t);
     add_left_out(&table, t);
-    table_print(out, &table, 2);
-    table_free(&table);
+    table_finish(out, &table, 2);
     text_free(&lead);
     text_free(&body);
 }
@@ -246,7 +245,7 @@ static void print_code(Text *out, const Transfer *t, int output, int input, bool
                       counts[k]);
         else
             text_addf(out, "%s{%d,%d} = [", names[k], output + 1, input + 1);
-        linear_entries(out, at[k], counts[k], counts[k], ", ", "");
+        layout_numbers(out, at[k], counts[k], NULL);
         text_add(out, is_c ? "};\n" : "];\n");
     }
 }

@@ -3,30 +3,21 @@
  * Between its points a curve is a cubic, y + c1 d + c2 d^2 + c3 d^3 of the distance d from the
  * point before: in C from x, y and y'' at the points, in Matlab from the coefficients. */
 #include "present/tables.h"
+#include "present/layout.h"
 
 #include "base/memory.h"
 #include "expr/curve.h"
 
-enum { EXACT = 17, A_LINE = 4 };
-
-static void add_number(Text *out, double value, int i)
-{
-    if (i > 0)
-        text_add(out, i % A_LINE == 0 ? ", ...\n    " : ", ");
-    text_number(out, value, EXACT);
-}
+enum { EXACT = 17 };
 
 /* the points, then x, y and y'' of each */
 static void print_c(Text *out, Expr symbol)
 {
     const Curve *curve = expr_data(symbol);
 
-    text_addf(out, "/* column %s of %s */\nstatic const double %s[] = {%d", curve->column,
+    text_addf(out, "/* column %s of %s */\nstatic const double %s[] = {%d,\n    ", curve->column,
               curve->file, expr_name(symbol), curve->count);
-    for (int k = 0; k < 3 * curve->count; k++) {
-        text_add(out, k % A_LINE == 0 ? ",\n    " : ", ");
-        text_number(out, curve->data[k], EXACT);
-    }
+    layout_numbers(out, curve->data, 3 * curve->count, ",\n    ");
     text_add(out, "};\n");
 }
 
@@ -58,8 +49,7 @@ static void print_matlab(Text *out, Expr symbol, int order)
         text_add(out, ").*");
     }
     text_add(out, "ppval(mkpp([");
-    for (int i = 0; i < curve->count; i++)
-        add_number(out, curve->data[i], i);
+    layout_numbers(out, curve->data, curve->count, ", ...\n    ");
     text_add(out, "], ...\n    [");
     for (int i = 0; i + 1 < curve->count; i++) {
         double c[CURVE_ORDERS];
