@@ -360,7 +360,7 @@ static void a_flyback_converter_hands_over_energy(void)
     EXPECT_DONE(&kit, "vsource E a 0 12\ninductor LM a x 100 uH\ntransformer T a x 0 s n=2\n"
                       "switch S x 0 when=t*5e4 - floor(t*5e4) < 0.25\ndiode D s o\n"
                       "capacitor C o 0 100 uF\nresistor R o 0 100\ninit C.v = 11\n"
-                      "simulate 0.05 every=1 us\n"
+                      "simulate 0.05 every=5 us\n" /* the end of each pulse is a row */
                       /* half L i^2 a period, i = E duty period/L: V^2/R = power */
                       "expect max(LM.i) ~ 12*0.25*20e-6/100e-6 within 1e-6\n"
                       "expect o.v^2 ~ 100*5e4*0.5*100e-6*0.6^2 within 0.5\n");
@@ -463,6 +463,23 @@ static int random_network(Text *out, uint64_t seed)
     return diodes;
 }
 
+/* the least ("min") or largest ("max") value of a member of all diodes, in one pass over the run */
+static double worst_of(Kit *kit, const char *which, const char *member, int diodes)
+{
+    Text item = {0};
+    double value;
+
+    text_addf(&item, "%s(", which);
+    for (int i = 0; i < diodes - 1; i++)
+        text_addf(&item, "%s(D%d.%s, ", which, i, member);
+    text_addf(&item, "D%d.%s", diodes - 1, member);
+    for (int i = 0; i < diodes; i++)
+        text_add(&item, ")");
+    value = kit_value(kit, item.at);
+    text_free(&item);
+    return value;
+}
+
 /* circuits and cutsets hold by the form of the equations: what is left are the diodes' laws */
 static void diodes_keep_their_law_in_any_network(void)
 {
@@ -482,15 +499,11 @@ static void diodes_keep_their_law_in_any_network(void)
         } else {
             solved++;
         }
-        for (int i = 0; i < diodes && kit.error.message[0] == '\0'; i++) {
-            char value[64];
-
-            (void)snprintf(value, sizeof value, "min(D%d.i)", i);
-            EXPECT(kit_value(&kit, value) > -1e-5);
-            (void)snprintf(value, sizeof value, "max(D%d.v)", i);
-            EXPECT(kit_value(&kit, value) < 1e-5);
-            (void)snprintf(value, sizeof value, "max(abs(D%d.power))", i);
-            EXPECT(kit_value(&kit, value) < 1e-5);
+        if (kit.error.message[0] == '\0') {
+            EXPECT(worst_of(&kit, "min", "i", diodes) > -1e-5);
+            EXPECT(worst_of(&kit, "max", "v", diodes) < 1e-5);
+            EXPECT(worst_of(&kit, "max", "power", diodes) < 1e-5);
+            EXPECT(worst_of(&kit, "min", "power", diodes) > -1e-5);
         }
         text_free(&text);
         kit_free(&kit);
