@@ -623,9 +623,9 @@ int main(int argc, char **argv)
 {
     static const Family families[] = {
         {"networks of ideal parts follow fine steps", 15, 0, 0, networks_of_ideal_parts},
-        {"networks of exponential diodes follow them", 4, 0, 0, networks_of_exponential_diodes},
-        {"coils behind exponential diodes follow them", 30, 0.5, 0, coils_behind_diodes},
-        {"coils in long runs follow them", 6, 0.1, 0, coils_in_long_runs},
+        {"networks of exponential diodes follow them", 2, 0, 0, networks_of_exponential_diodes},
+        {"coils behind exponential diodes follow them", 15, 0.5, 0, coils_behind_diodes},
+        {"coils in long runs follow them", 3, 0.1, 0, coils_in_long_runs},
         {"networks that failed once follow them", 13, 0, 0, networks_that_failed},
         {"rectifiers follow their closed form", 40, 0, 0, rectifiers},
         {"multipliers end where no diode conducts", 3, 0, 0, multipliers},

@@ -659,13 +659,13 @@ static Verdict instances_leave_no_trace(Member *member)
 }
 
 static const Family families[] = {
-    {"numbers of a large model move it as parameters of the user's do", 8, 0.2, 0,
+    {"numbers of a large model move it as parameters of the user's do", 4, 0.2, 0,
      literals_are_parameters},
     {"a model edited between its equations is the one made so at once", 30, 0, 0,
      edits_leave_no_trace},
-    {"a parameter with the name of a part is one with a name of its own", 8, 0.2, 0,
+    {"a parameter with the name of a part is one with a name of its own", 4, 0.2, 0,
      shared_names_change_nothing},
-    {"instances come and go as in a model made so at once", 10, 0.3, 0, instances_leave_no_trace},
+    {"instances come and go as in a model made so at once", 5, 0.3, 0, instances_leave_no_trace},
 };
 
 int main(int argc, char **argv)

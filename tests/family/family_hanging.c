@@ -239,7 +239,7 @@ static Verdict rods_end_where_lagrange_has_them(Member *member)
 int main(int argc, char **argv)
 {
     static const Family families[] = {
-        {"rods_end_where_lagrange_has_them", 14, 0.3, 0, rods_end_where_lagrange_has_them},
+        {"rods_end_where_lagrange_has_them", 3, 0.3, 0, rods_end_where_lagrange_has_them},
     };
 
     return family_main(families, (int)(sizeof families / sizeof families[0]), argc, argv);

@@ -172,7 +172,7 @@ static Verdict that_failed(Member *member)
 }
 
 static const Family families[] = {
-    {"units of machines jump where and as their parts do", 2, 0.5, 0, unit_runs},
+    {"units of machines jump where and as their parts do", 1, 0.5, 0, unit_runs},
     {"units that failed once jump so", 2, 0, 0, that_failed},
 };
 

@@ -96,8 +96,8 @@ static Verdict jumps_tell_their_error(Member *member)
 }
 
 static const Family families[] = {
-    {"machines jump where and as their parts do", 10, 0.5, 0, machine_jumps},
-    {"machines that jump tell errors that are not too low", 6, 0.6, 0, jumps_tell_their_error},
+    {"machines jump where and as their parts do", 6, 0.5, 0, machine_jumps},
+    {"machines that jump tell errors that are not too low", 4, 0.6, 0, jumps_tell_their_error},
 };
 
 int main(int argc, char **argv)

@@ -191,8 +191,8 @@ static Verdict changed_move(Member *member)
 }
 
 static const Family families[] = {
-    {"two machines of a subsystem move as each does", 5, 0.5, 0, uses_move},
-    {"machines with other numbers move as those say", 5, 0.5, 0, changed_move},
+    {"two machines of a subsystem move as each does", 3, 0.5, 0, uses_move},
+    {"machines with other numbers move as those say", 3, 0.5, 0, changed_move},
 };
 
 int main(int argc, char **argv)

@@ -327,7 +327,7 @@ int main(int argc, char **argv)
         /* 11 */ {"a_loop_too_long_does_not_run", 8, 0, 0, a_loop_too_long_does_not_run},
         /* 12 */ {"impacts_without_end_end_a_run", 12, 0, 0, impacts_without_end_end_a_run},
         {"impacts_at_one_instant_all_count", 12, 0, 0, impacts_at_one_instant_all_count},
-        {"a_force_without_a_value_stops_the_run", 12, 0, 0, a_force_without_a_value_stops_the_run},
+        {"a_force_without_a_value_stops_the_run", 4, 0, 0, a_force_without_a_value_stops_the_run},
         /* 15 */ {"a_run_repeats_to_the_last_byte", 8, 0, 0, a_run_repeats_to_the_last_byte},
     };
 
