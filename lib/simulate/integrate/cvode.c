@@ -199,7 +199,7 @@ static Stepper *create(const Method *method, const Ode *ode, const Control *cont
 
     sundials_init(c, &calls, method, ode, control, ode->n + ode->quadratures);
     /* allocated and freed with the stepper: NOLINTNEXTLINE(clang-analyzer-osx.cocoa.RetainCount) */
-    c->memory = MEM_GIVEN(CVodeCreate(method->is_stiff ? CV_BDF : CV_ADAMS, c->context));
+    c->memory = MEM_GIVEN(CVodeCreate(method->suits_stiff ? CV_BDF : CV_ADAMS, c->context));
     return &c->base;
 }
 
@@ -254,7 +254,7 @@ static int first_start(Sundials *c, double t)
         code = CVodeSetMaxStep(c->memory, control_largest(&c->base.control));
     if (code != 0)
         return code;
-    if (c->base.method->is_stiff) {
+    if (c->base.method->suits_stiff) {
         code = set_newton(c);
         return code == 0 ? set_linear(c) : code;
     }
@@ -331,7 +331,7 @@ const Method method_bdf = {
     .short_part = 0.05,
     .brief = "CVODE, backward differentiation, for stiff equations; rows are projected",
     .create = create_bdf,
-    .is_stiff = true,
+    .suits_stiff = true,
 };
 
 const Method method_adams = {

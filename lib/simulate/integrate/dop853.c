@@ -164,7 +164,7 @@ static void take_back(Dop853 *d)
 static bool parts_agree(Dop853 *d, double error)
 {
     const Stiffness before = d->stiffness;
-    const bool is_stiff = d->base.is_stiff;
+    const bool found_stiff = d->base.found_stiff;
 
     dop853_watch_stiffness(d, d->step, error);
     if (!d->base.is_read)
@@ -173,7 +173,7 @@ static bool parts_agree(Dop853 *d, double error)
     if (!(d->parted > DOP853_PARTS_AGREE * d->rounding_error))
         return true;
     d->stiffness = before;
-    d->base.is_stiff = is_stiff;
+    d->base.found_stiff = found_stiff;
     take_back(d);
     return false;
 }

@@ -97,9 +97,10 @@ void dop853_choose_scale(Dop853 *d, const double *a, const double *b);
 double dop853_norm(const Dop853 *d, const double *v);
 double dop853_product(const Dop853 *d, const double *v, const double *w);
 
-/* Counts the step of h just taken as stiff or calm, and sets base.is_stiff and base.is_oscillatory.
- * `error`: its estimate, in tolerances. It reads `stage_point` of stage 11, before any dense output
- * is made. Mostly no evaluations; five where stiff steps have become many. */
+/* Counts the step of h just taken as stiff or calm, and sets base.found_stiff and
+ * base.is_oscillatory. `error`: its estimate, in tolerances. It reads `stage_point` of stage 11,
+ * before any dense output is made. Mostly no evaluations; five where stiff steps have become many.
+ */
 void dop853_watch_stiffness(Dop853 *d, double h, double error);
 
 /* allocate a part of the dense output, unless that is done */

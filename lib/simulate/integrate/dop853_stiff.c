@@ -127,7 +127,7 @@ void dop853_watch_stiffness(Dop853 *d, double h, double error)
     count_stiff_step(d, h, error);
     if (d->stiffness.steps < DOP853_STIFF_COUNT && d->stiffness.sum < DOP853_FAST_SUM)
         return;
-    d->base.is_stiff = true;
+    d->base.found_stiff = true;
     d->base.is_oscillatory = is_oscillatory(d);
     d->stiffness = (Stiffness){0};
 }

@@ -410,6 +410,6 @@ const Method method_ida = {
     .destroy = destroy,
     .start = start,
     .step = step,
-    .is_stiff = true,
+    .suits_stiff = true,
     .solves_dae = true,
 };

@@ -27,7 +27,7 @@ const Method *method_find(const char *name)
 const Method *method_for(MethodNeed need)
 {
     for (int i = 0; i < COUNT(rows); i++)
-        if (rows[i]->is_stiff == need.stiff && rows[i]->has_history == need.history &&
+        if (rows[i]->suits_stiff == need.stiff && rows[i]->has_history == need.history &&
             rows[i]->solves_dae == need.dae && rows[i]->has_fixed_step == need.fixed)
             return rows[i];
     return NULL;

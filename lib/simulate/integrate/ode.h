@@ -159,7 +159,7 @@ typedef struct Method {
     double pulse_steps; /* number of steps over a pulse that make it accurate */
     double short_part;  /* of the tolerance, for each of many short steps whose errors add up */
     /* properties */
-    bool is_stiff;    /* stability doesn't limit its steps, where the limiting component decays; */
+    bool suits_stiff; /* stability doesn't limit its steps, where the limiting component decays; */
     bool is_a_stable; /* nor where it oscillates */
     bool has_fixed_step; /* and no error control */
     bool solves_dae;     /* uses ode->dae where it is available: multipliers are unknowns, too */
@@ -193,7 +193,7 @@ struct Stepper {
     double missed_at; /* and its time, s */
     /* explicit methods: a fast component limits the steps, by stability or by accuracy (set by
      * stiffness detection, dop853_stiff.c), */
-    bool is_stiff;
+    bool found_stiff;
     bool is_oscillatory; /* ... and that component oscillates rather than decays */
 };
 

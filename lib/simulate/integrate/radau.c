@@ -692,6 +692,6 @@ const Method method_radau = {
     .node_count = COUNT(nodes),
     .sees_little = true,
     .pulse_steps = 16,
-    .is_stiff = true,
+    .suits_stiff = true,
     .is_a_stable = true,
 };

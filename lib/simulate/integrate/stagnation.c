@@ -49,7 +49,7 @@ static double rounding(Stepper *s, double h)
  * rates */
 static const Method *other_method(const Stepper *s)
 {
-    const bool stiff = s->method->is_stiff;
+    const bool stiff = s->method->suits_stiff;
 
     return method_for((MethodNeed){.stiff = true, .history = stiff && !s->method->has_history});
 }

@@ -59,7 +59,7 @@ static Status end_or_hand_over(Integration *m, bool is_rounding, Diag *diag)
         return hand_over(m, joint, REMARK_JOINT, diag);
     if (m->plan->explain != NULL)
         m->plan->explain(m->plan->context, &m->segment, m->stepper, &is_rounding, diag);
-    return is_rounding && m->plan->method == NULL && !m->out->method->is_stiff
+    return is_rounding && m->plan->method == NULL && !m->out->method->suits_stiff
                ? hand_over(m, m->segment.stiff, REMARK_ROUNDING, diag)
                : E_SOLVER;
 }
@@ -142,7 +142,7 @@ static Status one_step(Integration *m, double end, Diag *diag)
     TRY(integration_add_rows(m, diag));
     TRY(check_stagnation(m, diag));
     TRY(renew(m, diag));
-    if (m->plan->method == NULL && m->stepper->is_stiff &&
+    if (m->plan->method == NULL && m->stepper->found_stiff &&
         (m->segment.stiff->is_a_stable || !m->stepper->is_oscillatory))
         TRY(hand_over(m, m->segment.stiff, REMARK_STIFF, diag));
     return OK;

@@ -110,7 +110,7 @@ static Status enter(Integration *m, const Segment *segment, double t, const doub
                     bool *changed, Diag *diag)
 {
     const Method *method =
-        m->plan->method == NULL && m->out->method->is_stiff ? segment->stiff : NULL;
+        m->plan->method == NULL && m->out->method->suits_stiff ? segment->stiff : NULL;
 
     const Method *first = m->plan->method;
 
