@@ -19,7 +19,7 @@ Status fixed_start(Stepper *stepper, double t, const double *y, Diag *diag)
 {
     FixedStepper *f = (FixedStepper *)stepper;
 
-    f->last = 0;
+    f->step_before = 0;
     return stepper_start(stepper, t, y, f->rate, diag);
 }
 
@@ -41,7 +41,7 @@ static void estimate(FixedStepper *f, double h)
     }
     if (f->keep != NULL)
         f->keep(f);
-    f->last = h;
+    f->step_before = h;
 }
 
 /* restore the start of the last step */
@@ -65,19 +65,19 @@ Status fixed_step(Stepper *stepper, double end, Diag *diag)
     FixedStepper *f = (FixedStepper *)stepper;
     double left = end - f->base.t;
     double h = stepper_allowed(&f->base, control_asked(&f->base.control));
-    bool last = h <= 0 || h >= left * (1 - 1e-9);
+    bool is_last = h <= 0 || h >= left * (1 - 1e-9);
 
     memcpy(f->old, f->base.y, (size_t)f->all * sizeof(double));
     memcpy(f->old_rate, f->rate, (size_t)f->all * sizeof(double));
     f->base.before = f->base.t;
     f->reason = NULL;
-    h = last ? left : h;
+    h = is_last ? left : h;
     /* where a motion ends, shorter steps lead up to its end and show the cause */
-    for (int i = 0; !f->advance(f, h, last ? end : f->base.before + h); i++) {
+    for (int i = 0; !f->advance(f, h, is_last ? end : f->base.before + h); i++) {
         if (i == MAX_REJECTIONS || (i == 0 && ++f->cuts == MOST_CUTS))
             return give_up(f, diag);
         f->base.counts.rejected++;
-        last = false;
+        is_last = false;
         h *= RETREAT;
     }
     if (f->reason == NULL)
@@ -103,7 +103,7 @@ Status fixed_shorten(Stepper *stepper, double t, Diag *diag)
         memcpy(f->base.y, y, bytes);
         memcpy(f->rate, rate, bytes);
     } else {
-        f->last = 0;
+        f->step_before = 0;
     }
     mem_free(y);
     mem_free(rate);

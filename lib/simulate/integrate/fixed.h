@@ -14,7 +14,7 @@ struct FixedStepper {
     int all;                /* entries of y */
     double *old, *old_rate; /* y and y' at the start of the last step */
     double *rate;           /* y' at its end */
-    double last;            /* length of the step before, s; 0: there was none */
+    double step_before;     /* length of the step before, s; 0: there was none */
     const char *reason;     /* why advance() failed, if known */
     int cuts;               /* steps in succession that had to be shorter */
     /* One step h from old at base.before: sets y at `end`, projected, base.t and rate. False: it

@@ -91,10 +91,10 @@ static void bend_weights(double *out)
 static void guess(Gauss *g, double h)
 {
     const FixedStepper *f = &g->fixed;
-    const bool is_known = f->last > 0;
+    const bool is_known = f->step_before > 0;
 
     for (int s = 0; s < STAGES; s++) {
-        double l[STAGES + 1], x = is_known ? h / f->last * node[s] : 0;
+        double l[STAGES + 1], x = is_known ? h / f->step_before * node[s] : 0;
 
         /* through the slopes at the last stages and at the start, in units of the step before */
         for (int i = 0; is_known && i <= STAGES; i++) {
@@ -260,7 +260,7 @@ static double error_of(const FixedStepper *f, double h, int i)
     const Gauss *g = (const Gauss *)f;
     double sum = g->bend[STAGES] * f->old_rate[i];
 
-    if (!(fabs(h - f->last) <= 1e-9 * h))
+    if (!(fabs(h - f->step_before) <= 1e-9 * h))
         return 0;
     for (int s = 0; s < STAGES; s++)
         sum += g->bend[s] * g->before[s][i] + g->bend[STAGES + 1 + s] * g->k[s][i];

@@ -49,7 +49,7 @@ static double error_of(const FixedStepper *f, double h, int i)
     double missed = fabs(slope - r->k[2][i]) / 6;
     double bend = r->earlier[i] - 4 * r->half[i] + 6 * f->old_rate[i] - 4 * r->k[2][i] + f->rate[i];
 
-    if (fabs(h - f->last) <= 1e-9 * h)
+    if (fabs(h - f->step_before) <= 1e-9 * h)
         missed = fmax(missed, fabs(bend) / 180);
     return h * missed;
 }
