@@ -123,7 +123,7 @@ static void write_steps(const Remark *r, Text *out)
     case REMARK_STIFF:
         text_addf(out, "stiff from t = %.6g s: went on with %s", r->t, r->what);
         break;
-    case REMARK_JOINT:
+    case REMARK_COUPLED:
         text_addf(
             out,
             "states hardly determine the network's other unknowns at t = %.6g s: went on with %s, "

@@ -99,8 +99,8 @@ double dop853_product(const Dop853 *d, const double *v, const double *w);
 
 /* Counts the step of h just taken as stiff or calm, and sets base.found_stiff and
  * base.is_oscillatory. `error`: its estimate, in tolerances. It reads `stage_point` of stage 11,
- * before any dense output is made. Mostly no evaluations; five where stiff steps have become many.
- */
+ * before any dense output is made. Mostly no evaluations; five where stiff steps have become
+ * many. */
 void dop853_watch_stiffness(Dop853 *d, double h, double error);
 
 /* allocate a part of the dense output, unless that is done */

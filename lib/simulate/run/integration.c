@@ -53,10 +53,10 @@ static Status renew(Integration *m, Diag *diag)
  * network that its states hardly determine need to be solved for together with them. */
 static Status end_or_hand_over(Integration *m, bool is_rounding, Diag *diag)
 {
-    const Method *joint = m->segment.joint;
+    const Method *coupled = m->segment.coupled;
 
-    if (m->plan->method == NULL && joint != NULL && m->out->method != joint)
-        return hand_over(m, joint, REMARK_JOINT, diag);
+    if (m->plan->method == NULL && coupled != NULL && m->out->method != coupled)
+        return hand_over(m, coupled, REMARK_COUPLED, diag);
     if (m->plan->explain != NULL)
         m->plan->explain(m->plan->context, &m->segment, m->stepper, &is_rounding, diag);
     return is_rounding && m->plan->method == NULL && !m->out->method->suits_stiff

@@ -26,11 +26,11 @@ typedef struct Segment {
     int phase; /* number of the phase: stored in rows */
     const Equations *equations;
     Motion *motion;
-    Events *events;      /* NULL: none */
-    Samples *samples;    /* NULL: none */
-    Onset *onset;        /* NULL: no short pulses */
-    const Method *stiff; /* used where plan.method is NULL; */
-    const Method *joint; /* used where that can't continue; NULL: none */
+    Events *events;        /* NULL: none */
+    Samples *samples;      /* NULL: none */
+    Onset *onset;          /* NULL: no short pulses */
+    const Method *stiff;   /* used where plan.method is NULL; */
+    const Method *coupled; /* used where that can't continue; NULL: none */
 } Segment;
 
 /* what bounds the search for the next mode */

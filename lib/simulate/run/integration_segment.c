@@ -114,8 +114,8 @@ static Status enter(Integration *m, const Segment *segment, double t, const doub
 
     const Method *first = m->plan->method;
 
-    if (method != NULL && m->out->method == m->segment.joint && segment->joint != NULL)
-        method = segment->joint;
+    if (method != NULL && m->out->method == m->segment.coupled && segment->coupled != NULL)
+        method = segment->coupled;
     if (m->plan->first != NULL)
         TRY(m->plan->first(m->plan->context, segment, t, y, &first, diag));
     if (first != NULL)

@@ -142,7 +142,7 @@ const Method *phase_stiff_method(const Phase *phase)
         (MethodNeed){.stiff = true, .history = !one_step, .dae = !one_step && is_network});
 }
 
-const Method *phase_joint_method(const Phase *phase)
+const Method *phase_coupled_method(const Phase *phase)
 {
     return phase->network != NULL && phase->layout->nz > 0
                ? method_for((MethodNeed){.stiff = true, .history = true, .dae = true})
@@ -207,18 +207,18 @@ static Openness find_openness(const Phase *phase, double t, const double *y, con
 static Status refuse_untold(const Phase *phase, double t, const Openness *open,
                             const Method *method, Diag *diag)
 {
-    const Method *joint = phase_joint_method(phase);
+    const Method *coupled = phase_coupled_method(phase);
     const char *variable = stiff_elements_variable(phase->stiff_elements, open->element);
     const int part = (int)strcspn(variable, ".");
 
     (void)diag_set(diag, E_SOLVER,
                    "at t = %.9g s: %s takes %s from %s, whose tolerance leaves it open", t,
                    method->name, variable, system_x(phase->system, open->state)->name);
-    if (joint != NULL)
+    if (coupled != NULL)
         diag_hint(diag,
                   "method=%s solves for both together; or a resistor across %.*s, or a finer "
                   "atol=, determines it",
-                  joint->name, part, variable);
+                  coupled->name, part, variable);
     else
         diag_hint(diag, "a resistor across %.*s, or a finer atol=, determines it", part, variable);
     return E_SOLVER;
@@ -227,18 +227,18 @@ static Status refuse_untold(const Phase *phase, double t, const Openness *open,
 Status phase_choose_method(const Phase *phase, double t, const double *y, const Control *control,
                            const Method **method, Diag *diag)
 {
-    const Method *joint = phase_joint_method(phase);
+    const Method *coupled = phase_coupled_method(phase);
     Openness open;
 
     if (phase->stiff_elements == NULL || stiff_elements_elements(phase->stiff_elements) == 0 ||
         phase->layout->nx == 0)
         return OK;
     open = find_openness(phase, t, y, control);
-    onset_leave_open(phase->onset, joint != NULL && open.most > OPEN);
+    onset_leave_open(phase->onset, coupled != NULL && open.most > OPEN);
     if (*method == NULL && open.most > OPEN)
-        *method = joint;
+        *method = coupled;
     if (open.most > (*method != NULL && (*method)->has_history ? HISTORY : UNTOLD) &&
-        open.state >= 0 && (joint == NULL || *method != joint))
+        open.state >= 0 && (coupled == NULL || *method != coupled))
         return refuse_untold(phase, t, &open,
                              *method != NULL ? *method : method_for((MethodNeed){0}), diag);
     return OK;

@@ -57,16 +57,17 @@ MUST_USE Status phase_open(Phase *phase, Parameters *parameters, const MotionOpt
                            Host *host, Diag *diag);
 void phase_free(Phase *phase); /* NULL is fine */
 
-/* what a run goes over to where its equations turn out to be stiff */
+/* the method that continues a run whose equations turn out to be stiff */
 const Method *phase_stiff_method(const Phase *phase);
-/* ... and where that gets no further: what solves the unknowns of a network together with its
- * states, NULL where it has none. A current that a coil keeps tells the voltage of a diode that
- * blocks to 1e12 ohm: no tolerance of the current is fine enough for that voltage. */
-const Method *phase_joint_method(const Phase *phase);
-/* What it begins with at (t, y) where *method was asked for (NULL: none was): then the joint one
- * where tolerances of the states leave open whether a steep element conducts. Tells the onset.
- * E_SOLVER where they leave so much open that the method would go wrong. The span of the run is
- * that of `control`. O(stiff_elements_answers()). */
+/* The method that solves the unknowns of a network together with its states, for a run that the
+ * former can't continue; NULL: the network has no such unknowns. The current of a coil determines
+ * the voltage of a blocking diode of 1e12 ohm: no tolerance of the current is fine enough for that
+ * voltage. */
+const Method *phase_coupled_method(const Phase *phase);
+/* The first method at (t, y); *method is the requested one (NULL: none). Without a request it is
+ * the coupled one where tolerances of the states don't determine whether a stiff element conducts;
+ * the pulse detector is informed. E_SOLVER where the method would fail since they determine so
+ * little. The span of the run is that of `control`. O(stiff_elements_answers()). */
 MUST_USE Status phase_choose_method(const Phase *phase, double t, const double *y,
                                     const Control *control, const Method **method, Diag *diag);
 /* Everything at (t, y). False: no solution. */

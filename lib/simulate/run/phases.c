@@ -123,7 +123,7 @@ Segment phases_segment(const Phase *phase, Events *events)
                      .samples = phase->samples,
                      .onset = phase->onset,
                      .stiff = phase_stiff_method(phase),
-                     .joint = phase_joint_method(phase)};
+                     .coupled = phase_coupled_method(phase)};
 }
 
 /* --- values --- */
