@@ -74,7 +74,7 @@ typedef struct Line {
 typedef struct StartEntry {
     Start start;
     const char *text; /* "h8' = 12" */
-    int name;         /* in State.start_names */
+    int name_index;   /* of `text` up to "=", in State.start_names */
     /* number of the statement that set it: those of one statement are saved on one line */
     int group;
 } StartEntry;
@@ -228,7 +228,7 @@ void state_retain_equations(State *state, int use);
 /* index of the starts by name, from number `first` on (model_start.c) */
 void starts_index(State *state, int first);
 /* sets the index of the start of one name; -1: none */
-void state_place_start(State *state, int name, int place);
+void state_place_start(State *state, int name_index, int place);
 
 /* --- names in a statement (model_names.c) --- */
 

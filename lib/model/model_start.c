@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-/* the required unit of a variable's value, per second for each prime; "" any */
+/* writes the required unit of the value of a variable and its derivatives; nothing: any unit */
 static void unit_of(const State *state, const char *name, int primes, Text *unit)
 {
     Measure measure = variable_measure(state, NULL, name);
@@ -16,9 +16,9 @@ static void unit_of(const State *state, const char *name, int primes, Text *unit
         text_add(unit, "/s");
 }
 
-/* Variables that determine the start can have a value: positions and rates, voltages, currents and
- * what
- * they store. */
+/* Checks the variable and the unit of an initial value or guess, and writes the variable's full
+ * name. Positions, speeds, voltages, currents, charges and fluxes can have one; E_VALUE for
+ * variables that follow from these. */
 Status initial_check(const Scope *scope, const Pair *pair, Text *name, Diag *diag)
 {
     const State *state = scope->state;
@@ -50,20 +50,20 @@ static Status read_start(State *state, const Pair *pair, bool is_guess, StartEnt
     Text name = {0};
     Text text = {0};
     Expr value = NULL;
-    int entry_name = 0;
+    int name_index = 0;
     Status status = OK;
 
     CHECK(initial_check(&scope, pair, &name, diag));
     CHECK(scope_expression(&scope, pair->value, &value, diag));
     text_add(&text, name.at);
     text_fill(&text, '\'', pair->primes);
-    entry_name = names_add(state->start_names, text.at);
+    name_index = names_add(state->start_names, text.at);
     text_add(&text, " = ");
     syntax_print(&text, pair->value);
     *out = (StartEntry){
         .start = {state_text(state, name.at), pair->primes, value, is_guess, pair->name_place},
         .text = state_text(state, text.at),
-        .name = entry_name,
+        .name_index = name_index,
         .group = state->setup.group_count,
     };
 done:
@@ -77,7 +77,7 @@ static void remove_start(State *state, int at)
 {
     LIST_PUSH(state->changes,
               (Change){.kind = REMOVED_START, .at = at, .was.start = state->starts.at[at]});
-    state_place_start(state, state->starts.at[at].name, -1);
+    state_place_start(state, state->starts.at[at].name_index, -1);
     mem_keep_part(state->starts.at, &state->starts.at[at],
                   sizeof *state->starts.at * (size_t)(state->starts.count - at));
     state->starts.count--;
@@ -86,12 +86,12 @@ static void remove_start(State *state, int at)
     starts_index(state, at);
 }
 
-/* a later value replaces an earlier one of the same variable */
+/* adds a value; it replaces an earlier one of the same variable */
 static void put_start(State *state, const StartEntry *entry)
 {
     starts_index(state, state->starts.count);
-    if (state->start_of.at[entry->name] >= 0)
-        remove_start(state, state->start_of.at[entry->name]);
+    if (state->start_of.at[entry->name_index] >= 0)
+        remove_start(state, state->start_of.at[entry->name_index]);
     LIST_PUSH(state->starts, *entry);
     LIST_PUSH(state->changes, (Change){.kind = ADDED_START});
     starts_index(state, state->starts.count - 1);
@@ -216,7 +216,7 @@ done:
 
 Status starts_copy(State *to, const State *from, NameList *broken, Text *remarks, Diag *diag)
 {
-    /* those that definitions set again are among them, unless they were removed */
+    /* `from` also has the values that subsystems set, unless the user removed them */
     forget_starts(to, false);
     forget_starts(to, true);
     for (int i = 0; i < from->starts.count; i++)
@@ -238,7 +238,7 @@ Status starts_copy(State *to, const State *from, NameList *broken, Text *remarks
     return OK;
 }
 
-/* whether a definition in use sets such values itself: VERB_init or VERB_guess */
+/* whether a subsystem in use sets such values: `verb` is VERB_init or VERB_guess */
 static bool gives_starts(const State *state, int verb)
 {
     for (int i = 0; i < state->uses.count; i++) {

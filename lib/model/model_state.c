@@ -108,9 +108,9 @@ void name_list_add(NameList *list, const char *name)
     LIST_PUSH(*list, name);
 }
 
-void state_place_start(State *state, int name, int place)
+void state_place_start(State *state, int name_index, int place)
 {
-    int *at = &state->start_of.at[name];
+    int *at = &state->start_of.at[name_index];
 
     mem_keep_part(state->start_of.at, at, sizeof *at);
     *at = place;
@@ -121,7 +121,7 @@ void starts_index(State *state, int first)
     while (state->start_of.count < names_count(state->start_names))
         LIST_PUSH(state->start_of, -1);
     for (int i = first; i < state->starts.count; i++)
-        state_place_start(state, state->starts.at[i].name, i);
+        state_place_start(state, state->starts.at[i].name_index, i);
 }
 
 void scope_use(Scope *scope, int definition)
