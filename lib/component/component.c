@@ -131,7 +131,7 @@ Value *values_copy(Pool *pool, const Value *values, int count)
     return copy;
 }
 
-Expr instance_literal(const Instance *instance, Arena *arena, int param, int entry)
+Expr instance_lifted_constant(const Instance *instance, Arena *arena, int param, int entry)
 {
     const char *const part = instance->name, *const value = instance->row->params[param].name;
     const size_t size = strlen(part) + strlen(value) + sizeof "#.[99]";

@@ -423,7 +423,7 @@ Expr instance_scalar(const Instance *instance, const char *name); /* its only en
 /* A copy of values and of all they own. */
 Value *values_copy(Pool *pool, const Value *values, int count);
 /* The parameter that replaces an entry of a value in the equations: "#b1.mass[0]" */
-Expr instance_literal(const Instance *instance, Arena *arena, int param, int entry);
+Expr instance_lifted_constant(const Instance *instance, Arena *arena, int param, int entry);
 /* Members of an instance of this family and row, in order: NULL at the end. Those of its
  * coordinates (Instance.coord) are not repeated here, unless the family has them anyway. */
 const Member *component_member(const Component *row, bool planar, int i);

@@ -370,7 +370,7 @@ static double symbol_value(void *context, Expr symbol)
     const Definition *d;
 
     if (expr_name(symbol)[0] == '#')
-        return state_literal(state, expr_name(symbol));
+        return state_lifted_constant(state, expr_name(symbol));
     d = definition_find(state, expr_name(symbol), DEFINES_PARAMETER);
     if (expr_symbol_kind(symbol) != SYMBOL_PARAMETER || d == NULL)
         return (double)NAN;

@@ -401,8 +401,8 @@ void definitions_forget_values(State *state); /* of parameters: they depend on e
 double state_number(State *state, Expr body);
 /* the same without changing the state: nothing is stored */
 double state_number_now(const State *state, Expr body);
-/* the number of an entry of a part's value, by its name from instance_literal() */
-double state_literal(State *state, const char *name);
+/* the number of an entry of a part's value, by its name from instance_lifted_constant() */
+double state_lifted_constant(State *state, const char *name);
 /* adds a last line, which receives the uses of the scope (NULL: none) */
 int line_add(State *state, const char *text, int definition, int part, const Scope *scope);
 void line_uses(State *state, Line *line, const Scope *scope);

@@ -15,7 +15,7 @@ static double known_value(void *context, Expr symbol)
     return d != NULL ? d->value : (double)NAN;
 }
 
-double state_literal(State *state, const char *name)
+double state_lifted_constant(State *state, const char *name)
 {
     const char *dot = strrchr(name, '.'), *bracket = strrchr(name, '[');
     double value = NAN;

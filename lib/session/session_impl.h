@@ -117,7 +117,7 @@ void session_note_change(ct_session *session, uint64_t revision, bool trees_only
 /* the equations of the model as it is; borrowed */
 MUST_USE Status session_system(ct_session *session, System **out, Diag *diag);
 /* the same in that form, whatever is set */
-MUST_USE Status session_system_of(ct_session *session, NetworkForm form, bool has_literals,
+MUST_USE Status session_system_of(ct_session *session, NetworkForm form, bool has_lifted,
                                   System **out, Diag *diag);
 /* the same to be run: of a large model numbers of parts are parameters there */
 MUST_USE Status session_running(ct_session *session, System **out, Diag *diag);

@@ -22,8 +22,8 @@ static ParameterValues *parameters_now(const Model *model, const System *system)
 
         keep_value(values, model_parameter(model, i, &definition));
     }
-    for (int i = 0; system_literal(system, i) != NULL; i++)
-        keep_value(values, system_literal(system, i));
+    for (int i = 0; system_lifted_constant(system, i) != NULL; i++)
+        keep_value(values, system_lifted_constant(system, i));
     return values;
 }
 
@@ -114,9 +114,10 @@ void run_input_go_on(RunInput *input, const Run *old)
     const System *system = result_system(old->result);
     ParameterValues *values = input->parameters;
 
-    for (int i = 0; system_literal(system, i) != NULL; i++)
-        values->values.at[values->places.at[expr_symbol_number(system_literal(system, i))] - 1] =
-            parameter_value(old->parameters, system_literal(system, i));
+    for (int i = 0; system_lifted_constant(system, i) != NULL; i++)
+        values->values
+            .at[values->places.at[expr_symbol_number(system_lifted_constant(system, i))] - 1] =
+            parameter_value(old->parameters, system_lifted_constant(system, i));
 }
 
 void run_input_host(RunInput *input, const Host *host, const Run *old)

@@ -114,7 +114,7 @@ static System *find_system(const ct_session *session, const SystemOptions *optio
         System *system = session->systems.at[i];
 
         if (system_network_form(system) == options->form &&
-            system_serves(system, options->has_literals) &&
+            system_serves(system, options->has_lifted) &&
             (scene == NULL || system_follows(system, scene)) && is_current(session, system))
             return system;
     }
@@ -134,11 +134,11 @@ static void put_last(ct_session *session, System *system)
     session->systems.at[count - 1] = system;
 }
 
-Status session_system_of(ct_session *session, NetworkForm form, bool has_literals, System **out,
+Status session_system_of(ct_session *session, NetworkForm form, bool has_lifted, System **out,
                          Diag *diag)
 {
     const SystemOptions options = {
-        .form = form, .has_literals = has_literals, .watch = &session->watch};
+        .form = form, .has_lifted = has_lifted, .watch = &session->watch};
     System *system = NULL;
     Scene scene = {0};
     Status status = OK;

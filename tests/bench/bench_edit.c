@@ -57,7 +57,7 @@ static char *chain_text(bool planar, const char *tree, bool loop)
 /* Those of the model as it is, from those before an edit (or NULL): as a session does it. */
 static Status renew(const Model *model, System **system, Diag *diag)
 {
-    const SystemOptions options = {.has_literals = true};
+    const SystemOptions options = {.has_lifted = true};
     Scene scene = {0};
     System *made = NULL;
     Status status = OK;

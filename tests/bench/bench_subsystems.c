@@ -99,7 +99,7 @@ static void apply(Model *model, const char *line)
  * as a session does it */
 __attribute__((noinline)) static double form(Model *model, System **before)
 {
-    const SystemOptions options = {.has_literals = true};
+    const SystemOptions options = {.has_lifted = true};
     Scene scene = {0};
     System *system = NULL;
     Diag diag = {0};

@@ -31,7 +31,7 @@ static Model *chain(bool loop)
 
 static System *form(const Model *model)
 {
-    const SystemOptions options = {.has_literals = true};
+    const SystemOptions options = {.has_lifted = true};
     Scene scene = {0};
     System *system = NULL;
     Diag diag = {0};
@@ -67,11 +67,11 @@ static void numbers_change_no_equation(void)
     EXPECT(follows(model, system, "set b3.inertia = [1, 2, 2.5]"));
     EXPECT(follows(model, system, "set h5.position = [0.25, 0, -2]"));
     EXPECT(follows(model, system, "set j6.axis = [2, 3, 6]"));
-    EXPECT_NEAR(model_number(model, system_literal(system, 0)), 2, 0);
+    EXPECT_NEAR(model_number(model, system_lifted_constant(system, 0)), 2, 0);
     EXPECT(follows(model, system, "set b0.mass = 1/4"));
-    EXPECT_NEAR(model_number(model, system_literal(system, 0)), 0.25, 0);
+    EXPECT_NEAR(model_number(model, system_lifted_constant(system, 0)), 0.25, 0);
     EXPECT(model_undo(model, &diag) == OK && follows(model, system, ""));
-    EXPECT_NEAR(model_number(model, system_literal(system, 0)), 2, 0);
+    EXPECT_NEAR(model_number(model, system_lifted_constant(system, 0)), 2, 0);
     system_free(system);
     model_free(model);
 }

@@ -76,7 +76,7 @@ bool system_reads_turns(const System *system)
 Expr system_plain(const System *system, Expr e)
 {
     const Origin *origin = system->origin;
-    const int turns = system->constraints->counted.count, count = turns + origin->literals;
+    const int turns = system->constraints->counted.count, count = turns + origin->lifted_count;
     Expr *symbols, *values;
 
     if (count == 0 || (expr_kinds(e) & 1U << SYMBOL_PARAMETER) == 0)
@@ -87,11 +87,11 @@ Expr system_plain(const System *system, Expr e)
         symbols[i] = system->constraints->counted.at[i].reported.symbol;
         values[i] = full_turns(system, i);
     }
-    for (int i = 1; i <= origin->literals; i++) {
-        const GivenParameter *literal = &origin->parameters.at[origin->parameters.count - i];
+    for (int i = 1; i <= origin->lifted_count; i++) {
+        const GivenParameter *lifted = &origin->parameters.at[origin->parameters.count - i];
 
-        symbols[count - i] = literal->symbol;
-        values[count - i] = expr_real(system->arena, literal->value);
+        symbols[count - i] = lifted->symbol;
+        values[count - i] = expr_real(system->arena, lifted->value);
     }
     e = expr_substitute(system->arena, e, symbols, values, count);
     MEM_FREE(symbols, values);

@@ -52,9 +52,9 @@ static void find_sources(LinearNetwork *s)
 
 Expr linear_network_number(const LinearNetwork *s, Expr symbol)
 {
-    for (int i = 0; i < s->literals.count; i++)
-        if (s->literals.at[i] == symbol)
-            return s->numbers.at[i];
+    for (int i = 0; i < s->parameters.count; i++)
+        if (s->parameters.at[i] == symbol)
+            return s->values.at[i];
     return NULL;
 }
 
@@ -72,8 +72,8 @@ static Expr name_number(LinearNetwork *s, const Instance *instance, Expr value)
     symbol = expr_symbol(s->arena, name.at, SYMBOL_PARAMETER);
     text_free(&name);
     if (linear_network_number(s, symbol) == NULL) {
-        LIST_PUSH(s->literals, symbol);
-        LIST_PUSH(s->numbers, value);
+        LIST_PUSH(s->parameters, symbol);
+        LIST_PUSH(s->values, value);
     }
     return symbol;
 }
@@ -290,7 +290,7 @@ void linear_network_free(LinearNetwork *s)
     system_free(s->system);
     LIST_FREE(s->sources);
     LIST_FREE(s->symbols);
-    LIST_FREE(s->literals);
-    LIST_FREE(s->numbers);
+    LIST_FREE(s->parameters);
+    LIST_FREE(s->values);
     MEM_FREE(s->right, s->row_start, s->entry);
 }

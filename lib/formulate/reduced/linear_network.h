@@ -21,11 +21,11 @@ typedef struct LinearNetwork {
     LIST(Expr)
     symbols;            /* of sources: INPUT_ORDERS each; the first prints as the source's name */
     bool names_numbers; /* numbers of parts are symbols of their own: no rounding in between */
-    LIST(Expr) literals, numbers; /* these symbols, and their values */
-    Expr t, start;                /* the time about which a source's value is expanded */
-    int n, columns;               /* equations; columns of the right sides */
-    Expr *right;                  /* n x columns */
-    int *row_start;               /* entries of a row of A are entry[row_start[r]] .. */
+    LIST(Expr) parameters, values; /* symbols that are replaced by their values */
+    Expr t, start;                 /* the time about which a source's value is expanded */
+    int n, columns;                /* equations; columns of the right sides */
+    Expr *right;                   /* n x columns */
+    int *row_start;                /* entries of a row of A are entry[row_start[r]] .. */
     Entry *entry;
 } LinearNetwork;
 

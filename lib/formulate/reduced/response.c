@@ -102,11 +102,11 @@ static Expr with_numbers_in_atoms(const ResponseSolver *s, Expr e, int depth)
     Expr *args, out;
     int count;
 
-    if (expr_is_number(e) || expr_kind(e) == EXPR_SYMBOL || net->literals.count == 0)
+    if (expr_is_number(e) || expr_kind(e) == EXPR_SYMBOL || net->parameters.count == 0)
         return e;
     if (is_atom(e, depth))
-        return expr_substitute(net->arena, e, net->literals.at, net->numbers.at,
-                               net->literals.count);
+        return expr_substitute(net->arena, e, net->parameters.at, net->values.at,
+                               net->parameters.count);
     count = expr_arg_count(e);
     args = NEW_ARRAY(Expr, count);
     for (int i = 0; i < count; i++)

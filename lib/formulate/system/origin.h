@@ -40,9 +40,9 @@ typedef struct Origin {
     int use_count;
     /* as at the time of the build: the user's, then lifted constants */
     LIST(GivenParameter) parameters;
-    int literals;
+    int lifted_count; /* the last ones */
     /* lifted constants are wanted: a scene has them if it is large enough */
-    bool asks_literals, is_small;
+    bool wants_lifted, is_small;
 } Origin;
 
 #endif

@@ -30,7 +30,7 @@ typedef struct SystemOptions {
      * variable: a start for the search of its state; NULL: none */
     Expr gmin;
     const System *like; /* in the same mode as this system; NULL: in none */
-    bool has_literals;  /* numbers of parts may be parameters in it (lifted_constants.h) */
+    bool has_lifted;    /* numbers of parts may be parameters in it (lifted_constants.h) */
     const CallMonitor *watch;
 } SystemOptions;
 
@@ -55,8 +55,8 @@ void system_free(const System *system); /* NULL is fine */
  * formed remains valid. */
 bool system_follows(System *view, const Scene *scene);
 /* whether it can be used where a System with that option is needed */
-bool system_serves(const System *system, bool has_literals);
-Expr system_literal(const System *system, int i); /* such a parameter; NULL at the end */
+bool system_serves(const System *system, bool has_lifted);
+Expr system_lifted_constant(const System *system, int i); /* such a parameter; NULL at the end */
 uint64_t system_revision(const System *system);
 /* Whether it is valid for the current scene: it has this revision, and rows that vanished when the
  * equations were formed also vanish with the current parameters; `number` evaluates expressions. */

@@ -55,27 +55,26 @@ static int by_entries(const void *a, const void *b)
     return memcmp(*one, *other, 3 * sizeof(Expr));
 }
 
-static void list_axes(LiftedConstants *literals, const Scene *scene)
+static void list_axes(LiftedConstants *lifted, const Scene *scene)
 {
     for (int i = 0; i < scene->instance_count; i++) {
         const Instance *instance = scene->instances[i];
 
         for (int k = 0; k < instance->row->param_count; k++)
             if (instance->row->params[k].kind == PARAM_AXIS && moves(instance, PARAM_AXIS))
-                LIST_PUSH(literals->axes, instance->values[k].at);
+                LIST_PUSH(lifted->axes, instance->values[k].at);
     }
-    if (literals->axes.count > 1)
-        qsort(literals->axes.at, (size_t)literals->axes.count, sizeof *literals->axes.at,
-              by_entries);
+    if (lifted->axes.count > 1)
+        qsort(lifted->axes.at, (size_t)lifted->axes.count, sizeof *lifted->axes.at, by_entries);
 }
 
-static bool is_alone(const LiftedConstants *literals, const Expr *axis)
+static bool is_alone(const LiftedConstants *lifted, const Expr *axis)
 {
-    const Expr *const *at = bsearch(&axis, literals->axes.at, (size_t)literals->axes.count,
-                                    sizeof *literals->axes.at, by_entries);
-    const Expr *const *end = literals->axes.at + literals->axes.count;
+    const Expr *const *at = bsearch(&axis, lifted->axes.at, (size_t)lifted->axes.count,
+                                    sizeof *lifted->axes.at, by_entries);
+    const Expr *const *end = lifted->axes.at + lifted->axes.count;
 
-    return (at == literals->axes.at || by_entries(at - 1, at) != 0) &&
+    return (at == lifted->axes.at || by_entries(at - 1, at) != 0) &&
            (at + 1 == end || by_entries(at, at + 1) != 0);
 }
 
@@ -114,24 +113,24 @@ static bool all_lifted(const Scene *scene)
 /* its axes are freed by LIST_FREE() */
 static LiftedConstants choose(const Scene *scene)
 {
-    LiftedConstants literals = {.arena = scene->arena};
+    LiftedConstants lifted = {.arena = scene->arena};
     int bodies = 0, elements = 0;
 
     for (int i = 0; i < scene->instance_count; i++) {
         bodies += scene->instances[i]->row->inertia != NULL;
         elements += scene->instances[i]->row->family == FAMILY_SCALAR;
     }
-    literals.elements = elements >= MANY_ELEMENTS;
-    literals.weights = bodies >= MANY_BODIES;
-    literals.geometry = literals.weights && all_lifted(scene);
-    if (literals.geometry)
-        list_axes(&literals, scene);
-    return literals;
+    lifted.elements = elements >= MANY_ELEMENTS;
+    lifted.weights = bodies >= MANY_BODIES;
+    lifted.geometry = lifted.weights && all_lifted(scene);
+    if (lifted.geometry)
+        list_axes(&lifted, scene);
+    return lifted;
 }
 
 /* expression in the equations for an entry of a value: itself, or the symbol that replaces it */
-static Expr literal_of(const LiftedConstants *literals, const Instance *instance, int param,
-                       int entry)
+static Expr lifted_expression(const LiftedConstants *lifted, const Instance *instance, int param,
+                              int entry)
 {
     const ParamKind kind = instance->row->params[param].kind;
     const Expr e = instance->values[param].at[entry];
@@ -139,37 +138,37 @@ static Expr literal_of(const LiftedConstants *literals, const Instance *instance
     /* a unit vector is stored exactly, with roots */
     if (expr_kinds(e) != 0 || expr_is_zero(e))
         return e;
-    if ((literals->weights && weighs(instance, kind)) ||
-        (literals->elements && conducts(instance, &instance->row->params[param])))
-        return instance_literal(instance, literals->arena, param, entry);
-    if (!literals->geometry || !moves(instance, kind) || expr_is(e, 1) || expr_is(e, -1) ||
-        (kind == PARAM_AXIS && !is_alone(literals, instance->values[param].at)))
+    if ((lifted->weights && weighs(instance, kind)) ||
+        (lifted->elements && conducts(instance, &instance->row->params[param])))
+        return instance_lifted_constant(instance, lifted->arena, param, entry);
+    if (!lifted->geometry || !moves(instance, kind) || expr_is(e, 1) || expr_is(e, -1) ||
+        (kind == PARAM_AXIS && !is_alone(lifted, instance->values[param].at)))
         return e;
-    return instance_literal(instance, literals->arena, param, entry);
+    return instance_lifted_constant(instance, lifted->arena, param, entry);
 }
 
 void lifted_constants_set(System *system, const Scene *scene)
 {
     Origin *origin = system->origin;
-    LiftedConstants literals = choose(scene);
+    LiftedConstants lifted = choose(scene);
 
-    origin->is_small = !literals.weights && !literals.elements;
-    for (int i = 0; origin->asks_literals && i < origin->instance_count; i++) {
+    origin->is_small = !lifted.weights && !lifted.elements;
+    for (int i = 0; origin->wants_lifted && i < origin->instance_count; i++) {
         const Instance *from = scene->instances[i];
 
         for (int k = 0; k < from->row->param_count; k++)
             for (int c = 0; c < from->values[k].count; c++) {
-                const Expr e = literal_of(&literals, from, k, c);
+                const Expr e = lifted_expression(&lifted, from, k, c);
 
                 if (e == from->values[k].at[c])
                     continue;
                 origin->instances[i].values[k].at[c] = e;
-                origin->literals++;
+                origin->lifted_count++;
                 LIST_PUSH(origin->parameters,
                           (GivenParameter){e, expr_evaluate(from->values[k].at[c], NULL, NULL)});
             }
     }
-    LIST_FREE(literals.axes);
+    LIST_FREE(lifted.axes);
 }
 
 /* --- whether two scenes differ in these alone --- */
@@ -192,7 +191,7 @@ static bool same_bytes(const void *a, const void *b, int count, size_t size)
     return count == 0 || memcmp(a, b, (size_t)count * size) == 0;
 }
 
-static bool same_values(const LiftedConstants *literals, const Instance *own, const Instance *from)
+static bool same_values(const LiftedConstants *lifted, const Instance *own, const Instance *from)
 {
     for (int k = 0; k < from->row->param_count; k++) {
         const Value *value = &own->values[k];
@@ -201,14 +200,13 @@ static bool same_values(const LiftedConstants *literals, const Instance *own, co
             !same_text(value->word, from->values[k].word))
             return false;
         for (int c = 0; c < value->count; c++)
-            if (value->at[c] != literal_of(literals, from, k, c))
+            if (value->at[c] != lifted_expression(lifted, from, k, c))
                 return false;
     }
     return true;
 }
 
-static bool same_instance(const LiftedConstants *literals, const Instance *own,
-                          const Instance *from)
+static bool same_instance(const LiftedConstants *lifted, const Instance *own, const Instance *from)
 {
     return own->row == from->row && strcmp(own->name, from->name) == 0 &&
            own->is_virtual == from->is_virtual && own->tail == from->tail &&
@@ -226,7 +224,7 @@ static bool same_instance(const LiftedConstants *literals, const Instance *own,
            same_text(own->coordinate, from->coordinate) && own->on_angle == from->on_angle &&
            own->coord_count == from->coord_count &&
            same_texts(own->coord, from->coord, from->coord_count) && own->by == from->by &&
-           own->by_coordinate == from->by_coordinate && same_values(literals, own, from);
+           own->by_coordinate == from->by_coordinate && same_values(lifted, own, from);
 }
 
 static bool same_graph(const Graph *own, const Graph *from)
@@ -261,12 +259,12 @@ static bool same_trees(const Tree *const *own, const Tree *const *from)
 
 static bool same_instances(const Origin *own, const Scene *from)
 {
-    LiftedConstants literals = choose(from);
+    LiftedConstants lifted = choose(from);
     bool same = true;
 
     for (int i = 0; same && i < from->instance_count; i++)
-        same = same_instance(&literals, &own->instances[i], from->instances[i]);
-    LIST_FREE(literals.axes);
+        same = same_instance(&lifted, &own->instances[i], from->instances[i]);
+    LIST_FREE(lifted.axes);
     return same;
 }
 
@@ -304,7 +302,7 @@ static void follow(Origin *origin, const Scene *scene)
 bool system_follows(System *view, const Scene *scene)
 {
     /* redundant rows were found with the old lengths */
-    if (view->origin->literals == 0 || view->constraints->redundant_rows.count > 0 ||
+    if (view->origin->lifted_count == 0 || view->constraints->redundant_rows.count > 0 ||
         !same_scene(view->origin, scene))
         return false;
     follow(view->origin, scene);
@@ -315,18 +313,18 @@ bool system_follows(System *view, const Scene *scene)
     return true;
 }
 
-bool system_serves(const System *system, bool has_literals)
+bool system_serves(const System *system, bool has_lifted)
 {
     const Origin *origin = system->origin;
 
-    return has_literals ? origin->asks_literals || origin->is_small : origin->literals == 0;
+    return has_lifted ? origin->wants_lifted || origin->is_small : origin->lifted_count == 0;
 }
 
-Expr system_literal(const System *system, int i)
+Expr system_lifted_constant(const System *system, int i)
 {
     const Origin *origin = system->origin;
 
-    return i < origin->literals
-               ? origin->parameters.at[origin->parameters.count - origin->literals + i].symbol
+    return i < origin->lifted_count
+               ? origin->parameters.at[origin->parameters.count - origin->lifted_count + i].symbol
                : NULL;
 }

@@ -471,7 +471,7 @@ static void take_scene(System *system, const SystemBuilder *making)
                   (GivenParameter){scene->parameters.at[i].symbol, scene->parameters.at[i].value});
     copy_instances(system, scene);
     enter_names(system);
-    system->origin->asks_literals = options->has_literals;
+    system->origin->wants_lifted = options->has_lifted;
     lifted_constants_set(system, scene);
     if (options->vary != NULL)
         vary_values(system, options->vary, options->context);
@@ -581,7 +581,7 @@ Status system_new_view(const Scene *scene, const SystemOptions *options, System 
 static Status make_sided(System *whole, SceneSource source, const bool *closed, bool takes_all,
                          const CallMonitor *watch, System **out, Diag *diag)
 {
-    const SystemOptions options = {.watch = watch, .has_literals = whole->origin->asks_literals};
+    const SystemOptions options = {.watch = watch, .has_lifted = whole->origin->wants_lifted};
     Scene scene = {0};
     System *made;
     Status status = OK;
