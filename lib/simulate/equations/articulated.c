@@ -14,13 +14,13 @@
 #include <string.h>
 
 /* articulated-body inertia of a place */
-typedef struct Beyond {
+typedef struct ArticulatedInertia {
     double J[9], H[9], M[9];
-} Beyond;
+} ArticulatedInertia;
 
-typedef struct Both { /* a motion (angular, linear) or a load (moment, force) */
+typedef struct SpatialVector { /* a motion (angular, linear) or a load (moment, force) */
     double turn[3], shift[3];
-} Both;
+} SpatialVector;
 
 typedef struct ArticulatedShare { /* inertia that belongs to one speed alone */
     int speed, number;            /* number: index into `needs` */
@@ -32,9 +32,10 @@ struct Articulated {
     LIST(ArticulatedShare) shares;
     int first_body;
     const double *numbers;
-    Beyond *blocks; /* one per place */
-    Both *passed;   /* one per place: first the load that is passed on, then the place's motion */
-    Both *yield;    /* U, one per speed */
+    ArticulatedInertia *blocks; /* one per place */
+    SpatialVector
+        *passed; /* one per place: first the load that is passed on, then the place's motion */
+    SpatialVector *yield; /* U, one per speed */
     /* one per speed: */
     double *own;     /* inertia that belongs to it alone, */
     double *lost;    /* and what earlier eliminations removed of it */
@@ -68,9 +69,9 @@ Articulated *articulated_new(const System *system)
         LIST_PUSH(ar->shares, (ArticulatedShare){share->row, ar->needs.count});
         LIST_PUSH(ar->needs, share->value);
     }
-    ar->blocks = NEW_ARRAY(Beyond, mass->place_count);
-    ar->passed = NEW_ARRAY(Both, mass->place_count);
-    ar->yield = NEW_ARRAY(Both, mass->speed_count);
+    ar->blocks = NEW_ARRAY(ArticulatedInertia, mass->place_count);
+    ar->passed = NEW_ARRAY(SpatialVector, mass->place_count);
+    ar->yield = NEW_ARRAY(SpatialVector, mass->speed_count);
     ar->own = NEW_ARRAY(double, mass->speed_count);
     ar->inverse = NEW_ARRAY(double, mass->speed_count);
     ar->rest = NEW_ARRAY(double, mass->speed_count);
@@ -96,7 +97,7 @@ const Expr *articulated_needs(const Articulated *ar, int *count)
 
 /* --- common to both cases: work of a load in a speed, loads and motions along the tree --- */
 
-static inline double work(const Articulated *ar, int speed, const Both *load)
+static inline double work(const Articulated *ar, int speed, const SpatialVector *load)
 {
     const MassSpeed *own = &ar->mass->speeds[speed];
     const double *turn = ar->numbers + own->turn, *slide = ar->numbers + own->slide;
@@ -106,7 +107,7 @@ static inline double work(const Articulated *ar, int speed, const Both *load)
     return (own->turns ? dot(turn, load->turn) : 0) + (own->slides ? dot(slide, load->shift) : 0);
 }
 
-static inline void add_times(Both *sum, double factor, const Both *load)
+static inline void add_times(SpatialVector *sum, double factor, const SpatialVector *load)
 {
     for (int i = 0; i < 3; i++) {
         sum->turn[i] += factor * load->turn[i];
@@ -115,7 +116,7 @@ static inline void add_times(Both *sum, double factor, const Both *load)
 }
 
 /* transfers a load to the parent */
-static inline void pass_on(const Articulated *ar, const MassPlace *place, Both *load)
+static inline void pass_on(const Articulated *ar, const MassPlace *place, SpatialVector *load)
 {
     const double *way = ar->numbers + place->way;
 
@@ -132,7 +133,7 @@ static inline void pass_on(const Articulated *ar, const MassPlace *place, Both *
 }
 
 /* transfers the parent's motion to the place */
-static inline void carry(const Articulated *ar, const MassPlace *place, Both *motion)
+static inline void carry(const Articulated *ar, const MassPlace *place, SpatialVector *motion)
 {
     const double *way = ar->numbers + place->way;
 
@@ -148,7 +149,7 @@ static inline void carry(const Articulated *ar, const MassPlace *place, Both *mo
 
 /* --- in a plane: J of the block is J[0], H its H[0] and H[1], M its M[0], M[1], M[2] --- */
 
-static void begin_planar(const double *body, Beyond *b)
+static void begin_planar(const double *body, ArticulatedInertia *b)
 {
     b->J[0] = body[12];
     b->H[0] = -body[2];
@@ -157,14 +158,15 @@ static void begin_planar(const double *body, Beyond *b)
     b->M[1] = 0;
 }
 
-static void yield_planar(const Beyond *b, const double *turn, const double *slide, Both *out)
+static void yield_planar(const ArticulatedInertia *b, const double *turn, const double *slide,
+                         SpatialVector *out)
 {
     out->turn[2] = b->J[0] * turn[2] + b->H[0] * slide[0] + b->H[1] * slide[1];
     out->shift[0] = b->H[0] * turn[2] + b->M[0] * slide[0] + b->M[1] * slide[1];
     out->shift[1] = b->H[1] * turn[2] + b->M[1] * slide[0] + b->M[2] * slide[1];
 }
 
-static void take_off_planar(Beyond *b, double inverse, const Both *u)
+static void take_off_planar(ArticulatedInertia *b, double inverse, const SpatialVector *u)
 {
     const double t = u->turn[2] * inverse, x = u->shift[0] * inverse, y = u->shift[1] * inverse;
 
@@ -177,7 +179,8 @@ static void take_off_planar(Beyond *b, double inverse, const Both *u)
 }
 
 /* e = (-y, x) of the vector between the origins: H += M e, J += e . (H before and after) */
-static void hand_on_planar(const Articulated *ar, const MassPlace *place, Beyond *b, Beyond *onto)
+static void hand_on_planar(const Articulated *ar, const MassPlace *place, ArticulatedInertia *b,
+                           ArticulatedInertia *onto)
 {
     const double *way = ar->numbers + place->way;
 
@@ -197,7 +200,7 @@ static void hand_on_planar(const Articulated *ar, const MassPlace *place, Beyond
 
 /* --- in space --- */
 
-static void begin_spatial(const double *body, Beyond *b)
+static void begin_spatial(const double *body, ArticulatedInertia *b)
 {
     const double *S = body + 1;
     const double H[9] = {0, -S[2], S[1], S[2], 0, -S[0], -S[1], S[0], 0};
@@ -221,8 +224,8 @@ static inline void add_across(const double *A, const double *v, double *out)
             out[k] += A[3 * i + k] * v[i];
 }
 
-static void yield_spatial(const Beyond *b, const MassSpeed *speed, const double *turn,
-                          const double *slide, Both *out)
+static void yield_spatial(const ArticulatedInertia *b, const MassSpeed *speed, const double *turn,
+                          const double *slide, SpatialVector *out)
 {
     memset(out, 0, sizeof *out);
     if (speed->turns) {
@@ -235,7 +238,7 @@ static void yield_spatial(const Beyond *b, const MassSpeed *speed, const double 
     }
 }
 
-static void take_off_spatial(Beyond *b, double inverse, const Both *u)
+static void take_off_spatial(ArticulatedInertia *b, double inverse, const SpatialVector *u)
 {
     for (int i = 0; i < 3; i++) {
         const double t = u->turn[i] * inverse, f = u->shift[i] * inverse;
@@ -250,7 +253,7 @@ static void take_off_spatial(Beyond *b, double inverse, const Both *u)
 
 /* Move to a point from which r leads to this one: H += r x M, J += r x H^T after, minus H r
  * before. */
-static void move_block(const double *r, Beyond *b)
+static void move_block(const double *r, ArticulatedInertia *b)
 {
     for (int k = 0; k < 3; k++) { /* H before times the matrix of r x: its rows times */
         double row[3] = {0};
@@ -290,7 +293,8 @@ static void turn_tensor(const MassPlace *place, const double *R, double *A)
     }
 }
 
-static void hand_on_spatial(const Articulated *ar, const MassPlace *place, Beyond *b, Beyond *onto)
+static void hand_on_spatial(const Articulated *ar, const MassPlace *place, ArticulatedInertia *b,
+                            ArticulatedInertia *onto)
 {
     if (place->has_step)
         move_block(ar->numbers + place->step, b);
@@ -312,7 +316,7 @@ static void hand_on_spatial(const Articulated *ar, const MassPlace *place, Beyon
 
 /* what the other speeds of this place would remove from the inertia of a later speed; `load` is U
  * of the one that is eliminated */
-static void note_lost(Articulated *ar, const MassPlace *at, int from, const Both *load,
+static void note_lost(Articulated *ar, const MassPlace *at, int from, const SpatialVector *load,
                       double inverse)
 {
     for (int i = from; i < at->first + at->count; i++) {
@@ -322,12 +326,12 @@ static void note_lost(Articulated *ar, const MassPlace *at, int from, const Both
     }
 }
 
-static bool take_off(Articulated *ar, const MassPlace *place, Beyond *b, int i)
+static bool take_off(Articulated *ar, const MassPlace *place, ArticulatedInertia *b, int i)
 {
     const int j = ar->mass->speed_at[i];
     const MassSpeed *speed = &ar->mass->speeds[j];
     const double *turn = ar->numbers + speed->turn, *slide = ar->numbers + speed->slide;
-    Both *u = &ar->yield[j];
+    SpatialVector *u = &ar->yield[j];
     double D;
 
     if (ar->mass->planar)
@@ -349,14 +353,14 @@ static bool take_off(Articulated *ar, const MassPlace *place, Beyond *b, int i)
 static void hand_on(Articulated *ar, int p)
 {
     const MassPlace *place = &ar->mass->places[p];
-    Beyond *onto = &ar->blocks[place->parent];
+    ArticulatedInertia *onto = &ar->blocks[place->parent];
 
     if (ar->mass->planar)
         hand_on_planar(ar, place, &ar->blocks[p], onto);
     else
         hand_on_spatial(ar, place, &ar->blocks[p], onto);
     for (int i = place->first; i < place->first + place->count; i++) {
-        Both load = ar->yield[ar->mass->speed_at[i]];
+        SpatialVector load = ar->yield[ar->mass->speed_at[i]];
         const MassPlace *parent = &ar->mass->places[place->parent];
 
         pass_on(ar, place, &load);
@@ -400,7 +404,7 @@ void articulated_solve(Articulated *ar, const double *force, double *du)
     memset(ar->passed, 0, (size_t)mass->place_count * sizeof *ar->passed);
     for (int p = mass->place_count - 1; p >= 0; p--) {
         const MassPlace *place = &mass->places[p];
-        Both *load = &ar->passed[p];
+        SpatialVector *load = &ar->passed[p];
 
         for (int i = place->first; i < place->first + place->count; i++) {
             const int j = mass->speed_at[i];
@@ -415,16 +419,16 @@ void articulated_solve(Articulated *ar, const double *force, double *du)
     }
     for (int p = 0; p < mass->place_count; p++) {
         const MassPlace *place = &mass->places[p];
-        Both *motion = &ar->passed[p];
+        SpatialVector *motion = &ar->passed[p];
 
-        *motion = place->parent >= 0 ? ar->passed[place->parent] : (Both){0};
+        *motion = place->parent >= 0 ? ar->passed[place->parent] : (SpatialVector){0};
         if (place->parent >= 0)
             carry(ar, place, motion);
         for (int i = place->first + place->count - 1; i >= place->first; i--) {
             const int j = mass->speed_at[i];
             const MassSpeed *speed = &mass->speeds[j];
-            const Both *u = &ar->yield[j];
-            Both own;
+            const SpatialVector *u = &ar->yield[j];
+            SpatialVector own;
 
             du[j] = ar->rest[j] -
                     ar->inverse[j] * (dot(u->turn, motion->turn) + dot(u->shift, motion->shift));

@@ -19,7 +19,7 @@ static int number_of(Expr symbol)
 static int find(const Parameters *p, Expr symbol)
 {
     const int number = number_of(symbol);
-    const int at = number < p->numbers ? p->places[number] - 1 : -1;
+    const int at = number < p->place_count ? p->places[number] - 1 : -1;
 
     return at >= 0 && p->symbols[at] == symbol ? at : -1;
 }
@@ -33,10 +33,10 @@ static int add(Parameters *p, Expr symbol)
         p->symbols = mem_grow(p->symbols, (size_t)p->room, sizeof(Expr));
         p->values = mem_grow(p->values, (size_t)p->room, sizeof(double));
     }
-    if (number >= p->numbers) {
+    if (number >= p->place_count) {
         p->places = mem_grow(p->places, (size_t)number + 64, sizeof(int));
-        memset(p->places + p->numbers, 0, (size_t)(number + 64 - p->numbers) * sizeof(int));
-        p->numbers = number + 64;
+        memset(p->places + p->place_count, 0, (size_t)(number + 64 - p->place_count) * sizeof(int));
+        p->place_count = number + 64;
     }
     p->places[number] = ++p->count;
     return p->count - 1;

@@ -14,8 +14,8 @@ typedef struct Parameters {
     int count, room;
     Expr *symbols;
     double *values;
-    int *places; /* by number of symbol: index plus 1; 0 where no value is stored */
-    int numbers;
+    int *places; /* place_count, by number of symbol: index plus 1; 0 where no value is stored */
+    int place_count;
 } Parameters;
 
 /* with the stored values of others, and the same source of further ones */
