@@ -232,8 +232,8 @@ bool verified_solve_is_regular(const VerifiedSolve *square)
     return square->is_regular;
 }
 
-void verified_solve_solve(const VerifiedSolve *s, const double *right, const double *right_error,
-                          double *out, double *out_error)
+void verified_solve_solution(const VerifiedSolve *s, const double *right, const double *right_error,
+                             double *out, double *out_error)
 {
     const int n = s->n;
     DoubleDouble *x = NEW_ARRAY(DoubleDouble, n);

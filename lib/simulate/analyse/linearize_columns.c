@@ -87,7 +87,7 @@ static void solve(const Work *w, Deviation *d)
         b[r] = -d->right[r].value;
         error[r] = d->right[r].error;
     }
-    verified_solve_solve(w->equations, b, error, found, off);
+    verified_solve_solution(w->equations, b, error, found, off);
     for (int k = 0; k < n; k++)
         d->follow[k] = (LinearNumber){found[k], off[k]};
     MEM_FREE(b, error, found, off);

@@ -134,7 +134,7 @@ static bool find_rates(Work *w)
         residuals(w, right, error);
         sound = verified_solve_is_regular(w->equations);
         if (sound)
-            verified_solve_solve(w->equations, right, NULL, step, NULL);
+            verified_solve_solution(w->equations, right, NULL, step, NULL);
         moves = false;
         for (int k = 0; k < w->unknowns && sound; k++) {
             double *follow = &w->follow[linear_unknown(w, k) - w->at.acceleration];
@@ -161,7 +161,7 @@ static bool bound_rates(Work *w)
     sound = verified_solve_is_regular(w->equations);
     residuals(w, right, error);
     if (sound)
-        verified_solve_solve(w->equations, right, error, step, off);
+        verified_solve_solution(w->equations, right, error, step, off);
     for (int k = 0; k < w->unknowns && sound; k++)
         w->follow_error[linear_unknown(w, k) - w->at.acceleration] = fabs(step[k]) + off[k];
     MEM_FREE(right, error, step, off);
@@ -294,7 +294,7 @@ void linear_complete(const Work *w, const LinearNumber *right, LinearNumber *v)
         b[r] = -sum.value;
         error[r] = sum.error;
     }
-    verified_solve_solve(w->held, b, error, found, off);
+    verified_solve_solution(w->held, b, error, found, off);
     for (int j = 0, column = 0; j < nu; j++)
         if (!w->is_independent[j]) {
             v[j] = (LinearNumber){found[column], off[column]};

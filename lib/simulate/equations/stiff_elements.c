@@ -218,12 +218,12 @@ void stiff_elements_free(StiffElements *s)
     MEM_FREE(s->inputs.symbols, s->here, s->w, s->moved, s->answer, s->y, s);
 }
 
-int stiff_elements_elements(const StiffElements *s)
+int stiff_elements_element_count(const StiffElements *s)
 {
     return s->elements.count;
 }
 
-int stiff_elements_sources(const StiffElements *s)
+int stiff_elements_source_count(const StiffElements *s)
 {
     return s->sources.count;
 }

@@ -25,8 +25,8 @@ MUST_USE Status stiff_elements_new(const VariableIndex *layout, Parameters *para
                                    Motion *motion, const Equations *equations, StiffElements **out,
                                    Diag *diag);
 void stiff_elements_free(StiffElements *stiff_elements); /* NULL is fine */
-int stiff_elements_elements(const StiffElements *stiff_elements);
-int stiff_elements_sources(const StiffElements *stiff_elements);
+int stiff_elements_element_count(const StiffElements *stiff_elements);
+int stiff_elements_source_count(const StiffElements *stiff_elements);
 /* name of the first variable of an element's argument, borrowed */
 const char *stiff_elements_variable(const StiffElements *stiff_elements, int element);
 

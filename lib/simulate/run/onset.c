@@ -17,8 +17,8 @@ Onset *onset_new(StiffElements *stiff_elements, const Ode *ode)
     o->stiff_elements = stiff_elements;
     o->visits = stiff_elements_visits(stiff_elements);
     o->ode = ode;
-    o->elements = k = stiff_elements_elements(stiff_elements);
-    o->sources = j = stiff_elements_sources(stiff_elements);
+    o->elements = k = stiff_elements_element_count(stiff_elements);
+    o->sources = j = stiff_elements_source_count(stiff_elements);
     o->length = ode->n + ode->quadratures;
     o->has_pulses = k > 0;
     o->at = (Affine){NEW_ARRAY(double, k), NEW_ARRAY(double, k), NEW_ARRAY(double, k),

@@ -178,7 +178,7 @@ static int largest_at(const double *v, int count)
 static Openness find_openness(const Phase *phase, double t, const double *y, const Control *control)
 {
     const VariableIndex *l = phase->layout;
-    const int elements = stiff_elements_elements(phase->stiff_elements);
+    const int elements = stiff_elements_element_count(phase->stiff_elements);
     double *off = NEW_ARRAY(double, phase->length), *own = off + l->n + l->nu;
     double *moved = NEW_ARRAY(double, elements), *there = NEW_ARRAY(double, elements);
     double *blocked = NEW_ARRAY(double, l->nx), *conducting = NEW_ARRAY(double, l->nx);
@@ -230,7 +230,7 @@ Status phase_choose_method(const Phase *phase, double t, const double *y, const 
     const Method *coupled = phase_coupled_method(phase);
     Openness open;
 
-    if (phase->stiff_elements == NULL || stiff_elements_elements(phase->stiff_elements) == 0 ||
+    if (phase->stiff_elements == NULL || stiff_elements_element_count(phase->stiff_elements) == 0 ||
         phase->layout->nx == 0)
         return OK;
     open = find_openness(phase, t, y, control);
