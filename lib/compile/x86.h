@@ -71,7 +71,7 @@ void x86_enter(X86Code *code);
 void x86_leave(X86Code *code);
 /* Arguments of a call, by number from 0: an address, or a number. */
 void x86_argument_address(X86Code *code, int argument, X86Operand memory);
-void x86_argument(X86Code *code, int argument, uint64_t number);
+void x86_argument(X86Code *code, int argument, uint64_t value);
 void x86_call(X86Code *code, uint64_t function);
 
 #endif

@@ -59,7 +59,7 @@ void spice_write_values(Spice *s);
 void spice_name_elements(Spice *s);
 void spice_write_elements(Spice *s);
 /* whether an element is connected to the node, or only reads its voltage */
-bool spice_node_is_used(const Spice *s, const char *node);
+bool spice_node_is_used(const Spice *s, const char *name);
 
 enum { MODEL_KEYS = 3 }; /* the first word of a model that may be a key */
 /* the model of that name and type, or NULL and why */

@@ -153,7 +153,7 @@ typedef struct Item {
 } Item;
 
 /* Stable sort by the keys. O(n log n), O(n) where in order already. */
-void items_sort(Item *items, int count, int (*order)(Expr a, Expr b));
+void items_sort(Item *items, int count, int (*compare)(Expr a, Expr b));
 
 /* --- sum.c, product.c --- */
 

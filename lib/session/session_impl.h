@@ -217,8 +217,8 @@ void session_remark_linear(ct_session *session);
 int session_entry(const char *name);
 MUST_USE Status session_entry_value(const ct_session *session, int entry, const int *index,
                                     int count, double *out, Diag *diag);
-/* of an entry whose numbers are written out; `session` is the context of an EntryFinder */
-bool session_entry_dimension(void *session, const Syntax *call, Dimension *out);
+/* of an entry whose numbers are written out; the context of an EntryFinder is the session */
+bool session_entry_dimension(void *context, const Syntax *call, Dimension *out);
 
 /* --- values --- */
 

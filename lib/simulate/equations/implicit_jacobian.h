@@ -22,8 +22,8 @@ void implicit_jacobian_free(ImplicitSlopes *jacobian); /* NULL is fine */
 /* Pattern as of a motion's ImplicitJacobian. The count is -1, and there is no Jacobian, where the
  * motion slides along surfaces, where a network reads multipliers of redundant rows, and where the
  * program would become too large. O(instructions times colours / batch size), networks aside. */
-int implicit_jacobian_pattern(void *jacobian, const int **row, const int **column);
-bool implicit_jacobian_at(void *jacobian, double t, double c, const double *w, const double *w_rate,
-                          double *values);
+int implicit_jacobian_pattern(void *context, const int **row, const int **column);
+bool implicit_jacobian_at(void *context, double t, double c, const double *w, const double *w_rate,
+                          double *out);
 
 #endif

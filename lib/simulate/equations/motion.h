@@ -231,7 +231,7 @@ typedef struct ImplicitJacobian {
     bool (*at)(void *context, double t, double c, const double *w, const double *w_rate,
                double *values);
 } ImplicitJacobian;
-void motion_offer_implicit(Motion *motion, ImplicitJacobian jacobian);
+void motion_offer_implicit(Motion *motion, ImplicitJacobian offered);
 /* Evaluates everything there, with the network that follows from these u' and m multipliers. `out`
  * gets the solution, without u'. False: the network has no solution. */
 bool motion_evaluate_driven(Motion *motion, double t, const double *y, const double *acceleration,

@@ -31,6 +31,6 @@ double parameters_evaluate(Parameters *parameters, Expr e);
 void parameters_free(Parameters *parameters);
 
 /* for expr_evaluate() and the like; the context is the Parameters */
-double parameters_value_in(void *parameters, Expr symbol);
+double parameters_value_in(void *context, Expr symbol);
 
 #endif

@@ -20,7 +20,7 @@ void rate_jacobian_free(RateJacobian *jacobian); /* NULL is fine */
 /* As of an Ode: derivatives of all rates at (t, y), also of quadratures. False where they are not
  * available: on a surface that the motion slides along, near a singular position, where a network
  * reads multipliers of redundant rows. O((states + unknowns) times instructions / batch size), and
- * one solution per state. */
-bool rate_jacobian_at(void *jacobian, double t, const double *y, double *out);
+ * one solution per state. The context is the RateJacobian. */
+bool rate_jacobian_at(void *context, double t, const double *y, double *out);
 
 #endif

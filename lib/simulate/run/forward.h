@@ -19,6 +19,6 @@ MUST_USE Status forward_integrate(ActiveRun *run, const SimulationInput *setting
 /* Make the expressions that a host receives at the rows of a phase, once. */
 MUST_USE Status forward_probe_seen(ActiveRun *run, Phase *phase, const Host *host, Diag *diag);
 /* the `see` of a plan whose rows a host receives */
-bool forward_show_row(void *context, int phase, double t, const double *y);
+bool forward_show_row(void *context, int phase_number, double t, const double *y);
 
 #endif

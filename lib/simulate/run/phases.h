@@ -38,8 +38,8 @@ typedef struct Manner {
     Host *host; /* NULL: nobody */
 } Manner;
 
-void phases_free(Phases *phases); /* NULL is fine */
-void phases_add(Phases *phases, Phase *given);
+void phases_free(Phases *phases);              /* NULL is fine */
+void phases_add(Phases *phases, Phase *phase); /* a given phase */
 /* the phase with `count` switches on these sides, and on no sides of surfaces; NULL: there is none
  */
 Phase *phases_find(const Phases *phases, const bool *closed, int count);
