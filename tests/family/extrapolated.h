@@ -5,10 +5,10 @@
 #ifndef COTREE_TESTS_EXTRAPOLATED_H
 #define COTREE_TESTS_EXTRAPOLATED_H
 
+#include "neville.h"
+
 #include <math.h>
 #include <string.h>
-
-typedef long double Real;
 
 enum { MOST_STATES = 400 };
 typedef struct Extrapolation {
@@ -53,12 +53,11 @@ static Real extrapolate(const Extrapolation *by, Real step, Real *y)
     for (int i = 0; i < ROWS; i++) {
         midpoint(by, y, step, 2 * (i + 1), table[i]);
         for (int k = i - 1; k >= 0; k--) {
-            const Real ratio = (Real)(i + 1) * (i + 1) / ((Real)(k + 1) * (k + 1)) - 1;
+            const Real ratio = (Real)(i + 1) * (i + 1) / ((Real)(k + 1) * (k + 1));
 
             for (int c = 0; c < by->count; c++) {
-                const Real change = (table[k + 1][c] - table[k][c]) / ratio;
+                const Real change = neville(ratio, table[k + 1][c], &table[k][c]);
 
-                table[k][c] = table[k + 1][c] + change;
                 if (k == 0 && i == ROWS - 1 && !(fabsl(change) <= last * (1 + fabsl(table[0][c]))))
                     last = isfinite(change) ? fabsl(change) / (1 + fabsl(table[0][c])) : 1;
             }

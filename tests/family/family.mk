@@ -72,7 +72,7 @@ family_short_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_mechanisms
 family_mechanisms_SOURCES = tests/family/family_mechanisms.c tests/family/bricard.h \
 	tests/family/cranks.h tests/family/mechanisms.h tests/family/one_freedom.h \
-	tests/family/extrapolated.h tests/family/script.h
+	tests/family/extrapolated.h tests/family/neville.h tests/family/script.h
 family_mechanisms_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_assembly
 family_assembly_SOURCES = tests/family/family_assembly.c tests/family/standing.h tests/family/scenes.h tests/family/jointed.h tests/family/family.h tests/random.h \
@@ -111,7 +111,7 @@ family_sharing_LDADD = libcotree.la $(unit_ldadd)
 
 FAMILIES += family_redundant
 family_redundant_SOURCES = tests/family/family_redundant.c tests/family/mechanisms.h \
-	tests/family/one_freedom.h tests/family/extrapolated.h tests/family/script.h
+	tests/family/one_freedom.h tests/family/extrapolated.h tests/family/neville.h tests/family/script.h
 family_redundant_LDADD = libcotree.la $(unit_ldadd)
 
 FAMILIES += family_hanging
@@ -137,14 +137,14 @@ family_walls_SOURCES = tests/family/family_walls.c tests/family/family.h tests/f
 family_walls_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_stress_motions
 family_stress_motions_SOURCES = tests/family/family_stress_motions.c tests/family/bricard.h \
-	tests/family/cranks.h tests/family/extrapolated.h tests/family/jointed.h \
+	tests/family/cranks.h tests/family/extrapolated.h tests/family/neville.h tests/family/jointed.h \
 	tests/family/mechanisms.h tests/family/one_freedom.h tests/family/script.h \
 	tests/family/stress.h
 family_stress_motions_LDADD = libcotree.la $(unit_ldadd)
 
 FAMILIES += family_stress_runs
 family_stress_runs_SOURCES = tests/family/family_stress_runs.c tests/family/mechanisms.h \
-	tests/family/one_freedom.h tests/family/extrapolated.h tests/family/script.h \
+	tests/family/one_freedom.h tests/family/extrapolated.h tests/family/neville.h tests/family/script.h \
 	tests/family/stress.h
 family_stress_runs_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_native
@@ -200,7 +200,7 @@ FAMILIES += family_machines
 family_machines_SOURCES = tests/family/family_machines.c tests/family/machine.h \
 	tests/family/machine_draw.h tests/family/machine_networks.h tests/family/machine_tableau.h \
 	tests/family/machine_whole.h \
-	tests/family/extrapolated.h tests/family/family.h tests/family/script.h tests/unit/session_kit.h tests/unit/test.h tests/random.h
+	tests/family/extrapolated.h tests/family/neville.h tests/family/family.h tests/family/script.h tests/unit/session_kit.h tests/unit/test.h tests/random.h
 family_machines_LDADD = libcotree.la $(unit_ldadd)
 
 FAMILIES += family_machine_slopes
@@ -208,7 +208,7 @@ family_machine_slopes_SOURCES = tests/family/family_machine_slopes.c tests/famil
 	tests/family/machine_draw.h tests/family/machine_networks.h \
 	tests/family/machine_inputs.h tests/family/machine_slopes.h tests/family/machine_tableau.h \
 	tests/family/machine_whole.h \
-	tests/family/extrapolated.h tests/family/family.h tests/family/script.h \
+	tests/family/extrapolated.h tests/family/neville.h tests/family/family.h tests/family/script.h \
 	tests/unit/session_kit.h tests/unit/test.h tests/random.h
 family_machine_slopes_LDADD = libcotree.la $(unit_ldadd)
 
@@ -218,7 +218,7 @@ family_machine_code_SOURCES = tests/family/family_machine_code.c tests/family/ma
 	tests/family/machine_draw.h tests/family/machine_networks.h \
 	tests/family/machine_inputs.h tests/family/machine_slopes.h tests/family/machine_tableau.h \
 	tests/family/machine_whole.h \
-	tests/family/extrapolated.h tests/family/family.h tests/family/script.h \
+	tests/family/extrapolated.h tests/family/neville.h tests/family/family.h tests/family/script.h \
 	tests/unit/session_kit.h tests/unit/test.h tests/random.h
 family_machine_code_LDADD = libcotree.la $(unit_ldadd) -ldl
 
@@ -226,7 +226,7 @@ FAMILIES += family_machine_figures
 family_machine_figures_SOURCES = tests/family/family_machine_figures.c tests/family/machine.h \
 	tests/family/machine_draw.h tests/family/machine_networks.h \
 	tests/family/machine_tableau.h tests/family/machine_whole.h \
-	tests/family/extrapolated.h tests/family/family.h tests/family/script.h \
+	tests/family/extrapolated.h tests/family/neville.h tests/family/family.h tests/family/script.h \
 	tests/unit/session_kit.h tests/unit/test.h tests/random.h
 family_machine_figures_LDADD = libcotree.la $(unit_ldadd)
 
@@ -234,7 +234,7 @@ FAMILIES += family_machine_jumps
 family_machine_jumps_SOURCES = tests/family/family_machine_jumps.c tests/family/machine.h \
 	tests/family/machine_draw.h tests/family/machine_hybrid.h tests/family/machine_hybrid_draw.h \
 	tests/family/machine_networks.h tests/family/machine_tableau.h tests/family/machine_whole.h \
-	tests/family/extrapolated.h tests/family/family.h tests/family/script.h \
+	tests/family/extrapolated.h tests/family/neville.h tests/family/family.h tests/family/script.h \
 	tests/unit/session_kit.h tests/unit/test.h tests/random.h
 family_machine_jumps_LDADD = libcotree.la $(unit_ldadd)
 
@@ -242,7 +242,7 @@ FAMILIES += family_machine_fmu
 family_machine_fmu_SOURCES = tests/family/family_machine_fmu.c tests/family/machine.h \
 	tests/family/machine_draw.h tests/family/machine_hybrid.h tests/family/machine_hybrid_draw.h \
 	tests/family/machine_networks.h tests/family/machine_tableau.h tests/family/machine_whole.h \
-	tests/family/extrapolated.h tests/family/family.h tests/family/script.h \
+	tests/family/extrapolated.h tests/family/neville.h tests/family/family.h tests/family/script.h \
 	tests/unit/session_kit.h tests/unit/test.h tests/random.h
 family_machine_fmu_LDADD = libcotree.la $(unit_ldadd)
 
@@ -251,7 +251,7 @@ family_machine_uses_SOURCES = tests/family/family_machine_uses.c tests/family/ma
 	tests/family/machine_draw.h tests/family/machine_hybrid.h tests/family/machine_hybrid_draw.h \
 	tests/family/machine_inputs.h tests/family/machine_slopes.h \
 	tests/family/machine_networks.h tests/family/machine_tableau.h tests/family/machine_whole.h \
-	tests/family/extrapolated.h tests/family/family.h tests/family/script.h \
+	tests/family/extrapolated.h tests/family/neville.h tests/family/family.h tests/family/script.h \
 	tests/unit/session_kit.h tests/unit/test.h tests/random.h
 family_machine_uses_LDADD = libcotree.la $(unit_ldadd)
 
@@ -286,6 +286,6 @@ family_thermostats_SOURCES = tests/family/family_thermostats.c tests/family/fami
 family_thermostats_LDADD = libcotree.la $(unit_ldadd)
 
 FAMILIES += family_stiff
-family_stiff_SOURCES = tests/family/family_stiff.c tests/family/family.h tests/family/implicit_euler.h \
+family_stiff_SOURCES = tests/family/family_stiff.c tests/family/family.h tests/family/implicit_euler.h tests/family/neville.h \
 	tests/family/script.h tests/random.h tests/unit/session_kit.h tests/unit/test.h
 family_stiff_LDADD = libcotree.la $(unit_ldadd)

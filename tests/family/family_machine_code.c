@@ -220,22 +220,14 @@ static Verdict code_moves(Member *member)
     return verdict;
 }
 
-/* h to `to`; false: the oracle isn't sure, or something jumps there */
+/* all values at `to`; false: the oracle isn't sure, or something jumps there */
 static bool hybrid_answers(Hybrid *h, double to, Asks *asks)
 {
-    static Instant now;
     Real y[MOST_STATES];
     double at = 0;
 
     memcpy(y, h->d.y, sizeof y);
-    if (!hybrid_starts(h, y) || h->unsure || !hybrid_runs(h, &at, to, y) || h->unsure ||
-        at - h->last < 1e-5)
-        return false;
-    unpack(&h->d.m, y, &now);
-    if (!instant_solve(&h->d.m, &now))
-        return false;
-    ask_all(&h->d.m, &now, asks);
-    return true;
+    return hybrid_starts(h, y) && !h->unsure && hybrid_asks(h, &at, to, y, asks) == HYBRID_ANSWERS;
 }
 
 /* Code of a machine takes samples, switches and turns diodes off as its parts do, or is refused. */

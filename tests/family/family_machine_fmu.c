@@ -58,20 +58,14 @@ static bool does(const char *program, const char *arguments, const Work *w)
     return system(command) == 0; /* NOLINT(cert-env33-c): of this build */
 }
 
-/* a row of the oracle's; false: it isn't sure of it */
+/* a row of the oracle's, unless something jumps there; false: it isn't sure of it */
 static bool write_row(Hybrid *h, double *at, double to, Real *y, const int *item, FILE *out)
 {
-    static Instant now;
     static Asks asks;
+    const HybridAnswer answer = hybrid_asks(h, at, to, y, &asks);
 
-    if (to > *at && (!hybrid_runs(h, at, to, y) || h->unsure))
-        return false;
-    if (to > 0 && *at - h->last < 1e-5)
-        return true;
-    unpack(&h->d.m, y, &now);
-    if (!instant_solve(&h->d.m, &now))
-        return false;
-    ask_all(&h->d.m, &now, &asks);
+    if (answer != HYBRID_ANSWERS)
+        return answer == HYBRID_JUMPS;
     if (to == 0) {
         (void)fprintf(out, "t");
         for (int i = 0; i < ITEMS; i++)

@@ -6,11 +6,11 @@
 #ifndef COTREE_TESTS_IMPLICIT_EULER_H
 #define COTREE_TESTS_IMPLICIT_EULER_H
 
+#include "neville.h"
+
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>
-
-typedef long double Real;
 
 enum { STIFF_STATES = 6, STIFF_COLUMNS = 10, STIFF_STEPS = 20000 };
 
@@ -101,9 +101,8 @@ static Real stiff_step(const StiffProblem *p, Real step, const Real *y, Real *ou
         for (int k = i - 1; k >= 0; k--)
             for (int c = 0; c < p->count; c++) {
                 const Real change =
-                    (table[k + 1][c] - table[k][c]) / ((Real)(i + 1) / (Real)(k + 1) - 1);
+                    neville((Real)(i + 1) / (Real)(k + 1), table[k + 1][c], &table[k][c]);
 
-                table[k][c] = table[k + 1][c] + change;
                 if (k == 0)
                     last = fmaxl(last, fabsl(change) / (1 + fabsl(y[c])));
             }

@@ -547,4 +547,23 @@ static inline bool hybrid_starts(Hybrid *h, Real *y)
     return sample_now(h, 0, y);
 }
 
+typedef enum HybridAnswer { HYBRID_ANSWERS, HYBRID_JUMPS, HYBRID_IS_UNSURE } HybridAnswer;
+
+/* All values at `to`, no sooner than *at, where the machine is in state y; both move there.
+ * HYBRID_JUMPS: something jumps just before. */
+static inline HybridAnswer hybrid_asks(Hybrid *h, double *at, double to, Real *y, Asks *asks)
+{
+    static Instant now;
+
+    if (to > *at && (!hybrid_runs(h, at, to, y) || h->unsure))
+        return HYBRID_IS_UNSURE;
+    if (to > 0 && *at - h->last < 1e-5)
+        return HYBRID_JUMPS;
+    unpack(&h->d.m, y, &now);
+    if (!instant_solve(&h->d.m, &now))
+        return HYBRID_IS_UNSURE;
+    ask_all(&h->d.m, &now, asks);
+    return HYBRID_ANSWERS;
+}
+
 #endif
