@@ -52,10 +52,12 @@ faults/Makefile:
 	@mkdir -p faults
 	@cd faults && $(abs_srcdir)/configure -q --enable-faults --enable-coverage --enable-werror CFLAGS='-O1 -g1'
 
-# make lint PARTS="format size": only these
-lint:
+# make lint PARTS="format size": only these; lint-all: clang-tidy reads what has not changed, too
+lint: lint_scope =
+lint-all: lint_scope = --all
+lint lint-all:
 	@BUILD='$(abs_top_builddir)' CC='$(CC)' CPPFLAGS='-D_GNU_SOURCE -I$(abs_top_builddir) $(GSL_CFLAGS) $(KLU_CFLAGS)' \
-		$(dev)/lint $(PARTS)
+		$(dev)/lint $(lint_scope) $(PARTS)
 
 # the diffs of doc/HACKING, applied to a copy, build and run
 check-hacking: all
@@ -163,4 +165,4 @@ mostlyclean-local:
 distclean-local:
 	rm -rf san threads faults coverage bench.work precision scaling
 
-.PHONY: check-total check-hacking check-san check-san-all check-threads check-faults lint format bench benches bench-precision bench-scaling bench-estimates bench-peers bench-races bench-latency bench-record precision-record scaling-record fuzz stress check-coverage
+.PHONY: check-total check-hacking check-san check-san-all check-threads check-faults lint lint-all format bench benches bench-precision bench-scaling bench-estimates bench-peers bench-races bench-latency bench-record precision-record scaling-record fuzz stress check-coverage
