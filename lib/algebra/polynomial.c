@@ -30,25 +30,12 @@ Polynomial polynomial_power(int n)
     return p;
 }
 
-/* p += by q */
-static void add(Polynomial *p, const Polynomial *q, long by)
-{
-    mpq_t term;
-
-    mpq_init(term);
-    for (int i = 0; i < q->count && i < p->count; i++) {
-        mpq_set_si(term, by, 1);
-        mpq_mul(term, term, q->at[i]);
-        mpq_add(p->at[i], p->at[i], term);
-    }
-    mpq_clear(term);
-}
-
-Polynomial polynomial_copy(const Polynomial *p, long scale)
+Polynomial polynomial_copy(const Polynomial *p)
 {
     Polynomial copy = polynomial_new(p->count);
 
-    add(&copy, p, scale);
+    for (int i = 0; i < p->count; i++)
+        mpq_set(copy.at[i], p->at[i]);
     return copy;
 }
 
@@ -117,7 +104,7 @@ void polynomial_integral(const Polynomial *p, const Polynomial *q, int n, mpq_t 
  * x P_m = ((m + 1) P_(m+1) + m P_(m-1))/(4 m + 2) + P_m/2 */
 static void legendre_shift(Polynomial *p)
 {
-    Polynomial own = polynomial_copy(p, 1);
+    Polynomial own = polynomial_copy(p);
     mpq_t factor, term;
 
     mpq_init(factor);

@@ -14,8 +14,8 @@ typedef struct Polynomial {
 
 Polynomial polynomial_new(int count); /* zero */
 void polynomial_free(Polynomial *p);
-Polynomial polynomial_power(int n);                          /* x^n */
-Polynomial polynomial_copy(const Polynomial *p, long scale); /* scale p */
+Polynomial polynomial_power(int n); /* x^n */
+Polynomial polynomial_copy(const Polynomial *p);
 Polynomial polynomial_times(const Polynomial *p, const Polynomial *q);
 Polynomial polynomial_slope(const Polynomial *p);
 Polynomial polynomial_primitive(const Polynomial *p); /* 0 at 0 */

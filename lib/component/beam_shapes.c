@@ -82,7 +82,7 @@ static Polynomial orthogonal(int k, bool legendre)
 
     mpq_set_si(now.at[0], -1, 1);
     mpq_set_si(now.at[1], 2, 1);
-    z = polynomial_copy(&now, 1);
+    z = polynomial_copy(&now);
     for (int n = 1; n < k; n++) {
         Polynomial next = polynomial_times(&z, &now);
         mpq_t scale;

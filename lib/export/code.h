@@ -220,8 +220,8 @@ void code_modes_free(CodeModes *modes);
  * their Jacobian, b what they lack. */
 int code_newton_rows(Code *code, const Expr *residuals, int first, int count, const char *name,
                      const char *what);
-/* the same of a group that is solved for by Newton's method */
-void code_add_newton(Code *code, const Expr *residuals, int first, int count, const char *name);
+/* the same of the first unknowns, which Newton's method solves for as a group */
+void code_add_newton(Code *code, const Expr *residuals, int count, const char *name);
 
 static inline double code_off(int i, double y)
 {

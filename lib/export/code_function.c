@@ -65,10 +65,10 @@ int code_newton_rows(Code *code, const Expr *residuals, int first, int count, co
     return function;
 }
 
-void code_add_newton(Code *code, const Expr *residuals, int first, int count, const char *name)
+void code_add_newton(Code *code, const Expr *residuals, int count, const char *name)
 {
     const int function =
-        code_newton_rows(code, residuals, first, count, name, "rows of [A | b] in A ds = b");
+        code_newton_rows(code, residuals, 0, count, name, "rows of [A | b] in A ds = b");
 
-    code->groups[code->group_count++] = (CodeGroup){first, count, function, true};
+    code->groups[code->group_count++] = (CodeGroup){0, count, function, true};
 }

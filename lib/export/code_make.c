@@ -353,7 +353,7 @@ static void add_joint(Code *code)
     Expr *rows = NEW_ARRAY(Expr, code->ns);
 
     code_residual(code, rows);
-    code_add_newton(code, rows, 0, code->ns, "equations");
+    code_add_newton(code, rows, code->ns, "equations");
     mem_free(rows);
 }
 
@@ -394,7 +394,7 @@ static void add_groups(Code *code)
         return;
     }
     if (l->nx + l->nz > 0 && r->network_nonlinear)
-        code_add_newton(code, r->network_residual, 0, l->nx + l->nz, "network");
+        code_add_newton(code, r->network_residual, l->nx + l->nz, "network");
     else if (l->nx + l->nz > 0)
         add_linear_network(code);
     add_mechanics(code);

@@ -203,7 +203,7 @@ Status code_add_modes(Code *code, const Expr *rows, int count, Diag *diag)
     }
     for (int k = 0; k < code->modes.ideals.count; k++)
         shares[code->modes.ideals.at[k].ideal.row] = shared(code->arena, &code->modes.ideals.at[k]);
-    code_add_newton(code, rows, 0, count, "modes");
+    code_add_newton(code, rows, count, "modes");
     code->modes.group = code->group_count - 1;
     code->modes.functions[0] =
         code_newton_rows(code, rates, 0, count, "mode_rates", "the same of the rows' rates");

@@ -537,12 +537,12 @@ const Use *model_find_use(const Model *model, const char *name)
     return state_use(model->state, name);
 }
 
-int model_use_around(const Model *model, const char *name, int within)
+int model_use_around(const Model *model, const char *name)
 {
     const State *state = model->state;
     int use = state_use_around(state, name);
 
-    while (use >= 0 && state->uses.at[use].outer != within)
+    while (use >= 0 && state->uses.at[use].outer >= 0)
         use = state->uses.at[use].outer;
     return use;
 }

@@ -131,9 +131,8 @@ const char *model_subsystem_key(const Model *model, const char *name, int i);
 int model_use_count(const Model *model);
 const Use *model_use(const Model *model, int i);
 const Use *model_find_use(const Model *model, const char *name); /* NULL */
-/* The outermost instance that contains the name, or, with `within`, the outermost inside that one;
- * -1: none. */
-int model_use_around(const Model *model, const char *name, int within);
+/* the outermost instance that contains the name; -1: none */
+int model_use_around(const Model *model, const char *name);
 
 int model_event_count(const Model *model);
 const Event *model_event(const Model *model, int i);

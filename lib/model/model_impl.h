@@ -180,7 +180,7 @@ void state_free(State *state); /* including those before it; NULL is fine */
 Apply verb_apply;
 /* Applies a statement, or the text of one, by the state's function. */
 Apply state_apply;
-MUST_USE Status state_apply_text(State **state, const char *text, Text *remarks, Diag *diag);
+MUST_USE Status state_apply_text(State **state, const char *text, Diag *diag);
 /* a copy in the state's pool */
 const char *state_text(State *state, const char *text);
 /* The meaning of a name where a part may be meant: a part precedes a parameter with its name; NULL:

@@ -34,7 +34,7 @@ Status state_rebuild(const State *old, int without, State **out, NameList *broke
         if (order[i] == without || (gone >= 0 && line->part == gone) ||
             (gone_use >= 0 && sets_inside(old, line, old->uses.at[gone_use].name)))
             continue;
-        status = state_apply_text(&state, line->text, NULL, diag);
+        status = state_apply_text(&state, line->text, diag);
         if (status != OK && broken != NULL) {
             name_list_add(broken, line_name(old, line));
             status = OK;

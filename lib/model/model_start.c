@@ -201,7 +201,7 @@ static Status copy_start(State *to, const StartEntry *entry, NameList *broken, T
         goto done;
     }
     text_addf(&text, "%s %s", verb, entry->text);
-    status = state_apply_text(&to, text.at, NULL, diag);
+    status = state_apply_text(&to, text.at, diag);
     if (status == OK)
         to->starts.at[to->starts.count - 1].group = entry->group;
     else if (broken != NULL) {

@@ -205,7 +205,7 @@ Status state_apply(State **state, const Statement *statement, Outcome *outcome, 
     return (*state)->apply(state, statement, outcome, diag);
 }
 
-Status state_apply_text(State **state, const char *text, Text *remarks, Diag *diag)
+Status state_apply_text(State **state, const char *text, Diag *diag)
 {
     Statement *statement = NULL;
     Outcome outcome = {0};
@@ -213,8 +213,6 @@ Status state_apply_text(State **state, const char *text, Text *remarks, Diag *di
 
     CHECK(statement_parse(text, 1, (SyntaxOptions){.whole = true}, NULL, &statement, diag));
     CHECK(state_apply(state, statement, &outcome, diag));
-    if (remarks != NULL && outcome.remarks.at != NULL)
-        text_add(remarks, outcome.remarks.at);
 done:
     text_free(&outcome.remarks);
     statement_free(statement);

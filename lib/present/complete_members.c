@@ -51,7 +51,7 @@ void offer_members(TypedLine *line, const Verb *verb)
     for (int i = 0; strcmp(base, "count") == 0 && count_block_name(i) != NULL; i++)
         offer_member(line, base, count_block_name(i));
     instance = model_owner(line->known->model, line->prefix, &begun);
-    if (instance == NULL && model_use_around(line->known->model, line->prefix, -1) >= 0)
+    if (instance == NULL && model_use_around(line->known->model, line->prefix) >= 0)
         offer_names(line); /* what an instance has of its own */
     if (instance == NULL) {
         node = graph_find_node(graph, base);

@@ -372,7 +372,7 @@ static Status show_rows(const View *view, const Selection *selection, bool circu
     Status status = OK;
 
     for (int i = 0; i < selection->name_count; i++)
-        is_outside = is_outside && model_use_around(view->model, selection->names[i], -1) < 0;
+        is_outside = is_outside && model_use_around(view->model, selection->names[i]) < 0;
     if (!is_outside)
         return show_signs(view, selection, circuits, out, diag);
     CHECK(terminal_graph_make(view->model, &terminal, diag));

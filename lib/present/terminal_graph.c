@@ -37,7 +37,7 @@ static void take_nodes(Collapse *c)
     for (int n = 0; n < graph_node_count(c->graph); n++) {
         const Node *node = graph_node(c->graph, n);
 
-        c->use_of[n] = node->datum ? -1 : model_use_around(c->model, node->name, -1);
+        c->use_of[n] = node->datum ? -1 : model_use_around(c->model, node->name);
         c->node_of[n] = c->use_of[n] < 0 || port_of_node(c, n) != NULL
                             ? graph_add_node(c->out->graph, node->name, node->domain, node->datum)
                             : -1;
@@ -46,7 +46,7 @@ static void take_nodes(Collapse *c)
 
 static int use_of_edge(const Collapse *c, int edge)
 {
-    return model_use_around(c->model, graph_edge(c->graph, edge)->name, -1);
+    return model_use_around(c->model, graph_edge(c->graph, edge)->name);
 }
 
 static void take_edges(Collapse *c)

@@ -29,7 +29,7 @@ Status system_need_smooth(const System *system, const char *who, Expr e, Diag *d
     return E_MODEL;
 }
 
-const char *system_rough_driver(const System *system, int order)
+const char *system_rough_driver(const System *system)
 {
     Expr time = expr_symbol(system->arena, "t", SYMBOL_TIME);
 
@@ -38,7 +38,7 @@ const char *system_rough_driver(const System *system, int order)
 
         if (system->constraints->rows.at[k].kind != ROW_DRIVER)
             continue;
-        for (int i = 0; i <= order; i++) {
+        for (int i = 0; i <= 2; i++) {
             if (expr_jumps(system->arena, f, 1U << SYMBOL_TIME))
                 return system->origin->instances[system->constraints->rows.at[k].reported.instance]
                     .name;

@@ -445,9 +445,8 @@ typedef struct Drive {
 /* A potential in the equations of a terminal to which nothing is connected; NULL: no more. */
 Expr system_open_potential(const System *system, int i);
 int system_drive_count(const System *system);
-/* The name of a driver whose motion has no continuous derivative of that order; NULL: there is
- * none */
-const char *system_rough_driver(const System *system, int order);
+/* the name of a driver whose motion has no continuous second derivative; NULL: there is none */
+const char *system_rough_driver(const System *system);
 const Drive *system_drive(const System *system, int i);
 
 #endif

@@ -103,11 +103,11 @@ static Status sort_unknowns(InverseRun *in, Diag *diag)
         LIST_PUSH(in->forces, l->x + i);
     }
     /* the rate of a current is one of a force, and needs u'' */
-    if (in->by_source && l->nx > 0 && system_rough_driver(l->system, 2) != NULL) {
+    if (in->by_source && l->nx > 0 && system_rough_driver(l->system) != NULL) {
         (void)diag_set(diag, E_MODEL,
                        "the sources need rates of currents, and the acceleration that %s asks for "
                        "jumps",
-                       system_rough_driver(l->system, 2));
+                       system_rough_driver(l->system));
         diag_hint(diag, "drive by a motion with a continuous second derivative");
         return E_MODEL;
     }
