@@ -164,11 +164,6 @@ bool multinomial_is(const Multinomial *p, long value)
     return fmpz_mpoly_equal_si(p->at, value, p->ring->context) != 0;
 }
 
-bool multinomial_equal(const Multinomial *p, const Multinomial *q)
-{
-    return fmpz_mpoly_equal(p->at, q->at, p->ring->context) != 0;
-}
-
 int multinomial_terms(const Multinomial *p)
 {
     const slong count = fmpz_mpoly_length(p->at, p->ring->context);

@@ -35,7 +35,6 @@ bool multinomial_failed(const Multinomial *p); /* its ring has */
 bool multinomial_is_zero(const Multinomial *p);
 bool multinomial_is_number(const Multinomial *p); /* zero too */
 bool multinomial_is(const Multinomial *p, long value);
-bool multinomial_equal(const Multinomial *p, const Multinomial *q);
 int multinomial_terms(const Multinomial *p);
 /* the integer of a term, until the next call with the ring */
 const mpz_t *multinomial_factor(const Multinomial *p, int term);

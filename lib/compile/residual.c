@@ -297,12 +297,3 @@ int residual_first_slope(const Residual *r)
 {
     return r->first_slope;
 }
-
-void residual_jacobian(const Residual *r, const double *roots, double *out)
-{
-    for (int i = 0; i < r->row_count * r->unknown_count; i++)
-        out[i] = 0;
-    for (int k = 0; k < r->slopes.count; k++)
-        out[r->slopes.at[k].row * r->unknown_count + r->slopes.at[k].unknown] =
-            roots[r->first_slope + k];
-}

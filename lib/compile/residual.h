@@ -47,7 +47,4 @@ const Expr *residual_parameters(const Residual *residual, int *count);
 const Slope *residual_slopes(const Residual *residual, int *count);
 int residual_row_count(const Residual *residual);
 int residual_first_slope(const Residual *residual); /* index of the first among the roots */
-/* The derivatives as a full matrix (rows x unknowns), from the values of all roots. */
-void residual_jacobian(const Residual *residual, const double *roots, double *out);
-
 #endif

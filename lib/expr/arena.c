@@ -344,11 +344,6 @@ static uint32_t symbol_slot(const Arena *arena, uint32_t hash, const char *name,
     return i;
 }
 
-Expr expr_find_symbol(const Arena *arena, const char *name, SymbolKind kind)
-{
-    return at_slot(arena, symbol_slot(arena, symbol_hash(name, kind), name, kind));
-}
-
 Expr expr_symbol(Arena *arena, const char *name, SymbolKind kind)
 {
     const uint32_t hash = symbol_hash(name, kind);

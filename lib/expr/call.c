@@ -76,17 +76,6 @@ int op_args(Op op)
     return rows[op].args;
 }
 
-bool op_find(const char *name, Op *op)
-{
-    for (int i = 0; i < OP_COUNT; i++) {
-        if (strcmp(rows[i].name, name) == 0) {
-            *op = (Op)i;
-            return true;
-        }
-    }
-    return false;
-}
-
 double op_value(Op op, const double *args)
 {
     return rows[op].value(args);

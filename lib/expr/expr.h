@@ -130,7 +130,6 @@ Expr expr_decimal(Arena *arena, const char *text);
  * different but print identically: what a user calls h8 (SYMBOL_VARIABLE) is replaced by
  * formulation with the coordinate h8 (SYMBOL_COORDINATE) where h8 is a branch. */
 Expr expr_symbol(Arena *arena, const char *name, SymbolKind kind);
-Expr expr_find_symbol(const Arena *arena, const char *name, SymbolKind kind); /* or NULL */
 
 /* --- builders --- */
 
@@ -180,7 +179,6 @@ unsigned expr_table_orders(const Expr *roots, int count, Expr symbol);
 
 const char *op_name(Op op);
 int op_args(Op op);                         /* how many */
-bool op_find(const char *name, Op *op);     /* by its name in ops.def */
 double op_value(Op op, const double *args); /* NAN where undefined */
 
 /* --- looking --- */

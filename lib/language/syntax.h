@@ -192,7 +192,6 @@ typedef struct Statement {
     const Body *body;     /* of a subsystem that was read whole; else NULL */
     const char *redirect; /* file of > or >> */
     bool append;
-    Place redirect_place;
     const char
         *text; /* the statement's own text, trimmed, continuation lines joined: for save and undo */
     Place place;

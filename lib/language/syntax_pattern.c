@@ -539,7 +539,6 @@ static Status read_redirect(Parser *parser, Statement *statement)
     }
     statement->redirect = file->text;
     statement->append = strcmp(sign->text, ">>") == 0;
-    statement->redirect_place = file->place;
     parser->at += 2;
     if (!parser_ends(parser)) {
         (void)parser_unexpected(parser);

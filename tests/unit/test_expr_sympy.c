@@ -41,12 +41,12 @@ static Expr random_raw(World *w, int depth, Text *raw)
                             : expr_mul(w->arena, a, b);
     }
     if (choice < 10) {
-        Op op = OP_SIN;
-        int which = pick(w, COUNT(functions));
+        int which = pick(w, COUNT(functions)), op = 0;
 
-        (void)op_find(functions[which], &op);
+        while (strcmp(op_name((Op)op), functions[which]) != 0)
+            op++;
         text_addf(raw, "%s(", functions[which]);
-        a = expr_call1(w->arena, op, random_raw(w, depth - 1, raw));
+        a = expr_call1(w->arena, (Op)op, random_raw(w, depth - 1, raw));
         text_add(raw, "))");
         return a;
     }
