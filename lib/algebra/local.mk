@@ -2,6 +2,8 @@ libcore_la_SOURCES += \
 	lib/algebra/algebra_limits.h lib/algebra/anderson.c lib/algebra/anderson.h \
   lib/algebra/block_triangular.c \
   lib/algebra/block_triangular.h \
+  lib/algebra/complementarity.c \
+  lib/algebra/complementarity.h \
   lib/algebra/dense.c \
   lib/algebra/dense.h \
   lib/algebra/elementary.c \

@@ -289,3 +289,8 @@ FAMILIES += family_stiff
 family_stiff_SOURCES = tests/family/family_stiff.c tests/family/family.h tests/family/implicit_euler.h tests/family/neville.h \
 	tests/family/script.h tests/random.h tests/unit/session_kit.h tests/unit/test.h
 family_stiff_LDADD = libcotree.la $(unit_ldadd)
+
+FAMILIES += family_complementarity
+family_complementarity_SOURCES = tests/family/family_complementarity.c tests/family/family.h \
+	tests/random.h
+family_complementarity_LDADD = $(unit_ldadd)
