@@ -426,6 +426,24 @@ static bool try_all_sides(const Workspace *s, const int *guess, int *side)
     return nearest <= 2 * FEW && solve_sides(s, side);
 }
 
+/* Of a solution, those at a bound with w = 0 whose rows don't depend on others BETWEEN are BETWEEN
+ * too: z stays as it is. */
+static void keep_between(const Workspace *s, int *side)
+{
+    for (int i = 0; i < s->n; i++) {
+        const int bound = side[i];
+
+        if (bound == BETWEEN || s->matrix[i * s->n + i] <= 0 ||
+            !(fabs(s->w[i]) <= RIGHT * s->largest))
+            continue;
+        side[i] = BETWEEN;
+        if (solve_sides(s, side) && is_solution(s, side))
+            continue;
+        side[i] = bound;
+        (void)solve_sides(s, side);
+    }
+}
+
 static bool has_unstable(const Workspace *s)
 {
     for (int i = 0; i < s->n; i++)
@@ -445,6 +463,8 @@ bool complementarity_solve(const Complementarity *problem, int *side, double *z,
         memcpy(guess, side, (size_t)s.n * sizeof(int));
     found = exchange_blocks(&s, side) || (!has_unstable(&s) && solve_by_lemke(&s, side)) ||
             (s.n <= FEW && try_all_sides(&s, guess, side));
+    if (found)
+        keep_between(&s, side);
     for (int i = 0; i < s.n && found; i++)
         z[i] = s.z[i] * s.scale[i];
     return found;

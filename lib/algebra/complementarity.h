@@ -31,10 +31,12 @@ typedef struct Complementarity {
 size_t complementarity_room(int n);
 /* Solves the problem: `side` (n, a BoundSide each) are first guesses and become the sides of the
  * solution, z becomes its values. Unknowns BETWEEN have independent rows: M restricted to them is
- * regular. An unknown with M_ii < 0 is never BETWEEN: it would not remain there. Tries the exchange
- * of blocks from the first guesses, then Lemke's method, then for n <= 6 all sides, those nearest
- * to the guesses first. False: none was found; then `side` and z have no meaning. O(n^3) an
- * exchange; mostly 2 to 7 of them, up to 2 n pivots of O(n^2) for Lemke's method. */
+ * regular, and no unknown
+ * with w_i = 0 could be added to them. An unknown with M_ii < 0 is never BETWEEN: it would not
+ * remain there. Tries the exchange of blocks from the first guesses, then Lemke's method, then for
+ * n <= 6 all sides, those nearest to the guesses first. False: none was found; then `side` and z
+ * have no meaning. O(n^3) an exchange; mostly 2 to 7 of them, up to 2 n pivots of O(n^2) for
+ * Lemke's method. */
 bool complementarity_solve(const Complementarity *problem, int *side, double *z, double *room);
 
 #endif

@@ -54,12 +54,14 @@ static void add_side(Code *code, Expr condition, Expr call)
         return;
     side.surface.condition = side.surface.measure = surface_of(code->arena, condition, &way);
     side.surface.side = 1;
+    side.surface.ratio = switch_jumps(call) ? surface_ratio(call) : NULL;
     side.is_floor = (expr_kinds(condition) & ~of_time) == 0 && expr_op(call) == OP_FLOOR;
     side.is_timed = (expr_kinds(condition) & ~of_time) == 0 &&
                     is_even(code, side.is_floor ? expr_arg(call, 0) : side.surface.condition);
     side.is_floor = side.is_floor && side.is_timed;
     for (int i = 0; i < code->live.sides.count; i++)
-        if (code->live.sides.at[i].surface.condition == side.surface.condition)
+        if (code->live.sides.at[i].surface.condition == side.surface.condition &&
+            code->live.sides.at[i].surface.ratio == side.surface.ratio)
             return;
     LIST_PUSH(code->live.sides, side);
 }

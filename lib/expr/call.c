@@ -228,6 +228,15 @@ static Expr exact_if(Arena *arena, const Expr *args)
     return args[1] == args[2] ? args[1] : NULL;
 }
 
+/* x holds its sign where it isn't 0, and then there is nothing to stick to */
+static Expr exact_stick(Arena *arena, const Expr *args)
+{
+    if (is_number(args[1]) && expr_value(args[1]) == 1)
+        return expr_call1(arena, OP_SIGN, args[0]);
+    return is_number(args[0]) ? expr_int(arena, (expr_value(args[0]) > 0) - (expr_value(args[0]) < 0))
+                              : NULL;
+}
+
 static Expr exact_named_temporary(Arena *arena, const Expr *args)
 {
     (void)arena;
@@ -252,6 +261,7 @@ static const Exact exact[OP_COUNT] = {
     [OP_SQRT] = {KNOWN(0, 0), .rule = exact_sqrt},
     [OP_ABS] = {.parity = EVEN, .picks = true, .rule = exact_abs},
     [OP_SIGN] = {.parity = ODD, .picks = true},
+    [OP_STICK] = {.rule = exact_stick},
     [OP_MIN] = {.commutes = true, .picks = true, .rule = exact_pick},
     [OP_MAX] = {.commutes = true, .picks = true, .rule = exact_pick},
     [OP_STEP] = {.picks = true},

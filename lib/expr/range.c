@@ -216,6 +216,7 @@ static Range call(const RangeNode *node, const Range *all, const int *operands)
     case OP_LOG:
     case OP_SQRT:
     case OP_SIGN:
+    case OP_STICK:
     case OP_STEP:
     case OP_RAMP:
     case OP_FLOOR:

@@ -98,10 +98,10 @@ static double error_of(const Problem *p)
         if (p->side[i] == BETWEEN)
             worst = fmax(worst, fabs(w));
         else
-            worst = fmax(worst, fmax(p->side[i] * w, fabs(p->z[i] - (p->side[i] == AT_LOW
-                                                                         ? p->low[i]
-                                                                         : p->high[i])) /
-                                                         width));
+            worst =
+                fmax(worst,
+                     fmax(p->side[i] * w,
+                          fabs(p->z[i] - (p->side[i] == AT_LOW ? p->low[i] : p->high[i])) / width));
     }
     return worst;
 }

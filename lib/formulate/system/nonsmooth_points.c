@@ -29,11 +29,16 @@ Expr surface_of(Arena *arena, Expr condition, int *way)
     return sum;
 }
 
+Expr surface_ratio(Expr call)
+{
+    return expr_op(call) == OP_STICK ? expr_arg(call, 1) : NULL;
+}
+
 bool switch_jumps(Expr e)
 {
     return expr_kind(e) == EXPR_CALL &&
            (expr_op(e) == OP_LT || expr_op(e) == OP_LE || expr_op(e) == OP_STEP ||
-            expr_op(e) == OP_SIGN || expr_op(e) == OP_FLOOR);
+            expr_op(e) == OP_SIGN || expr_op(e) == OP_STICK || expr_op(e) == OP_FLOOR);
 }
 
 typedef struct Over {

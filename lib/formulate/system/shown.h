@@ -25,7 +25,7 @@ typedef struct Shown {
     Expr *eliminated;   /* u' in symbols, the last result (accelerations.c); NULL: none yet */
     int eliminated_how; /* method of that elimination */
     LIST(Switch) switches;
-    LIST(Expr) surfaces; /* where the equations jump, in the state */
+    LIST(SystemSurface) surfaces; /* where the equations jump, in the state */
     int switches_of_time;
     bool switches_known;
     int depth; /* number of variables being resolved */

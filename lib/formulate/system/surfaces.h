@@ -2,7 +2,8 @@
  *
  * f = f+ where h > 0, f- where h < 0. Where both lead to h = 0 the motion slides along this surface
  * (Filippov 1988). What jumps there has a value between its two: the sign of h is an unknown
- * between -1 and 1 (Utkin's equivalent control), such that h remains 0. */
+ * between -1 and 1 (Utkin's equivalent control), such that h remains 0. Of stick(h, r), which static
+ * friction is, it is between -r and r: such a surface is another one than that of sign(h). */
 #ifndef COTREE_FORMULATE_SYSTEM_SURFACES_H
 #define COTREE_FORMULATE_SYSTEM_SURFACES_H
 
@@ -10,14 +11,19 @@
 #include "expr/jumps.h" /* IWYU pragma: export */
 
 typedef struct Surface {
+    int number;     /* of system_surface(); -1: of none */
     Expr condition; /* h, as system_surface() returns it */
+    Expr ratio;     /* r; NULL: 1 */
     int side;       /* of h, on which the equations are: -1 or 1; 0: they slide along it */
+    bool held;      /* h remains 0 all the same, as other parts hold it there */
     Expr sign;      /* of h: -1, 1 or an unknown */
     Expr measure;   /* h, with the other surfaces' signs substituted */
 } Surface;
 
 /* h of a condition, whatever its scale; *way -1: with the opposite sign */
 Expr surface_of(Arena *arena, Expr condition, int *way);
+/* r of a call that jumps; NULL: 1 */
+Expr surface_ratio(Expr call);
 /* whether a call jumps where its condition is 0 */
 bool switch_jumps(Expr e);
 /* whether anything in e jumps with symbols of these kinds (bits as of expr_kinds()); O(nodes) */

@@ -333,8 +333,12 @@ typedef struct Switch {
 /* All of them, time-only ones first, and the number of those in *time_only. In a mode, time-only
  * are those that depend on t alone in the hybrid system. */
 int system_switches(System *system, const Switch **switches, int *time_only);
-/* The expression that is 0 on a surface, each once whatever its scale and sign; NULL at the end. */
-Expr system_surface(System *system, int i);
+/* A surface: the expression that is 0 on it, whatever its scale and sign, and the static ratio of
+ * stick(), in parameters; NULL: 1. Each pair is there once. */
+typedef struct SystemSurface {
+    Expr condition, ratio;
+} SystemSurface;
+bool system_surface(System *system, int i, SystemSurface *out); /* false at the end */
 /* The part whose values jump or have a kink where that is 0, for messages; NULL: unknown. */
 const char *system_jumping_part(System *system, Expr condition);
 /* the derivative of e along the motion, in u', x' and the other variables solved for; E_MISSING

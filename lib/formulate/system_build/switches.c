@@ -34,9 +34,10 @@ static bool holds_side(const Putting *put, Expr e)
     return false;
 }
 
-/* the replacement for the sign of a condition; NULL: it is not replaced */
-static Expr sign_on(Arena *arena, const Putting *put, Expr condition)
+/* the replacement for the sign of the condition of a call that jumps; NULL: it is not replaced */
+static Expr sign_on(Arena *arena, const Putting *put, Expr call)
 {
+    const Expr condition = switch_condition(arena, call), ratio = surface_ratio(call);
     int way;
     Expr surface;
 
@@ -44,7 +45,8 @@ static Expr sign_on(Arena *arena, const Putting *put, Expr condition)
         return NULL;
     surface = surface_of(arena, condition, &way);
     for (int i = 0; i < put->count; i++)
-        if (put->surfaces[i].condition == surface || put->surfaces[i].measure == surface)
+        if (put->surfaces[i].ratio == ratio &&
+            (put->surfaces[i].condition == surface || put->surfaces[i].measure == surface))
             return way > 0 ? put->surfaces[i].sign : expr_neg(arena, put->surfaces[i].sign);
     return NULL;
 }
@@ -71,11 +73,11 @@ static Expr put_floor(Arena *arena, Expr x, Expr sign)
 
 static Expr put_jump(Arena *arena, const Putting *put, Expr e)
 {
-    Expr sign = sign_on(arena, put, switch_condition(arena, e));
+    Expr sign = sign_on(arena, put, e);
 
     if (sign == NULL)
         return e;
-    if (expr_op(e) == OP_SIGN)
+    if (expr_op(e) == OP_SIGN || expr_op(e) == OP_STICK)
         return sign;
     if (expr_op(e) == OP_FLOOR)
         return put_floor(arena, expr_arg(e, 0), sign);
@@ -271,14 +273,15 @@ static bool is_of_time(System *system, Expr condition)
 /* finds the surface on which the equations jump, among those in the state, each once */
 static void find_surface(System *system, Switch *entry)
 {
+    SystemSurface surface = {.ratio = surface_ratio(entry->call)};
     int way;
-    Expr surface;
 
     if (is_of_time(system, entry->condition))
         return;
-    surface = surface_of(system->arena, entry->condition, &way);
+    surface.condition = surface_of(system->arena, entry->condition, &way);
     for (int i = 0; i < system->shown->surfaces.count && entry->surface < 0; i++)
-        if (system->shown->surfaces.at[i] == surface)
+        if (system->shown->surfaces.at[i].condition == surface.condition &&
+            system->shown->surfaces.at[i].ratio == surface.ratio)
             entry->surface = i;
     if (entry->surface < 0) {
         entry->surface = system->shown->surfaces.count;
@@ -328,10 +331,13 @@ int system_switches(System *system, const Switch **switches, int *time_only)
     return system->shown->switches.count;
 }
 
-Expr system_surface(System *system, int i)
+bool system_surface(System *system, int i, SystemSurface *out)
 {
     system_touch(system);
-    return i < system->shown->surfaces.count ? system->shown->surfaces.at[i] : NULL;
+    if (i >= system->shown->surfaces.count)
+        return false;
+    *out = system->shown->surfaces.at[i];
+    return true;
 }
 
 /* --- for messages --- */

@@ -177,7 +177,7 @@ void compiled_free(CompiledEquations *nb)
     mem_free(nb->network_places);
     MEM_FREE(nb->magnitude_bound, nb->unit);
     probe_free(nb->slip);
-    MEM_FREE(nb->guards, nb->shown_guards, nb->eliminated_rows, nb);
+    MEM_FREE(nb->guards, nb->shown_guards, nb->sign_bounds, nb->eliminated_rows, nb);
 }
 
 const Program *compiled_program(const CompiledEquations *nb, CompiledPart part)

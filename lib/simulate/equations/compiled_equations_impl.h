@@ -36,6 +36,7 @@ struct CompiledEquations {
      * indicators */
     bool has_rates_of_q;
     int rates_excess, rates_pivots;
+    double *sign_bounds; /* of their signs */
     Probe *slip;        /* of surfaces slid along: slip of each, then `off` of each */
     Guard *guards;      /* of the conditions, */
     Expr *shown_guards; /* the expressions that users see for these; NULL: margins */

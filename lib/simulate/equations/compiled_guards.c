@@ -87,43 +87,48 @@ typedef struct Conditions {
 static void push_condition(CompiledEquations *nb, Conditions *c, Expr condition, Guard guard)
 {
     Stage stage = stage_of(condition);
+    SystemSurface surface = {.condition = condition};
 
     if (stage == STAGE_PARAMETER || stage > STAGE_NETWORK)
         return;
+    if (guard.surface >= 0)
+        (void)system_surface(nb->layout->system, guard.surface, &surface);
     nb->eq.switches_read_network = nb->eq.switches_read_network || stage == STAGE_NETWORK;
     guard.solved = guard.surface >= 0 && stage == STAGE_NETWORK;
     LIST_PUSH(c->roots, condition);
-    LIST_PUSH(c->shown_guards,
-              guard.surface >= 0 ? system_surface(nb->layout->system, guard.surface) : condition);
+    LIST_PUSH(c->shown_guards, surface.condition);
     LIST_PUSH(c->guards, guard);
 }
 
-/* The condition of a surface that the equations stay on: whether its sign leaves -1 .. 1, or its
+/* The condition of a surface that the equations stay on: whether its sign leaves -r .. r, or its
  * side changes. */
 static void push_surface(CompiledEquations *nb, Conditions *c, int number, const Surface *surface)
 {
     Arena *arena = system_arena(nb->layout->system);
+    const Expr ratio = surface->ratio != NULL ? surface->ratio : expr_int(arena, 1);
 
     if (surface->side != 0) {
-        push_condition(nb, c, surface->measure, (Guard){number, .side = surface->side});
+        push_condition(nb, c, surface->measure, 
+                       (Guard){number, .side = surface->side, .held = surface->held});
         return;
     }
     nb->eq.switches_read_network = true; /* signs follow from it */
-    push_condition(nb, c, expr_sub(arena, expr_int(arena, 1), surface->sign),
+    push_condition(nb, c, expr_sub(arena, ratio, surface->sign),
                    (Guard){number, .end = 1});
-    push_condition(nb, c, expr_add(arena, expr_int(arena, 1), surface->sign),
+    push_condition(nb, c, expr_add(arena, ratio, surface->sign),
                    (Guard){number, .end = -1});
 }
 
-/* the entry of the layout's surfaces; NULL: the condition is none of them */
-static const Surface *find_surface(const VariableIndex *l, Expr condition)
+/* the entry of the layout's surfaces for a switch; NULL: none */
+static const Surface *find_surface(const VariableIndex *l, const Switch *entry)
 {
     int way;
     Expr surface =
-        l->surface_count > 0 ? surface_of(system_arena(l->system), condition, &way) : NULL;
+        l->surface_count > 0 ? surface_of(system_arena(l->system), entry->condition, &way) : NULL;
 
     for (int i = 0; i < l->surface_count; i++)
-        if (l->surfaces[i].condition == surface)
+        if (entry->surface >= 0 ? l->surfaces[i].number == entry->surface
+                                : l->surfaces[i].condition == surface)
             return &l->surfaces[i];
     return NULL;
 }
@@ -146,15 +151,17 @@ static void push_conditions(CompiledEquations *nb, Conditions *c)
 
     for (int i = 0; i < count; i++) {
         int number = switches[i].surface;
-        const Surface *on = i < time_only ? NULL : find_surface(l, switches[i].condition);
+        const Surface *on = i < time_only ? NULL : find_surface(l, &switches[i]);
         int before = c->roots.count;
+
+        SystemSurface surface;
 
         if (is_watched(c, number))
             continue;
         if (number >= 0 && on != NULL)
             push_surface(nb, c, number, on);
-        else if (number >= 0)
-            push_condition(nb, c, variable_index_on_surfaces(l, system_surface(l->system, number)),
+        else if (number >= 0 && system_surface(l->system, number, &surface))
+            push_condition(nb, c, variable_index_on_surfaces(l, surface.condition),
                            (Guard){.surface = number});
         else if (on == NULL) /* else a surface monitors its kink */
             push_condition(nb, c, variable_index_on_surfaces(l, switches[i].condition),
@@ -228,9 +235,13 @@ Status compiled_slide(CompiledEquations *nb, Parameters *parameters, Diag *diag)
         return OK;
     nb->eq.slide = slide;
     nb->eq.slip = slip;
+    nb->eq.sign_bounds = nb->sign_bounds = NEW_ARRAY(double, l->slides);
     for (int i = 0; i < l->slides; i++) {
+        const Expr ratio = l->surfaces[i].ratio;
         Expr both[2];
 
+        nb->sign_bounds[i] =
+            ratio != NULL ? expr_evaluate(ratio, parameters_value_in, parameters) : 1;
         CHECK(slip_of(l, l->surfaces[i].measure, &both[0], &both[1], diag));
         LIST_PUSH(roots, both[0]);
         LIST_PUSH(off, both[1]);

@@ -29,6 +29,7 @@ typedef struct Guard {
     int surface; /* surface on which the equations jump; -1: a kink at most */
     int side;    /* side of the surface that they are on; 0: they jump, or slide along it */
     int end;     /* of its sign's interval, left there: -1 or 1; 0: no sliding */
+    bool held;   /* on a side, and other parts keep it on its surface: its sign tells nothing */
     bool solved; /* its measure is solved for with the jump: always on one side */
 } Guard;
 
@@ -130,6 +131,7 @@ typedef struct Equations {
                      double *out);
     /* surfaces that the motion slides along: signs are solved for such that slip is 0 */
     int slide_count;
+    const double *sign_bounds; /* slide_count: largest size of each sign */
     void (*slide)(void *context, const double *signs); /* before velocity() */
     /* at a solved state: slip of each, and its distance `off` from the surface (slide_count
      * each) */

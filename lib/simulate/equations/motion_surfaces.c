@@ -16,7 +16,7 @@ void motion_open_surfaces(Motion *mo)
 {
     int count = mo->eq->slide_count;
 
-    mo->signs = signs_new(count);
+    mo->signs = signs_new(count, mo->eq->sign_bounds);
     mo->slip = NEW_ARRAY(double, count);
     mo->off = NEW_ARRAY(double, count);
     mo->way = NEW_ARRAY(double, (count + 1) * motion_length(mo));

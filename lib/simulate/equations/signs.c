@@ -10,15 +10,17 @@
 
 struct Signs {
     int count;
-    double *values, *slip, *matrix, *move;
+    double *values, *bounds, *slip, *matrix, *move;
 };
 
-Signs *signs_new(int count)
+Signs *signs_new(int count, const double *bounds)
 {
     Signs *s = NEW(Signs);
 
     s->count = count;
     s->values = NEW_ARRAY(double, count);
+    s->bounds = NEW_ARRAY(double, count);
+    memcpy(s->bounds, bounds, (size_t)count * sizeof(double));
     s->slip = NEW_ARRAY(double, count);
     s->move = NEW_ARRAY(double, count);
     s->matrix = NEW_ARRAY(double, count *count);
@@ -29,7 +31,7 @@ void signs_free(Signs *s)
 {
     if (s == NULL)
         return;
-    MEM_FREE(s->values, s->slip, s->move, s->matrix, s);
+    MEM_FREE(s->values, s->bounds, s->slip, s->move, s->matrix, s);
 }
 
 double *signs_values(Signs *s)
@@ -146,7 +148,7 @@ static bool newton(Signs *s, SignsTrial trial, void *context)
  * there. */
 static bool bisect(Signs *s, int k, SignsTrial trial, void *context, bool *sound)
 {
-    double ends[2] = {-1, 1}, slip[2];
+    double ends[2] = {-s->bounds[k], s->bounds[k]}, slip[2];
 
     *sound = true;
     for (int i = 0; i < 2 && *sound; i++) {
@@ -172,7 +174,7 @@ static bool look_between(Signs *s, SignsTrial trial, void *context)
 
     memcpy(kept, s->values, (size_t)s->count * sizeof(double));
     for (int k = 0; k < s->count && sound; k++)
-        if (fabs(kept[k]) > 1 + SIGNS_OUTSIDE) {
+        if (fabs(kept[k]) > (1 + SIGNS_OUTSIDE) * s->bounds[k]) {
             if (bisect(s, k, trial, context, &sound))
                 moved = true;
             else
@@ -188,7 +190,10 @@ static bool look_between(Signs *s, SignsTrial trial, void *context)
 
 static bool is_beyond(const Signs *s)
 {
-    return vector_largest(s->values, s->count) > 1 + SIGNS_OUTSIDE;
+    for (int i = 0; i < s->count; i++)
+        if (fabs(s->values[i]) > (1 + SIGNS_OUTSIDE) * s->bounds[i])
+            return true;
+    return false;
 }
 
 /* Where the one sign hardly affects slip, as of sign(x)*sqrt(abs(x)) next to x = 0, Newton's method
@@ -200,7 +205,7 @@ static bool lies_beyond(Signs *s, SignsTrial trial, void *context)
 
     if (s->count != 1 || bisect(s, 0, trial, context, &sound) || !sound || s->slip[0] == 0)
         return false;
-    s->values[0] = s->slip[0] > 0 ? SIGNS_LEFT : -SIGNS_LEFT;
+    s->values[0] = (s->slip[0] > 0 ? SIGNS_LEFT : -SIGNS_LEFT) * s->bounds[0];
     return trial(context, s->values, s->move);
 }
 

@@ -37,13 +37,18 @@ static void place_surfaces(VariableIndex *l, const OnSurface *on, int count)
     for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < count; i++) {
             Surface *surface = &l->surfaces[l->surface_count];
+            SystemSurface known;
             Text name = {0};
 
-            if ((on[i].side == 0) != (pass == 0))
+            if ((on[i].side == 0) != (pass == 0) ||
+                !system_surface(l->system, on[i].surface, &known))
                 continue;
             text_addf(&name, "#sign %d", on[i].surface + 1);
-            surface->condition = surface->measure = system_surface(l->system, on[i].surface);
+            surface->number = on[i].surface;
+            surface->condition = surface->measure = known.condition;
+            surface->ratio = known.ratio;
             surface->side = on[i].side;
+            surface->held = on[i].held;
             surface->sign = on[i].side != 0 ? expr_int(arena, on[i].side)
                                             : expr_symbol(arena, name.at, SYMBOL_STATE);
             l->surface_count++;

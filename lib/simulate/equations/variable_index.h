@@ -37,6 +37,7 @@ VariableIndex *variable_index_new(
  * it. */
 typedef struct OnSurface {
     int surface, side;
+    bool held; /* on a side, but parts that stick keep it on the surface: its sign tells nothing */
 } OnSurface;
 VariableIndex *variable_index_new_on(System *system, const OnSurface *on, int count);
 /* x, x', z: 2 nx + nz symbols; new */

@@ -51,6 +51,7 @@ typedef struct Meeting {
     int surface;
     int side;     /* to which its sign has changed: the motion leaves there; 0: not known */
     bool far;     /* it is not on the surface but on that side */
+    bool ends;    /* its sign has reached its bound on `side` */
     bool settles; /* it crosses so often that it counts as at rest on it */
 } Meeting;
 

@@ -144,12 +144,12 @@ static bool meets(Integration *m, int i, Meeting *out)
     bool near;
 
     m->largest[i] = fmax(m->largest[i], fabs(m->conditions[i]));
-    near = i == m->root || guard.solved || fabs(m->conditions[i]) <= integration_on_surface(m, i);
-    *out = (Meeting){guard.surface,
-                     near                   ? 0
-                     : m->conditions[i] > 0 ? 1
-                                            : -1,
-                     !near, i == m->root && m->chatters[guard.surface].settles};
+    near = i == m->root || guard.solved || guard.held ||
+           fabs(m->conditions[i]) <= integration_on_surface(m, i);
+    *out = (Meeting){guard.surface, .far = !near,
+                     .settles = i == m->root && m->chatters[guard.surface].settles};
+    if (!near)
+        out->side = m->conditions[i] > 0 ? 1 : -1;
     return near || m->surfaces <= KEPT;
 }
 
@@ -169,9 +169,9 @@ static int find_meetings(Integration *m, Meeting *at, bool *on)
         *on = *on || guard.side != 0 || guard.end != 0;
         if (guard.end < 0) { /* with the other end, just before it */
             if (i == m->root)
-                at[count - 1].side = -1;
+                at[count - 1] = (Meeting){guard.surface, .side = -1, .ends = true};
         } else if (guard.end > 0) {
-            at[count++] = (Meeting){guard.surface, i == m->root ? 1 : 0, false, false};
+            at[count++] = (Meeting){guard.surface, i == m->root ? 1 : 0, .ends = i == m->root};
         } else if (meets(m, i, &at[count])) {
             count++;
         }

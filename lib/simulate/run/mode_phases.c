@@ -99,7 +99,8 @@ static bool is_on(const Phase *phase, const OnSurface *on, int count)
     if (phase->on_count != count)
         return false;
     for (int i = 0; i < count; i++)
-        if (phase->on[i].surface != on[i].surface || phase->on[i].side != on[i].side)
+        if (phase->on[i].surface != on[i].surface || phase->on[i].side != on[i].side ||
+            phase->on[i].held != on[i].held)
             return false;
     return true;
 }
