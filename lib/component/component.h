@@ -83,6 +83,8 @@ typedef enum Places {
     PLACES_ON,     /* force F1 m3: edge ground -> m3 */
     PLACES_LINK, /* spring k1 r1 r2, or spring k1 h8: between two frames or on a joint's coordinate
                   */
+    PLACES_JOINT,      /* brake b1 h8: a joint's coordinate; or two terminals (variants) */
+    PLACES_JOINTS,     /* clutch c1 h1 h2: two of them; or two terminals */
     PLACES_COORDINATE, /* driver D1 h8 = expr: a coordinate of a joint or (driver) a body */
     PLACES_TERMINALS,  /* resistor R1 a b: the terminals of its scalar edges */
     PLACES_TRANSDUCER, /* motor M7 h1 a 0: on joint h1's coordinate, then terminals */
@@ -292,6 +294,9 @@ typedef struct Member { /* a named quantity of an instance: h9.fx, R1.power */
 
 struct Component {
     const char *name;
+    /* PLACES_JOINT, PLACES_JOINTS: rows of the same name on terminals, one a domain; NULL at the
+     * end. NULL: none */
+    const struct Component *const *variants;
     Family family;
     Domain domain; /* of its scalar edge, or MECHANICAL */
     Places places;
@@ -385,6 +390,9 @@ struct Instance {
     const struct EquationBlock *given;
     int joint; /* the instance whose coordinate it acts on; -1 */
     int joint_coordinate;
+    /* PLACES_JOINTS: the one whose coordinate the effort acts on with the other sign; -1 */
+    int second_joint;
+    int second_coordinate;
     const char *coordinate; /* its name, as in the user's expressions; NULL */
     bool on_angle;          /* that coordinate is an angle */
     bool is_geared;         /* a value of use GEARS is given */

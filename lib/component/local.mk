@@ -6,7 +6,7 @@ libcore_la_SOURCES += \
 	lib/component/beam_section.c lib/component/beam_shapes.c lib/component/bodies.c \
 	lib/component/driver.c \
 	lib/component/control.c lib/component/control.h lib/component/controlled.c \
-	lib/component/electrical.c lib/component/forces.c lib/component/equation_block.c \
+	lib/component/electrical.c lib/component/forces.c lib/component/friction.c lib/component/equation_block.c \
 	lib/component/equation_block.h lib/component/hydraulic.c \
 	lib/component/joints.c lib/component/joints_round.c lib/component/pid.c \
 	lib/component/scalar.c lib/component/screw.c lib/component/shaft.c lib/component/slide.c \

@@ -59,6 +59,8 @@ static const struct {
     [PLACES_FRAMES] = {"nppVk", " TAIL TIP"},
     [PLACES_ON] = {"npVk", " FRAME"},
     [PLACES_LINK] = {"npPVk", " TAIL TIP|JOINT"},
+    [PLACES_JOINT] = {"npPVk", " JOINT|PLUS MINUS"},
+    [PLACES_JOINTS] = {"nppVk", " JOINT JOINT|PLUS MINUS"},
     [PLACES_COORDINATE] = {"n=", " COORDINATE = EXPR"},
     [PLACES_TERMINALS] = {"nppVk", " PLUS MINUS"},
     [PLACES_TRANSDUCER] = {"npppVk", " JOINT PLUS MINUS"},

@@ -425,7 +425,7 @@ Instance *part_new(State *state, const Component *row, bool is_virtual)
     part->row = row;
     part->number = state->parts.count;
     part->is_virtual = is_virtual;
-    part->tail = part->head = part->edge = part->joint = -1;
+    part->tail = part->head = part->edge = part->joint = part->second_joint = -1;
     part->parts[0] = part->parts[1] = -1;
     part->by = part->by_coordinate = -1;
     part->values = pool_alloc(state->pool, sizeof *part->values * ((size_t)row->param_count + 1));
@@ -453,7 +453,7 @@ Instance *part_add(State *state, const Component *row, const char *name, int tai
 
 Status apply_component(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
 {
-    const Component *row = component_find(statement->verb);
+    const Component *row = row_at_places(*state, statement, component_find(statement->verb));
     PoolMark mark = pool_mark((*state)->pool);
     PartDraft draft = {.state = *state, .statement = statement, .diag = diag};
     char *text = NULL;

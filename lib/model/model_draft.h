@@ -27,6 +27,9 @@ void part_draft_commit(PartDraft *draft, const char *text);
 /* reads the name of the part, then what it connects (model_terminals.c) */
 MUST_USE Status part_draft_read_name(PartDraft *draft);
 MUST_USE Status part_draft_read_terminals(PartDraft *draft);
+/* the row of a statement: `row`, or its variant where its places are terminals */
+const Component *row_at_places(const State *state, const Statement *statement,
+                               const Component *row);
 /* the start of the statement of such a part: "NAME TAIL TIP" */
 void places_form(const Component *row, Text *out);
 Place statement_end(const Statement *statement);

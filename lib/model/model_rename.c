@@ -315,8 +315,10 @@ static int named_places(const Component *row)
     case PLACES_FROM:
     case PLACES_ON:
     case PLACES_TRANSDUCER:
+    case PLACES_JOINT:
         return 1;
     case PLACES_FRAMES:
+    case PLACES_JOINTS:
     case PLACES_LINK:
     case PLACES_PARTS:
         return 2;

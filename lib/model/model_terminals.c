@@ -16,6 +16,8 @@ static const char *const forms[] = {
     [PLACES_FRAMES] = "NAME TAIL TIP",
     [PLACES_ON] = "NAME FRAME",
     [PLACES_LINK] = "NAME TAIL TIP, or NAME JOINT",
+    [PLACES_JOINT] = "NAME JOINT, or NAME PLUS MINUS",
+    [PLACES_JOINTS] = "NAME JOINT JOINT, or NAME PLUS MINUS",
     [PLACES_COORDINATE] = "NAME COORDINATE = value",
     [PLACES_TERMINALS] = "NAME PLUS MINUS",
     [PLACES_TRANSDUCER] = "NAME JOINT PLUS MINUS",
@@ -187,6 +189,32 @@ static Status on_joint(PartDraft *draft)
     return act_on(draft, name, place);
 }
 
+/* clutch c1 h1 h2: the second acts with the other sign */
+static Status two_joints(PartDraft *draft)
+{
+    Instance *part = draft->part, first;
+    Place place;
+    const char *name = NULL;
+
+    TRY(on_joint(draft));
+    first = *part;
+    TRY(next_name(draft, &name, &place));
+    TRY(act_on(draft, name, place));
+    part->second_joint = part->joint;
+    part->second_coordinate = part->joint_coordinate;
+    part->joint = first.joint;
+    part->joint_coordinate = first.joint_coordinate;
+    part->coordinate = first.coordinate;
+    part->tail = first.tail;
+    part->head = first.head;
+    if (part->on_angle != first.on_angle)
+        return diag_at(draft->diag, E_VALUE, place, "one end of %s is an angle, the other a length",
+                       part->name);
+    if (part->second_joint == part->joint && part->second_coordinate == part->joint_coordinate)
+        return diag_at(draft->diag, E_VALUE, place, "both ends of %s are %s", part->name, name);
+    return OK;
+}
+
 /* spring k1 r1 r2, or spring k1 h8: a single name that is no frame is a coordinate */
 static Status link_places(PartDraft *draft)
 {
@@ -319,6 +347,7 @@ static Status read_terminals(PartDraft *draft)
         pool_alloc(draft->state->pool, (size_t)component_terminals(row) * sizeof *draft->terminals);
     for (int k = 0; k < component_terminals(row); k++)
         TRY(next_terminal(draft, k));
+    draft->part->on_angle = draft->part->on_angle || row->domain == DOMAIN_SHAFT;
     for (int k = 0; k < count; k++) {
         const char *plus = edges[k].plus < 0 ? "0" : draft->terminals[edges[k].plus];
         const char *minus = edges[k].minus < 0 ? "0" : draft->terminals[edges[k].minus];
@@ -373,6 +402,46 @@ static Status two_parts(PartDraft *draft)
     return OK;
 }
 
+/* whether a part has a coordinate of that name, or is a joint */
+static bool is_of_joint(const State *state, const char *name)
+{
+    int joint, coordinate;
+    const Instance *part = state_part(state, name);
+
+    return (part != NULL && part->row->family == FAMILY_JOINT) ||
+           coordinate_resolve(state, name, (Place){0}, &joint, &coordinate, NULL) == OK;
+}
+
+static bool has_pair(const Statement *statement, const char *key)
+{
+    for (int i = 0; i < statement->pairs.count; i++)
+        if (strcmp(statement->pairs.at[i].name, key) == 0)
+            return true;
+    return false;
+}
+
+/* The first place tells: a joint, or a terminal that has a domain already; a new terminal is of a
+ * slide where a force is given, otherwise of a shaft. */
+const Component *row_at_places(const State *state, const Statement *statement, const Component *row)
+{
+    Domain domain = has_pair(statement, "force") ? DOMAIN_SLIDE : DOMAIN_SHAFT;
+
+    if (row->variants == NULL || statement->operands.count < 2)
+        return row;
+    for (int i = 1; i < 3 && i < statement->operands.count; i++) {
+        const char *name = syntax_name(statement->operands.at[i].value);
+
+        if (name != NULL && is_of_joint(state, name))
+            return row;
+        if (name != NULL && strcmp(name, "gnd") != 0 && names_find(state->terminals, name) >= 0)
+            domain = terminal_domain(state, name);
+    }
+    for (int i = 0; row->variants[i] != NULL; i++)
+        if (row->variants[i]->domain == domain)
+            return row->variants[i];
+    return row->variants[0];
+}
+
 Status part_draft_read_terminals(PartDraft *draft)
 {
     Instance *part = draft->part;
@@ -391,6 +460,10 @@ Status part_draft_read_terminals(PartDraft *draft)
         return on_frame(draft);
     case PLACES_LINK:
         return link_places(draft);
+    case PLACES_JOINT:
+        return on_joint(draft);
+    case PLACES_JOINTS:
+        return two_joints(draft);
     case PLACES_COORDINATE:
         return driven_coordinate(draft);
     case PLACES_TRANSDUCER:

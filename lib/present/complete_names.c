@@ -419,6 +419,11 @@ void offer_place(TypedLine *line, const Component *row, int place)
         if (place == 0)
             offer_joints(line);
         break;
+    case PLACES_JOINT:
+    case PLACES_JOINTS:
+        offer_joints(line);
+        offer_terminals(line);
+        break;
     case PLACES_COORDINATE:
         offer_coordinates(line);
         break;

@@ -180,7 +180,8 @@ static void draw_parts(Sheet *sheet)
 
         if (instance->row->family == FAMILY_JOINT && !instance->is_virtual)
             sheet_joint(sheet, instance);
-        else if (instance->row->places == PLACES_LINK)
+        else if (instance->row->places == PLACES_LINK || instance->row->places == PLACES_JOINT ||
+                 instance->row->places == PLACES_JOINTS)
             sheet_link(sheet, instance);
     }
     picture_sort(sheet->picture);

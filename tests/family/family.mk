@@ -294,3 +294,8 @@ FAMILIES += family_complementarity
 family_complementarity_SOURCES = tests/family/family_complementarity.c tests/family/family.h \
 	tests/random.h
 family_complementarity_LDADD = $(unit_ldadd)
+
+FAMILIES += family_friction
+family_friction_SOURCES = tests/family/family_friction.c tests/family/family.h \
+	tests/random.h tests/unit/session_kit.h tests/unit/test.h
+family_friction_LDADD = libcotree.la $(unit_ldadd)

@@ -1,9 +1,9 @@
 /* family_sliding.c: dry friction and relays, against a machine of states that knows stick and slip
  *
  * The oracle: masses between springs, each rubbing on its own belt. Whether one sticks is a state;
- * one that sticks moves with its belt until the load exceeds the friction, one that slips does so
- * until it meets the belt's speed. Fixed steps of Runge-Kutta, the last of them before a change by
- * halves. No sign stands in its equations. */
+ * one that sticks moves with its belt until the load exceeds the static friction, one that slips
+ * does so until it meets the belt's speed. Fixed steps of Runge-Kutta, the last of them before a
+ * change by halves. No sign stands in its equations. */
 #include "../unit/session_kit.h"
 #include "family.h"
 
@@ -14,7 +14,7 @@ enum { FEW_MASSES = 4, MOST_MASSES = 12, STATES = 2 * MOST_MASSES };
 typedef struct Masses {
     int count;
     double mass[MOST_MASSES], spring[MOST_MASSES], joined[MOST_MASSES], damper[MOST_MASSES];
-    double friction[MOST_MASSES], belt[MOST_MASSES];
+    double friction[MOST_MASSES], ratio[MOST_MASSES], belt[MOST_MASSES];
     double constant[MOST_MASSES], swing[MOST_MASSES], pace[MOST_MASSES], phase[MOST_MASSES];
     double start[STATES]; /* places, then speeds */
     double end;
@@ -68,7 +68,7 @@ static void runge_kutta(const Masses *m, const Contact *contact, double t, doubl
 static bool is_over(const Masses *m, const Contact *contact, int i, double t, const double *y)
 {
     if (contact[i] == STICKS)
-        return fabs(load(m, i, t, y)) > m->friction[i];
+        return fabs(load(m, i, t, y)) > m->ratio[i] * m->friction[i];
     return contact[i] * (y[m->count + i] - m->belt[i]) < 0;
 }
 
@@ -90,7 +90,9 @@ static void change(const Masses *m, Contact *contact, double t, double *y)
             continue;
         if (contact[i] != STICKS)
             y[m->count + i] = m->belt[i];
-        contact[i] = fabs(acts) <= m->friction[i] ? STICKS : acts > 0 ? AHEAD : BEHIND;
+        contact[i] = fabs(acts) <= m->ratio[i] * m->friction[i] ? STICKS
+                     : acts > 0                                 ? AHEAD
+                                                                : BEHIND;
     }
 }
 
@@ -99,11 +101,11 @@ static void begin(const Masses *m, Contact *contact, const double *y)
     for (int i = 0; i < m->count; i++) {
         double acts = load(m, i, 0, y), slip = y[m->count + i] - m->belt[i];
 
-        contact[i] = slip > 0                       ? AHEAD
-                     : slip < 0                     ? BEHIND
-                     : fabs(acts) <= m->friction[i] ? STICKS
-                     : acts > 0                     ? AHEAD
-                                                    : BEHIND;
+        contact[i] = slip > 0                                     ? AHEAD
+                     : slip < 0                                   ? BEHIND
+                     : fabs(acts) <= m->ratio[i] * m->friction[i] ? STICKS
+                     : acts > 0                                   ? AHEAD
+                                                                  : BEHIND;
     }
 }
 
@@ -162,6 +164,15 @@ static void write_friction(Member *member, Lines *lines, const Masses *m, int i)
 {
     const double F = m->friction[i], v = m->belt[i];
 
+    if (v == 0 && (m->ratio[i] > 1 || chance(member, 3) == 0)) {
+        line(lines, "friction f%d s%d force=%.17g static=%.17g", i, i, F, m->ratio[i]);
+        return;
+    }
+    if (m->ratio[i] > 1) {
+        line(lines, "actuator f%d s%d force=-%.17g*stick(s%d' - %.17g, %.17g)", i, i, F, i, v,
+             m->ratio[i]);
+        return;
+    }
     switch (chance(member, 6)) {
     case 0:
         line(lines, "actuator f%d s%d force=-%.17g*sign(s%d' - %.17g)", i, i, F, i, v);
@@ -271,6 +282,7 @@ static void choose_masses(Member *member, Masses *m)
         m->joined[i] = pick(member, 2, 40);
         m->damper[i] = chance(member, 2) == 0 ? 0 : pick(member, 0, 1);
         m->friction[i] = pick(member, 0.5, 6);
+        m->ratio[i] = chance(member, 3) == 0 ? pick(member, 1, 2) : 1;
         m->belt[i] = chance(member, 2) == 0 ? 0 : pick(member, -0.5, 0.5);
         m->constant[i] = chance(member, 2) == 0 ? 0 : pick(member, -6, 6);
         m->swing[i] = chance(member, 3) == 0 ? 0 : pick(member, 0, 8);

@@ -55,6 +55,19 @@ static Status line_motion(System *system, const Instance *instance, Effort *effo
     return OK;
 }
 
+/* the motion of the first joint against the second */
+static Status subtract_second(System *system, const Instance *instance, Effort *effort, Diag *diag)
+{
+    const Instance *joint = &system->origin->instances[instance->second_joint];
+    Expr displacement, rate;
+
+    TRY(coordinate_value(system, joint, instance->second_coordinate, 0, &displacement, diag));
+    TRY(coordinate_value(system, joint, instance->second_coordinate, 1, &rate, diag));
+    effort->displacement = expr_sub(system->arena, effort->displacement, displacement);
+    effort->rate = expr_sub(system->arena, effort->rate, rate);
+    return OK;
+}
+
 Status effort_of(System *system, const Instance *instance, Effort *out, Diag *diag)
 {
     Effort effort = {.instance = instance};
@@ -69,6 +82,8 @@ Status effort_of(System *system, const Instance *instance, Effort *out, Diag *di
         TRY(coordinate_value(system, joint, coordinate, 0, &effort.displacement, diag));
         TRY(coordinate_value(system, joint, coordinate, 1, &effort.rate, diag));
     }
+    if (instance->second_joint >= 0)
+        TRY(subtract_second(system, instance, &effort, diag));
     motion.displacement = effort.displacement;
     motion.rate = effort.rate;
     if (instance->scalar_count > 0) {
@@ -242,6 +257,10 @@ Status efforts_add(System *system, Loads *loads, int take, Diag *diag)
         if (!effort.is_line) {
             loads_add_effort(system, loads, &system->origin->instances[instance->joint],
                              instance->joint_coordinate, effort.value);
+            if (instance->second_joint >= 0)
+                loads_add_effort(system, loads,
+                                 &system->origin->instances[instance->second_joint],
+                                 instance->second_coordinate, expr_neg(arena, effort.value));
             continue;
         }
         TRY(law_add(system, instance, take, &effort.value, diag));

@@ -2,6 +2,12 @@
 #include "formulate/system/surfaces.h"
 
 #include "base/memory.h"
+#include "base/random.h"
+
+#include <math.h>
+
+#define POINTS 4    /* at which two conditions are compared */
+#define SAME   1e-9 /* of their quotient: rounding */
 
 /* the first number among the factors of the first term */
 static Expr leading(Arena *arena, Expr e)
@@ -27,6 +33,32 @@ Expr surface_of(Arena *arena, Expr condition, int *way)
     sum = expr_sum(arena, terms.at, terms.count);
     LIST_FREE(terms);
     return sum;
+}
+
+/* a number in (0.5, 1.5) of a symbol, another one at each point; of either sign but for parameters */
+static double value_at_point(void *context, Expr symbol)
+{
+    uint64_t state = (uint64_t)expr_symbol_number(symbol) * 0x9e3779b97f4a7c15U + *(int *)context;
+    const double size = 1 + random_unit(&state) / 2;
+
+    return expr_symbol_kind(symbol) != SYMBOL_PARAMETER && random_unit(&state) < 0 ? -size : size;
+}
+
+bool surface_is_same(Expr surface, Expr condition, int *way)
+{
+    double first = NAN;
+
+    for (int k = 0; k < POINTS; k++) {
+        const double quotient = expr_evaluate(condition, value_at_point, &k) /
+                                expr_evaluate(surface, value_at_point, &k);
+
+        if (k == 0)
+            first = quotient;
+        if (!(fabs(quotient - first) <= SAME * fabs(first)) || first == 0)
+            return false;
+    }
+    *way = first < 0 ? -1 : 1;
+    return true;
 }
 
 Expr surface_ratio(Expr call)

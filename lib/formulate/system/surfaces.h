@@ -22,6 +22,10 @@ typedef struct Surface {
 
 /* h of a condition, whatever its scale; *way -1: with the opposite sign */
 Expr surface_of(Arena *arena, Expr condition, int *way);
+/* Whether another condition is 0 on the same surface: their quotient is the same at POINTS random
+ * points, where their terms are written differently, as a velocity in other axes. *way as above.
+ * O(nodes). */
+bool surface_is_same(Expr surface, Expr condition, int *way);
 /* r of a call that jumps; NULL: 1 */
 Expr surface_ratio(Expr call);
 /* whether a call jumps where its condition is 0 */

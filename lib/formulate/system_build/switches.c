@@ -48,6 +48,10 @@ static Expr sign_on(Arena *arena, const Putting *put, Expr call)
         if (put->surfaces[i].ratio == ratio &&
             (put->surfaces[i].condition == surface || put->surfaces[i].measure == surface))
             return way > 0 ? put->surfaces[i].sign : expr_neg(arena, put->surfaces[i].sign);
+    for (int i = 0; i < put->count; i++)
+        if (put->surfaces[i].ratio == ratio &&
+            surface_is_same(put->surfaces[i].condition, condition, &way))
+            return way > 0 ? put->surfaces[i].sign : expr_neg(arena, put->surfaces[i].sign);
     return NULL;
 }
 

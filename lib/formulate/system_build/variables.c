@@ -155,10 +155,14 @@ static Status joint_effort(System *system, const Instance *joint, Expr *out, Dia
         const Instance *instance = &system->origin->instances[i];
         Effort effort;
 
-        if (instance->joint != joint->number || instance->row->effort == NULL)
+        if ((instance->joint != joint->number && instance->second_joint != joint->number) ||
+            instance->row->effort == NULL)
             continue;
         TRY(effort_of(system, instance, &effort, diag));
-        sum = expr_add(arena, sum, effort.value);
+        if (instance->joint == joint->number)
+            sum = expr_add(arena, sum, effort.value);
+        if (instance->second_joint == joint->number)
+            sum = expr_sub(arena, sum, effort.value);
     }
     for (int k = 0; k < system->constraints->rows.count; k++) {
         const Row *row = &system->constraints->rows.at[k];

@@ -427,6 +427,7 @@ Status slide_choose(void *context, double t, double low, double high, const doub
         if (s.phase == NULL)
             goto done;
         slides_make_room(&s);
+        motion_partition(s.phase->motion, t, y);
         CHECK(choose_phase(c, now, all, count, &s, low, high, &next, diag));
     } else {
         CHECK(phase_on(c, now, all, count, &s, &next, diag));

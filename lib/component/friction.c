@@ -1,0 +1,280 @@
+/* friction.c: dry friction: in a joint, a brake, a clutch, a one-way clutch
+ *
+ * v is the rate of the joint's coordinate, of the first joint against the second, or the across
+ * variable of a shaft or slide edge. With the kinetic bound T and the static ratio r
+ *
+ *     effort = -T*stick(v, r) - d*v               or, with a Stribeck rate s,
+ *     effort = -T*(1 + (r - 1)*exp(-(v/s)^2))*sign(v) - d*v
+ *
+ * on the tip or, of joints, on the first coordinate. In a run v stays at 0 while no more than r*T
+ * is needed for that (formulate/system/surfaces.h). */
+#include "component/component_rows.h"
+
+/* clang-format off */
+#define BOUNDS                                                                                      \
+    {"torque", PARAM_LAW, "N*m", "0", "kinetic bound on an angle or a shaft", GIVES_LOAD},          \
+    {"force",  PARAM_LAW, "N",   "0", "kinetic bound on a length or a slide", GIVES_LOAD}
+#define STATIC {"static", PARAM_SCALAR, "1", "1", "static over kinetic bound", 0}
+/* clang-format on */
+
+static const Param friction_params[] = {
+    BOUNDS,
+    STATIC,
+    {"stribeck", PARAM_SCALAR, "m/s|rad/s", "0",
+     "rate at which the static bound has fallen to the kinetic one; 0: at once", 0},
+    {"viscous", PARAM_SCALAR, "N*s/m|N*m*s", "0", "viscous friction per rate, beside it", 0},
+};
+static const Param brake_params[] = {BOUNDS, STATIC};
+static const Param oneway_params[] = {BOUNDS};
+
+static const Member effort_members[] = {
+    {"effort", NULL, "force or torque on the tip, or on the first of two joints", 0},
+};
+
+static bool has_param(const Instance *instance, const char *name)
+{
+    return component_param(instance->row, name) >= 0;
+}
+
+static const char *bound_name(const Instance *instance)
+{
+    return instance->on_angle ? "torque" : "force";
+}
+
+static Expr bound_of(const Instance *instance)
+{
+    return instance_scalar(instance, bound_name(instance));
+}
+
+/* what acts against the rate v, as far as it is positive */
+static Expr resistance(const Instance *instance, Arena *arena, Expr v)
+{
+    const Expr one = expr_int(arena, 1), ratio = instance_scalar(instance, "static");
+    const bool falls =
+        has_param(instance, "stribeck") && !expr_is_zero(instance_scalar(instance, "stribeck"));
+    Expr dry = expr_mul(arena, bound_of(instance), expr_call2(arena, OP_STICK, v, ratio));
+
+    if (falls) {
+        const Expr part = expr_div(arena, v, instance_scalar(instance, "stribeck"));
+        const Expr fall = expr_call1(arena, OP_EXP, expr_neg(arena, expr_mul(arena, part, part)));
+        const Expr curve = expr_add(arena, one, expr_mul(arena, expr_sub(arena, ratio, one), fall));
+
+        dry = expr_product(arena,
+                           (Expr[]){bound_of(instance), curve, expr_call1(arena, OP_SIGN, v)}, 3);
+    }
+    if (!has_param(instance, "viscous"))
+        return dry;
+    return expr_add(arena, dry, expr_mul(arena, instance_scalar(instance, "viscous"), v));
+}
+
+static Expr friction_effort(const Instance *instance, Arena *arena, const Motion1 *motion)
+{
+    return expr_neg(arena, resistance(instance, arena, motion->rate));
+}
+
+static void friction_relation(const Instance *instance, Arena *arena, int which,
+                              const Motion1 *motion, Relation *out)
+{
+    (void)which;
+    *out = (Relation){.kind = RELATION_CONDUCTIVE,
+                      .value = resistance(instance, arena, motion->across)};
+}
+
+/* v > 0 is driven along, with at most T; v < 0 runs free */
+static Expr carried(const Instance *instance, Arena *arena, Expr v)
+{
+    const Expr half = expr_rational(arena, 1, 2), one = expr_int(arena, 1);
+    const Expr share = expr_mul(arena, half, expr_add(arena, one, expr_call1(arena, OP_SIGN, v)));
+
+    return expr_mul(arena, bound_of(instance), share);
+}
+
+static Expr oneway_effort(const Instance *instance, Arena *arena, const Motion1 *motion)
+{
+    return expr_neg(arena, carried(instance, arena, motion->rate));
+}
+
+static void oneway_relation(const Instance *instance, Arena *arena, int which,
+                            const Motion1 *motion, Relation *out)
+{
+    (void)which;
+    *out =
+        (Relation){.kind = RELATION_CONDUCTIVE, .value = carried(instance, arena, motion->across)};
+}
+
+/* --- checks --- */
+
+static Status check_bound(const Instance *instance, Diag *diag)
+{
+    const char *right = bound_name(instance);
+    const char *wrong = instance->on_angle ? "force" : "torque";
+    Status status;
+
+    if (instance_value(instance, wrong)->given) {
+        status = diag_set(diag, E_VALUE, "%s= does not fit: %s acts on %s", wrong, instance->name,
+                          instance->on_angle ? "an angle" : "a length");
+        diag_hint(diag, "use %s=", right);
+        diag_about(diag, "%s", wrong);
+        return status;
+    }
+    if (instance_value(instance, right)->given)
+        return check_not_negative(instance, right, diag);
+    if (has_param(instance, "viscous") && instance_value(instance, "viscous")->given)
+        return OK;
+    status = diag_set(diag, E_VALUE, "%s needs %s=, the most that it holds while it slips",
+                      instance->name, right);
+    diag_hint(diag, "a number, or an expression of t, parameters and variables: %s=2", right);
+    return status;
+}
+
+static Status check_ratio(const Instance *instance, Diag *diag)
+{
+    const Expr ratio = instance_scalar(instance, "static");
+    Status status;
+
+    if (!expr_is_number(ratio) || expr_value(ratio) >= 1)
+        return OK;
+    status = diag_set(diag, E_VALUE, "static=%.6g: the static bound is not below the kinetic one",
+                      expr_value(ratio));
+    diag_hint(diag, "static= is their ratio, 1 or more");
+    diag_about(diag, "static");
+    return status;
+}
+
+static Status friction_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
+{
+    Status status;
+
+    (void)arena;
+    (void)planar;
+    TRY(check_bound(instance, diag));
+    TRY(check_ratio(instance, diag));
+    if (!has_param(instance, "stribeck"))
+        return OK;
+    TRY(check_not_negative(instance, "stribeck", diag));
+    TRY(check_not_negative(instance, "viscous", diag));
+    if (!instance_value(instance, "stribeck")->given || instance_value(instance, "static")->given)
+        return OK;
+    status = diag_set(diag, E_VALUE, "stribeck= has no effect without static=");
+    diag_hint(diag, "static=1.5 stribeck=%s falls from 1.5 times the bound at rest",
+              instance->on_angle ? "0.1" : "0.01");
+    diag_about(diag, "stribeck");
+    return status;
+}
+
+static Status oneway_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
+{
+    (void)arena;
+    (void)planar;
+    return check_bound(instance, diag);
+}
+
+/* --- rows --- */
+
+/* a part on terminals of a shaft or slide */
+#define ON_TERMINALS(row, domain_of, law, check_of)                                                \
+    {                                                                                              \
+        .name = #row, .family = FAMILY_SCALAR, .domain = domain_of, .places = PLACES_TERMINALS,    \
+        .params = row##_params, .param_count = COUNT(row##_params), .translation = BRANCH_MAY,     \
+        .preference = 30, .relation = law, .check = check_of                                       \
+    }
+#define VARIANTS(row, law, check_of)                                                               \
+    static const Component row##_shaft = ON_TERMINALS(row, DOMAIN_SHAFT, law, check_of);           \
+    static const Component row##_slide = ON_TERMINALS(row, DOMAIN_SLIDE, law, check_of);           \
+    static const Component *const row##_variants[] = {&row##_shaft, &row##_slide, NULL};
+
+#define clutch_params brake_params
+VARIANTS(friction, friction_relation, friction_check)
+VARIANTS(brake, friction_relation, friction_check)
+VARIANTS(clutch, friction_relation, friction_check)
+VARIANTS(oneway, oneway_relation, oneway_check)
+
+const Component component_friction = {
+    .name = "friction",
+    .family = FAMILY_FORCE,
+    .domain = DOMAIN_MECHANICAL,
+    .places = PLACES_JOINT,
+    .variants = friction_variants,
+    .brief = "dry and viscous friction in a joint, a shaft or a slide",
+    .params = friction_params,
+    .param_count = COUNT(friction_params),
+    .effort = friction_effort,
+    .members = effort_members,
+    .member_count = COUNT(effort_members),
+    .check = friction_check,
+    .help =
+        "Dry friction on a joint's coordinate, or between two terminals of a shaft or slide: "
+        "torque= on an angle, force= on a length, against the motion. At rest it holds up to "
+        "static= times as much, and a run keeps it exactly at rest. With stribeck= the bound falls "
+        "from the static to the kinetic one as T*(1 + (static - 1)*exp(-(rate/stribeck)^2)). "
+        "viscous= adds a damper. The bound may be any expression of t, parameters and variables.",
+    .example = "scene planar\nbody m mass=1\nprismatic s ground m axis=x\n"
+               "friction f s force=5 static=1.2\nactuator l s force=2*t\ninit s = 0, s' = 0\n"
+               "simulate 4\nprint s, s', f.effort",
+    .see = "brake clutch oneway damper",
+};
+
+const Component component_brake = {
+    .name = "brake",
+    .family = FAMILY_FORCE,
+    .domain = DOMAIN_MECHANICAL,
+    .places = PLACES_JOINT,
+    .variants = brake_variants,
+    .brief = "brake on a joint, a shaft or a slide",
+    .params = brake_params,
+    .param_count = COUNT(brake_params),
+    .effort = friction_effort,
+    .members = effort_members,
+    .member_count = COUNT(effort_members),
+    .check = friction_check,
+    .help = "Dry friction whose bound is applied: torque= or force= is an expression of t, "
+            "parameters and variables, 0 while the brake is open. At rest it holds up to static= "
+            "times as much.",
+    .example = "flywheel J1 a 0 J=0.5\nbrake b1 a 0 torque=if(t > 1, 20, 0)\n"
+               "init J1.w = 50\nsimulate 3\nprint J1.w",
+    .see = "clutch friction",
+};
+
+const Component component_clutch = {
+    .name = "clutch",
+    .family = FAMILY_FORCE,
+    .domain = DOMAIN_MECHANICAL,
+    .places = PLACES_JOINTS,
+    .variants = clutch_variants,
+    .brief = "friction clutch between two joints, two shafts or two slides",
+    .params = clutch_params,
+    .param_count = COUNT(clutch_params),
+    .effort = friction_effort,
+    .members = effort_members,
+    .member_count = COUNT(effort_members),
+    .check = friction_check,
+    .help = "Dry friction between the coordinates of two joints, or between two terminals of a "
+            "shaft or slide. torque= or force= is the kinetic bound, an expression of t, "
+            "parameters and variables; it sticks with up to static= times as much.",
+    .example = "flywheel J1 a 0 J=0.5\nflywheel J2 b 0 J=1\n"
+               "clutch c1 a b torque=20*min(t, 1) static=1.1\n"
+               "init J1.w = 50, J2.w = 0\nsimulate 3\nprint J1.w, J2.w, c1.torque",
+    .see = "brake oneway friction",
+};
+
+const Component component_oneway = {
+    .name = "oneway",
+    .family = FAMILY_FORCE,
+    .domain = DOMAIN_MECHANICAL,
+    .places = PLACES_JOINTS,
+    .variants = oneway_variants,
+    .brief = "one-way clutch between two joints, two shafts or two slides",
+    .params = oneway_params,
+    .param_count = COUNT(oneway_params),
+    .effort = oneway_effort,
+    .members = effort_members,
+    .member_count = COUNT(effort_members),
+    .check = oneway_check,
+    .help = "The first of two joints, shafts or slides drives the second along and never runs "
+            "ahead of it; the second may run ahead freely. torque= or force= is the most that it "
+            "carries; beyond, it slips.",
+    .example = "flywheel J1 a 0 J=0.5\nflywheel J2 b 0 J=1\ntorquesource T1 a 0 10*sin(t)\n"
+               "shaft d1 b 0 d=0.3\noneway o1 a b torque=1000\n"
+               "init J1.w = 0, J2.w = 0\nsimulate 10\nprint J1.w, J2.w, o1.torque",
+    .see = "clutch brake",
+};
