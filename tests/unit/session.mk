@@ -67,6 +67,10 @@ test_units_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_keys
 test_keys_SOURCES = tests/unit/test_keys.c tests/unit/session_kit.h tests/unit/test.h
 test_keys_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_friction
+test_friction_SOURCES = tests/unit/test_friction.c tests/unit/session_kit.h tests/unit/test.h
+test_friction_LDADD = $(unit_ldadd)
+
 UNIT_TESTS += test_sliding
 test_sliding_SOURCES = tests/unit/test_sliding.c tests/unit/session_kit.h tests/unit/test.h
 test_sliding_LDADD = $(unit_ldadd)

@@ -6,8 +6,8 @@
 
 #include <math.h>
 
-#define POINTS 4    /* at which two conditions are compared */
-#define SAME   1e-9 /* of their quotient: rounding */
+#define POINTS 4     /* at which two conditions are compared */
+#define SAME   1e-13 /* of their quotient: rounding, and less than any offset of use */
 
 /* the first number among the factors of the first term */
 static Expr leading(Arena *arena, Expr e)
@@ -35,7 +35,8 @@ Expr surface_of(Arena *arena, Expr condition, int *way)
     return sum;
 }
 
-/* a number in (0.5, 1.5) of a symbol, another one at each point; of either sign but for parameters */
+/* a number in (0.5, 1.5) of a symbol, another one at each point; of either sign but for parameters
+ */
 static double value_at_point(void *context, Expr symbol)
 {
     uint64_t state = (uint64_t)expr_symbol_number(symbol) * 0x9e3779b97f4a7c15U + *(int *)context;

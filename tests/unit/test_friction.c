@@ -1,0 +1,257 @@
+/* test_friction.c: friction, brakes, clutches and one-way clutches, against closed forms */
+#include "session_kit.h"
+
+#define SLIDE "scene planar\nbody m mass=1 inertia=0\nprismatic s ground m axis=x\n"
+#define HINGE "scene planar\nbody m mass=1 inertia=0.1\nrevolute h ground m\n"
+
+static bool is_near(double got, double expected, double within)
+{
+    return fabs(got - expected) <= within;
+}
+
+/* on an incline of slope a it slides where tan(a) is above the static ratio times mu */
+static void a_block_on_an_incline(void)
+{
+    static const double angles[] = {0.2, 0.35, 0.5};
+    const double mu = 0.3, ratio = 1.3, g = 9.81;
+
+    for (int i = 0; i < 3; i++) {
+        const double a = angles[i];
+        const double rate = tan(a) > ratio * mu ? g * (sin(a) - mu * cos(a)) : 0;
+        Kit kit = kit_new();
+        char text[400];
+
+        (void)snprintf(text, sizeof text,
+                       "a = %g\n" SLIDE "gravity [9.81*sin(a), -9.81*cos(a)]\n"
+                       "friction f s force=0.3*9.81*cos(a) static=1.3\n"
+                       "init s = 0, s' = 0\nsimulate 2\n",
+                       a);
+        EXPECT_DONE(&kit, text);
+        EXPECT(is_near(kit_value(&kit, "s"), rate * 2, 1e-9));
+        EXPECT(is_near(kit_value(&kit, "s'"), rate * 2, 1e-9));
+        kit_free(&kit);
+    }
+}
+
+/* each half swing ends 2 F/k nearer: 0.33, -0.23, 0.13, -0.03, where 3 N of 5 N hold it */
+static void a_spring_comes_to_rest(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDE "spring k s k=100\nfriction f s force=5\ninit s = 0.33, s' = 0\n"
+                            "simulate 0.943\n");
+    EXPECT(is_near(kit_value(&kit, "s"), -0.03, 1e-10));
+    EXPECT(is_near(kit_value(&kit, "s'"), 0, 1e-14));
+    EXPECT(is_near(kit_value(&kit, "f.effort"), -3, 1e-8));
+    EXPECT(is_near(kit_value(&kit, "first(s < -0.23 + 1e-9)"), 0.31415926535897931, 1e-5));
+    kit_free(&kit);
+}
+
+/* A mass on a spring and a belt: it sticks while the spring pulls with less than r T, and slips
+ * from there through a part of a swing about T/k. */
+static void a_belt_makes_stick_and_slip(void)
+{
+    const double k = 25, w = 5, T = 2, r = 1.4, v = 0.1;
+    const double slips = (2 * M_PI - 2 * atan((r - 1) * T * w / (k * v))) / w;
+    const double sticks = 2 * (r - 1) * T / (k * v);
+    Kit kit = kit_new();
+    char text[400];
+
+    (void)snprintf(text, sizeof text,
+                   SLIDE "body b mass=1\nprismatic belt ground b axis=x\n"
+                         "driver D belt = 0.1*t\nspring k s k=25\n"
+                         "clutch c s belt force=2 static=1.4\ninit s = %.17g, s' = 0.1\n"
+                         "simulate %.17g rtol=1e-10\n",
+                   (2 - r) * T / k, 10 * (slips + sticks));
+    EXPECT_DONE(&kit, text);
+    EXPECT(is_near(kit_value(&kit, "s"), (2 - r) * T / k, 1e-9));
+    EXPECT(is_near(kit_value(&kit, "max(s)"), T / k + hypot((r - 1) * T / k, v / w), 1e-8));
+    EXPECT_DONE(&kit, "resume 0.2\n");
+    EXPECT(is_near(kit_value(&kit, "s"), (2 - r) * T / k + 0.02, 1e-9));
+    EXPECT(is_near(kit_value(&kit, "s'"), v, 1e-12));
+    kit_free(&kit);
+}
+
+/* the angle at which a pendulum that starts at rest at `from` turns, by its energy */
+static double next_turn(double from, double weight, double torque)
+{
+    double low = -from * (1 - 1e-9), high = from; /* on the other side */
+
+    for (int i = 0; i < 200; i++) {
+        const double at = (low + high) / 2;
+
+        if (weight * (cos(at) - cos(from)) > torque * (at + from))
+            low = at;
+        else
+            high = at;
+    }
+    return low;
+}
+
+static void a_pendulum_comes_to_rest(void)
+{
+    const double weight = 9.81, torque = 1;
+    double at = 2;
+    int turns = 0;
+    Kit kit = kit_new();
+
+    while (weight * sin(at) > torque && turns < 100) {
+        at = next_turn(at, weight, torque);
+        turns++;
+    }
+    EXPECT_DONE(&kit, "scene planar\ngravity [0, -9.81]\nbody m mass=1 inertia=0\n"
+                      "arm p m [0, 1]\nrevolute h ground p\nfriction f h torque=1\n"
+                      "init h = 2, h' = 0\nsimulate 30\n");
+    EXPECT(is_near(kit_value(&kit, "h"), turns % 2 == 0 ? at : -at, 1e-7));
+    EXPECT(is_near(kit_value(&kit, "h'"), 0, 1e-13));
+    kit_free(&kit);
+}
+
+/* Three blocks pushed by 10 t N against 3 + 2 + 1 N to the ground, with 4 N and 2.5 N between
+ * neighbours: all move from 0.6 s on, and the first leaves the others at 0.72 s. */
+static void blocks_in_a_row(void)
+{
+    const double shared = 0.12 * 0.12 * 10 / 12;
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\nbody b1 mass=1 inertia=0\nbody b2 mass=2 inertia=0\n"
+                      "body b3 mass=3 inertia=0\nprismatic s1 ground b1 axis=x\n"
+                      "prismatic s2 ground b2 axis=x\nprismatic s3 ground b3 axis=x\n"
+                      "actuator l s1 force=10*t\nfriction g1 s1 force=3\nfriction g2 s2 force=2\n"
+                      "friction g3 s3 force=1\nclutch p1 s1 s2 force=4\n"
+                      "clutch p2 s2 s3 force=2.5\n"
+                      "init s1 = 0, s1' = 0, s2 = 0, s2' = 0, s3 = 0, s3' = 0\n"
+                      "simulate 0.7199999\n");
+    EXPECT(is_near(kit_value(&kit, "first(s3' > 1e-9)"), 0.6 + sqrt(2e-9 / (10 / 6.0)), 1e-7));
+    EXPECT(is_near(kit_value(&kit, "s1' - s3'"), 0, 1e-12));
+    EXPECT_DONE(&kit, "resume 1.2800001\n");
+    EXPECT(is_near(kit_value(&kit, "s1'"), shared + 5 * (4 - 0.72 * 0.72) - 7 * 1.28, 1e-8));
+    EXPECT(is_near(kit_value(&kit, "s2'"), shared + 0.2 * 1.28, 1e-8));
+    EXPECT(is_near(kit_value(&kit, "s3'"), shared + 0.2 * 1.28, 1e-8));
+    kit_free(&kit);
+}
+
+/* Four discs, two of which turn: clutches of 6, 3 and 4.5 N m share their momentum. In the middle
+ * 3 N m brake the first pair by 1 rad/s^2 and drive the second by 0.75 rad/s^2. */
+static void discs_and_clutches(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "flywheel J1 a 0 J=1\nflywheel J2 b 0 J=2\nflywheel J3 c 0 J=1\n"
+                      "flywheel J4 d 0 J=3\nclutch c1 a b torque=6\nclutch c2 b c torque=3\n"
+                      "clutch c3 c d torque=4.5\n"
+                      "init J1.w = 20, J2.w = 20, J3.w = 6, J4.w = 6\nsimulate 10\n");
+    EXPECT(is_near(kit_value(&kit, "J1.w"), (3 * 20 + 4 * 6) / 7.0, 1e-9));
+    EXPECT(is_near(kit_value(&kit, "J4.w"), (3 * 20 + 4 * 6) / 7.0, 1e-9));
+    EXPECT(is_near(kit_value(&kit, "first(J2.w - J3.w < 1e-7)"), 8, 1e-6));
+    EXPECT(is_near(kit_value(&kit, "max(abs(J1.w - J2.w) + abs(J3.w - J4.w))"), 0, 1e-12));
+    kit_free(&kit);
+}
+
+/* of 10 sin(t) + 2 N m on the first of J and 2 J, from t on */
+static double pushed(double from, double to)
+{
+    return 10 * (cos(from) - cos(to)) + 2 * (to - from);
+}
+
+/* it drives until the torque turns, and again when the first has caught up */
+static void a_one_way_clutch_drives_and_runs_free(void)
+{
+    const double parts = M_PI + asin(0.2);
+    double low = parts + 0.5, high = 3 * M_PI, end;
+    Kit kit = kit_new();
+    char text[300];
+
+    for (int i = 0; i < 100; i++) {
+        const double middle = (low + high) / 2;
+
+        if (pushed(parts, middle) < 0)
+            low = middle;
+        else
+            high = middle;
+    }
+    end = low + 0.7;
+    (void)snprintf(text, sizeof text,
+                   "flywheel J1 a 0 J=0.5\nflywheel J2 b 0 J=1\n"
+                   "torquesource T a 0 10*sin(t) + 2\noneway o a b torque=1000\n"
+                   "init J1.w = 0, J2.w = 0\nsimulate %.17g rtol=1e-10\n",
+                   end);
+    EXPECT_DONE(&kit, text);
+    EXPECT(is_near(kit_value(&kit, "J2.w"), (pushed(0, parts) + pushed(low, end)) / 1.5, 1e-7));
+    EXPECT(is_near(kit_value(&kit, "J1.w"), kit_value(&kit, "J2.w"), 1e-9));
+    EXPECT(is_near(kit_value(&kit, "min(J1.w - J2.w)"), pushed(parts, 2 * M_PI - asin(0.2)) / 0.5,
+                   1e-6));
+    EXPECT(kit_value(&kit, "max(J1.w - J2.w)") < 1e-9);
+    kit_free(&kit);
+}
+
+/* The bound falls with the rate: 1 kg against T (1 + (r - 1) exp(-(v/s)^2)) and d v, from rest with
+ * more than the static bound; the rate that it reaches in the end. */
+static void stribeck_and_viscous_friction(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDE "friction f s force=2 static=1.5 stribeck=0.1 viscous=0.5\n"
+                            "actuator l s force=2.99\ninit s = 0, s' = 0\nsimulate 5\n");
+    EXPECT(is_near(kit_value(&kit, "s"), 0, 1e-14));
+    EXPECT(is_near(kit_value(&kit, "f.effort"), -2.99, 1e-10));
+    kit_free(&kit);
+    kit = kit_new();
+    EXPECT_DONE(&kit, SLIDE "friction f s force=2 static=1.5 stribeck=0.1 viscous=0.5\n"
+                            "actuator l s force=3.01\ninit s = 0, s' = 0\nsimulate 60\n");
+    EXPECT(is_near(kit_value(&kit, "s'"), (3.01 - 2) / 0.5, 1e-7));
+    kit_free(&kit);
+}
+
+static void wrong_uses_name_their_cure(void)
+{
+    static const struct {
+        const char *text, *message, *hint;
+    } wrong[] = {
+        {HINGE "friction f h\n", "f needs torque=", "torque=2"},
+        {SLIDE "friction f s\n", "f needs force=", "force=2"},
+        {HINGE "friction f h force=1\n", "force= does not fit", "use torque="},
+        {SLIDE "brake b s torque=1\n", "torque= does not fit", "use force="},
+        {HINGE "friction f h torque=-1\n", "torque", ""},
+        {HINGE "friction f h torque=1 static=0.5\n", "static=0.5", "1 or more"},
+        {HINGE "friction f h torque=1 stribeck=0.1\n", "without static=", "static=1.5"},
+        {HINGE "friction f h torque=1 static=2 stribeck=-1\n", "stribeck", ""},
+        {HINGE "friction f h torque=1 viscous=-1\n", "viscous", ""},
+        {HINGE "friction f h torque=1 mu=0.1\n", "'friction' has no key 'mu'", ""},
+        {HINGE "friction f torque=1\n", "expected a place", "JOINT"},
+        {HINGE "friction f ground m torque=1\n", "ground", ""},
+        {HINGE "friction f m torque=1\n", "m", ""},
+        {HINGE "friction h h torque=1\n", "h", ""},
+        {HINGE "clutch c h torque=1\n", "expected a place", "JOINT JOINT"},
+        {HINGE "clutch c h h torque=1\n", "both ends of c are h", ""},
+        {HINGE "body n mass=1\nprismatic s ground n axis=x\nclutch c h s torque=1\n",
+         "one end of c is an angle", ""},
+        {HINGE "oneway o h torque=1\n", "expected a place", "JOINT JOINT"},
+        {"flywheel J a 0 J=1\nbrake b a 0 force=1\n", "force= does not fit", "use torque="},
+        {"flywheel J a 0 J=1\nclutch c a a torque=1\n", "both ends of c are a", ""},
+        {"resistor R a 0 1\nbrake b a 0 torque=1\n", "a is electrical", "first component"},
+        {HINGE "friction f h torque=1 kg\n", "torque", ""},
+    };
+
+    for (int i = 0; i < (int)(sizeof wrong / sizeof wrong[0]); i++) {
+        Kit kit = kit_new();
+
+        EXPECT_FAILS(&kit, wrong[i].text, wrong[i].message);
+        EXPECT_HOLDS(kit.error.hint != NULL ? kit.error.hint : "", wrong[i].hint);
+        kit_free(&kit);
+    }
+}
+
+int main(void)
+{
+    RUN(a_block_on_an_incline);
+    RUN(a_spring_comes_to_rest);
+    RUN(a_belt_makes_stick_and_slip);
+    RUN(a_pendulum_comes_to_rest);
+    RUN(blocks_in_a_row);
+    RUN(discs_and_clutches);
+    RUN(a_one_way_clutch_drives_and_runs_free);
+    RUN(stribeck_and_viscous_friction);
+    RUN(wrong_uses_name_their_cure);
+    return test_end();
+}
