@@ -15,14 +15,14 @@
 #define PIVOTS    50    /* of Lemke's method, an unknown */
 #define FEW       6     /* unknowns whose sides are all tried */
 
-typedef struct Workspace {
+typedef struct Scaled {
     int n;
     double *matrix, *q, *low, *high, *scale; /* of the scaled problem */
     double *z, *w;
     double *factor;  /* n x n */
     double *tableau; /* of Lemke's method */
     double largest;  /* of w where z is at a bound or 0 */
-} Workspace;
+} Scaled;
 
 size_t complementarity_room(int n)
 {
@@ -44,11 +44,11 @@ static double finite_bound(double bound)
     return isfinite(bound) ? fabs(bound) : 0;
 }
 
-static Workspace scale_problem(const Complementarity *p, double *room)
+static Scaled scale_problem(const Complementarity *p, double *room)
 {
     const int n = p->n;
     const size_t count = (size_t)n;
-    Workspace s = {.n = n};
+    Scaled s = {.n = n};
 
     s.matrix = take(&room, count * count);
     s.factor = take(&room, count * count);
@@ -81,7 +81,7 @@ static Workspace scale_problem(const Complementarity *p, double *room)
     return s;
 }
 
-static double bound_on(const Workspace *s, int i, int side)
+static double bound_on(const Scaled *s, int i, int side)
 {
     return side == AT_LOW ? s->low[i] : s->high[i];
 }
@@ -130,7 +130,7 @@ static bool solve_rows(double *a, int n, double *b)
 }
 
 /* z and w with the unknowns on these sides. False: rows of those BETWEEN are dependent. */
-static bool solve_sides(const Workspace *s, const int *side)
+static bool solve_sides(const Scaled *s, const int *side)
 {
     const int n = s->n;
     int between = 0;
@@ -166,21 +166,21 @@ static bool solve_sides(const Workspace *s, const int *side)
 }
 
 /* Whether unknown i is right on its side; if not, *better is the side that it has to go to. */
-static bool is_right(const Workspace *s, const int *side, int i, int *better)
+static bool is_right(const Scaled *s, const int *side, int i, int *better)
 {
     const bool may_stay = !(s->matrix[i * s->n + i] < 0);
     const double width = s->high[i] - s->low[i];
-    const double slack = INSIDE * (isfinite(width) ? fmax(width, 1e-300) : 1);
+    const double allowance = INSIDE * (isfinite(width) ? fmax(width, 1e-300) : 1);
 
     if (side[i] == BETWEEN) {
         *better = s->z[i] < s->low[i] ? AT_LOW : AT_HIGH;
-        return s->z[i] >= s->low[i] - slack && s->z[i] <= s->high[i] + slack && may_stay;
+        return s->z[i] >= s->low[i] - allowance && s->z[i] <= s->high[i] + allowance && may_stay;
     }
     *better = may_stay ? BETWEEN : -side[i];
     return side[i] == AT_LOW ? s->w[i] >= -RIGHT * s->largest : s->w[i] <= RIGHT * s->largest;
 }
 
-static bool is_solution(const Workspace *s, const int *side)
+static bool is_solution(const Scaled *s, const int *side)
 {
     int better;
 
@@ -192,7 +192,7 @@ static bool is_solution(const Workspace *s, const int *side)
 
 /* All that are wrong go over together; after ROUNDS without progress only the last of them, which
  * ends where M is a P-matrix (Murty). */
-static bool exchange_blocks(const Workspace *s, int *side)
+static bool exchange_blocks(const Scaled *s, int *side)
 {
     int fewest = s->n + 1, rounds = ROUNDS;
 
@@ -306,7 +306,7 @@ static int leaving_row(const Lemke *t, int column)
     return found;
 }
 
-static void fill_tableau(const Workspace *s, Lemke *t)
+static void fill_tableau(const Scaled *s, Lemke *t)
 {
     const int n = s->n;
 
@@ -367,7 +367,7 @@ static bool run_lemke(Lemke *t)
     return false;
 }
 
-static bool solve_by_lemke(const Workspace *s, int *side)
+static bool solve_by_lemke(const Scaled *s, int *side)
 {
     const int n = s->n;
     Lemke t = {.n = n, .rows = 2 * n, .width = 4 * n + 2, .at = s->tableau};
@@ -404,7 +404,7 @@ static bool next_sides(int n, int *side)
     return false;
 }
 
-static bool try_all_sides(const Workspace *s, const int *guess, int *side)
+static bool try_all_sides(const Scaled *s, const int *guess, int *side)
 {
     int trial[FEW], nearest = 2 * FEW + 1;
 
@@ -428,7 +428,7 @@ static bool try_all_sides(const Workspace *s, const int *guess, int *side)
 
 /* Of a solution, those at a bound with w = 0 whose rows don't depend on others BETWEEN are BETWEEN
  * too: z stays as it is. */
-static void keep_between(const Workspace *s, int *side)
+static void keep_between(const Scaled *s, int *side)
 {
     for (int i = 0; i < s->n; i++) {
         const int bound = side[i];
@@ -444,7 +444,7 @@ static void keep_between(const Workspace *s, int *side)
     }
 }
 
-static bool has_unstable(const Workspace *s)
+static bool has_unstable(const Scaled *s)
 {
     for (int i = 0; i < s->n; i++)
         if (s->matrix[i * s->n + i] < 0)
@@ -455,7 +455,7 @@ static bool has_unstable(const Workspace *s)
 /* NOLINTNEXTLINE(readability-non-const-parameter): z and room are written to */
 bool complementarity_solve(const Complementarity *problem, int *side, double *z, double *room)
 {
-    const Workspace s = scale_problem(problem, room);
+    const Scaled s = scale_problem(problem, room);
     int guess[FEW];
     bool found;
 

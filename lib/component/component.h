@@ -81,9 +81,9 @@ typedef enum Places {
     PLACES_FROM,   /* arm r5 m1: makes the frame of its own name, edge m1 -> r5 */
     PLACES_FRAMES, /* revolute h8 r1 r2: edge r1 -> r2 */
     PLACES_ON,     /* force F1 m3: edge ground -> m3 */
-    PLACES_LINK, /* spring k1 r1 r2, or spring k1 h8: between two frames or on a joint's coordinate
-                  */
-    PLACES_JOINT,      /* brake b1 h8: a joint's coordinate; or two terminals (variants) */
+    PLACES_LINK,  /* spring k1 r1 r2, or spring k1 h8: between two frames or on a joint's coordinate
+                   */
+    PLACES_JOINT, /* brake b1 h8: a joint's coordinate; or two terminals (variants) */
     PLACES_JOINTS,     /* clutch c1 h1 h2: two of them; or two terminals */
     PLACES_COORDINATE, /* driver D1 h8 = expr: a coordinate of a joint or (driver) a body */
     PLACES_TERMINALS,  /* resistor R1 a b: the terminals of its scalar edges */

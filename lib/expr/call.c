@@ -233,8 +233,9 @@ static Expr exact_stick(Arena *arena, const Expr *args)
 {
     if (is_number(args[1]) && expr_value(args[1]) == 1)
         return expr_call1(arena, OP_SIGN, args[0]);
-    return is_number(args[0]) ? expr_int(arena, (expr_value(args[0]) > 0) - (expr_value(args[0]) < 0))
-                              : NULL;
+    return is_number(args[0])
+               ? expr_int(arena, (expr_value(args[0]) > 0) - (expr_value(args[0]) < 0))
+               : NULL;
 }
 
 static Expr exact_named_temporary(Arena *arena, const Expr *args)

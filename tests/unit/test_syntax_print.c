@@ -144,8 +144,7 @@ static bool same_places(const Syntax *a, const Syntax *b)
 static void copies_have_the_places_of_their_text(void)
 {
     static const char *const texts[][2] = {
-        {"revol  b A B axis=[1, 2, -3] ",
-         "revolute  b A B axis=[1, 2, -3]"},
+        {"revol  b A B axis=[1, 2, -3] ", "revolute  b A B axis=[1, 2, -3]"},
         {"  virtual   rev h A \\\n   b axis=z", "virtual revolute h A b axis=z"},
         {"f(x)  =  a*sin(x) \\\r\n\\\n + \\\n1 mm", "f(x)  =  a*sin(x) + 1 mm"},
         {" L = (2 mm)  - d.x # long", "L = (2 mm)  - d.x"},

@@ -139,9 +139,8 @@ static void what_comes_later_says_so(void)
     static const struct {
         const char *text;
         int column;
-    } lines[] = {{"stop s1 h", 1},
-                 {"time stop s1 h", 6},
-                 {"time fit k to=\"a.csv\" : simulate 1", 6}};
+    } lines[] = {
+        {"stop s1 h", 1}, {"time stop s1 h", 6}, {"time fit k to=\"a.csv\" : simulate 1", 6}};
 
     for (int i = 0; i < COUNT(lines); i++) {
         Statement *s = NULL;

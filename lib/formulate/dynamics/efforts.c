@@ -258,8 +258,7 @@ Status efforts_add(System *system, Loads *loads, int take, Diag *diag)
             loads_add_effort(system, loads, &system->origin->instances[instance->joint],
                              instance->joint_coordinate, effort.value);
             if (instance->second_joint >= 0)
-                loads_add_effort(system, loads,
-                                 &system->origin->instances[instance->second_joint],
+                loads_add_effort(system, loads, &system->origin->instances[instance->second_joint],
                                  instance->second_coordinate, expr_neg(arena, effort.value));
             continue;
         }

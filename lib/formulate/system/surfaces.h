@@ -2,8 +2,9 @@
  *
  * f = f+ where h > 0, f- where h < 0. Where both lead to h = 0 the motion slides along this surface
  * (Filippov 1988). What jumps there has a value between its two: the sign of h is an unknown
- * between -1 and 1 (Utkin's equivalent control), such that h remains 0. Of stick(h, r), which static
- * friction is, it is between -r and r: such a surface is another one than that of sign(h). */
+ * between -1 and 1 (Utkin's equivalent control), such that h remains 0. Of stick(h, r), which
+ * static friction is, it is between -r and r: such a surface is another one than that of sign(h).
+ */
 #ifndef COTREE_FORMULATE_SYSTEM_SURFACES_H
 #define COTREE_FORMULATE_SYSTEM_SURFACES_H
 

@@ -37,9 +37,9 @@ struct CompiledEquations {
     bool has_rates_of_q;
     int rates_excess, rates_pivots;
     double *sign_bounds; /* of their signs */
-    Probe *slip;        /* of surfaces slid along: slip of each, then `off` of each */
-    Guard *guards;      /* of the conditions, */
-    Expr *shown_guards; /* the expressions that users see for these; NULL: margins */
+    Probe *slip;         /* of surfaces slid along: slip of each, then `off` of each */
+    Guard *guards;       /* of the conditions, */
+    Expr *shown_guards;  /* the expressions that users see for these; NULL: margins */
     int *quaternions, *network_places;
     LIST(int) margins;   /* number of the switch that each belongs to */
     bool is_network_new; /* its program was run with the current t, q, u, x */

@@ -108,15 +108,13 @@ static void push_surface(CompiledEquations *nb, Conditions *c, int number, const
     const Expr ratio = surface->ratio != NULL ? surface->ratio : expr_int(arena, 1);
 
     if (surface->side != 0) {
-        push_condition(nb, c, surface->measure, 
+        push_condition(nb, c, surface->measure,
                        (Guard){number, .side = surface->side, .held = surface->held});
         return;
     }
     nb->eq.switches_read_network = true; /* signs follow from it */
-    push_condition(nb, c, expr_sub(arena, ratio, surface->sign),
-                   (Guard){number, .end = 1});
-    push_condition(nb, c, expr_add(arena, ratio, surface->sign),
-                   (Guard){number, .end = -1});
+    push_condition(nb, c, expr_sub(arena, ratio, surface->sign), (Guard){number, .end = 1});
+    push_condition(nb, c, expr_add(arena, ratio, surface->sign), (Guard){number, .end = -1});
 }
 
 /* the entry of the layout's surfaces for a switch; NULL: none */

@@ -131,7 +131,7 @@ typedef struct Equations {
                      double *out);
     /* surfaces that the motion slides along: signs are solved for such that slip is 0 */
     int slide_count;
-    const double *sign_bounds; /* slide_count: largest size of each sign */
+    const double *sign_bounds;                         /* slide_count: largest size of each sign */
     void (*slide)(void *context, const double *signs); /* before velocity() */
     /* at a solved state: slip of each, and its distance `off` from the surface (slide_count
      * each) */

@@ -60,12 +60,15 @@ bool integration_is_margin(const Integration *m, int i)
  * the segment that is known to go on. */
 static bool is_left_out(const Integration *m, int i)
 {
-    const Guard guard = integration_is_of_event(m, i) ? (Guard){0} : equations_guard(m->eq, i);
+    Guard guard;
 
-    if (is_of_time(m, i) || guard.held)
+    if (is_of_time(m, i))
         return true;
-    if (!(m->plan->span > 0) || integration_is_of_event(m, i))
+    if (integration_is_of_event(m, i))
         return false;
+    guard = equations_guard(m->eq, i);
+    if (guard.held || !(m->plan->span > 0))
+        return guard.held;
     return integration_is_margin(m, i) || guard.side != 0 || guard.end != 0;
 }
 
