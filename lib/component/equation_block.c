@@ -254,3 +254,8 @@ const Component component_unknown = {
     .members = unknown_members,
     .member_count = COUNT(unknown_members),
 };
+
+bool instance_is_unknown(const Instance *instance)
+{
+    return instance->row == &component_unknown;
+}

@@ -26,6 +26,9 @@ typedef struct EquationBlock {
     int order; /* of its highest derivative: 0, 1, 2 */
 } EquationBlock;
 
+/* whether it is one of the unknowns that move no frame; its bare name is a variable */
+bool instance_is_unknown(const Instance *instance);
+
 EquationBlock *equation_block_copy(Pool *pool, const EquationBlock *given); /* of NULL: NULL */
 bool equation_block_same(const EquationBlock *a, const EquationBlock *b);
 bool equation_block_depends(const EquationBlock *given, Expr symbol); /* NULL: false */

@@ -149,8 +149,7 @@ Status name_is_free(const State *state, const char *name, Place place, Diag *dia
 
 bool part_is_value(const Instance *part)
 {
-    return part->row->family == FAMILY_JOINT || part->row == &component_unknown ||
-           part->coord_count == 1;
+    return part->row->family == FAMILY_JOINT || instance_is_unknown(part) || part->coord_count == 1;
 }
 
 static Status refuse_shared(const char *name, const char *is, const char *other, Place place,
@@ -382,7 +381,7 @@ static Status plain_resolve(const State *state, const char *path, int primes, Pl
         text_add(name, part->coord[thing->coordinate]);
         return check_order(path, primes, 2, place, diag);
     }
-    if (part != NULL && part->row == &component_unknown) {
+    if (part != NULL && instance_is_unknown(part)) {
         text_add(name, path);
         return check_order(path, primes, part->given->order, place, diag);
     }

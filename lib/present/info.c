@@ -77,7 +77,7 @@ static void add_ends(Table *table, const View *view, const Instance *instance)
     if (instance->parts[0] >= 0)
         table_cells(table, "couples\t%s %s", model_instance(view->model, instance->parts[0])->name,
                     model_instance(view->model, instance->parts[1])->name);
-    if (instance->given != NULL && instance->scalar_count > 0) {
+    if (instance_is_unknown(instance)) {
         char *text = expr_text(instance->given->equation);
 
         table_cells(table, "0 =\t%s", text);

@@ -665,8 +665,7 @@ static const Instance *solved_for(const System *system, const char *path, int pr
     const int number = names_find(system->origin->instance_names, path);
     const Instance *part = number >= 0 ? &system->origin->instances[number] : NULL;
 
-    return part != NULL && part->given != NULL && part->scalar_count > 0 && primes > 0 &&
-                   primes == part->given->order
+    return part != NULL && instance_is_unknown(part) && primes > 0 && primes == part->given->order
                ? part
                : NULL;
 }
