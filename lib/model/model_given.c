@@ -15,6 +15,7 @@
 
 const char *const given_motions[GIVEN_POSE] = {"x", "y", "z", "theta"};
 const char *const given_efforts[GIVEN_EFFORTS] = {"fx", "fy", "fz", "tx", "ty", "tz"};
+const int given_effort_of[GIVEN_POSE] = {0, 1, 2, 5};
 static const char *const given_flows[] = {"i", "v"};
 
 bool verb_gives(const Statement *s)
@@ -146,6 +147,16 @@ static void mark_moving(Scan *scan, const State *state)
         for (int i = 0; i < scan->lines.count; i++)
             more = mark_beside(scan, scan->lines.at[i]) || more;
     }
+}
+
+const BlockEquation *given_find(const BlockEquations *equations, int port, bool is_motion,
+                                int member)
+{
+    for (const BlockEquation *e = equations->first; e != NULL; e = e->next)
+        if (e->kind == EQUATION_GIVES && e->port == port && e->is_motion == is_motion &&
+            (member < 0 || e->member == member))
+            return e;
+    return NULL;
 }
 
 bool given_moves(const State *state, int motion)
@@ -340,21 +351,17 @@ static Status given_twice(const Use *use, const BlockEquation *equation, const P
 {
     const Port *port = &use->subsystem->ports[equation->port];
 
-    for (const BlockEquation *e = use->equations->first; e != NULL; e = e->next) {
-        if (e->kind != EQUATION_GIVES || e->port != equation->port)
-            continue;
-        if (e->is_motion == equation->is_motion && e->member == equation->member)
-            return diag_at(diag, E_VALUE, pair->name_place, "%s is given twice", pair->name);
-        if (port->is_frame && e->is_motion == equation->is_motion)
-            continue;
-        (void)diag_at(diag, E_VALUE, pair->name_place,
-                      port->is_frame ? "both motion and effort of %s are given"
-                                     : "both voltage and current of %s are given",
-                      port->name);
-        diag_hint(diag, "a port hands out one of the two and takes the other");
-        return E_VALUE;
-    }
-    return OK;
+    if (given_find(use->equations, equation->port, equation->is_motion, equation->member) != NULL)
+        return diag_at(diag, E_VALUE, pair->name_place, "%s is given twice", pair->name);
+    if (given_find(use->equations, equation->port, port->is_frame && !equation->is_motion, -1) ==
+        NULL)
+        return OK;
+    (void)diag_at(diag, E_VALUE, pair->name_place,
+                  port->is_frame ? "both motion and effort of %s are given"
+                                 : "both voltage and current of %s are given",
+                  port->name);
+    diag_hint(diag, "a port hands out one of the two and takes the other");
+    return E_VALUE;
 }
 
 static Status read_target(const Use *use, const Pair *pair, BlockEquation *out, Diag *diag)
@@ -393,11 +400,11 @@ static Status read_target(const Use *use, const Pair *pair, BlockEquation *out, 
 static Status in_this_scene(const State *state, const BlockEquation *e, const Pair *pair,
                             Diag *diag)
 {
-    static const bool planar_motions[GIVEN_POSE] = {true, true, false, true};
-    static const bool planar_efforts[GIVEN_EFFORTS] = {true, true, false, false, false, true};
-    const bool *const planar = e->is_motion ? planar_motions : planar_efforts;
+    bool stands = e->is_motion ? given_moves(state, e->member) : !state->setup.planar;
 
-    if (state->setup.planar ? planar[e->member] : !e->is_motion || e->member < 3)
+    for (int k = 0; k < GIVEN_POSE && !e->is_motion && state->setup.planar; k++)
+        stands = stands || (given_moves(state, k) && given_effort_of[k] == e->member);
+    if (stands)
         return OK;
     (void)diag_at(diag, E_VALUE, pair->name_place, "%s is not for a %s scene", pair->name,
                   state->setup.planar ? "planar" : "spatial");

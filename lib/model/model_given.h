@@ -8,6 +8,7 @@
 enum { GIVEN_EFFORTS = 6 };
 extern const char *const given_motions[GIVEN_POSE];    /* "x", "y", "z", "theta" */
 extern const char *const given_efforts[GIVEN_EFFORTS]; /* "fx" ... "tz" */
+extern const int given_effort_of[GIVEN_POSE];          /* the effort that works on a motion */
 
 typedef enum EquationKind { EQUATION_UNKNOWN, EQUATION_INTERNAL, EQUATION_GIVES } EquationKind;
 
@@ -38,6 +39,10 @@ struct BlockEquations {
     bool has_parts;  /* lines have made some */
 };
 
+/* What is given of a port: that motion or effort of a frame, current or voltage of a terminal.
+ * member -1: any. NULL: nothing is. */
+const BlockEquation *given_find(const BlockEquations *equations, int port, bool is_motion,
+                                int member);
 /* Whether frames of the scene have that motion, one of given_motions. */
 bool given_moves(const State *state, int motion);
 /* "leg1.NAME", and "leg1.A_x" for the motion A.x; in the state's pool */

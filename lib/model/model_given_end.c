@@ -76,10 +76,7 @@ static bool is_free(const Ending *ending, int port)
 {
     const Port *p = &ending->use->subsystem->ports[port];
 
-    for (const BlockEquation *e = ending->equations->first; e != NULL; e = e->next)
-        if (e->kind == EQUATION_GIVES && e->port == port && e->is_motion)
-            return false;
-    return p->is_frame && p->is_through;
+    return p->is_frame && p->is_through && given_find(ending->equations, port, true, -1) == NULL;
 }
 
 /* A.x and the like are numbers where A is at rest, and so are their rates; for a free frame they
@@ -249,15 +246,6 @@ static Status check_counts(const Ending *ending)
     return E_MODEL;
 }
 
-static bool is_listed(const BlockEquations *equations, int port, int motion)
-{
-    for (const BlockEquation *e = equations->first; e != NULL; e = e->next)
-        if (e->kind == EQUATION_GIVES && e->port == port &&
-            (motion < 0 || (e->is_motion && e->member == motion)))
-            return true;
-    return false;
-}
-
 /* each port must be given a quantity, and a moved frame all of its motion */
 static Status check_ports(const Ending *ending)
 {
@@ -268,7 +256,9 @@ static Status check_ports(const Ending *ending)
         const Port *port = &subsystem->ports[p];
 
         /* a frame at rest needs no effort */
-        if (is_listed(equations, p, -1) || (port->is_frame && equations->moving_count > 0))
+        if (given_find(equations, p, false, -1) != NULL ||
+            given_find(equations, p, true, -1) != NULL ||
+            (port->is_frame && equations->moving_count > 0))
             continue;
         (void)diag_at(ending->diag, E_MODEL, equations->last->place,
                       "nothing determines what %s gives", port->name);
@@ -286,11 +276,11 @@ static Status check_ports(const Ending *ending)
     }
     for (int f = 0; f < equations->frame_count; f++)
         for (int k = 0; k < GIVEN_POSE; k++) {
-            const bool wanted = given_moves(ending->state, k);
-            const char *name = subsystem->ports[equations->frames[f]].name;
+            const int port = equations->frames[f];
+            const char *name = subsystem->ports[port].name;
 
-            if (!wanted || is_free(ending, equations->frames[f]) ||
-                is_listed(equations, equations->frames[f], k))
+            if (!given_moves(ending->state, k) || is_free(ending, port) ||
+                given_find(equations, port, true, k) != NULL)
                 continue;
             (void)diag_at(ending->diag, E_MODEL, equations->last->place, "%s.%s isn't given", name,
                           given_motions[k]);
@@ -358,13 +348,22 @@ static bool is_negative(const State *state, Expr e)
 /* its motion (otherwise zero) */
 static Expr motion_of(const Ending *ending, int frame, int motion)
 {
-    if (is_free(ending, ending->equations->frames[frame]))
-        return free_motion(ending, ending->equations->frames[frame], motion, 0);
-    for (const BlockEquation *e = ending->equations->first; e != NULL; e = e->next)
-        if (e->kind == EQUATION_GIVES && e->is_motion && e->member == motion &&
-            e->port == ending->equations->frames[frame])
-            return e->e;
-    return expr_int(ending->state->arena, 0);
+    const int port = ending->equations->frames[frame];
+    const BlockEquation *given = given_find(ending->equations, port, true, motion);
+
+    if (is_free(ending, port))
+        return free_motion(ending, port, motion, 0);
+    return given != NULL ? given->e : expr_int(ending->state->arena, 0);
+}
+
+/* whether it contains unknowns that move and parameters alone */
+static bool follows_from_positions(const Ending *ending, Expr e)
+{
+    const Expr one = expr_int(ending->state->arena, 1);
+
+    for (int k = 0; k < ending->unknowns.count; k++)
+        e = expr_substitute(ending->state->arena, e, &ending->unknowns.at[k], &one, 1);
+    return (expr_kinds(e) & ~(1U << SYMBOL_PARAMETER)) == 0;
 }
 
 static Status read_pose(const Ending *ending, EquationBlock *given)
@@ -375,16 +374,7 @@ static Status read_pose(const Ending *ending, EquationBlock *given)
         for (int k = 0; k < GIVEN_POSE; k++)
             given->pose[f * GIVEN_POSE + k] = motion_of(ending, f, k);
     for (const BlockEquation *e = equations->first; e != NULL; e = e->next) {
-        Expr left = e->e;
-
-        if (e->kind != EQUATION_GIVES || !e->is_motion)
-            continue;
-        for (int k = 0; k < ending->unknowns.count; k++) {
-            const Expr one = expr_int(ending->state->arena, 1);
-
-            left = expr_substitute(ending->state->arena, left, &ending->unknowns.at[k], &one, 1);
-        }
-        if ((expr_kinds(left) & ~(1U << SYMBOL_PARAMETER)) == 0)
+        if (e->kind != EQUATION_GIVES || !e->is_motion || follows_from_positions(ending, e->e))
             continue;
         (void)diag_at(ending->diag, E_MODEL, e->place,
                       "the motion of a frame follows from unknowns and parameters alone");
@@ -403,11 +393,10 @@ static Expr scale_of(const Ending *ending, const EquationBlock *given, Expr row,
 
     for (int f = 0; f < given->frame_count; f++)
         for (int k = 0; k < GIVEN_POSE; k++) {
-            static const int works_on[GIVEN_POSE] = {0, 1, 2, 5};
             const Expr moved =
                 expr_diff(arena, given->pose[f * GIVEN_POSE + k], ending->unknowns.at[unknown]);
             const Expr felt =
-                expr_diff(arena, row, ending->efforts.at[f * GIVEN_EFFORTS + works_on[k]]);
+                expr_diff(arena, row, ending->efforts.at[f * GIVEN_EFFORTS + given_effort_of[k]]);
 
             if (expr_is_zero(moved))
                 continue;
@@ -505,15 +494,9 @@ static Status check_mass(const Ending *ending, const EquationBlock *given,
 
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
-            Expr left = given->mass[i * n + j];
             const char *name = ending->equations->moving[j] + strlen(ending->use->name) + 1;
 
-            for (int k = 0; k < n; k++) {
-                const Expr one = expr_int(state->arena, 1);
-
-                left = expr_substitute(state->arena, left, &ending->unknowns.at[k], &one, 1);
-            }
-            if ((expr_kinds(left) & ~(1U << SYMBOL_PARAMETER)) != 0) {
+            if (!follows_from_positions(ending, given->mass[i * n + j])) {
                 (void)diag_at(ending->diag, E_MODEL, rows[i]->place,
                               "the factor of %s'' follows from more than positions", name);
                 diag_hint(ending->diag, "unknowns that move frames and parameters may stand in it");
@@ -586,17 +569,17 @@ static Status check_no_motion(const Ending *ending)
 /* the equation of a free frame's motion: the effort given there, or none */
 static BlockEquation *free_row(const Ending *ending, int frame, int motion)
 {
-    static const int effort_of[GIVEN_POSE] = {0, 1, 2, 5};
-    const int port = ending->equations->frames[frame], effort = effort_of[motion];
+    const int effort = given_effort_of[motion];
+    const BlockEquation *given =
+        given_find(ending->equations, ending->equations->frames[frame], false, effort);
     BlockEquation *row = pool_alloc(ending->state->pool, sizeof *row);
 
     *row = *ending->equations->last;
     row->e = ending->efforts.at[frame * GIVEN_EFFORTS + effort];
-    for (const BlockEquation *e = ending->equations->first; e != NULL; e = e->next)
-        if (e->kind == EQUATION_GIVES && e->port == port && e->member == effort) {
-            row->place = e->place;
-            row->e = expr_sub(ending->state->arena, row->e, e->e);
-        }
+    if (given != NULL) {
+        row->place = given->place;
+        row->e = expr_sub(ending->state->arena, row->e, given->e);
+    }
     return row;
 }
 
