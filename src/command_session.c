@@ -42,7 +42,7 @@ static ct_status command_source(Call *call, ct_error *error)
         return CT_FAILED;
     }
 
-    char *path = file_beside(shell->script, name);
+    char *path = file_next_to(shell->script, name);
     const bool is_first = shell->depth == 0 && ct_step_count(call->session) == 0;
 
     shell->depth++;

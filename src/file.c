@@ -221,7 +221,7 @@ char *file_first_line(const char *path)
     return line;
 }
 
-char *file_beside(const char *from, const char *name)
+char *file_next_to(const char *from, const char *name)
 {
     const char *slash = from != NULL ? strrchr(from, '/') : NULL;
 

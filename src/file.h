@@ -28,7 +28,7 @@ ct_status file_place(const char *path, char **place, ct_error *error);
 ct_status file_settle(const char *place, const char *path, bool keep, ct_error *error);
 
 /* new: `name` as meant in the file `from` (relative to its folder if such a file is there) */
-char *file_beside(const char *from, const char *name);
+char *file_next_to(const char *from, const char *name);
 const char *file_extension(const char *path); /* after the last dot of the last part; "" */
 /* new: the file `name` in a folder of ours below $`variable`, or below ~/`home`; NULL: no home */
 char *file_in_home(const char *variable, const char *home, const char *name, bool make_folder);

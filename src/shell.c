@@ -34,7 +34,7 @@ static void hook_progress(void *context, const char *phase, double fraction)
 static char *hook_find_file(void *context, const char *name)
 {
     const Shell *shell = context;
-    char *path = file_beside(shell->script, name);
+    char *path = file_next_to(shell->script, name);
     ct_error why;
 
     /* the library reports a missing file */

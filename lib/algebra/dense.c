@@ -22,7 +22,7 @@ void dense_quiet(void)
 
 /* `count` numbers of that size after the head of the object. A size that overflows size_t is
  * treated as out of memory. */
-static void *behind(void **numbers, size_t head, size_t count, size_t size)
+static void *numbers_after_head(void **numbers, size_t head, size_t count, size_t size)
 {
     char *piece;
 
@@ -38,7 +38,7 @@ gsl_matrix *dense_matrix(size_t rows, size_t columns)
     const size_t count =
         columns == 0 || rows <= (SIZE_MAX >> 1) / columns ? rows * columns : SIZE_MAX >> 1;
     void *numbers;
-    gsl_matrix *matrix = behind(&numbers, HEAD(gsl_matrix), count, sizeof(double));
+    gsl_matrix *matrix = numbers_after_head(&numbers, HEAD(gsl_matrix), count, sizeof(double));
 
     *matrix = (gsl_matrix){.size1 = rows, .size2 = columns, .tda = columns, .data = numbers};
     return matrix;
@@ -47,7 +47,7 @@ gsl_matrix *dense_matrix(size_t rows, size_t columns)
 gsl_vector *dense_vector(size_t count)
 {
     void *numbers;
-    gsl_vector *vector = behind(&numbers, HEAD(gsl_vector), count, sizeof(double));
+    gsl_vector *vector = numbers_after_head(&numbers, HEAD(gsl_vector), count, sizeof(double));
 
     *vector = (gsl_vector){.size = count, .stride = 1, .data = numbers};
     return vector;
@@ -56,7 +56,8 @@ gsl_vector *dense_vector(size_t count)
 gsl_permutation *dense_permutation(size_t count)
 {
     void *numbers;
-    gsl_permutation *order = behind(&numbers, HEAD(gsl_permutation), count, sizeof(size_t));
+    gsl_permutation *order =
+        numbers_after_head(&numbers, HEAD(gsl_permutation), count, sizeof(size_t));
 
     *order = (gsl_permutation){.size = count, .data = numbers};
     return order;

@@ -140,7 +140,7 @@ static double largest_of_column(const double complex *a, int n, int k)
 
 /* Sizes of the entries of the term added to L, from Y R: (Y X)^-1 is within 2 `inexact` of 1. */
 static bool find_sizes(const Enclosure *e, const double complex *residual,
-                       const double complex *beside, double norm, double *size)
+                       const double complex *projected, double norm, double *size)
 {
     const int n = e->n;
     double complex *unity = mem_array((size_t)n * (size_t)n, sizeof *unity);
@@ -156,10 +156,10 @@ static bool find_sizes(const Enclosure *e, const double complex *residual,
     for (int k = 0; k < n; k++) {
         const double rounded = left * (4 * n * UNIT_ROUNDOFF * largest_of_column(residual, n, k) +
                                        4 * n * DOUBLE_DOUBLE_ROUNDING * norm);
-        const double off = rounded + 2 * inexact * (largest_of_column(beside, n, k) + rounded);
+        const double off = rounded + 2 * inexact * (largest_of_column(projected, n, k) + rounded);
 
         for (int i = 0; i < n; i++)
-            size[i * n + k] = cabs(beside[i * n + k]) + off;
+            size[i * n + k] = cabs(projected[i * n + k]) + off;
         e->error[k] = off;
     }
     mem_free(unity);
@@ -248,7 +248,7 @@ static bool correct(const DoubleDouble *a, Enclosure *e)
 {
     const int n = e->n;
     double complex *residual = mem_array((size_t)n * (size_t)n, sizeof *residual);
-    double complex *beside = mem_array((size_t)n * (size_t)n, sizeof *beside);
+    double complex *projected = mem_array((size_t)n * (size_t)n, sizeof *projected);
     double *size = NEW_ARRAY(double, n *n);
     double norm = 0;
     bool sound;
@@ -261,15 +261,15 @@ static bool correct(const DoubleDouble *a, Enclosure *e)
         norm = fmax(norm, row);
     }
     find_residual(a, e, residual);
-    multiply(n, e->left, residual, beside);
-    sound = find_sizes(e, residual, beside, norm, size);
+    multiply(n, e->left, residual, projected);
+    sound = find_sizes(e, residual, projected, norm, size);
     /* real eigenvalues remain real; a conjugate one is recognised by the uncorrected one before
      * it */
     for (int k = n - 1; k >= 0; k--) {
-        const double complex by = beside[k * n + k];
+        const double complex by = projected[k * n + k];
 
         if (is_mirror(e, k))
-            e->value[k] += conj(beside[(k - 1) * n + k - 1]);
+            e->value[k] += conj(projected[(k - 1) * n + k - 1]);
         else
             e->value[k] += cimag(e->value[k]) == 0 ? creal(by) : by;
     }
@@ -277,7 +277,7 @@ static bool correct(const DoubleDouble *a, Enclosure *e)
     for (int k = 1; k < n && sound; k++)
         if (is_mirror(e, k))
             e->error[k] = e->error[k - 1];
-    MEM_FREE(residual, beside, size);
+    MEM_FREE(residual, projected, size);
     return sound;
 }
 

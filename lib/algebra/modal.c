@@ -308,10 +308,10 @@ static bool find_vectors(const Vectors *v, BoundedMatrix mass, BoundedMatrix sti
 /* of the present vectors */
 typedef struct Residuals {
     int n;
-    double *moved;  /* M X, rounded */
-    double *rest;   /* R, rounded */
-    double *beside; /* X^T R */
-    double *gram;   /* X^T M X - 1 */
+    double *moved;     /* M X, rounded */
+    double *rest;      /* R, rounded */
+    double *projected; /* X^T R */
+    double *gram;      /* X^T M X - 1 */
 } Residuals;
 
 static void residuals_open(Residuals *r, int n)
@@ -322,7 +322,7 @@ static void residuals_open(Residuals *r, int n)
 
 static void residuals_close(const Residuals *r)
 {
-    MEM_FREE(r->moved, r->rest, r->beside, r->gram);
+    MEM_FREE(r->moved, r->rest, r->projected, r->gram);
 }
 
 static void find_residuals(const Modal *m, const double *mass, const double *stiffness,
@@ -342,7 +342,7 @@ static void find_residuals(const Modal *m, const double *mass, const double *sti
                 dd_double(dd_sub(dd_tidy(r->rest[at], low[at]), dd_times(y, m->square[k])));
             r->moved[at] = dd_double(y);
         }
-    multiply(CblasTrans, m->vector, r->rest, n, n, r->beside);
+    multiply(CblasTrans, m->vector, r->rest, n, n, r->projected);
     multiply(CblasTrans, m->vector, r->moved, n, n, r->gram);
     for (int i = 0; i < n; i++)
         r->gram[i * n + i] -= 1;
@@ -359,7 +359,7 @@ static void correct(const Modal *m, const Residuals *r)
     for (int k = 0; k < n; k++)
         for (int j = 0; j < n; j++) {
             const double gap = m->square[j] - m->square[k], half = -r->gram[k * n + j] / 2;
-            const double turn = r->beside[k * n + j] / gap;
+            const double turn = r->projected[k * n + j] / gap;
 
             if (m->is_still[j] && !m->is_still[k])
                 continue;
@@ -369,15 +369,15 @@ static void correct(const Modal *m, const Residuals *r)
     for (int i = 0; i < n * n; i++)
         m->vector[i] += by[i];
     for (int k = 0; k < n; k++)
-        m->square[k] += m->is_still[k] ? 0 : r->beside[k * n + k] / (1 + r->gram[k * n + k]);
+        m->square[k] += m->is_still[k] ? 0 : r->projected[k * n + k] / (1 + r->gram[k * n + k]);
     MEM_FREE(z, by);
 }
 
 /* --- bounds --- */
 
 /* error bound of X^T R: |X|^T (|R| rounded + |dK| |X| + |dM| |X| |L|) */
-static void bound_beside(const Modal *m, const Residuals *r, const double *x, BoundedMatrix mass,
-                         BoundedMatrix stiffness, double *out)
+static void bound_residual(const Modal *m, const Residuals *r, const double *x, BoundedMatrix mass,
+                           BoundedMatrix stiffness, double *out)
 {
     const int n = m->n;
     double *entries = entry_errors(stiffness, n * n), *v = NEW_ARRAY(double, n *n);
@@ -447,14 +447,14 @@ static void find_bounds(Modal *m, const Residuals *r, BoundedMatrix mass, Bounde
     double *x = sizes(m->vector, n * n);
 
     bound_skew(m, r, x, mass);
-    bound_beside(m, r, x, mass, stiffness, m->error);
+    bound_residual(m, r, x, mass, stiffness, m->error);
     mem_free(x);
     if (!(m->skewed < 1))
         return;
-    allow_skew(m, r->beside, m->error, n);
+    allow_skew(m, r->projected, m->error, n);
     for (int i = 0; i < n; i++)
         for (int k = 0; k < n; k++) {
-            const double entry = r->beside[i * n + k];
+            const double entry = r->projected[i * n + k];
 
             m->off[i * n + k] = i == k ? 0 : entry;
             if (i != k)

@@ -189,11 +189,11 @@ static int part_begin(DoubleDoubleComplex *t, int n, int last, double norm)
 
     for (; first > 0; first--) {
         DoubleDoubleComplex *below = t + (ptrdiff_t)first * n + first - 1;
-        double beside = dd_size(below[1]) + dd_size(t[(first - 1) * n + first - 1]);
+        double neighbours = dd_size(below[1]) + dd_size(t[(first - 1) * n + first - 1]);
 
-        if (beside == 0)
-            beside = norm;
-        if (dd_size(*below) <= DOUBLE_DOUBLE_ROUNDING * beside || dd_size(*below) < 1e-290) {
+        if (neighbours == 0)
+            neighbours = norm;
+        if (dd_size(*below) <= DOUBLE_DOUBLE_ROUNDING * neighbours || dd_size(*below) < 1e-290) {
             *below = dd_real(dd_of(0));
             break;
         }

@@ -23,10 +23,10 @@ enum {
 #ifdef __SIZEOF_INT128__
 
 enum {
-    BEHIND = 56, /* bits of `rest` */
-    NOISE = 4,   /* of its last: more than rounding leaves */
-    FINE = 28,   /* powers of ten whose odd part fits into 64 bits */
-    FIRST = -12, /* of the coarse ones, in FINE */
+    FRACTION_BITS = 56, /* bits of `rest` */
+    NOISE = 4,          /* of its last: more than rounding leaves */
+    FINE = 28,          /* powers of ten whose odd part fits into 64 bits */
+    FIRST = -12,        /* of the coarse ones, in FINE */
     COARSE = 26
 };
 #define HIDDEN ((uint64_t)1 << (DBL_MANT_DIG - 1)) /* the bit of a mantissa that isn't stored */
@@ -36,7 +36,7 @@ typedef unsigned __int128 DecimalWide;
 /* digits * 10^(exponent - 16), and a rest of them */
 typedef struct Decimal {
     uint64_t digits; /* 17 */
-    uint64_t rest;   /* fraction of the last digit, times 2^BEHIND */
+    uint64_t rest;   /* fraction of the last digit, times 2^FRACTION_BITS */
     uint64_t reach;  /* half way to the next double, in the same unit */
     bool is_edge;    /* a power of two: the next smaller double is but half as far */
     int exponent;    /* of the first digit */
@@ -167,12 +167,12 @@ static bool take_apart(double size, Decimal *out)
         const DecimalWide product =
             scale(mantissa << LEADING, DECIMAL_EXACT - 1 - out->exponent, &power, &of_power);
         /* 69 to 74 of its bits are the fraction */
-        const int behind = LEADING + DBL_MANT_DIG - 1 - binary - of_power - 64;
+        const int shift = LEADING + DBL_MANT_DIG - 1 - binary - of_power - 64;
         const uint64_t high = (uint64_t)(product >> 64), low = (uint64_t)product;
 
-        out->digits = high >> behind;
-        out->rest = (high << (64 - behind) | low >> behind) >> (64 - BEHIND);
-        out->reach = power >> (behind - (BEHIND - DBL_MANT_DIG - 1));
+        out->digits = high >> shift;
+        out->rest = (high << (64 - shift) | low >> shift) >> (64 - FRACTION_BITS);
+        out->reach = power >> (shift - (FRACTION_BITS - DBL_MANT_DIG - 1));
         if (out->digits >= tens[DECIMAL_EXACT])
             out->exponent++;
         else if (out->digits < tens[DECIMAL_EXACT - 1])
@@ -194,7 +194,8 @@ typedef struct Rounded {
  */
 static Known reads_back(const Decimal *d, const Rounded *r)
 {
-    const uint64_t above = r->over << BEHIND | d->rest, below = (r->unit << BEHIND) - above;
+    const uint64_t above = r->over << FRACTION_BITS | d->rest,
+                   below = (r->unit << FRACTION_BITS) - above;
     const uint64_t distance = above < below ? above : below;
     const uint64_t least = d->is_edge ? d->reach / 2 : d->reach;
 
@@ -206,7 +207,7 @@ static Known reads_back(const Decimal *d, const Rounded *r)
 /* to the nearest; false: not known, or it has one more than 17 digits */
 static bool round_off(const Decimal *d, Rounded *r)
 {
-    const uint64_t one = (uint64_t)1 << BEHIND, half = r->unit / 2;
+    const uint64_t one = (uint64_t)1 << FRACTION_BITS, half = r->unit / 2;
 
     if (r->unit == 1) {
         r->whole += d->rest > one / 2;

@@ -186,16 +186,16 @@ static void add_held_coordinates(Code *code, CodeLiveExprs *targets)
         count = system_held_coordinates(code->layout->system, named.at, named.count, &held_kind);
     add_given_rates(code, targets);
     for (int i = 0; i < count; i++) {
-        const HeldCoordinate *stay = &held_kind[i];
-        const CodeTarget target = {.held_kind = stay->node < 0  ? CODE_JOINT
-                                                : stay->is_body ? CODE_BODY
+        const HeldCoordinate *held = &held_kind[i];
+        const CodeTarget target = {.held_kind = held->node < 0  ? CODE_JOINT
+                                                : held->is_body ? CODE_BODY
                                                                 : CODE_FRAME,
-                                   .node = stay->node,
-                                   .attitude = stay->attitude,
+                                   .node = held->node,
+                                   .attitude = held->attitude,
                                    .turning = -1,
-                                   .name = stay->name != NULL ? stay->name : stay->part};
-        const int position = add_target(code, targets, stay->value, target);
-        const int rate = add_target(code, targets, stay->rate, target);
+                                   .name = held->name != NULL ? held->name : held->part};
+        const int position = add_target(code, targets, held->value, target);
+        const int rate = add_target(code, targets, held->rate, target);
 
         code->live.targets.at[position].rate = rate;
         code->live.targets.at[rate].level = CODE_SPEED;

@@ -298,7 +298,7 @@ OpCount expr_count(const Expr *roots, int count);
 /* After common subexpressions are shared: each node once. */
 OpCount expr_count_shared(const Expr *roots, int count);
 /* the same without what follows from symbols of `kinds` alone (bits as of expr_kinds(); 0: all) */
-OpCount expr_count_beside(const Expr *roots, int count, unsigned kinds);
+OpCount expr_count_without(const Expr *roots, int count, unsigned kinds);
 /* expr_count_shared() of what may be large; E_STOPPED, *out unchanged */
 MUST_USE Status expr_count_watched(const Expr *roots, int count, const CallMonitor *watch,
                                    OpCount *out);

@@ -74,8 +74,8 @@ static bool root_of(Arena *arena, Expr condition, SymbolPoint *at)
 static double change_about(Expr e, SymbolPoint at, double step, double *size)
 {
     SymbolPoint before = {at.moved, at.at - step};
-    SymbolPoint behind = {at.moved, at.at + step};
-    double first = expr_evaluate(e, value_at, &before), last = expr_evaluate(e, value_at, &behind);
+    SymbolPoint after = {at.moved, at.at + step};
+    double first = expr_evaluate(e, value_at, &before), last = expr_evaluate(e, value_at, &after);
 
     *size = fabs(first) + fabs(last);
     return fabs(last - first);

@@ -193,7 +193,7 @@ static OpCount count_shared(const Expr *roots, int count, unsigned kinds, Operat
     return total;
 }
 
-OpCount expr_count_beside(const Expr *roots, int count, unsigned kinds)
+OpCount expr_count_without(const Expr *roots, int count, unsigned kinds)
 {
     OperationQuery nobody = {.watch = NULL};
 
@@ -202,7 +202,7 @@ OpCount expr_count_beside(const Expr *roots, int count, unsigned kinds)
 
 OpCount expr_count_shared(const Expr *roots, int count)
 {
-    return expr_count_beside(roots, count, 0);
+    return expr_count_without(roots, count, 0);
 }
 
 Status expr_count_watched(const Expr *roots, int count, const CallMonitor *watch, OpCount *out)

@@ -178,10 +178,10 @@ bool dimension_has_angle(Dimension d)
 
 Dimension dimension_without_angle(Dimension d)
 {
-    static const int beside[] = {0, 1, 3, 4};
+    static const int others[] = {0, 1, 3, 4};
 
-    for (int i = 0; i < COUNT(beside); i++)
-        if (d.power[beside[i]] != 0)
+    for (int i = 0; i < COUNT(others); i++)
+        if (d.power[others[i]] != 0)
             d.power[5] = 0;
     return d;
 }

@@ -46,7 +46,7 @@
 #define CONTINUITY_NEXT 1e-14
 
 /* of the difference at CONTINUITY_AWAY: a larger one at a neighbouring point is a jump */
-#define CONTINUITY_BESIDE 1e-6
+#define CONTINUITY_JUMP 1e-6
 
 /* --- switches.c --- */
 

@@ -277,10 +277,11 @@ done:
 static Status read_primes(Lexer *lexer, bool touches, Token *token, Diag *diag)
 {
     size_t start = lexer->at;
-    bool behind = touches && (lexer->last.kind == TOKEN_PATH || lexer->last.kind == TOKEN_PRIMES ||
-                              (lexer->last.kind == TOKEN_SYMBOL && lexer->last.text[0] == ')'));
+    bool is_after_value =
+        touches && (lexer->last.kind == TOKEN_PATH || lexer->last.kind == TOKEN_PRIMES ||
+                    (lexer->last.kind == TOKEN_SYMBOL && lexer->last.text[0] == ')'));
 
-    if (!behind) {
+    if (!is_after_value) {
         (void)diag_at(diag, E_SYNTAX, place_at(lexer, start, start + 1),
                       "a prime must touch the variable before it");
         diag_hint(diag,

@@ -81,7 +81,7 @@ done:
 Status parse_terminal(Parser *parser, Syntax **out)
 {
     const Token *token = parser_token(parser);
-    const Token *behind = parser_peek(parser, 1);
+    const Token *following = parser_peek(parser, 1);
 
     if (!parser_sees_terminal(parser)) {
         (void)parser_expected(parser, "a place (a name or 0)");
@@ -89,9 +89,9 @@ Status parse_terminal(Parser *parser, Syntax **out)
             diag_hint(parser->diag, "names begin with a letter: n%s", token->text);
         return E_SYNTAX;
     }
-    if (behind->kind == TOKEN_PRIMES || (token_is(behind, "(") && behind->touches)) {
-        (void)diag_at(parser->diag, E_SYNTAX, behind->place,
-                      "unexpected '%s' behind the place '%s'", behind->text, token->text);
+    if (following->kind == TOKEN_PRIMES || (token_is(following, "(") && following->touches)) {
+        (void)diag_at(parser->diag, E_SYNTAX, following->place,
+                      "unexpected '%s' behind the place '%s'", following->text, token->text);
         diag_hint(parser->diag,
                   "a place is one word; a value behind it in brackets stands after a blank");
         return E_SYNTAX;

@@ -148,7 +148,7 @@ bool parser_hint_comma(const Parser *parser)
 /* what was meant, by the tokens about the place */
 static const char *unexpected_hint(const Parser *parser)
 {
-    const Token *token = parser_token(parser), *behind = parser_peek(parser, 1);
+    const Token *token = parser_token(parser), *following = parser_peek(parser, 1);
     const Token *before = parser_before(parser);
     const bool is_first = parser->at == 0;
     Function row;
@@ -167,7 +167,7 @@ static const char *unexpected_hint(const Parser *parser)
         return "'or' is written ||; a single bar stands between items of 'plot'";
     if (token_is(token, "?"))
         return "a choice is written if(c, a, b)";
-    if (token_is(token, "<") && token_is(behind, ">"))
+    if (token_is(token, "<") && token_is(following, ">"))
         return "'not equal' is written !=";
     if (token->kind == TOKEN_PATH && foreign_syntax_hint(FOREIGN_OPERATOR, token->text) != NULL)
         return foreign_syntax_hint(FOREIGN_OPERATOR, token->text);

@@ -20,15 +20,15 @@ static Status check_compound(Parser *parser, const Syntax *literal, const Token 
     for (;;) {
         const Token *op = parser_peek(parser, n);
         const Token *next = parser_peek(parser, n + 1);
-        const Token *behind = parser_peek(parser, n + 2);
-        bool call = token_is(behind, "(") && behind->touches;
+        const Token *following = parser_peek(parser, n + 2);
+        bool call = token_is(following, "(") && following->touches;
 
         if (token_is(op, "^"))
-            n += next->kind == TOKEN_NUMBER                            ? 2
-                 : token_is(next, "-") && behind->kind == TOKEN_NUMBER ? 3
-                                                                       : 1;
+            n += next->kind == TOKEN_NUMBER                               ? 2
+                 : token_is(next, "-") && following->kind == TOKEN_NUMBER ? 3
+                                                                          : 1;
         else if ((token_is(op, "*") || token_is(op, "/")) && next->kind == TOKEN_PATH && !call &&
-                 behind->kind != TOKEN_PRIMES && unit_find(next->text, &unit))
+                 following->kind != TOKEN_PRIMES && unit_find(next->text, &unit))
             n += 2;
         else
             break;

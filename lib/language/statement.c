@@ -57,7 +57,7 @@ static bool is_assignment(const Parser *parser)
 static bool hint_verb(const Parser *parser, const Token *token, Diag *diag)
 {
     Suggest suggest = suggest_for(token->text);
-    const Token *behind = parser_peek(parser, 1);
+    const Token *following = parser_peek(parser, 1);
     Verb verb;
 
     for (int i = 0; verb_any(i, &verb); i++)
@@ -66,7 +66,8 @@ static bool hint_verb(const Parser *parser, const Token *token, Diag *diag)
         diag_hint(diag, "a parameter is written %s = ...", token->text);
     else if (foreign_syntax_hint(FOREIGN_VERB, token->text) != NULL)
         diag_hint(diag, "%s", foreign_syntax_hint(FOREIGN_VERB, token->text));
-    else if (behind->kind == TOKEN_SYMBOL && strcmp(behind->text, "(") == 0 && !behind->touches)
+    else if (following->kind == TOKEN_SYMBOL && strcmp(following->text, "(") == 0 &&
+             !following->touches)
         diag_hint(diag, "the bracket of a law touches its name: %s(x) = ...", token->text);
     else if (!parser->options.shortened && find_shortened(token->text, &verb) == 1)
         diag_hint(diag, "a script spells words out: '%s'", verb.name);

@@ -272,10 +272,10 @@ static Status next_line(DataReader *r, FILE *in, Text *line)
         text_char(line, (char)c);
     }
     if (c == '\r') {
-        const int behind = getc(in);
+        const int next = getc(in);
 
-        if (behind != '\n')
-            (void)ungetc(behind, in);
+        if (next != '\n')
+            (void)ungetc(next, in);
     }
     return c == EOF && line->length == 0 ? E_MISSING : OK;
 }

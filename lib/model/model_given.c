@@ -111,7 +111,7 @@ static void mark_free(Scan *scan, const State *state)
 
 /* marks unknowns that accelerate in one equation with an unknown that moves a frame, or in the
  * effort on a free frame */
-static bool mark_beside(Scan *scan, const Statement *s)
+static bool mark_coupled(Scan *scan, const Statement *s)
 {
     bool moves = false, more = false;
     int port;
@@ -145,7 +145,7 @@ static void mark_moving(Scan *scan, const State *state)
     while (more) {
         more = false;
         for (int i = 0; i < scan->lines.count; i++)
-            more = mark_beside(scan, scan->lines.at[i]) || more;
+            more = mark_coupled(scan, scan->lines.at[i]) || more;
     }
 }
 

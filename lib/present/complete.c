@@ -222,7 +222,7 @@ static bool follows_word(const TypedLine *line, const Verb *verb, char letter)
            strcmp(line->before.at[line->before.count - 1], pattern_word(letter)) == 0;
 }
 
-static void offer_behind_verb(TypedLine *line)
+static void offer_after_verb(TypedLine *line)
 {
     Verb verb;
     char key[128];
@@ -319,7 +319,7 @@ void complete_line(const KnownName *known, const char *text, size_t cursor, size
         else if (line.before.count == 0)
             offer_verbs(&line);
         else
-            offer_behind_verb(&line);
+            offer_after_verb(&line);
     }
     for (int i = 0; i < line.before.count; i++)
         mem_free(line.before.at[i]);

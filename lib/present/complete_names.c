@@ -262,20 +262,20 @@ static void offer_show(TypedLine *line)
     const Topic *topic = line->before.count > 1 ? topic_find(line->before.at[1]) : NULL;
 
     if (topic != NULL) {
-        switch (topic->behind) {
-        case BEHIND_EDGES:
+        switch (topic->operands) {
+        case OPERANDS_EDGES:
             offer_edges(line);
             break;
-        case BEHIND_ENTRY:
+        case OPERANDS_ENTRY:
             offer_showable(line);
             if (line->prefix[0] != '\0')
                 offer_alternatives(line, "mass(|forces(|constraints(|jacobian(");
             break;
-        case BEHIND_LEVEL:
+        case OPERANDS_LEVEL:
             offer(line, "velocity");
             offer(line, "acceleration");
             break;
-        case BEHIND_PAIR:
+        case OPERANDS_PAIR:
             if (line->before.count == 2)
                 offer_linear_outputs(line);
             else if (line->before.count == 3)
@@ -283,7 +283,7 @@ static void offer_show(TypedLine *line)
             else if (line->before.count == 4)
                 offer(line, "symbolic");
             break;
-        case BEHIND_ITEMS:
+        case OPERANDS_ITEMS:
             if (line->before.count < 4)
                 offer_terminals(line);
             break;

@@ -133,7 +133,7 @@ static void open_fractions(Text *out, const char *formula, double room)
 {
     while (*formula != '\0') {
         const char *upper = formula + strlen("\\frac");
-        const char *lower, *behind;
+        const char *lower, *after;
         char *numerator;
 
         if (!is_command(formula, "\\frac")) {
@@ -141,17 +141,17 @@ static void open_fractions(Text *out, const char *formula, double room)
             continue;
         }
         lower = group_end(upper);
-        behind = group_end(lower);
+        after = group_end(lower);
         numerator = mem_text(upper + 1, (size_t)(lower - upper) - 2);
         if (latex_width(numerator) > room) {
-            text_addf(out, "\\frac{1}%.*s\\,\\left(", (int)(behind - lower), lower);
+            text_addf(out, "\\frac{1}%.*s\\,\\left(", (int)(after - lower), lower);
             open_fractions(out, numerator, room);
             text_add(out, "\\right)");
         } else {
-            text_add_n(out, formula, (size_t)(behind - formula));
+            text_add_n(out, formula, (size_t)(after - formula));
         }
         mem_free(numerator);
-        formula = behind;
+        formula = after;
     }
 }
 

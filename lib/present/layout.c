@@ -346,7 +346,7 @@ void table_wrap(Text *out, const Table *table, int indent, int columns)
 {
     enum { LEAST = 24 };
     const int last = table->columns - 1;
-    const bool is_beside =
+    const bool fits_in_line =
         columns == 0 || table_width(table) + indent <= columns ||
         table_width(table) - column_width(table, last) + indent <= columns - LEAST;
     int *width = column_widths(table);
@@ -357,7 +357,7 @@ void table_wrap(Text *out, const Table *table, int indent, int columns)
         text_fill(&lead, ' ', indent);
         add_cells(&lead, table, width, i, 0, last);
         text_add(&lead, "  ");
-        if (!is_beside) {
+        if (!fits_in_line) {
             trim(&lead, 0);
             text_char(&lead, '\n');
             text_add(out, lead.at);

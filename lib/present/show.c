@@ -9,41 +9,41 @@
 
 /* clang-format off */
 static const Topic topics[] = {
-    {"graph",        "nodes and edges of the linear graph",                NEED_MODEL,  BEHIND_NOTHING, AS_TEXT,     show_graph},
-    {"nodes",        "frames and terminals",                               NEED_MODEL,  BEHIND_NOTHING, AS_TEXT,     show_nodes},
-    {"edges",        "edges, their ends, and where they stand in the trees", NEED_MODEL, BEHIND_EDGES,  AS_TEXT,     show_edges},
-    {"tree",         "branches and chords of each tree",                   NEED_MODEL,  BEHIND_NOTHING, AS_TEXT,     show_tree},
-    {"incidence",    "incidence matrix: +1 where an edge starts, -1 where it ends", NEED_MODEL, BEHIND_EDGES, AS_TEXT,     show_incidence},
-    {"circuits",     "fundamental circuits, one a chord",                  NEED_MODEL,  BEHIND_EDGES,   AS_TEXT,     show_circuits},
-    {"cutsets",      "fundamental cutsets, one a branch",                  NEED_MODEL,  BEHIND_EDGES,   AS_TEXT,     show_cutsets},
-    {"coordinates",  "coordinates and network unknowns, in their order",   NEED_SYSTEM, BEHIND_NOTHING, AS_TEXT,     show_coordinates},
-    {"constraints",  "constraint equations; velocity, acceleration: their rates", NEED_SYSTEM, BEHIND_LEVEL, AS_FORMULAS, show_constraints},
-    {"jacobian",     "derivatives of the constraints by the coordinates",  NEED_SYSTEM, BEHIND_NUMBERS, AS_FORMULAS, show_jacobian},
-    {"mass",         "mass matrix M",                                      NEED_SYSTEM, BEHIND_NUMBERS, AS_FORMULAS, show_mass},
-    {"forces",       "right side F of the motion equations",               NEED_SYSTEM, BEHIND_NUMBERS, AS_FORMULAS, show_forces},
-    {"equations",    "all equations, row by row",                          NEED_SYSTEM, BEHIND_NOTHING, AS_FORMULAS, show_equations},
-    {"network",      "electrical equations, and those of other scalar domains", NEED_SYSTEM, BEHIND_NOTHING, AS_FORMULAS, show_network},
-    {"outputs",      "outputs and their expressions",                      NEED_MODEL,  BEHIND_NOTHING, AS_FORMULAS, show_outputs},
-    {"params",       "parameters and their values",                        NEED_MODEL,  BEHIND_NOTHING, AS_TEXT,     show_params},
-    {"structure",    "sizes, instances, where M and the jacobian are not zero",  NEED_RUNNING, BEHIND_NOTHING, AS_TEXT,     show_structure},
-    {"run",          "report of the last run",                             NEED_RUN,    BEHIND_NOTHING, AS_TEXT,     show_run},
-    {"runs",         "all runs: what ran, from when to when, in how many steps", NEED_MODEL, BEHIND_NOTHING, AS_TEXT,     show_runs},
-    {"init",         "initial values and guesses that were given",         NEED_MODEL,  BEHIND_NOTHING, AS_TEXT,     show_init},
-    {"settings",     "how the session computes and prints",                NEED_MODEL,  BEHIND_NOTHING, AS_TEXT,     show_settings},
-    {"program",      "what a run evaluates, what is hoisted, kept, skipped", NEED_RUNNING, BEHIND_NOTHING, AS_TEXT,     show_program},
-    {"state",        "a linear network as x' = A x + B u",                 NEED_MODEL,  BEHIND_NOTHING, AS_NUMBERS,  show_state},
-    {"linear",       "matrices of the last linearisation",                 NEED_LINEAR, BEHIND_NOTHING, AS_NUMBERS,  show_linear},
-    {"transfer",     "transfer functions of the last linearisation",       NEED_LINEAR, BEHIND_PAIR,    AS_NUMBERS,  show_transfer},
-    {"thevenin",     "a linear network between two terminals: source and impedance", NEED_MODEL, BEHIND_ITEMS, AS_FORMULAS, show_thevenin},
-    {"norton",       "the same: source and admittance",                    NEED_MODEL,  BEHIND_ITEMS,   AS_FORMULAS, show_norton},
-    {"derivation",   "how an equation came about, step by step",           NEED_SYSTEM, BEHIND_ENTRY,   AS_NARRATIVE,    show_derivation},
-    {"events",       "events, and when they happened in the last run",     NEED_MODEL,  BEHIND_NOTHING, AS_TEXT,     show_events},
+    {"graph",        "nodes and edges of the linear graph",                NEED_MODEL,  OPERANDS_NOTHING, AS_TEXT,     show_graph},
+    {"nodes",        "frames and terminals",                               NEED_MODEL,  OPERANDS_NOTHING, AS_TEXT,     show_nodes},
+    {"edges",        "edges, their ends, and where they stand in the trees", NEED_MODEL, OPERANDS_EDGES,  AS_TEXT,     show_edges},
+    {"tree",         "branches and chords of each tree",                   NEED_MODEL,  OPERANDS_NOTHING, AS_TEXT,     show_tree},
+    {"incidence",    "incidence matrix: +1 where an edge starts, -1 where it ends", NEED_MODEL, OPERANDS_EDGES, AS_TEXT,     show_incidence},
+    {"circuits",     "fundamental circuits, one a chord",                  NEED_MODEL,  OPERANDS_EDGES,   AS_TEXT,     show_circuits},
+    {"cutsets",      "fundamental cutsets, one a branch",                  NEED_MODEL,  OPERANDS_EDGES,   AS_TEXT,     show_cutsets},
+    {"coordinates",  "coordinates and network unknowns, in their order",   NEED_SYSTEM, OPERANDS_NOTHING, AS_TEXT,     show_coordinates},
+    {"constraints",  "constraint equations; velocity, acceleration: their rates", NEED_SYSTEM, OPERANDS_LEVEL, AS_FORMULAS, show_constraints},
+    {"jacobian",     "derivatives of the constraints by the coordinates",  NEED_SYSTEM, OPERANDS_NUMBERS, AS_FORMULAS, show_jacobian},
+    {"mass",         "mass matrix M",                                      NEED_SYSTEM, OPERANDS_NUMBERS, AS_FORMULAS, show_mass},
+    {"forces",       "right side F of the motion equations",               NEED_SYSTEM, OPERANDS_NUMBERS, AS_FORMULAS, show_forces},
+    {"equations",    "all equations, row by row",                          NEED_SYSTEM, OPERANDS_NOTHING, AS_FORMULAS, show_equations},
+    {"network",      "electrical equations, and those of other scalar domains", NEED_SYSTEM, OPERANDS_NOTHING, AS_FORMULAS, show_network},
+    {"outputs",      "outputs and their expressions",                      NEED_MODEL,  OPERANDS_NOTHING, AS_FORMULAS, show_outputs},
+    {"params",       "parameters and their values",                        NEED_MODEL,  OPERANDS_NOTHING, AS_TEXT,     show_params},
+    {"structure",    "sizes, instances, where M and the jacobian are not zero",  NEED_RUNNING, OPERANDS_NOTHING, AS_TEXT,     show_structure},
+    {"run",          "report of the last run",                             NEED_RUN,    OPERANDS_NOTHING, AS_TEXT,     show_run},
+    {"runs",         "all runs: what ran, from when to when, in how many steps", NEED_MODEL, OPERANDS_NOTHING, AS_TEXT,     show_runs},
+    {"init",         "initial values and guesses that were given",         NEED_MODEL,  OPERANDS_NOTHING, AS_TEXT,     show_init},
+    {"settings",     "how the session computes and prints",                NEED_MODEL,  OPERANDS_NOTHING, AS_TEXT,     show_settings},
+    {"program",      "what a run evaluates, what is hoisted, kept, skipped", NEED_RUNNING, OPERANDS_NOTHING, AS_TEXT,     show_program},
+    {"state",        "a linear network as x' = A x + B u",                 NEED_MODEL,  OPERANDS_NOTHING, AS_NUMBERS,  show_state},
+    {"linear",       "matrices of the last linearisation",                 NEED_LINEAR, OPERANDS_NOTHING, AS_NUMBERS,  show_linear},
+    {"transfer",     "transfer functions of the last linearisation",       NEED_LINEAR, OPERANDS_PAIR,    AS_NUMBERS,  show_transfer},
+    {"thevenin",     "a linear network between two terminals: source and impedance", NEED_MODEL, OPERANDS_ITEMS, AS_FORMULAS, show_thevenin},
+    {"norton",       "the same: source and admittance",                    NEED_MODEL,  OPERANDS_ITEMS,   AS_FORMULAS, show_norton},
+    {"derivation",   "how an equation came about, step by step",           NEED_SYSTEM, OPERANDS_ENTRY,   AS_NARRATIVE,    show_derivation},
+    {"events",       "events, and when they happened in the last run",     NEED_MODEL,  OPERANDS_NOTHING, AS_TEXT,     show_events},
 };
 /* clang-format on */
 
 /* `show transfer OUT IN`: of a linear network as it is */
-static const Topic symbolic_transfer = {"transfer",   "",          NEED_MODEL,
-                                        BEHIND_ITEMS, AS_FORMULAS, show_symbolic_transfer};
+static const Topic symbolic_transfer = {"transfer",     "",          NEED_MODEL,
+                                        OPERANDS_ITEMS, AS_FORMULAS, show_symbolic_transfer};
 
 const Topic *topic_find(const char *name)
 {
@@ -115,7 +115,7 @@ static const Topic *find_topic(const Linear *linear, const Statement *statement)
                              ? topic_find(first->text)
                              : NULL;
 
-    return topic != NULL && topic->behind == BEHIND_PAIR && in_symbols(linear, statement)
+    return topic != NULL && topic->operands == OPERANDS_PAIR && in_symbols(linear, statement)
                ? &symbolic_transfer
                : topic;
 }
@@ -188,7 +188,7 @@ static Status has_room(const Topic *topic, const Operand *operand, const Selecti
     if (selection->number_count < COUNT(selection->numbers))
         return OK;
     return diag_at(diag, E_SYNTAX, operand->place,
-                   topic->behind == BEHIND_PAIR
+                   topic->operands == OPERANDS_PAIR
                        ? "a transfer function has an output and an input only"
                        : "an entry has a row and a column only");
 }
@@ -200,8 +200,8 @@ static Status take_number(const Topic *topic, const Operand *operand, Selection 
     char *end = NULL;
     const long number = strtol(value->text, &end, 10);
 
-    if (topic->behind != BEHIND_NUMBERS && topic->behind != BEHIND_LEVEL &&
-        topic->behind != BEHIND_PAIR)
+    if (topic->operands != OPERANDS_NUMBERS && topic->operands != OPERANDS_LEVEL &&
+        topic->operands != OPERANDS_PAIR)
         return diag_at(diag, E_SYNTAX, operand->place, "'show %s' takes no numbers", topic->name);
     if (*end != '\0' || number < 1 || number > 1000000 || value->has_unit)
         return diag_at(diag, E_VALUE, operand->place, "rows and columns are counted 1, 2, 3 ...");
@@ -269,15 +269,15 @@ static Status take_name(const View *view, const Topic *topic, const Operand *ope
     const char *name = operand->value->text;
     Suggest suggest = suggest_for(name);
 
-    if (topic->behind == BEHIND_LEVEL && selection->level == NULL &&
+    if (topic->operands == OPERANDS_LEVEL && selection->level == NULL &&
         (strcmp(name, "velocity") == 0 || strcmp(name, "acceleration") == 0)) {
         selection->level = name;
         return OK;
     }
-    if (topic->behind == BEHIND_LEVEL)
+    if (topic->operands == OPERANDS_LEVEL)
         return diag_at(diag, E_SYNTAX, operand->place,
                        "'show constraints' may be followed by velocity or acceleration and a row");
-    if (topic->behind != BEHIND_EDGES)
+    if (topic->operands != OPERANDS_EDGES)
         return diag_at(diag, E_SYNTAX, operand->place, "'show %s' takes no names", topic->name);
     if (strcmp(name, "open") == 0) {
         selection->is_open = true;
@@ -320,27 +320,27 @@ static Status show_topic(const View *view, const Topic *topic, const Statement *
     for (int i = 1; i < statement->operands.count; i++) {
         const Operand *operand = statement->operands.at + i;
 
-        if (topic->behind == BEHIND_ENTRY && selection.item == NULL) {
+        if (topic->operands == OPERANDS_ENTRY && selection.item == NULL) {
             selection.item = operand->value;
             entry = *operand->value;
             entry.args = entry.count == 0 ? args : NULL;
-        } else if (topic->behind == BEHIND_ENTRY && take_argument(operand, &entry)) {
+        } else if (topic->operands == OPERANDS_ENTRY && take_argument(operand, &entry)) {
             selection.item = &entry;
-        } else if (topic->behind == BEHIND_ENTRY) {
+        } else if (topic->operands == OPERANDS_ENTRY) {
             status = diag_at(diag, E_SYNTAX, operand->place,
                              "'show %s' shows one name, row or entry at a time", topic->name);
             goto done;
-        } else if (topic->behind == BEHIND_ITEMS) {
+        } else if (topic->operands == OPERANDS_ITEMS) {
             CHECK(take_item(topic, statement, i, &selection, diag));
         } else if (operand->value->kind == SYNTAX_NUMBER) {
             CHECK(take_number(topic, operand, &selection, diag));
-        } else if (topic->behind == BEHIND_PAIR) {
+        } else if (topic->operands == OPERANDS_PAIR) {
             CHECK(take_output_or_input(view, topic, operand, &selection, diag));
         } else if (operand->value->kind == SYNTAX_VARIABLE && operand->value->primes == 0) {
             CHECK(take_name(view, topic, operand, &selection, names, diag));
         } else {
             status = diag_at(diag, E_SYNTAX, operand->place, "expected a %s behind '%s'",
-                             topic->behind == BEHIND_EDGES ? "name" : "number", topic->name);
+                             topic->operands == OPERANDS_EDGES ? "name" : "number", topic->name);
             goto done;
         }
     }

@@ -15,16 +15,16 @@ typedef enum Need {
     NEED_LINEAR   /* the last linearisation */
 } Need;
 
-typedef enum Behind { /* arguments of a topic */
-                      BEHIND_NOTHING,
-                      BEHIND_NUMBERS, /* a row, a row and a column */
-                      BEHIND_EDGES,   /* names of edges */
-                      BEHIND_LEVEL,   /* velocity or acceleration, and rows */
-                      BEHIND_ENTRY,   /* a name, a row, or an entry: mass(2,3) */
-                      BEHIND_PAIR,    /* an output and an input of what was linearized, by number or
-                                         name */
-                      BEHIND_ITEMS    /* two: terminals, or an output and an input */
-} Behind;
+/* arguments of a topic */
+typedef enum TopicOperands {
+    OPERANDS_NOTHING,
+    OPERANDS_NUMBERS, /* a row, a row and a column */
+    OPERANDS_EDGES,   /* names of edges */
+    OPERANDS_LEVEL,   /* velocity or acceleration, and rows */
+    OPERANDS_ENTRY,   /* a name, a row, or an entry: mass(2,3) */
+    OPERANDS_PAIR,    /* output and input of the linearisation, by number or name */
+    OPERANDS_ITEMS    /* two: terminals, or an output and an input */
+} TopicOperands;
 
 /* notations that a topic is written in, a bit each */
 typedef enum Written {
@@ -41,15 +41,15 @@ typedef struct Selection {
     int name_count;
     bool is_open;           /* show the inside of instances of subsystems, not only their ports */
     const char *level;      /* "velocity", "acceleration" or NULL */
-    const Syntax *item;     /* BEHIND_ENTRY; NULL: all */
-    const Syntax *items[2]; /* BEHIND_ITEMS; NULL: none */
+    const Syntax *item;     /* OPERANDS_ENTRY; NULL: all */
+    const Syntax *items[2]; /* OPERANDS_ITEMS; NULL: none */
 } Selection;
 
 typedef struct Topic {
     const char *name;
     const char *brief;
     Need need;
-    Behind behind;
+    TopicOperands operands;
     Written written;
     Status (*show)(const View *view, const Selection *selection, Text *out, Diag *diag);
 } Topic;

@@ -167,7 +167,7 @@ static void add_pace(Table *table, const Pace *pace)
                     "real time\t%" PRId64
                     " steps took longer than they are, %.2g times at t = %.6g s; "
                     "behind the clock by %.2g s at most",
-                    pace->late, pace->worst, pace->worst_at, pace->behind);
+                    pace->late, pace->worst, pace->worst_at, pace->delay);
 }
 
 void report_print(Text *out, const Result *result, const char *name)

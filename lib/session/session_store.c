@@ -87,21 +87,21 @@ typedef struct Head {
 } Head;
 
 /* NULL: `text` doesn't go on with `word` */
-static const char *behind(const char *text, const char *word)
+static const char *text_after(const char *text, const char *word)
 {
     return strncmp(text, word, strlen(word)) == 0 ? text + strlen(word) : NULL;
 }
 
 static bool read_head(const char *text, Head *head)
 {
-    const char *at = behind(text, HEAD);
+    const char *at = text_after(text, HEAD);
     char *end;
     size_t length;
 
     if (at == NULL || !isdigit((unsigned char)*at))
         return false;
     head->version = strtol(at, &end, 10);
-    at = behind(end, ", ");
+    at = text_after(end, ", ");
     if (at == NULL)
         return false;
     length = strspn(at, "abcdefghijklmnopqrstuvwxyz");
@@ -109,7 +109,7 @@ static bool read_head(const char *text, Head *head)
         return false;
     memcpy(head->scene, at, length);
     head->scene[length] = '\0';
-    at = behind(at + length, " scene, unedited: ");
+    at = text_after(at + length, " scene, unedited: ");
     if (at == NULL || !isxdigit((unsigned char)*at))
         return false;
     head->number = strtoull(at, &end, 16);

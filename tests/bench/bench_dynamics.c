@@ -88,7 +88,7 @@ static void count(System *system, const char *name)
     memcpy(force, system_run(system)->force, (size_t)nu * sizeof(Expr));
     if (system_pushes(system, pushes, NULL) == OK &&
         system_accelerations(system, force, pushes, told, told + nu) != ELIMINATED_NOT) {
-        const OpCount ops = expr_count_beside(told, nu, 1U << SYMBOL_PARAMETER);
+        const OpCount ops = expr_count_without(told, nu, 1U << SYMBOL_PARAMETER);
 
         line(name, "operations", (double)(ops.add + ops.mul), "ops");
         line(name, "functions", (double)ops.fun, "ops");
@@ -242,7 +242,7 @@ static void count_inverse(System *system, const char *name)
     Expr *told = NEW_ARRAY(Expr, 2 * nu);
 
     if (system_prescribed(system, told, told + nu)) {
-        const OpCount ops = expr_count_beside(told, 2 * nu, 1U << SYMBOL_PARAMETER);
+        const OpCount ops = expr_count_without(told, 2 * nu, 1U << SYMBOL_PARAMETER);
 
         line(name, "inverse_operations", (double)(ops.add + ops.mul), "ops");
         line(name, "inverse_functions", (double)ops.fun, "ops");

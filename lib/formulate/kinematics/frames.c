@@ -386,7 +386,7 @@ bool orientation_is_beyond(const System *system, int chain, int turn)
 
 /* the next orientation class on the path from one to another; a whole coaxial group is skipped
  * where the path passes all of it */
-static int behind(const System *system, int chain, int other)
+static int class_towards(const System *system, int chain, int other)
 {
     const OrientationClass *chains = system->kinematics->chains.at;
     const int run = chains[chain].run;
@@ -430,13 +430,13 @@ void turns_between(const System *system, int from, int to, Turns *turns)
     /* up to the common orientation class, and down again */
     while (from != to) {
         if (chains[from].depth >= chains[to].depth) {
-            const int next = behind(system, from, to);
+            const int next = class_towards(system, from, to);
 
             append_turn(system, turns, next, from, true);
             from = next;
         } else {
             LIST_PUSH(down, to);
-            to = behind(system, to, from);
+            to = class_towards(system, to, from);
         }
     }
     for (int k = down.count - 1; k >= 0; k--) {
@@ -492,7 +492,7 @@ static bool is_carried_unchanged(const System *system, Vec v, int from, int to)
         if (chains[*deeper].is_free || (!is_along(chains[*deeper].axis, v) &&
                                         axis_sense(system->arena, v, chains[*deeper].axis) == 0))
             return false;
-        *deeper = behind(system, *deeper, climbs ? to : from);
+        *deeper = class_towards(system, *deeper, climbs ? to : from);
     }
     return true;
 }

@@ -24,7 +24,7 @@ static void sort_sides(System *system, Unknown *y)
 {
     Arena *arena = system->arena;
     Expr left = expr_open(arena, y->left);
-    LIST(Expr) stay = {0};
+    LIST(Expr) dependent = {0};
     LIST(Expr) move = {0};
 
     if (expr_kind(left) == EXPR_SUM) {
@@ -35,15 +35,15 @@ static void sort_sides(System *system, Unknown *y)
             if (expr_is_zero(expr_diff(arena, term, own)))
                 LIST_PUSH(move, term);
             else
-                LIST_PUSH(stay, term);
+                LIST_PUSH(dependent, term);
         }
-        if (stay.count > 0 && move.count > 0) {
-            y->left = expr_sum(arena, stay.at, stay.count);
+        if (dependent.count > 0 && move.count > 0) {
+            y->left = expr_sum(arena, dependent.at, dependent.count);
             y->right =
                 expr_sub(arena, expr_open(arena, y->right), expr_sum(arena, move.at, move.count));
         }
     }
-    LIST_FREE(stay);
+    LIST_FREE(dependent);
     LIST_FREE(move);
 }
 

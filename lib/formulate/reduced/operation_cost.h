@@ -8,7 +8,7 @@
 static inline int64_t operation_cost(const Expr *roots, int count)
 {
     enum { FUNCTION_PRICE = 20 }; /* cost of a function such as a sine, in additions */
-    const OpCount ops = expr_count_beside(roots, count, 1U << SYMBOL_PARAMETER);
+    const OpCount ops = expr_count_without(roots, count, 1U << SYMBOL_PARAMETER);
 
     return ops.add + ops.mul + FUNCTION_PRICE * ops.fun;
 }

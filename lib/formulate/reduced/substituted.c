@@ -27,7 +27,7 @@ typedef struct Neighbour { /* an entry of A */
 } Neighbour;
 
 typedef struct SubstitutedUnknown {
-    LIST(Neighbour) beside;
+    LIST(Neighbour) neighbours;
     LIST(SubstitutedShare) follows; /* how it follows from others: -sum value x */
     LIST(int) pools;                /* unknowns that are sums which contain it */
     /* constraint rows that contain it, by number among those in use */
@@ -161,16 +161,16 @@ static Expr *find_entry(Substitution *s, int i, int j)
 {
     const SubstitutedUnknown *x = &s->unknown[i];
 
-    for (int k = 0; k < x->beside.count; k++)
-        if (x->beside.at[k].unknown == j)
-            return &s->entries.at[x->beside.at[k].at];
+    for (int k = 0; k < x->neighbours.count; k++)
+        if (x->neighbours.at[k].unknown == j)
+            return &s->entries.at[x->neighbours.at[k].at];
     return NULL;
 }
 
 static Expr *new_entry(Substitution *s, int i, int j)
 {
-    LIST_PUSH(s->unknown[i].beside, (Neighbour){j, s->entries.count});
-    LIST_PUSH(s->unknown[j].beside, (Neighbour){i, s->entries.count});
+    LIST_PUSH(s->unknown[i].neighbours, (Neighbour){j, s->entries.count});
+    LIST_PUSH(s->unknown[j].neighbours, (Neighbour){i, s->entries.count});
     LIST_PUSH(s->entries, expr_int(s->arena, 0));
     return &s->entries.at[s->entries.count - 1];
 }
@@ -199,7 +199,7 @@ static void begin_matrix(Substitution *s)
     for (int i = 0; i < s->nu + s->m; i++) {
         SubstitutedUnknown *x = &s->unknown[i];
 
-        x->beside.count = x->follows.count = x->pools.count = 0;
+        x->neighbours.count = x->follows.count = x->pools.count = 0;
         x->own = x->whole = x->right = x->asked = x->given = x->given_step = zero;
         x->inverse = NULL;
         x->is_gone = false;
@@ -217,11 +217,11 @@ static void begin_matrix(Substitution *s)
 static void list_neighbours(Substitution *s, SubstitutedUnknown *x, int **unknown, Expr **value,
                             int *count)
 {
-    *unknown = NEW_ARRAY(int, x->beside.count);
-    *value = NEW_ARRAY(Expr, x->beside.count);
+    *unknown = NEW_ARRAY(int, x->neighbours.count);
+    *value = NEW_ARRAY(Expr, x->neighbours.count);
     *count = 0;
-    for (int i = 0; i < x->beside.count; i++) {
-        const Neighbour *n = &x->beside.at[i];
+    for (int i = 0; i < x->neighbours.count; i++) {
+        const Neighbour *n = &x->neighbours.at[i];
 
         if (s->unknown[n->unknown].is_gone || expr_is_zero(s->entries.at[n->at]))
             continue;
@@ -252,28 +252,28 @@ static int place_among(const SubstitutedUnknown *x, int unknown)
     return -1;
 }
 
-static Expr value_beside(const int *beside, const Expr *value, int count, int unknown)
+static Expr value_of_neighbour(const int *neighbours, const Expr *value, int count, int unknown)
 {
     for (int i = 0; i < count; i++)
-        if (beside[i] == unknown)
+        if (neighbours[i] == unknown)
             return value[i];
     return NULL;
 }
 
 /* A of those that x follows from, and of its neighbours; value: entries in the row of x */
-static void substitute_in_matrix(Substitution *s, SubstitutedUnknown *x, const int *beside,
+static void substitute_in_matrix(Substitution *s, SubstitutedUnknown *x, const int *neighbours,
                                  const Expr *value, int count)
 {
     for (int i = 0; i < x->follows.count; i++) {
         const SubstitutedShare *c = &x->follows.at[i];
-        const Expr a = value_beside(beside, value, count, c->unknown);
+        const Expr a = value_of_neighbour(neighbours, value, count, c->unknown);
         const Expr own = a != NULL ? a : expr_int(s->arena, 0);
         const Expr rest = expr_name_temporary(s->arena, less(s, own, times(s, x->own, c->value)));
         const Expr twice = expr_name_temporary(s->arena, less(s, rest, expr_neg(s->arena, own)));
 
         for (int j = 0; j < count; j++)
-            if (place_among(x, beside[j]) < i)
-                take_off(s, c->unknown, beside[j], times(s, c->value, value[j]));
+            if (place_among(x, neighbours[j]) < i)
+                take_off(s, c->unknown, neighbours[j], times(s, c->value, value[j]));
         for (int j = 0; j < i; j++)
             take_off(s, c->unknown, x->follows.at[j].unknown,
                      times(s, x->follows.at[j].value, rest));
@@ -285,12 +285,12 @@ static void substitute_in_matrix(Substitution *s, SubstitutedUnknown *x, const i
 static void substitute(Substitution *s, int which)
 {
     SubstitutedUnknown *x = &s->unknown[which];
-    int *beside, count;
+    int *neighbours, count;
     Expr *value;
 
     leave(s, which);
-    list_neighbours(s, x, &beside, &value, &count);
-    substitute_in_matrix(s, x, beside, value, count);
+    list_neighbours(s, x, &neighbours, &value, &count);
+    substitute_in_matrix(s, x, neighbours, value, count);
     for (int i = 0; i < x->follows.count; i++) {
         const SubstitutedShare *c = &x->follows.at[i];
         SubstitutedUnknown *onto = &s->unknown[c->unknown];
@@ -301,7 +301,7 @@ static void substitute(Substitution *s, int which)
             onto->whole = expr_add(s->arena, onto->whole,
                                    expr_mul(s->arena, expr_square(s->arena, c->value), x->whole));
     }
-    MEM_FREE(beside, value);
+    MEM_FREE(neighbours, value);
 }
 
 /* substitutes sums that contain it first */
@@ -315,7 +315,7 @@ static void substitute_pools(Substitution *s, int speed)
 static bool eliminate_by_mass(Substitution *s, int speed)
 {
     SubstitutedUnknown *x = &s->unknown[speed];
-    int *beside, count;
+    int *neighbours, count;
     Expr *value;
 
     substitute_pools(s, speed);
@@ -326,18 +326,18 @@ static bool eliminate_by_mass(Substitution *s, int speed)
         s->is_counting
             ? x->own
             : expr_name_temporary(s->arena, expr_div(s->arena, expr_int(s->arena, 1), x->own));
-    list_neighbours(s, x, &beside, &value, &count);
+    list_neighbours(s, x, &neighbours, &value, &count);
     for (int i = 0; i < count; i++) {
-        SubstitutedUnknown *onto = &s->unknown[beside[i]];
+        SubstitutedUnknown *onto = &s->unknown[neighbours[i]];
         const Expr part = expr_name_temporary(s->arena, times(s, value[i], x->inverse));
 
-        LIST_PUSH(x->follows, (SubstitutedShare){beside[i], part});
+        LIST_PUSH(x->follows, (SubstitutedShare){neighbours[i], part});
         for (int j = i; j < count; j++)
-            take_off(s, beside[i], beside[j], times(s, part, value[j]));
+            take_off(s, neighbours[i], neighbours[j], times(s, part, value[j]));
         onto->right = less(s, onto->right, times(s, part, x->right));
         onto->asked = less(s, onto->asked, times(s, part, x->asked));
     }
-    MEM_FREE(beside, value);
+    MEM_FREE(neighbours, value);
     return true;
 }
 
@@ -595,7 +595,7 @@ void substitution_free(Substitution *s)
     for (int k = 0; k < s->m; k++)
         LIST_FREE(s->row[k]);
     for (int i = 0; i < s->nu + s->m; i++) {
-        LIST_FREE(s->unknown[i].beside);
+        LIST_FREE(s->unknown[i].neighbours);
         LIST_FREE(s->unknown[i].follows);
         LIST_FREE(s->unknown[i].pools);
         LIST_FREE(s->unknown[i].rows);

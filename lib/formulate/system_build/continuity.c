@@ -109,12 +109,12 @@ static Finding choice_meets(Arena *arena, Expr choice, int k, ContinuitySpot *sp
         fabs(yes - no) <= CONTINUITY_CLOSED * (fabs(yes) + fabs(no)))
         return HOLDS;
     for (int way = -1; way <= 1; way += 2) {
-        const double beside = gap_at(choice, *spot, spot->at + way * CONTINUITY_NEXT * size);
+        const double next = gap_at(choice, *spot, spot->at + way * CONTINUITY_NEXT * size);
         const double away = gap_at(choice, *spot, spot->at + way * CONTINUITY_AWAY * size);
 
-        if (!isfinite(beside) || !isfinite(away))
+        if (!isfinite(next) || !isfinite(away))
             continue;
-        if (!(beside <= CONTINUITY_BESIDE * away))
+        if (!(next <= CONTINUITY_JUMP * away))
             return FAILS;
         found = true;
     }

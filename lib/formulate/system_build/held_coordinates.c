@@ -27,16 +27,16 @@ static bool is_motion(Expr value, Expr rate)
 
 /* Adds a coordinate with a name, if it exists; callers that need it use an equivalent one. False:
  * there is none. */
-static bool add_named(System *system, const char *name, HeldCoordinate stay, HeldSearch *out)
+static bool add_named(System *system, const char *name, HeldCoordinate held, HeldSearch *out)
 {
     Diag unasked = {0};
 
-    if (system_variable(system, name, 0, &stay.value, &unasked) != OK ||
-        system_variable(system, name, 1, &stay.rate, &unasked) != OK ||
-        !is_motion(stay.value, stay.rate))
+    if (system_variable(system, name, 0, &held.value, &unasked) != OK ||
+        system_variable(system, name, 1, &held.rate, &unasked) != OK ||
+        !is_motion(held.value, held.rate))
         return false;
-    stay.name = mem_text(name, strlen(name));
-    LIST_PUSH(out->all, stay);
+    held.name = mem_text(name, strlen(name));
+    LIST_PUSH(out->all, held);
     return true;
 }
 
@@ -48,13 +48,13 @@ static void add_attitude(System *system, const Instance *joint, HeldSearch *out)
 
     relative_parameters(system, joint->tail, joint->head, p);
     for (int i = 0; i < 4; i++) {
-        HeldCoordinate stay = {
+        HeldCoordinate held = {
             .part = joint->name, .value = p[i], .node = -1, .attitude = out->attitudes};
         Diag unasked = {0};
 
-        if (system_rate_of(system, p[i], &stay.rate, &unasked) == OK &&
-            is_motion(stay.value, stay.rate))
-            LIST_PUSH(out->all, stay);
+        if (system_rate_of(system, p[i], &held.rate, &unasked) == OK &&
+            is_motion(held.value, held.rate))
+            LIST_PUSH(out->all, held);
     }
     out->attitudes++;
 }
@@ -70,10 +70,10 @@ static void add_joints(System *system, HeldSearch *out)
             continue;
         for (int c = is_joint ? 0 : part->pose_count; c < part->coord_count; c++) {
             const bool is_parameter = part->coord_kind[c] == COORDINATE_PARAMETER;
-            const HeldCoordinate stay = {
+            const HeldCoordinate held = {
                 .part = part->name, .node = -1, .attitude = is_parameter ? out->attitudes : -1};
 
-            if (!add_named(system, part->coord[c], stay, out))
+            if (!add_named(system, part->coord[c], held, out))
                 has_all = has_all && system_coordinate(system, part, c) >= 0;
         }
         out->attitudes++;

@@ -244,7 +244,7 @@ static Status take_rate(const Work *w, Deviation *d, int input, Linear *out, Dia
     drop(&rates, out->states);
     drop(&direct, out->outputs);
     for (int o = 0; o < out->outputs; o++)
-        if (d1[o] != 0 && w->beside == 0) {
+        if (d1[o] != 0 && w->perturbation == 0) {
             (void)diag_set(diag, E_MODEL, "%s follows the rate of %s, which is no linear output",
                            out->output_names[o], out->input_names[input]);
             diag_hint(diag, "a resistance in the circuit of capacitors and source makes it one");
@@ -433,7 +433,7 @@ static void write_deviation(const Work *w, const Deviation *d, int c, Linear *ou
 Status linear_columns(const Work *w, Linear *out, Diag *diag)
 {
     const int columns = out->states + out->inputs;
-    const bool is_whole = w->beside == 0 && is_mechanical(w);
+    const bool is_whole = w->perturbation == 0 && is_mechanical(w);
     ColumnBalance balance = {0};
     Deviation d[TANGENT_BATCH];
     Status status = OK;

@@ -71,8 +71,8 @@ typedef struct Work {
     VerifiedSolve *held; /* factors of Phi_u's dependent columns, over the rows in use */
     Partitioning *partitioning;
     int used, freedoms, unknowns; /* unknowns: nu + used + nx + nz */
-    uint64_t beside;              /* seed by which all numbers are perturbed; 0: none are, and
-                                     errors are bounded */
+    uint64_t perturbation;        /* seed by which all numbers are perturbed; 0: none are, and
+                                    errors are bounded */
     int *in_use;                  /* `used` constraint rows, independent at the point */
     bool *is_independent;         /* per speed */
 } Work;
@@ -106,8 +106,8 @@ double linear_moved(const Work *w, int r, int column, double value);
 /* Complete v, whose independent entries are set: Phi_u v + right = 0 in the dependent ones. */
 void linear_complete(const Work *w, const LinearNumber *right, LinearNumber *v);
 
-/* Evaluate everything at a point perturbed by w->beside, for the same equations and coordinates;
- * false: it can't be evaluated. */
+/* Evaluate everything at a point perturbed by w->perturbation, for the same equations and
+ * coordinates; false: it can't be evaluated. */
 bool linear_perturbed(Work *w);
 
 /* Whether coefficients of the mechanical equations change along the motion from the point; `linear`

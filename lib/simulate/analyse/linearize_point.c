@@ -54,10 +54,11 @@ static RowValues row_with(const Work *w, double t, const double *y, const double
 
 double linear_moved(const Work *w, int r, int column, double value)
 {
-    uint64_t seed = w->beside + (uint64_t)r * 0xD1B54A32D192ED03U + (uint64_t)column;
+    uint64_t seed = w->perturbation + (uint64_t)r * 0xD1B54A32D192ED03U + (uint64_t)column;
 
-    return w->beside == 0 || value == 0 ? value
-                                        : value * (1 + LINEAR_PERTURBATION * random_unit(&seed));
+    return w->perturbation == 0 || value == 0
+               ? value
+               : value * (1 + LINEAR_PERTURBATION * random_unit(&seed));
 }
 
 /* Copy E_e from the tangents. Returns whether it has changed. */
@@ -94,8 +95,8 @@ static void evaluate(Work *w, bool is_bounded)
     RowValues off = row_with(w, number_error(w->order->at), w->y_error, w->follow_error);
 
     off.references = NULL; /* the turn is known exactly */
-    if (w->beside != 0)
-        probe_tangents_beside(w->derived, &row, w->beside, w->along);
+    if (w->perturbation != 0)
+        probe_tangents_perturbed(w->derived, &row, w->perturbation, w->along);
     else
         probe_tangents(w->derived, &row, is_bounded ? &off : NULL, w->along);
     for (int i = 0; i < w->rows.count; i++)
@@ -195,8 +196,8 @@ static void evaluate_geometry(Work *w)
     RowValues off = row_of_state(l, number_error(w->order->at), w->y_error);
 
     off.references = NULL;
-    if (w->beside != 0)
-        probe_tangents_beside(w->geometry, &row, w->beside, w->turning);
+    if (w->perturbation != 0)
+        probe_tangents_perturbed(w->geometry, &row, w->perturbation, w->turning);
     else
         probe_tangents(w->geometry, &row, &off, w->turning);
     for (int i = 0; i < constraints + map; i++) {

@@ -84,7 +84,7 @@ static Status sample(Work *w, uint64_t seed, Linear **out, Diag *diag)
     Status status = OK;
 
     *out = NULL;
-    w->beside = seed;
+    w->perturbation = seed;
     if (linear_perturbed(w)) {
         linear = linear_new(w);
         status = linear_columns(w, linear, diag);
@@ -93,7 +93,7 @@ static Status sample(Work *w, uint64_t seed, Linear **out, Diag *diag)
         else
             linear_free(linear);
     }
-    w->beside = 0;
+    w->perturbation = 0;
     return status;
 }
 

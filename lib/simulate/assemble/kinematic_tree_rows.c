@@ -104,14 +104,14 @@ static int axis_rows(const double *u, const double E[9], LinkRow *rows)
     vector3_cross(u, w, side);
     vector3_cross(far, w, across);
     for (int k = 0; k < 2; k++) {
-        const double along = vector3_dot(n[k], w), beside = vector3_dot(n[k], side);
+        const double along = vector3_dot(n[k], w), across_part = vector3_dot(n[k], side);
         const double ratio = angle < 1e-6       ? 1
                              : angle < M_PI / 2 ? angle / sine
                                                 : angle / fmax(sine, least);
 
         rows[k] = (LinkRow){.value = angle * along};
         for (int j = 0; j < 3; j++)
-            rows[k].by_turn[j] = along * w[j] + beside * ratio * across[j];
+            rows[k].by_turn[j] = along * w[j] + across_part * ratio * across[j];
     }
     return 2;
 }

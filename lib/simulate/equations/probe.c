@@ -220,7 +220,7 @@ void probe_tangents(Probe *probe, const RowValues *row, const RowValues *errors,
     mem_free(off);
 }
 
-void probe_tangents_beside(Probe *probe, const RowValues *row, uint64_t seed, Tangents *tangents)
+void probe_tangents_perturbed(Probe *probe, const RowValues *row, uint64_t seed, Tangents *tangents)
 {
     const int count = program_input_count(residual_program(probe->residual));
     double *inputs = NEW_ARRAY(double, count);

@@ -97,7 +97,8 @@ void probe_tangents(Probe *probe, const RowValues *row, const RowValues *errors,
 /* The same, without errors, with every number perturbed at random by up to four units in its last
  * place; equal seeds give equal perturbations. Results that are rounding error change, others
  * don't. */
-void probe_tangents_beside(Probe *probe, const RowValues *row, uint64_t seed, Tangents *tangents);
+void probe_tangents_perturbed(Probe *probe, const RowValues *row, uint64_t seed,
+                              Tangents *tangents);
 /* index of a symbol among the inputs of its program; -1: no root contains it */
 int probe_place(const Probe *probe, Expr symbol);
 

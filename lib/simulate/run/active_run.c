@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define POOL   1024 /* bytes: size of a chunk of names and times */
-#define PLACES 16   /* rows at which these are evaluated, */
-#define BESIDE 4    /* with so many perturbations each */
+#define POOL          1024 /* bytes: size of a chunk of names and times */
+#define PLACES        16   /* rows at which these are evaluated, */
+#define PERTURBATIONS 4    /* with so many perturbations each */
 
 /* --- construction and destruction --- */
 
@@ -205,7 +205,7 @@ static int compare(const void *a, const void *b)
 }
 
 /* perturbations of row i by the tolerance, with random signs */
-static void add_beside(const ActiveRun *r, int i, uint64_t *random, Grid *out)
+static void add_perturbed(const ActiveRun *r, int i, uint64_t *random, Grid *out)
 {
     const Grid *grid = &r->result->grid;
     const RunReport *monitor_report = &r->result->monitor_report;
@@ -213,7 +213,7 @@ static void add_beside(const ActiveRun *r, int i, uint64_t *random, Grid *out)
     const double *magnitude_bound = compiled_equations(phase->numbers)->magnitude_bound;
     double *y = NEW_ARRAY(double, phase->length);
 
-    for (int turn = 0; turn <= BESIDE; turn++) {
+    for (int turn = 0; turn <= PERTURBATIONS; turn++) {
         memcpy(y, grid_row(grid, i), (size_t)phase->length * sizeof(double));
         for (int k = 0; turn > 0 && k < variable_index_references(phase->layout); k++)
             y[k] += copysign(monitor_report->atol +
@@ -255,27 +255,27 @@ static Status find_energy_error_floor(ActiveRun *r, EnergyErrorFloor *out, Diag 
 {
     const int rows = r->result->grid.count, count = rows < PLACES ? rows : PLACES;
     const Driven none = {0};
-    double values[PLACES * (1 + BESIDE)][2], energy[PLACES], power[PLACES];
+    double values[PLACES * (1 + PERTURBATIONS)][2], energy[PLACES], power[PLACES];
     uint64_t random = 1;
-    Grid beside = {0};
+    Grid perturbed = {0};
     Status status = OK;
 
     for (int i = 0; i < count; i++)
-        add_beside(r, (int)((int64_t)rows * i / count), &random, &beside);
-    CHECK(phases_ask(r->phases, &beside, &none, 0, ask_energies, r, 2, values[0], diag));
+        add_perturbed(r, (int)((int64_t)rows * i / count), &random, &perturbed);
+    CHECK(phases_ask(r->phases, &perturbed, &none, 0, ask_energies, r, 2, values[0], diag));
     for (int i = 0; i < count; i++) {
-        const int row = i * (1 + BESIDE);
-        const double(*at)[2] = values + row, there = power_at(r, &beside, row);
+        const int row = i * (1 + PERTURBATIONS);
+        const double(*at)[2] = values + row, there = power_at(r, &perturbed, row);
 
         energy[i] = power[i] = 0;
-        for (int turn = 1; turn <= BESIDE; turn++) {
+        for (int turn = 1; turn <= PERTURBATIONS; turn++) {
             energy[i] = fmax(energy[i], fabs(at[turn][0] - at[0][0] + at[turn][1] - at[0][1]));
-            power[i] = fmax(power[i], fabs(power_at(r, &beside, row + turn) - there));
+            power[i] = fmax(power[i], fabs(power_at(r, &perturbed, row + turn) - there));
         }
     }
     *out = (EnergyErrorFloor){upper_quartile(energy, count), upper_quartile(power, count)};
 done:
-    grid_free(&beside);
+    grid_free(&perturbed);
     return status;
 }
 

@@ -47,15 +47,15 @@ static double largest_difference(const ActiveRun *r, const Grid *a, int first, c
     double largest = 0;
 
     for (int i = first, j = 0; i < a->count && j < b->count;) {
-        double behind = a->times[i] - b->times[j];
-        int length = behind == 0 && a->phase[i] == b->phase[j]
+        double delay = a->times[i] - b->times[j];
+        int length = delay == 0 && a->phase[i] == b->phase[j]
                          ? variable_index_references(r->phases->at[a->phase[i]]->layout)
                          : 0;
 
         for (int k = 0; k < length; k++)
             largest = fmax(largest, fabs(grid_row(a, i)[k] - grid_row(b, j)[k]));
-        i += behind <= 0;
-        j += behind >= 0;
+        i += delay <= 0;
+        j += delay >= 0;
     }
     return largest;
 }

@@ -35,7 +35,7 @@ void pace_wait(Pace *pace, double t, const CallMonitor *watch)
         pace->worst_at = pace->before;
     }
     pace->late += took > length;
-    pace->behind = fmax(pace->behind, now - due);
+    pace->delay = fmax(pace->delay, now - due);
     while ((left = due - clock_now()) > 0 && monitor_poll(watch) == OK)
         sleep_for(fmin(left, PACE_CHECK));
     pace->last = clock_now();

@@ -16,7 +16,7 @@ typedef struct Pace {
     double last, before; /* likewise at the start of the current step */
     /* what comes out */
     double worst, worst_at; /* longest duration of a step over its length; its time, s */
-    double behind;          /* largest delay against the clock at the end of a step, s */
+    double delay;           /* largest delay against the clock at the end of a step, s */
     int64_t late;           /* steps that took longer than their length */
 } Pace;
 

@@ -7,15 +7,15 @@
 
 #include <string.h>
 
-#define UNSOLVED 3    /* times that a value has to be the same */
-#define FAR      1e3  /* what isn't known is taken up to this, of either sign */
-#define FEW      100  /* unknowns up to which radau's dense factors beat bdf's */
-#define OPEN     10   /* exponents that tolerances move by more than this could be anything, */
-#define UNTOLD   1e3  /* and by this, so could states that such exponents act on, */
-#define HISTORY  1e2  /* or by this in methods with a history, which see less of a short way: */
-#define STIFFER  1e2  /* times by which these change more than where all elements conduct */
-#define BLOCKED  1e-6 /* slope of an element that blocks, */
-#define CONDUCTS 1e15 /* and of one that conducts */
+#define UNSOLVED     3    /* times that a value has to be the same */
+#define FAR          1e3  /* what isn't known is taken up to this, of either sign */
+#define FEW          100  /* unknowns up to which radau's dense factors beat bdf's */
+#define OPEN         10   /* exponents that tolerances move by more than this could be anything, */
+#define UNDETERMINED 1e3  /* and by this, so could states that such exponents act on, */
+#define HISTORY      1e2  /* or by this in methods with a history, which see less of a short way: */
+#define STIFFER      1e2  /* times by which these change more than where all elements conduct */
+#define BLOCKED      1e-6 /* slope of an element that blocks, */
+#define CONDUCTS     1e15 /* and of one that conducts */
 
 static bool *copy_sides(const bool *closed, int count)
 {
@@ -204,8 +204,8 @@ static Openness find_openness(const Phase *phase, double t, const double *y, con
     return out;
 }
 
-static Status refuse_untold(const Phase *phase, double t, const Openness *open,
-                            const Method *method, Diag *diag)
+static Status refuse_undetermined(const Phase *phase, double t, const Openness *open,
+                                  const Method *method, Diag *diag)
 {
     const Method *coupled = phase_coupled_method(phase);
     const char *variable = stiff_elements_variable(phase->stiff_elements, open->element);
@@ -237,10 +237,10 @@ Status phase_choose_method(const Phase *phase, double t, const double *y, const 
     onset_leave_open(phase->onset, coupled != NULL && open.most > OPEN);
     if (*method == NULL && open.most > OPEN)
         *method = coupled;
-    if (open.most > (*method != NULL && (*method)->has_history ? HISTORY : UNTOLD) &&
+    if (open.most > (*method != NULL && (*method)->has_history ? HISTORY : UNDETERMINED) &&
         open.state >= 0 && (coupled == NULL || *method != coupled))
-        return refuse_untold(phase, t, &open,
-                             *method != NULL ? *method : method_for((MethodNeed){0}), diag);
+        return refuse_undetermined(phase, t, &open,
+                                   *method != NULL ? *method : method_for((MethodNeed){0}), diag);
     return OK;
 }
 
