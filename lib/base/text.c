@@ -239,3 +239,22 @@ size_t text_character(const char *text)
         return 0;
     return length;
 }
+
+void suggest_hint(const Suggest *suggest, Diag *diag)
+{
+    if (suggest->best != NULL)
+        diag_hint(diag, "did you mean '%s'?", suggest->best);
+}
+
+void suggest_or_hint(const Suggest *suggest, Diag *diag, const char *format, ...)
+{
+    Text hint = {0};
+    va_list args;
+
+    va_start(args, format);
+    text_addv(&hint, format, args);
+    va_end(args);
+    diag_hint(diag, "%s", hint.at);
+    suggest_hint(suggest, diag);
+    text_free(&hint);
+}

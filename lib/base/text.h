@@ -49,5 +49,9 @@ typedef struct Suggest {
 } Suggest;
 Suggest suggest_for(const char *word);
 void suggest_offer(Suggest *suggest, const char *candidate);
+/* "did you mean 'best'?" as the hint of the message; none where nothing is near */
+void suggest_hint(const Suggest *suggest, Diag *diag);
+/* the same, or this hint where nothing is near */
+void suggest_or_hint(const Suggest *suggest, Diag *diag, const char *format, ...) PRINTF(3, 4);
 
 #endif

@@ -180,6 +180,14 @@ bool tree_has(const Tree *tree, int edge)
     return tree->standing[edge] != STANDING_CHORD;
 }
 
+bool tree_has_branches_of(const Tree *tree, const Tree *other)
+{
+    for (int e = 0; e < graph_edge_count(tree->graph); e++)
+        if (tree_has(tree, e) != tree_has(other, e))
+            return false;
+    return true;
+}
+
 bool tree_was_completed(const Tree *tree, int edge)
 {
     return tree->standing[edge] == STANDING_COMPLETED;

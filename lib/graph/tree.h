@@ -42,6 +42,7 @@ void tree_free(Tree *tree); /* NULL is fine */
 TreeKind tree_kind(const Tree *tree);
 const Graph *tree_graph(const Tree *tree);
 bool tree_has(const Tree *tree, int edge);
+bool tree_has_branches_of(const Tree *tree, const Tree *other); /* of the same graph */
 /* a branch that is neither chosen nor an arm */
 bool tree_was_completed(const Tree *tree, int edge);
 int tree_branch_count(const Tree *tree);

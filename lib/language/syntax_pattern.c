@@ -122,10 +122,7 @@ static Status check_word(const Parser *parser, const Verb *verb, const Token *to
     }
     (void)diag_at(parser->diag, E_SYNTAX, token->place, "'%s' knows no '%s'", verb->name,
                   token->text);
-    if (suggest.best != NULL)
-        diag_hint(parser->diag, "did you mean '%s'?", suggest.best);
-    else
-        diag_hint(parser->diag, "it takes: %s", list.at);
+    suggest_or_hint(&suggest, parser->diag, "it takes: %s", list.at);
     text_free(&list);
     return E_SYNTAX;
 }
@@ -488,10 +485,7 @@ static Status check_key(const Parser *parser, const Verb *verb)
     }
     (void)diag_at(parser->diag, E_NAME, token->place, "'%s' has no key '%s'", verb->name,
                   token->text);
-    if (suggest.best != NULL)
-        diag_hint(parser->diag, "did you mean '%s'?", suggest.best);
-    else
-        diag_hint(parser->diag, "its keys:%s", list.at != NULL ? list.at : " none");
+    suggest_or_hint(&suggest, parser->diag, "its keys:%s", list.at != NULL ? list.at : " none");
     text_free(&list);
     return E_NAME;
 }

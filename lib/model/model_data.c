@@ -204,10 +204,8 @@ static Status find_column(DataReader *r, const Cells *cells, bool named)
     }
     (void)diag_at(r->diag, E_NAME, r->column_place, "no column of %s is called '%s'", r->file,
                   r->column);
-    if (suggest.best != NULL)
-        diag_hint(r->diag, "did you mean '%s'?", suggest.best);
-    else
-        diag_hint(r->diag, named ? "its first row names them" : "its first row doesn't name them");
+    suggest_or_hint(&suggest, r->diag,
+                    named ? "its first row names them" : "its first row doesn't name them");
     return E_NAME;
 }
 

@@ -339,10 +339,8 @@ static Status whole_resolve(const char *path, int primes, unsigned allow, Place 
         for (int i = 0; i < COUNT(model_variables); i++)
             suggest_offer(&suggest, model_variables[i].name);
         (void)diag_at(diag, E_NAME, place, "unknown variable '%s'", path);
-        if (suggest.best != NULL)
-            diag_hint(diag, "did you mean '%s'?", suggest.best);
-        else
-            diag_hint(diag, "such as energy.total, model.n, constraint.error, count.mass.add");
+        suggest_or_hint(&suggest, diag,
+                        "such as energy.total, model.n, constraint.error, count.mass.add");
         return E_NAME;
     }
     if (!(allow & ALLOW_MODEL))
@@ -409,10 +407,7 @@ static Status inside_unknown(const State *state, const char *path, const char *u
         if (name_is_inside(state_name_at(state, i), use))
             suggest_offer(&suggest, state_name_at(state, i));
     (void)diag_at(diag, E_NAME, place, "nothing in %s is called %s", use, path + strlen(use) + 1);
-    if (suggest.best != NULL)
-        diag_hint(diag, "did you mean '%s'?", suggest.best);
-    else
-        diag_hint(diag, "'info %s' lists what is there", use);
+    suggest_or_hint(&suggest, diag, "'info %s' lists what is there", use);
     return E_NAME;
 }
 

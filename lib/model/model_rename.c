@@ -138,8 +138,7 @@ static Status not_seen(const ModelRenameRenaming *r, const char *name, Place pla
     for (int i = 0; i < use_of(r)->subsystem->port_count; i++)
         suggest_offer(&suggest, use_of(r)->subsystem->ports[i].name);
     (void)diag_at(r->diag, E_NAME, place, "unknown name '%s' in %s", name, definition);
-    if (suggest.best != NULL)
-        diag_hint(r->diag, "did you mean '%s'?", suggest.best);
+    suggest_hint(&suggest, r->diag);
     return E_NAME;
 }
 

@@ -102,11 +102,9 @@ static Status not_a_frame(const PartDraft *draft, const char *name, Place place)
         if (part_is_frame(state->parts.at[i]))
             suggest_offer(&suggest, state->parts.at[i]->name);
     suggest_offer(&suggest, "ground");
-    if (suggest.best != NULL)
-        diag_hint(draft->diag, "did you mean '%s'?", suggest.best);
-    else
-        diag_hint(draft->diag, "frames are ground, bodies and arms; arm %s BODY [x, y] makes one",
-                  thing == NULL ? name : "NAME");
+    suggest_or_hint(&suggest, draft->diag,
+                    "frames are ground, bodies and arms; arm %s BODY [x, y] makes one",
+                    thing == NULL ? name : "NAME");
     text_free(&what);
     return E_NAME;
 }

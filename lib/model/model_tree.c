@@ -219,8 +219,7 @@ static Status edge_unknown(const Request *request, const char *name, Place place
     for (int e = 0; e < graph_edge_count(graph); e++)
         suggest_offer(&suggest, graph_edge(graph, e)->name);
     (void)diag_at(request->diag, E_NAME, place, "unknown edge '%s'", name);
-    if (suggest.best != NULL)
-        diag_hint(request->diag, "did you mean '%s'?", suggest.best);
+    suggest_hint(&suggest, request->diag);
     return E_NAME;
 }
 

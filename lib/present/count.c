@@ -82,11 +82,9 @@ Status count_block(System *system, Form form, const char *name, bool shared, OpC
     for (int i = 0; count_block_name(i) != NULL; i++)
         suggest_offer(&suggest, count_block_name(i));
     diag_set(diag, E_NAME, "no block of equations is called '%s'", name);
-    if (suggest.best != NULL)
-        diag_hint(diag, "did you mean '%s'?", suggest.best);
-    else
-        diag_hint(diag, "one of mass forces constraints jacobian velocity acceleration network "
-                        "network_rhs total");
+    suggest_or_hint(&suggest, diag,
+                    "one of mass forces constraints jacobian velocity acceleration network "
+                    "network_rhs total");
     return E_NAME;
 }
 

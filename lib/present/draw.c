@@ -54,14 +54,6 @@ static void draw_below(GraphDrawing *drawing, int node)
     }
 }
 
-static bool same_branches(const Tree *a, const Tree *b, const Graph *graph)
-{
-    for (int e = 0; e < graph_edge_count(graph); e++)
-        if (tree_has(a, e) != tree_has(b, e))
-            return false;
-    return true;
-}
-
 static void draw_chords(GraphDrawing *drawing)
 {
     const int *chords = tree_chords(drawing->tree);
@@ -86,7 +78,7 @@ Status draw_text(const View *view, Text *out, Diag *diag)
 
     TRY(view_trees(view, trees, diag));
     both = trees[TREE_TRANSLATION] != NULL && trees[TREE_ROTATION] != NULL &&
-           same_branches(trees[TREE_TRANSLATION], trees[TREE_ROTATION], graph);
+           tree_has_branches_of(trees[TREE_TRANSLATION], trees[TREE_ROTATION]);
     for (int k = 0; k < TREE_KINDS; k++) {
         GraphDrawing drawing = {
             .view = view, .graph = graph, .tree = trees[k], .out = out, .stem = {0}};

@@ -49,14 +49,6 @@ static const Dash dashes[DOMAIN_COUNT] = {DASH_NONE,   DASH_LONG, DASH_DOTS,
 
 /* --- what is drawn --- */
 
-static bool same_branches(const Graph *graph, const Tree *a, const Tree *b)
-{
-    for (int e = 0; e < graph_edge_count(graph); e++)
-        if (tree_has(a, e) != tree_has(b, e))
-            return false;
-    return true;
-}
-
 static bool is_lit_in(const GraphPicture *picture, const Tree *tree)
 {
     return picture->lit == LIT_NOTHING ||
@@ -90,8 +82,7 @@ static Status find_edge(GraphPicture *picture, const char *name, Diag *diag)
     for (int e = 0; e < graph_edge_count(picture->graph); e++)
         suggest_offer(&suggest, graph_edge(picture->graph, e)->name);
     (void)diag_set(diag, E_NAME, "there is no edge '%s'", name);
-    if (suggest.best != NULL)
-        diag_hint(diag, "did you mean '%s'?", suggest.best);
+    suggest_hint(&suggest, diag);
     return E_NAME;
 }
 
@@ -136,7 +127,7 @@ static Status add_panels(GraphPicture *picture, Diag *diag)
     TRY(add_boxes(picture, diag));
 
     const bool both = trees[TREE_TRANSLATION] != NULL && trees[TREE_ROTATION] != NULL &&
-                      same_branches(picture->graph, trees[TREE_TRANSLATION], trees[TREE_ROTATION]);
+                      tree_has_branches_of(trees[TREE_TRANSLATION], trees[TREE_ROTATION]);
 
     for (int k = 0; k < TREE_KINDS; k++) {
         Panel *panel = &picture->panels[picture->count];

@@ -450,13 +450,10 @@ Status info_print(const View *view, const char *name, Place place, Text *out, Di
     for (int i = 0; (candidate = model_name(view->model, i)) != NULL; i++)
         suggest_offer(&suggest, candidate);
     diag_at(diag, E_NAME, place, "nothing is called '%s'", name);
-    if (suggest.best != NULL)
-        diag_hint(diag, "did you mean '%s'?", suggest.best);
-    else
-        diag_hint(diag,
-                  "'show graph' and 'show params' list the names of the model, 'help %s' may "
-                  "know the word",
-                  name);
+    suggest_or_hint(&suggest, diag,
+                    "'show graph' and 'show params' list the names of the model, 'help %s' may "
+                    "know the word",
+                    name);
     return E_NAME;
 }
 

@@ -234,11 +234,9 @@ static Status take_output_or_input(const View *view, const Topic *topic, const O
     if (found == 0) {
         status = diag_at(diag, E_NAME, operand->place, "%s is no %s of the last linearisation",
                          name, what);
-        if (suggest.best != NULL)
-            diag_hint(diag, "did you mean '%s'?", suggest.best);
-        else
-            diag_hint(diag, "'show transfer' takes an output, then an input: show transfer %s %s",
-                      linear->output_names[0], linear->input_names[0]);
+        suggest_or_hint(&suggest, diag,
+                        "'show transfer' takes an output, then an input: show transfer %s %s",
+                        linear->output_names[0], linear->input_names[0]);
         goto done;
     }
     selection->numbers[selection->number_count++] = found;
@@ -287,10 +285,7 @@ static Status take_name(const View *view, const Topic *topic, const Operand *ope
         for (int i = 0; i < graph_edge_count(model_graph(view->model)); i++)
             suggest_offer(&suggest, graph_edge(model_graph(view->model), i)->name);
         diag_at(diag, E_NAME, operand->place, "no edge is called '%s'", name);
-        if (suggest.best != NULL)
-            diag_hint(diag, "did you mean '%s'?", suggest.best);
-        else
-            diag_hint(diag, "'show edges' lists them");
+        suggest_or_hint(&suggest, diag, "'show edges' lists them");
         return E_NAME;
     }
     names[selection->name_count++] = name;

@@ -271,10 +271,7 @@ static Status find_terminal(const View *view, const Syntax *syntax, Domain *doma
     diag_at(diag, E_NAME, syntax->place,
             node >= 0 ? "'%s' is a frame, not a terminal" : "no terminal is called '%s'",
             is_name ? syntax->text : "...");
-    if (suggest.best != NULL)
-        diag_hint(diag, "did you mean '%s'?", suggest.best);
-    else
-        diag_hint(diag, "'show nodes' lists them");
+    suggest_or_hint(&suggest, diag, "'show nodes' lists them");
     return E_NAME;
 }
 

@@ -70,10 +70,7 @@ static Status find_output(const Bode *bode, const Operand *operand, int *out, Di
     }
     status =
         diag_at(diag, E_NAME, operand->place, "%s is no output of the last linearisation", name);
-    if (suggest.best != NULL)
-        diag_hint(diag, "did you mean '%s'?", suggest.best);
-    else
-        diag_hint(diag, "linearize inputs=[V1] outputs=[%s]", name);
+    suggest_or_hint(&suggest, diag, "linearize inputs=[V1] outputs=[%s]", name);
 done:
     mem_free(name);
     return status;
