@@ -53,7 +53,7 @@ static const char sampled_step[] =
     "    return status;\n}\n";
 
 /* a step through modes, with sampling instants if there are any */
-void c_step_add_modes(const Code *code, Text *out)
+void c_step_add_modes(const Code *code, const Language *language, Text *out)
 {
     static const char name[] = "int model_step(";
 
@@ -63,12 +63,12 @@ void c_step_add_modes(const Code *code, Text *out)
         else
             text_add(out, *line);
     if (code_is_sampled(code))
-        code_fill(code, &language_c, sampled_step, out);
+        code_fill(code, language, sampled_step, out);
 }
 
-void c_step_add(const Code *code, Text *out)
+void c_step_add(const Code *code, const Language *language, Text *out)
 {
-    code_fill(code, &language_c, step, out);
+    code_fill(code, language, step, out);
     if (code_is_sampled(code) && !code_has_modes(code))
-        code_fill(code, &language_c, sampled_step, out);
+        code_fill(code, language, sampled_step, out);
 }

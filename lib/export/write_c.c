@@ -681,10 +681,10 @@ static void write_file(const Code *code, const Language *language, Text *out)
         add_modes(code, out);
     add_rows(code, out);
     code_fill(code, language, projection, out);
-    c_step_add(code, out);
+    c_step_add(code, language, out);
     if (code_has_modes(code)) {
         text_add(out, "\n#ifdef MODEL_CHECK\n#include <stdio.h>\n#endif\n");
-        c_step_add_modes(code, out);
+        c_step_add_modes(code, language, out);
     }
     if (code->inverse != NULL)
         add_inverse(code, out);
