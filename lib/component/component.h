@@ -297,6 +297,7 @@ struct Component {
     /* PLACES_JOINT, PLACES_JOINTS: rows of the same name on terminals, one a domain; NULL at the
      * end. NULL: none */
     const struct Component *const *variants;
+    bool sticks; /* dry friction, which a run holds at rest */
     Family family;
     Domain domain; /* of its scalar edge, or MECHANICAL */
     Places places;

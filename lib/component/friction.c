@@ -174,9 +174,9 @@ static Status oneway_check(const Instance *instance, Arena *arena, bool planar, 
 /* a part on terminals of a shaft or slide */
 #define ON_TERMINALS(row, domain_of, law, check_of)                                                \
     {                                                                                              \
-        .name = #row, .family = FAMILY_SCALAR, .domain = domain_of, .places = PLACES_TERMINALS,    \
-        .params = row##_params, .param_count = COUNT(row##_params), .translation = BRANCH_MAY,     \
-        .preference = 30, .relation = law, .check = check_of                                       \
+        .name = #row, .sticks = true, .family = FAMILY_SCALAR, .domain = domain_of,                \
+        .places = PLACES_TERMINALS, .params = row##_params, .param_count = COUNT(row##_params),    \
+        .translation = BRANCH_MAY, .preference = 30, .relation = law, .check = check_of            \
     }
 #define VARIANTS(row, law, check_of)                                                               \
     static const Component row##_shaft = ON_TERMINALS(row, DOMAIN_SHAFT, law, check_of);           \
@@ -191,6 +191,7 @@ VARIANTS(oneway, oneway_relation, oneway_check)
 
 const Component component_friction = {
     .name = "friction",
+    .sticks = true,
     .family = FAMILY_FORCE,
     .domain = DOMAIN_MECHANICAL,
     .places = PLACES_JOINT,
@@ -216,6 +217,7 @@ const Component component_friction = {
 
 const Component component_brake = {
     .name = "brake",
+    .sticks = true,
     .family = FAMILY_FORCE,
     .domain = DOMAIN_MECHANICAL,
     .places = PLACES_JOINT,
@@ -237,6 +239,7 @@ const Component component_brake = {
 
 const Component component_clutch = {
     .name = "clutch",
+    .sticks = true,
     .family = FAMILY_FORCE,
     .domain = DOMAIN_MECHANICAL,
     .places = PLACES_JOINTS,
@@ -259,6 +262,7 @@ const Component component_clutch = {
 
 const Component component_oneway = {
     .name = "oneway",
+    .sticks = true,
     .family = FAMILY_FORCE,
     .domain = DOMAIN_MECHANICAL,
     .places = PLACES_JOINTS,

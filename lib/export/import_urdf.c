@@ -338,6 +338,19 @@ static const char *axis_of(Urdf *u, const Joint *joint, const char *key)
     return import_text(u->import, "%s=%s", key, vector(u, joint->axis));
 }
 
+static void write_friction(Urdf *u, const Joint *joint, int line, double friction, double damping)
+{
+    const char *key = joint->kind == REVOLUTE ? "torque" : "force";
+    const char *name = own_name(u, joint->name, "friction");
+    const char *bound = import_number(u->import, friction);
+
+    if (damping == 0)
+        import_add(u->import, line, "friction %s %s %s=%s", name, joint->name, key, bound);
+    else
+        import_add(u->import, line, "friction %s %s %s=%s viscous=%s", name, joint->name, key,
+                   bound, import_number(u->import, damping));
+}
+
 /* properties of a joint other than its freedom */
 static Status write_extras(Urdf *u, const Joint *joint)
 {
@@ -357,14 +370,12 @@ static Status write_extras(Urdf *u, const Joint *joint)
         text_free(&text);
         u->limits++;
     }
-    if (damping != 0 && (joint->kind == REVOLUTE || joint->kind == PRISMATIC))
+    if (friction != 0 && (joint->kind == REVOLUTE || joint->kind == PRISMATIC))
+        write_friction(u, joint, dynamics->line, friction, damping);
+    else if (damping != 0 && (joint->kind == REVOLUTE || joint->kind == PRISMATIC))
         import_add(u->import, dynamics->line, "damper %s %s d=%s",
                    own_name(u, joint->name, "damper"), joint->name,
                    import_number(u->import, damping));
-    if (friction != 0)
-        import_leave(u->import, dynamics->line, false,
-                     import_text(u->import, "friction of %s", joint->name),
-                     "there is no dry friction");
     return OK;
 }
 

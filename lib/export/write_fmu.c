@@ -251,6 +251,23 @@ static const char *binary_place(int version)
 #endif
 }
 
+/* An FMU follows the sides of diodes and of laws, but none that a motion is held between. */
+static Status check_friction(const Model *model, Diag *diag)
+{
+    for (int i = 0; i < model_count(model); i++) {
+        const Instance *part = model_instance(model, i);
+
+        if (!part->row->sticks)
+            continue;
+        (void)diag_set(diag, E_MODEL, "%s %s sticks at rest, which an FMU does not follow",
+                       part->row->name, part->name);
+        diag_hint(diag, "an actuator or a source with a steep but continuous law, such as "
+                        "-2*tanh(h1'/0.001), creeps instead");
+        return E_MODEL;
+    }
+    return OK;
+}
+
 static Status pack(const Exported *what, Archive **out, Diag *diag)
 {
     Code *code = NULL;
@@ -260,6 +277,7 @@ static Status pack(const Exported *what, Archive **out, Diag *diag)
 
     if (what->inverse != NULL)
         return diag_set(diag, E_MODEL, "an FMU goes forward: efforts of drivers come as code");
+    TRY(check_friction(what->view.model, diag));
     TRY(code_new(what, true, &code, diag));
     archive = NEW(Archive);
     archive->binary = binary_place(what->version);

@@ -18,7 +18,8 @@ cat >arm.urdf <<END
     <origin xyz="0 0 0.1" rpy="0 -1.5707963268 0.5"/><axis xyz="0 -1 0"/>
     <limit lower="-1" upper="1" effort="5" velocity="1"/><dynamics damping="0.1"/></joint>
   <joint name="tool" type="fixed"><parent link="upper arm"/><child link="1"/><origin xyz="0 0 1"/></joint>
-  <joint name="slide" type="prismatic"><parent link="1"/><child link="finger"/><axis xyz="1 0 0"/></joint>
+  <joint name="slide" type="prismatic"><parent link="1"/><child link="finger"/><axis xyz="1 0 0"/>
+    <dynamics damping="2" friction="0.3"/></joint>
   <joint name="turn" type="revolute"><parent link="1"/><child link="thumb"/>
     <mimic joint="slide" multiplier="2" offset="-0.1"/></joint>
   <transmission name="t"/>
