@@ -15,6 +15,7 @@
  * differentiation is no help against oscillation. */
 #include "simulate/integrate/dop853_impl.h"
 
+#include "base/four.h"
 #include "simulate/integrate/integrate_limits.h"
 
 #include <math.h>
@@ -87,32 +88,51 @@ static double fastest_rate(const Dop853 *d, double h)
     return points > 0 ? h * sqrt(rates / points) : 0;
 }
 
-/* The largest part of itself by which an entry of y' has changed in the step just taken, among
- * entries that y' changes by more than a tolerance. The size of an entry is the largest in recent
- * steps, since it may pass through 0. */
-static double rate_change(Dop853 *d, double h)
+/* The size of an entry of y' is the largest in recent steps, since it may pass through 0. */
+AS_WIDE_AS_CAN_BE static void update_peaks(Dop853 *d)
 {
-    double most = 0;
+    const FourTruths size = {INT64_MAX, INT64_MAX, INT64_MAX, INT64_MAX}; /* all but the sign */
+    const double *const before = d->k[0], *const after = d->k[ROW_END];
+    int i = 0;
 
-    for (int i = 0; i < d->n; i++) {
-        const double before = d->k[0][i], after = d->k[ROW_END][i];
-        const double change = fabs(after - before);
+    for (; i + 4 <= d->n; i += 4) {
+        Four *const peak = (Four *)(d->peak + i);
+        const Four one = (Four)((FourTruths)(*(const Four *)(before + i)) & size);
+        const Four other = (Four)((FourTruths)(*(const Four *)(after + i)) & size);
 
-        d->peak[i] = fmax(DOP853_PEAK_DECAY * d->peak[i], fmax(fabs(before), fabs(after)));
-        if (h * change > d->scale[i])
-            most = fmax(most, change / d->peak[i]);
+        const FourTruths second = other > one;
+        const Four larger = (Four)(((FourTruths)other & second) | ((FourTruths)one & ~second));
+        const Four decayed = DOP853_PEAK_DECAY * *peak;
+        const FourTruths grows = larger > decayed;
+
+        *peak = (Four)(((FourTruths)larger & grows) | ((FourTruths)decayed & ~grows));
     }
-    return most;
+    for (; i < d->n; i++)
+        d->peak[i] = fmax(DOP853_PEAK_DECAY * d->peak[i], fmax(fabs(before[i]), fabs(after[i])));
+}
+
+/* Whether every entry of y' has changed in the step just taken by less than a part `most` of its
+ * size, of those that this changes y by more than a tolerance. O(n), mostly less if it hasn't. */
+static bool rates_hardly_change(const Dop853 *d, double h, double most)
+{
+    for (int i = 0; i < d->n; i++) {
+        const double change = fabs(d->k[ROW_END][i] - d->k[0][i]);
+
+        if (h * change > d->scale[i] && change / d->peak[i] >= most)
+            return false;
+    }
+    return true;
 }
 
 static void count_stiff_step(Dop853 *d, double h, double error)
 {
-    const double fast = fastest_rate(d, h), change = rate_change(d, h);
+    const double fast = fastest_rate(d, h);
 
+    update_peaks(d);
     if (fast > DOP853_STIFF_BOUNDARY)
         d->stiffness.steps++;
     else if (fast > DOP853_FAST && error > DOP853_LIMITED &&
-             change < DOP853_SMOOTH * sqrt(sqrt(d->base.control.rtol)))
+             rates_hardly_change(d, h, DOP853_SMOOTH * sqrt(sqrt(d->base.control.rtol))))
         d->stiffness.sum += fast;
     else {
         if (++d->stiffness.calm >= DOP853_CALM_COUNT)
