@@ -471,7 +471,8 @@ static const char *pusher_that_reads(System *system, int j, int k)
     return "a load";
 }
 
-/* a law that transmits accelerations in one direction only would make M unsymmetric */
+/* E_MODEL where M is not symmetric at random points: a force reads an acceleration without acting
+ * along it. */
 static Status check_symmetry(System *system, Diag *diag)
 {
     int n = system->kinematics->u.count;

@@ -146,7 +146,8 @@ static Vec chord_reaction(System *system, const Instance *joint, bool rotation)
     return sum;
 }
 
-/* everything beyond the branch and the joint itself are in equilibrium */
+/* The force, or the moment with `rotation`, that a branch carries from its tail to its head. It
+ * balances all loads and inertia beyond the branch, whose sums are known at its far node. */
 Vec branch_reaction(const System *system, const Instance *instance, const Sums *sums, bool rotation,
                     int *chain)
 {

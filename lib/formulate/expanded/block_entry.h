@@ -4,7 +4,8 @@
 
 #include "formulate/system/system.h"
 
-/* an entry as shown, with symbols for full turns */
+/* An entry as shown: formed at the first request and cached in the view. Whole turns of multi-turn
+ * angles are still symbols; system_show() replaces them. */
 MUST_USE Status show_entry(System *system, Block block, int row, int column, Expr *out, Diag *diag);
 
 #endif

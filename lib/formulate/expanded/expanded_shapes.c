@@ -16,7 +16,9 @@ static int shape_of(const System *system, const Elastic *elastic, int j)
     return i >= 0 && i < part->coord_count - part->pose_count ? i : -1;
 }
 
-/* the load that a unit of u'_k needs on the root, and on speed j as a shape */
+/* Adds the terms of M_jk of an elastic part: with v, w the partial velocity of its root and its
+ * partial angular velocity, v_j . m v_k + v_j . (w_k x S) + v_k . (w_j x S) + w_j . J w_k, and
+ * those of shapes where j or k is the speed of one. */
 void elastic_mass_terms(const System *system, const Elastic *elastic, int j, int k, Summands *terms)
 {
     Arena *arena = system->arena;

@@ -1,5 +1,8 @@
-/* circuits.h: rows of constraints that say where frames are, DATUM, TAIL and DOT, from
- * the circuits of their chords */
+/* circuits.h: constraint rows of positions and orientations, from the circuits of their chords
+ *
+ *     DATUM, TAIL   n . d = 0       d: vector from the tail of a chord to its head, the sum of the
+ *                                   vectors along its circuit; n: in axes of ground, of the tail
+ *     DOT           a_t . b_h = 0   directions fixed in tail and head */
 #ifndef COTREE_FORMULATE_KINEMATICS_CIRCUITS_H
 #define COTREE_FORMULATE_KINEMATICS_CIRCUITS_H
 

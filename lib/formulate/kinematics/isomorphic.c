@@ -206,7 +206,8 @@ static bool same_names(const Pairing *p)
     return true;
 }
 
-/* nodes are in the order of the tree, which may differ among siblings */
+/* Pairs the nodes of two instances by their names. False where names differ, or a node does not
+ * come after its pair in the order of the tree (that order may differ among siblings). */
 static bool pair_nodes(const Pairing *p)
 {
     const size_t prefix = strlen(p->first->prefix), own = strlen(p->own->prefix);

@@ -33,7 +33,8 @@ static bool is_law(const Branchlike *branch)
             reads_variables(branch->relation.value));
 }
 
-/* a change of its current changes no voltage at once */
+/* whether a branch is of the first kind: a capacitor, a source of voltage, a resistor, or an ideal
+ * switch */
 static bool joins(const Branchlike *branch)
 {
     return !is_law(branch) && branch->relation.kind != RELATION_INDUCTIVE &&

@@ -130,8 +130,9 @@ static void place_entries(ConstrainedElimination *e)
     }
 }
 
-/* Chooses the speeds to eliminate after the rows: none where that leaves a row that others don't
- * determine. */
+/* Classifies speeds and rows for the order of elimination. A border, speeds that are eliminated
+ * after all rows, is used where it pays and where every row still has a speed of its own before it;
+ * otherwise all speeds precede the rows. */
 static void find_classes(ConstrainedElimination *e, const KktPlaces *places)
 {
     bool *late = NEW_ARRAY(bool, e->m);

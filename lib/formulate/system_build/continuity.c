@@ -33,7 +33,8 @@ static double sign_on(const ContinuitySpot *spot, Expr symbol)
     return (mixed >> (15 + spot->which) & 1) != 0 ? 1 : -1;
 }
 
-/* no two symbols have the same size */
+/* A value for each symbol at a point of the test: signs are those of the point, and sizes differ
+ * from symbol to symbol, so that terms don't cancel by chance. */
 static double value_on(void *context, Expr symbol)
 {
     const ContinuitySpot *spot = context;

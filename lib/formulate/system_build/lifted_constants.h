@@ -8,7 +8,8 @@
 
 #include "formulate/system/system.h"
 
-/* Adds them to a System that is being built. */
+/* Replaces numbers in the values of parts by symbols, and adds these and the numbers to the
+ * parameters of a System that is being built. The scene is borrowed and unchanged. */
 void lifted_constants_set(System *system, const Scene *scene);
 
 #endif

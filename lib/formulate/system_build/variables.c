@@ -512,7 +512,8 @@ static bool model_variable(System *system, const char *path, Expr *out)
     return true;
 }
 
-/* Some constraints may be redundant, which only a start can detect. */
+/* The degrees of freedom as a formula. E_MISSING where there are constraints: some may be
+ * redundant, which depends on the initial position. */
 static Status free_speeds(const System *system, Expr *out, Diag *diag)
 {
     if (system->constraints->rows.count > 0) {

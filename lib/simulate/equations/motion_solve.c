@@ -1,4 +1,8 @@
-/* motion_solve.c: accelerations, multipliers and network rates at the current state */
+/* motion_solve.c: accelerations, multipliers and network rates at the current state
+ *
+ *     augmented   [M Phi_u^T; Phi_u 0] [u'; lambda] = [F; gamma]          (kkt.h)
+ *     embedded    [G^T M; Phi_u] u' = [G^T F; gamma] for u_i' alone         (partitioning.h)
+ *     coupled     either with G([x'; z]) = 0, as a fixed point in w = [x'; z] (solve_together()) */
 #include "simulate/equations/motion_impl.h"
 
 #include "algebra/linear.h"

@@ -1,4 +1,11 @@
-/* netsolve.c: solves the network's equations G(w) = 0, w = [x'; z], numerically */
+/* netsolve.c: solves the network's equations G(w) = 0, w = [x'; z], numerically
+ *
+ *     linear      A w = r
+ *     Newton      dG/dw dw = -G, w += s dw; scaled norm |dw|^2 = 1/n sum (dw_i / size_i)^2
+ *     damping     s is halved until the next correction with the same factors is at most
+ *                 (1 - s/4) |dw| (natural monotonicity test, Deuflhard 1974), or else until the
+ *                 weighted residual decreases as much
+ *     continuation  G(w) = (1 - s) G(0) from w = 0: sources rise by factors, s = 1e-16 to 1 */
 #include "simulate/equations/netsolve.h"
 
 #include "algebra/linear.h"

@@ -1,4 +1,9 @@
-/* rate_jacobian.c: E, its derivatives, and the derivatives of rates by each entry of the state */
+/* rate_jacobian.c: derivatives of rates by each entry of the state
+ *
+ * The equations E(w, e) = 0 of rate_jacobian.h in the order of rows.h: balance (nu), acceleration
+ * (m), network (nx + nz). Rows of constraints that aren't in use become lambda_k = 0. E_e is
+ * factored (sparse LU), and each column of -E_w solved for; q', the rates of references and the
+ * power follow from the chain rule. */
 #include "simulate/equations/rate_jacobian.h"
 
 #include "algebra/linear.h"

@@ -107,7 +107,8 @@ static double size_of(const double *first, int count, int stride)
     return largest > 0 ? largest : 1;
 }
 
-/* Scale `a` and `b` by rows to equal size, then `a` by columns to equal size: scale (columns). */
+/* Copies a matrix and a right side to `a` and `b`, each row divided by its size, then each column
+ * of `a` by its own, which is returned in scale (columns): the unknown is x_j / scale_j. */
 static void load(const double *matrix, int rows, int columns, const double *right, gsl_matrix *a,
                  gsl_vector *b, double *scale)
 {

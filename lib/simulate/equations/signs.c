@@ -1,4 +1,9 @@
-/* signs.c: signs on surfaces that a motion slides along */
+/* signs.c: signs on surfaces that a motion slides along
+ *
+ * Newton's method for slip(s) = 0, s (count) the values that replace sign() of each surface, with
+ * difference quotients. Where the derivative is singular the step is the least-squares solution of
+ * least norm, (A^T A + d) x = A^T b with small d and refinement. |s_k| > 1: the motion leaves
+ * surface k. */
 #include "simulate/equations/signs.h"
 
 #include "algebra/linear.h"
