@@ -217,7 +217,8 @@ static void push_wrench(System *system, EnergyTerms *terms, const Instance *inst
          vec_dot(arena, torque, system->kinematics->motions[frame->chain].w));
 }
 
-/* whether to follow the tree, so that terms of two edges may cancel */
+/* whether a sum along the tree has few terms: then it is written out, so that terms of two edges
+ * may cancel */
 static bool is_short(Expr e)
 {
     return expr_kind(e) != EXPR_SUM || expr_arg_count(e) <= SHORT;

@@ -580,7 +580,8 @@ int node_axes(const System *system, int node)
     return system->kinematics->chains.at[system->kinematics->frames[node].chain].resolve;
 }
 
-/* several sums need it, and so do other Systems of the arena */
+/* The vector is a named temporary, found again by its key: several sums contain it, also those of
+ * other Systems in the arena. */
 Vec speed_axis(const System *system, int speed, int axes)
 {
     const OrientationClass *chains = system->kinematics->chains.at;

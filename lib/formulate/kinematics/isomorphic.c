@@ -332,7 +332,7 @@ static void follow(IsomorphicSubsystems *alike, const Pairing *p, int use)
     }
 }
 
-/* inside an instance that follows another already */
+/* whether an instance, or one that contains it, already follows another */
 static bool is_taken(const System *system, const IsomorphicSubsystems *alike, int use)
 {
     for (; use >= 0; use = system->origin->uses[use].outer)

@@ -42,7 +42,7 @@ void isomorphic_keep_way(const Follower *follower, const FirstWay *way);
 /* the follower's attachment moves as `to`, the first's as `from`: takes over the motion inside */
 bool isomorphic_hangs(Follower *follower, Vec from, Vec to);
 bool isomorphic_moves(const Follower *follower); /* possible so far */
-/* nothing else hangs on it or on the first */
+/* whether no part outside is connected to the nodes inside it or inside the first instance */
 bool isomorphic_ends(const Follower *follower);
 
 /* From now on `hole` becomes `value` in what it takes over; false: another value was set before. */

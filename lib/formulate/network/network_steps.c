@@ -11,7 +11,8 @@
 
 #include <string.h>
 
-/* sets the edge's law, for a variable that the law gives */
+/* sets the two sides of the step of an edge's variable, v with `across` and else i, to the edge's
+ * constitutive equation, which determines it */
 static void report_law(const System *system, const Branchlike *branch, bool across,
                        NetworkStep *step)
 {

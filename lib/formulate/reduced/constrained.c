@@ -281,7 +281,8 @@ static bool set_taken(ConstrainedElimination *e, const Constrained *out)
     return has_mass;
 }
 
-/* after the rows have been eliminated */
+/* Completes the diagonal entries of the speeds that are eliminated after the rows: before that they
+ * lack what the elimination of rows adds. */
 static void set_stiff(ConstrainedElimination *e)
 {
     for (int i = e->owns + e->m; i < e->size; i++)

@@ -96,7 +96,8 @@ static int determined_speed(const Substitution *s, int k, const int *left)
     return -1;
 }
 
-/* false: a row remains */
+/* Assigns to each row a speed that it determines and that no other remaining row contains, row
+ * after row. False where rows remain. */
 static bool take_rows(Substitution *s)
 {
     int *left = NEW_ARRAY(int, s->nu); /* rows of a speed */
@@ -304,7 +305,7 @@ static void substitute(Substitution *s, int which)
     MEM_FREE(neighbours, value);
 }
 
-/* substitutes sums that contain it first */
+/* eliminates the sums (pools) that contain a speed, which has to precede that of the speed */
 static void substitute_pools(Substitution *s, int speed)
 {
     for (int i = 0; i < s->unknown[speed].pools.count; i++)

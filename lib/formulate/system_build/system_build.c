@@ -368,7 +368,8 @@ static void add_drives(System *system)
     }
 }
 
-/* multipliers, and the rows of drivers */
+/* Makes a multiplier for each constraint row, and finds the row of each driver: its effort is
+ * -lambda, unless it is known already. */
 static void number_rows(System *system)
 {
     system->constraints->multipliers =

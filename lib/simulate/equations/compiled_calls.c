@@ -38,7 +38,7 @@ static bool articulate(void *context, double *acceleration)
     return nb->is_articulated;
 }
 
-/* what the program has eliminated itself */
+/* u' of a program that eliminates M u' = F itself; false where a pivot is rounding error */
 static bool set_accelerations(void *context, double *acceleration)
 {
     const CompiledEquations *nb = context;
@@ -71,7 +71,7 @@ bool compiled_need_no_mass(const CompiledEquations *nb)
            nb->eliminated_by == ELIMINATED_PRESCRIBED;
 }
 
-/* likewise where all speeds are prescribed */
+/* u' and lambda of such a program where drivers determine all speeds */
 static void set_prescribed(void *context, double *acceleration, double *multiplier)
 {
     const CompiledEquations *nb = context;
@@ -81,7 +81,8 @@ static void set_prescribed(void *context, double *acceleration, double *multipli
     memcpy(multiplier, nb->eliminated_accelerations + nb->layout->nu, size);
 }
 
-/* likewise with multipliers of the rows in use */
+/* whether the pivots of a program that eliminates u' and the multipliers of the rows in use are
+ * more than rounding error */
 static bool constrained_has_pivots(void *context)
 {
     const CompiledEquations *nb = context;

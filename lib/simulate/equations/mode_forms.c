@@ -40,7 +40,7 @@ void mode_forms_free(ModeForms *f)
     mem_free(f);
 }
 
-/* FNV-1a */
+/* key of a mode: FNV-1a hash of the sides of all switches */
 static uint64_t hash_of(const ModeForms *f, const bool *closed)
 {
     uint64_t hash = 14695981039346656037U;

@@ -101,7 +101,8 @@ bool motion_evaluate(Motion *motion, double t, const double *y);
 /* then u', in the form of the run */
 bool motion_solve_rates(Motion *motion);
 
-/* no linear system has to be solved */
+/* whether drivers determine all speeds, so that u' and lambda are explicit and no linear system has
+ * to be solved */
 static inline bool motion_is_prescribed(const Motion *mo)
 {
     return mo->eq->prescribed != NULL && mo->used == mo->eq->m;

@@ -23,7 +23,7 @@ typedef struct RowValues {
 
 /* from t and y */
 RowValues row_of_state(const VariableIndex *layout, double t, const double *y);
-/* and from the solution there */
+/* the same with the solution there: u', lambda, x', z */
 RowValues row_of_solved(const VariableIndex *layout, double t, const double *y,
                         const Solved *solved);
 /* The same with the solution computed now, borrowed until the next call on the motion. False: there
