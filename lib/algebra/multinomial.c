@@ -2,8 +2,8 @@
 #include "algebra/multinomial.h"
 
 #include "base/exact_memory.h"
+#include "base/flint_library.h"
 
-#include <flint/fmpz_mpoly.h>
 #include <string.h>
 
 enum { MOST_PAIRS = 1000000 }; /* of terms that are multiplied at once */
@@ -35,7 +35,7 @@ Ring *ring_new(int variables, int most, const CallMonitor *watch)
     ring->most = most;
     ring->watch = watch;
     ring->all.before = ring->all.after = &ring->all;
-    fmpz_mpoly_ctx_init(ring->context, variables, ORD_LEX);
+    flint.fmpz_mpoly_ctx_init(ring->context, variables, ORD_LEX);
     mpz_init(ring->scratch);
     return ring;
 }
@@ -47,7 +47,7 @@ void ring_free(Ring *ring)
     while (ring->all.after != &ring->all)
         multinomial_free(ring->all.after);
     mpz_clear(ring->scratch);
-    fmpz_mpoly_ctx_clear(ring->context);
+    flint.fmpz_mpoly_ctx_clear(ring->context);
     exact_close(&ring->numbers);
     mem_free(ring);
 }
@@ -61,7 +61,7 @@ static Multinomial *zero(Ring *ring)
 {
     Multinomial *p = NEW(Multinomial);
 
-    fmpz_mpoly_init(p->at, ring->context);
+    flint.fmpz_mpoly_init(p->at, ring->context);
     p->ring = ring;
     p->before = &ring->all;
     p->after = ring->all.after;
@@ -73,7 +73,7 @@ void multinomial_free(Multinomial *p)
 {
     if (p == NULL)
         return;
-    fmpz_mpoly_clear(p->at, p->ring->context);
+    flint.fmpz_mpoly_clear(p->at, p->ring->context);
     p->before->after = p->after;
     p->after->before = p->before;
     mem_free(p);
@@ -102,7 +102,7 @@ static Multinomial *result(Multinomial *p, bool exists)
     if (ring->status == OK && (!exists || multinomial_terms(p) > ring->most))
         ring->status = E_MEMORY;
     if (ring->status != OK)
-        fmpz_mpoly_zero(p->at, ring->context);
+        flint.fmpz_mpoly_set_si(p->at, 0, ring->context);
     return p;
 }
 
@@ -114,9 +114,9 @@ Multinomial *multinomial_integer(Ring *ring, const mpz_t value)
     fmpz_t number;
 
     fmpz_init(number);
-    fmpz_set_mpz(number, value);
-    fmpz_mpoly_set_fmpz(p->at, number, ring->context);
-    fmpz_clear(number);
+    flint.fmpz_set_mpz(number, value);
+    flint.fmpz_mpoly_set_fmpz(p->at, number, ring->context);
+    flint.fmpz_clear(number);
     return result(p, true);
 }
 
@@ -124,7 +124,7 @@ Multinomial *multinomial_small(Ring *ring, long value)
 {
     Multinomial *p = zero(ring);
 
-    fmpz_mpoly_set_si(p->at, value, ring->context);
+    flint.fmpz_mpoly_set_si(p->at, value, ring->context);
     return result(p, true);
 }
 
@@ -132,7 +132,7 @@ Multinomial *multinomial_variable(Ring *ring, int variable)
 {
     Multinomial *p = zero(ring);
 
-    fmpz_mpoly_gen(p->at, variable, ring->context);
+    flint.fmpz_mpoly_gen(p->at, variable, ring->context);
     return result(p, true);
 }
 
@@ -140,7 +140,7 @@ static Multinomial *copy_of(const Multinomial *p)
 {
     Multinomial *out = zero(p->ring);
 
-    fmpz_mpoly_set(out->at, p->at, p->ring->context);
+    flint.fmpz_mpoly_set(out->at, p->at, p->ring->context);
     return out;
 }
 
@@ -156,12 +156,12 @@ bool multinomial_is_zero(const Multinomial *p)
 
 bool multinomial_is_number(const Multinomial *p)
 {
-    return fmpz_mpoly_is_fmpz(p->at, p->ring->context) != 0;
+    return flint.fmpz_mpoly_is_fmpz(p->at, p->ring->context) != 0;
 }
 
 bool multinomial_is(const Multinomial *p, long value)
 {
-    return fmpz_mpoly_equal_si(p->at, value, p->ring->context) != 0;
+    return flint.fmpz_mpoly_equal_si(p->at, value, p->ring->context) != 0;
 }
 
 int multinomial_terms(const Multinomial *p)
@@ -173,25 +173,26 @@ int multinomial_terms(const Multinomial *p)
 
 const mpz_t *multinomial_factor(const Multinomial *p, int term)
 {
-    fmpz_get_mpz(p->ring->scratch, p->at->coeffs + term);
+    flint.fmpz_get_mpz(p->ring->scratch, p->at->coeffs + term);
     return &p->ring->scratch;
 }
 
 int multinomial_power(const Multinomial *p, int term, int variable)
 {
-    return (int)fmpz_mpoly_get_term_var_exp_ui(p->at, term, variable, p->ring->context);
+    return (int)flint.fmpz_mpoly_get_term_var_exp_ui(p->at, term, variable, p->ring->context);
 }
 
 int multinomial_degree(const Multinomial *p, int variable)
 {
-    const slong degree = fmpz_mpoly_degree_si(p->at, variable, p->ring->context);
+    const slong degree = flint.mpoly_degree_si(p->at->exps, p->at->length, p->at->bits, variable,
+                                               p->ring->context->minfo);
 
     return degree > 0 ? (int)degree : 0; /* FLINT: -1 of zero */
 }
 
 bool multinomial_is_negative(const Multinomial *p)
 {
-    return !multinomial_is_zero(p) && fmpz_sgn(p->at->coeffs) < 0;
+    return !multinomial_is_zero(p) && flint.fmpz_sgn(p->at->coeffs) < 0;
 }
 
 /* --- arithmetic --- */
@@ -202,9 +203,9 @@ Multinomial *multinomial_sum(const Multinomial *p, const Multinomial *q, int sig
     Multinomial *sum = zero(ring);
 
     if (is_going(ring) && sign > 0)
-        fmpz_mpoly_add(sum->at, p->at, q->at, ring->context);
+        flint.fmpz_mpoly_add(sum->at, p->at, q->at, ring->context);
     else if (ring->status == OK)
-        fmpz_mpoly_sub(sum->at, p->at, q->at, ring->context);
+        flint.fmpz_mpoly_sub(sum->at, p->at, q->at, ring->context);
     return result(sum, true);
 }
 
@@ -216,11 +217,11 @@ static void add_product(Multinomial *sum, const Multinomial *p, int first, int c
     Multinomial *some = zero(ring), *term = zero(ring);
 
     for (int i = first; i < first + count && i < multinomial_terms(p); i++) {
-        fmpz_mpoly_get_term(term->at, p->at, i, ring->context);
-        fmpz_mpoly_add(some->at, some->at, term->at, ring->context);
+        flint.fmpz_mpoly_get_term(term->at, p->at, i, ring->context);
+        flint.fmpz_mpoly_add(some->at, some->at, term->at, ring->context);
     }
-    fmpz_mpoly_mul(some->at, some->at, q->at, ring->context);
-    fmpz_mpoly_add(sum->at, sum->at, some->at, ring->context);
+    flint.fmpz_mpoly_mul(some->at, some->at, q->at, ring->context);
+    flint.fmpz_mpoly_add(sum->at, sum->at, some->at, ring->context);
     multinomial_free(some);
     multinomial_free(term);
 }
@@ -235,7 +236,7 @@ Multinomial *multinomial_times(const Multinomial *p, const Multinomial *q)
         return multinomial_times(q, p);
     if (of_p <= 1 || of_p <= MOST_PAIRS / of_q) {
         if (is_going(ring))
-            fmpz_mpoly_mul(out->at, p->at, q->at, ring->context);
+            flint.fmpz_mpoly_mul(out->at, p->at, q->at, ring->context);
         return result(out, true);
     }
     /* FLINT has no bound: a piece at a time, so that no sum is far beyond the ring's */
@@ -252,7 +253,7 @@ Multinomial *multinomial_quotient(const Multinomial *p, const Multinomial *q)
     Ring *ring = p->ring;
     Multinomial *out = zero(ring);
 
-    if (!is_going(ring) || fmpz_mpoly_divides(out->at, p->at, q->at, ring->context) != 0)
+    if (!is_going(ring) || flint.fmpz_mpoly_divides(out->at, p->at, q->at, ring->context) != 0)
         return result(out, true);
     multinomial_free(out);
     return NULL;
@@ -271,7 +272,7 @@ Multinomial *multinomial_coefficient(const Multinomial *p, int variable, int pow
     const slong of = variable;
     const ulong n = (ulong)power;
 
-    fmpz_mpoly_get_coeff_vars_ui(out->at, p->at, &of, &n, 1, p->ring->context);
+    flint.fmpz_mpoly_get_coeff_vars_ui(out->at, p->at, &of, &n, 1, p->ring->context);
     return result(out, true);
 }
 
@@ -282,8 +283,8 @@ Multinomial *multinomial_gcd(const Multinomial *p, const Multinomial *q)
     Ring *ring = p->ring;
     Multinomial *out = zero(ring);
 
-    return result(out,
-                  !is_going(ring) || fmpz_mpoly_gcd(out->at, p->at, q->at, ring->context) != 0);
+    return result(out, !is_going(ring) ||
+                           flint.fmpz_mpoly_gcd(out->at, p->at, q->at, ring->context) != 0);
 }
 
 /* p over a divisor; both are freed */
@@ -303,8 +304,8 @@ static Multinomial *content_in(const Multinomial *p, int variable)
     Multinomial *out = zero(ring);
     slong of = variable;
 
-    return result(out, !is_going(ring) ||
-                           fmpz_mpoly_content_vars(out->at, p->at, &of, 1, ring->context) != 0);
+    return result(out, !is_going(ring) || flint.fmpz_mpoly_content_vars(out->at, p->at, &of, 1,
+                                                                        ring->context) != 0);
 }
 
 /* what divides p and its slope by a variable */
@@ -312,7 +313,7 @@ static Multinomial *repeated_in(const Multinomial *p, int variable)
 {
     Multinomial *slope = zero(p->ring), *out;
 
-    fmpz_mpoly_derivative(slope->at, p->at, variable, p->ring->context);
+    flint.fmpz_mpoly_derivative(slope->at, p->at, variable, p->ring->context);
     out = multinomial_gcd(p, slope);
     multinomial_free(slope);
     return out;
@@ -365,9 +366,9 @@ void multinomial_split(const Multinomial *p, MultinomialList *out)
         LIST_PUSH(*out, copy_of(p));
         return;
     }
-    fmpz_mpoly_term_content(simple->at, p->at, ring->context);
+    flint.fmpz_mpoly_term_content(simple->at, p->at, ring->context);
     if (multinomial_is_negative(p))
-        fmpz_mpoly_neg(simple->at, simple->at, ring->context);
+        flint.fmpz_mpoly_neg(simple->at, simple->at, ring->context);
     if (mpz_cmp_si(*multinomial_factor(simple, 0), 1) != 0)
         LIST_PUSH(*out, multinomial_integer(ring, ring->scratch));
     for (int v = 0; v < ring->variables; v++)

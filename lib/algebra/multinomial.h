@@ -6,7 +6,8 @@
  * returned is new and immutable, and lives until multinomial_free() or the end of its ring.
  * Variable 0 is first in the order of terms.
  *
- * A ring lives within one call of the library, and a thread has one at a time: exact_memory.h. */
+ * A ring lives within one call of the library, after flint_load(), and a thread has one at a time:
+ * exact_memory.h. */
 #ifndef COTREE_ALGEBRA_MULTINOMIAL_H
 #define COTREE_ALGEBRA_MULTINOMIAL_H
 

@@ -4,9 +4,9 @@
  * found, but between exact_begin() and exact_end() of this thread. */
 #include "base/exact_memory.h"
 
+#include "base/flint_library.h"
 #include "base/memory.h"
 
-#include <flint/flint.h>
 #include <gmp.h>
 #include <pthread.h>
 
@@ -76,20 +76,24 @@ static void flint_drop(void *piece)
         of_flint.free(piece);
 }
 
-static void set_functions(void)
+static void set_gmp_functions(void)
 {
     mp_get_memory_functions(&of_gmp.new, &of_gmp.resize, &of_gmp.free);
     mp_set_memory_functions(gmp_new, gmp_resize, gmp_free);
-    __flint_get_memory_functions(&of_flint.new, &of_flint.new_array, &of_flint.resize,
-                                 &of_flint.free);
-    __flint_set_memory_functions(flint_new, flint_new_array, flint_resize, flint_drop);
+}
+
+static void set_flint_functions(void)
+{
+    flint.__flint_get_memory_functions(&of_flint.new, &of_flint.new_array, &of_flint.resize,
+                                       &of_flint.free);
+    flint.__flint_set_memory_functions(flint_new, flint_new_array, flint_resize, flint_drop);
 }
 
 void exact_begin(void)
 {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
 
-    (void)pthread_once(&once, set_functions);
+    (void)pthread_once(&once, set_gmp_functions);
     depth = is_ours() ? depth + 1 : 1;
     inside = transaction_now != NULL ? transaction_now->number : 0;
 }
@@ -105,14 +109,17 @@ static void drop(void *object)
 {
     (void)object;
     is_dropping = true;
-    flint_cleanup();
+    flint.flint_cleanup();
     is_dropping = false;
     inside = 0;
 }
 
 void exact_open(ExactMemory *memory)
 {
-    flint_cleanup();
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+
+    (void)pthread_once(&once, set_flint_functions);
+    flint.flint_cleanup();
     exact_begin();
     cleanup_open(&memory->cleanup, drop, NULL);
 }
@@ -120,6 +127,6 @@ void exact_open(ExactMemory *memory)
 void exact_close(ExactMemory *memory)
 {
     cleanup_close(&memory->cleanup);
-    flint_cleanup();
+    flint.flint_cleanup();
     exact_end();
 }

@@ -12,7 +12,7 @@ test_transaction_LDADD = $(unit_ldadd)
 
 UNIT_TESTS += test_multinomial
 test_multinomial_SOURCES = tests/unit/test_multinomial.c tests/random.h tests/unit/test.h
-test_multinomial_LDADD = $(unit_ldadd)
+test_multinomial_LDADD = $(unit_ldadd) $(FLINT_LIBS) $(GMP_LIBS)
 UNIT_TESTS += test_algebra
 test_algebra_SOURCES = tests/unit/test_algebra.c tests/random.h tests/unit/test.h
 test_algebra_LDADD = $(unit_ldadd)

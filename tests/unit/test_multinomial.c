@@ -6,6 +6,7 @@
 
 #include "../random.h"
 #include "algebra/multinomial.h"
+#include "base/flint_library.h"
 #include "base/transaction.h"
 
 #include <flint/fmpz.h>
@@ -295,6 +296,10 @@ static void a_call_that_is_left_does_no_harm(void)
 
 int main(void)
 {
+    Diag diag;
+
+    if (flint_load(&diag) != OK)
+        printf("%s\n", diag.message);
     RUN(sums_and_products_have_the_values_of_numbers);
     RUN(quotients_take_products_apart);
     RUN(common_factors_are_found);

@@ -6,6 +6,7 @@
  * the polynomials. */
 #include "formulate/reduced/response.h"
 
+#include "base/flint_library.h"
 #include "formulate/formulate_limits.h"
 
 #include <math.h>
@@ -352,6 +353,7 @@ static Status make_matrix(ResponseSolver *s, Expr output, const char *about, Dia
         all[k] = with_numbers_in_atoms(s, all[k], 0);
         find_atoms(s, all[k], 0);
     }
+    CHECK(flint_load(diag));
     s->ring = ring_new(s->atoms.count, MOST_TERMS, net->watch);
     for (int r = 0; r < rows && ring_status(s->ring) == OK; r++)
         clear_row(s, r, all + (ptrdiff_t)r * s->columns);
