@@ -55,6 +55,7 @@ void statement_copy(Pool *pool, const Statement *from, Statement *to)
 
 typedef struct SyntaxPrintMove {
     const Statement *from;
+    const char *text;
     int line, column;
     int longer; /* the new text up to any place after the verb, in bytes */
 } SyntaxPrintMove;
@@ -71,25 +72,41 @@ static Place moved(const SyntaxPrintMove *move, Place place)
                    place.width};
 }
 
-static void move_syntax(const SyntaxPrintMove *move, Syntax *syntax)
+/* Joined lines are one, so that a tree ends behind its last branch, or the bracket after that. */
+static void end_in_line(const SyntaxPrintMove *move, Syntax *syntax)
 {
-    /* joined lines are one, so that the place ends where that of the last operand does */
-    const bool spans =
-        syntax->kind == SYNTAX_BINARY && syntax->args[1]->place.line != syntax->place.line;
+    const Place last = syntax->args[syntax->count - 1]->place;
+    const char *end = move->text + last.column + last.width - move->column;
+
+    syntax->place = place_between(syntax->place, last);
+    if (syntax->kind != SYNTAX_UNARY && syntax->place.column < syntax->args[0]->place.column)
+        syntax->place.width += (int)strcspn(end, ")]") + 1;
+}
+
+/* Returns whether the tree was on several lines. */
+static bool move_syntax(const SyntaxPrintMove *move, Syntax *syntax)
+{
+    const int line = syntax->place.line;
+    bool spans = false;
 
     syntax->place = moved(move, syntax->place);
     syntax->op_place = moved(move, syntax->op_place);
     syntax->unit_place = moved(move, syntax->unit_place);
-    for (int i = 0; i < syntax->count; i++)
-        move_syntax(move, syntax->args[i]);
+    for (int i = 0; i < syntax->count; i++) {
+        const bool is_below = syntax->args[i]->place.line != line;
+
+        spans = move_syntax(move, syntax->args[i]) || is_below || spans;
+    }
     if (spans)
-        syntax->place = place_between(syntax->place, syntax->args[1]->place);
+        end_in_line(move, syntax);
+    return spans;
 }
 
 void statement_copy_to(Pool *pool, const Statement *from, const char *text, int line, int column,
                        Statement *to)
 {
-    const SyntaxPrintMove move = {from, line, column, (int)strlen(text) - (int)strlen(from->text)};
+    const SyntaxPrintMove move = {from, text, line, column,
+                                  (int)strlen(text) - (int)strlen(from->text)};
 
     statement_copy(pool, from, to);
     to->text = text_copy(pool, text);
@@ -100,14 +117,14 @@ void statement_copy_to(Pool *pool, const Statement *from, const char *text, int 
     else
         to->name_place = moved(&move, from->name_place);
     if (to->value != NULL)
-        move_syntax(&move, to->value);
+        (void)move_syntax(&move, to->value);
     for (int i = 0; i < to->operands.count; i++) {
         to->operands.at[i].place = moved(&move, to->operands.at[i].place);
-        move_syntax(&move, to->operands.at[i].value);
+        (void)move_syntax(&move, to->operands.at[i].value);
     }
     for (int i = 0; i < to->pairs.count; i++) {
         to->pairs.at[i].name_place = moved(&move, to->pairs.at[i].name_place);
-        move_syntax(&move, to->pairs.at[i].value);
+        (void)move_syntax(&move, to->pairs.at[i].value);
     }
 }
 

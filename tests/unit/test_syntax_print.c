@@ -147,6 +147,7 @@ static void copies_have_the_places_of_their_text(void)
         {"revol  b A B axis=[1, 2, -3] ", "revolute  b A B axis=[1, 2, -3]"},
         {"  virtual   rev h A \\\n   b axis=z", "virtual revolute h A b axis=z"},
         {"f(x)  =  a*sin(x) \\\r\n\\\n + \\\n1 mm", "f(x)  =  a*sin(x) + 1 mm"},
+        {"L = max(a, \\\n [1, \\\n 2 ]) + (3 \\\n -b)", "L = max(a, [1, 2 ]) + (3 -b)"},
         {" L = (2 mm)  - d.x # long", "L = (2 mm)  - d.x"},
         {"outpu P = h.T*h',   Q=1", "output P = h.T*h',   Q=1"}};
 
