@@ -26,6 +26,7 @@ static const Topic topics[] = {
     {"outputs",      "outputs and their expressions",                      NEED_MODEL,  OPERANDS_NOTHING, AS_FORMULAS, show_outputs},
     {"params",       "parameters and their values",                        NEED_MODEL,  OPERANDS_NOTHING, AS_TEXT,     show_params},
     {"structure",    "sizes, instances, where M and the jacobian are not zero",  NEED_RUNNING, OPERANDS_NOTHING, AS_TEXT,     show_structure},
+    {"sides",        "what stuck and slipped in the last run",             NEED_RUN,    OPERANDS_NOTHING, AS_TEXT,     show_sides},
     {"run",          "report of the last run",                             NEED_RUN,    OPERANDS_NOTHING, AS_TEXT,     show_run},
     {"runs",         "all runs: what ran, from when to when, in how many steps", NEED_MODEL, OPERANDS_NOTHING, AS_TEXT,     show_runs},
     {"init",         "initial values and guesses that were given",         NEED_MODEL,  OPERANDS_NOTHING, AS_TEXT,     show_init},

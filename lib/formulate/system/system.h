@@ -339,6 +339,8 @@ typedef struct SystemSurface {
     Expr condition, ratio;
 } SystemSurface;
 bool system_surface(System *system, int i, SystemSurface *out); /* false at the end */
+/* The surface on which a part that sticks (Component.sticks) rests; -1: none. O(its law). */
+int system_surface_of_part(System *system, const char *part);
 /* The part whose values jump or have a kink where that is 0, for messages; NULL: unknown. */
 const char *system_jumping_part(System *system, Expr condition);
 /* the derivative of e along the motion, in u', x' and the other variables solved for; E_MISSING

@@ -4,7 +4,9 @@
  * The equations jump on surfaces: the zeros of a condition, whatever its scale and sign. On either
  * side of a surface the functions that jump there are constant; on it they take any value
  * between. */
+#include "formulate/dynamics/efforts.h"
 #include "formulate/formulate_limits.h"
+#include "formulate/network/scalar_edges.h"
 #include "formulate/system/constraints.h"
 #include "formulate/system/kinematics.h"
 #include "formulate/system/network.h"
@@ -359,13 +361,30 @@ static void push_values(System *system, const Instance *instance, SwitchesExprs 
         }
 }
 
-/* whether a part's values contain a condition of that surface */
+/* what a part that sticks does, over the system's variables */
+static void push_law(System *system, const Instance *instance, SwitchesExprs *stack)
+{
+    Effort effort;
+    Expr value;
+
+    if (!instance->row->sticks)
+        return;
+    if (instance->row->effort != NULL && effort_of(system, instance, &effort, NULL) == OK)
+        LIST_PUSH(*stack, effort.value);
+    for (int k = 0; k < instance->scalar_count; k++)
+        if (system_resolve(system, scalar_branch(system, instance, k)->relation.value, &value,
+                           NULL) == OK)
+            LIST_PUSH(*stack, value);
+}
+
+/* whether a part's values or its law contain a condition of that surface */
 static bool part_switches_on(System *system, const Instance *instance, Expr surface)
 {
     SwitchesExprs stack = {0};
     bool found = false;
 
     push_values(system, instance, &stack);
+    push_law(system, instance, &stack);
     while (stack.count > 0 && !found) {
         Expr e = stack.at[--stack.count];
         Expr condition = switch_condition(system->arena, e);
@@ -390,4 +409,45 @@ const char *system_jumping_part(System *system, Expr condition)
         if (part_switches_on(system, &system->origin->instances[i], surface))
             return system->origin->instances[i].name;
     return NULL;
+}
+
+/* a call of a part's law that jumps on a surface of the equations; -1: none */
+static int surface_of_call(System *system, Expr call)
+{
+    const Expr condition = switch_condition(system->arena, call);
+    const Expr ratio = switch_jumps(call) ? surface_ratio(call) : NULL;
+    int way;
+    Expr surface;
+
+    if (condition == NULL || expr_is_number(condition) || !switch_jumps(call))
+        return -1;
+    surface = surface_of(system->arena, condition, &way);
+    for (int i = 0; i < system->shown->surfaces.count; i++)
+        if (system->shown->surfaces.at[i].ratio == ratio &&
+            (system->shown->surfaces.at[i].condition == surface ||
+             surface_is_same(system->shown->surfaces.at[i].condition, condition, &way)))
+            return i;
+    return -1;
+}
+
+int system_surface_of_part(System *system, const char *part)
+{
+    SwitchesExprs stack = {0};
+    const Switch *switches;
+    int time_only, found = -1;
+
+    system_touch(system);
+    (void)system_switches(system, &switches, &time_only);
+    for (int i = 0; i < system->origin->instance_count; i++)
+        if (strcmp(system->origin->instances[i].name, part) == 0)
+            push_law(system, &system->origin->instances[i], &stack);
+    while (stack.count > 0 && found < 0) {
+        const Expr e = stack.at[--stack.count];
+
+        found = surface_of_call(system, e);
+        for (int i = 0; i < expr_arg_count(e); i++)
+            LIST_PUSH(stack, expr_arg(e, i));
+    }
+    LIST_FREE(stack);
+    return found;
 }

@@ -54,7 +54,7 @@ libcore_la_SOURCES += \
   lib/simulate/run/result_reader.c \
   lib/simulate/run/result_reader.h \
   lib/simulate/run/result_reader_impl.h \
-  lib/simulate/run/result.c \
+  lib/simulate/run/result.c lib/simulate/run/result_sticks.c \
   lib/simulate/run/result.h \
   lib/simulate/run/result_impl.h \
   lib/simulate/run/run.h \

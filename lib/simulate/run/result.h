@@ -53,6 +53,14 @@ typedef struct EventRecord {
     const double *times; /* s; count, ascending */
 } EventRecord;
 
+/* What became of a part that sticks (Component.sticks) in a run. */
+typedef struct StickRecord {
+    bool sticks;  /* at the end */
+    bool is_held; /* then at its bound, while other parts hold it */
+    double stuck; /* s: all in all */
+    int slips;    /* spans of time in which it slipped */
+} StickRecord;
+
 void result_free(Result *result); /* NULL is fine */
 RunKind result_kind(const Result *result);
 System *result_system(const Result *result);
@@ -67,6 +75,8 @@ const Remarks *result_remarks(const Result *result);
  * continued */
 int result_event_count(const Result *result);
 EventRecord result_event(const Result *result, int i);
+/* False: the part rests on no surface of this run. O(corners). */
+bool result_stick(const Result *result, const char *part, StickRecord *out);
 int result_rows(const Result *result);
 const double *result_times(const Result *result);
 /* instants at which a jump or kink is possible, ascending, some of them twice */
