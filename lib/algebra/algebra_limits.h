@@ -1,7 +1,8 @@
 /* algebra_limits.h: tolerances and limits of lib/algebra, by file
  *
  * Relative and without unit where none is stated. Constants of a method's definition stand in its
- * file, and those of row_closure.h there, since FMUs contain that file. */
+ * file, and those of row_closure.h there, since FMUs contain that file. The test in brackets fails
+ * when the value is ten times as large. */
 #ifndef COTREE_ALGEBRA_ALGEBRA_LIMITS_H
 #define COTREE_ALGEBRA_ALGEBRA_LIMITS_H
 
@@ -30,7 +31,7 @@
 /* --- kkt.c: d / p is the pivot of a row in K = [M G^T; G 0] over its reference, kkt_sizes.c --- */
 
 /* pivot ratio of G G^T; below it a singular configuration is near, and answers have a larger
- * rounding error */
+ * rounding error [test_simulate_linear] */
 #define KKT_NEAR 1e-2
 
 /* d / p; if all rows have more, no singular configuration is near. d / p was at most 1.7 times the
@@ -42,7 +43,7 @@
 #define KKT_REGULAR 1e-3
 
 /* the same as KKT_SUSPECT for factors with exchanged rows, least pivot over largest: a small pivot
- * p appears there as two of the size of sqrt(p) */
+ * p appears there as two of the size of sqrt(p) [test_simulate_linear] */
 #define KKT_EXCHANGED 0.15
 
 /* of the speeds, times 1 / pivot ratio: the rounding error of positions appears in answers near a
@@ -95,22 +96,24 @@
  * its own group. More than KKT_NEAR. */
 #define KKT_DETERMINED 1.5e-2
 
-/* the same when a new order is chosen, with a margin for the motion until the next */
+/* the same when a new order is chosen, with a margin for the motion until the next
+ * [test_kkt_border] */
 #define KKT_FIRMLY_DETERMINED 4e-2
 
-/* d / p that suffices for rows known to be independent by the pivots of their groups */
+/* d / p that suffices for rows known to be independent by the pivots of their groups
+ * [test_triangular] */
 #define KKT_INDEPENDENT 1e-4
 
 /* --- kkt_border.c --- */
 
 /* rows of a speed in the border, more than: a speed with fewer is that of a body in pins, which
- * elimination in order handles well */
+ * elimination in order handles well [test_kkt_border] */
 #define KKT_BORDER_FEWEST_ROWS 4
 
-/* with a border: that of K and that of the geometry G G^T */
+/* with a border: that of K and that of the geometry G G^T [test_kkt_border] */
 #define KKT_BORDER_FACTORISATIONS 2
 
-/* unknowns; for fewer no border is sought */
+/* unknowns; for fewer no border is sought [test_kkt_border] */
 #define KKT_BORDER_LEAST_SIZE 8
 
 /* --- kkt_sizes.c --- */

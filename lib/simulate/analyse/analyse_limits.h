@@ -1,6 +1,7 @@
 /* analyse_limits.h: tolerances and limits of lib/simulate/analyse, by file
  *
- * Relative and without unit where none is stated. */
+ * Relative and without unit where none is stated. The test in brackets fails when the value is ten
+ * times as large. */
 #ifndef COTREE_SIMULATE_ANALYSE_ANALYSE_LIMITS_H
 #define COTREE_SIMULATE_ANALYSE_ANALYSE_LIMITS_H
 
@@ -22,7 +23,7 @@
 /* S; conductance across each element at the start of gmin stepping */
 #define GMIN 1e-1
 
-/* S; its last value before 0 */
+/* S; its last value before 0 [test_equilibrium] */
 #define LEAST_GMIN 1e-14
 
 /* --- freedoms.c --- */
@@ -74,13 +75,13 @@
 /* rounds, each with weights of its own */
 #define SEARCH_ROUNDS 12
 
-/* iterations in a round */
+/* iterations in a round [test_equilibrium] */
 #define SEARCH_ITERATIONS 20
 
 /* ratio of residuals after a round: with more, it made no progress */
 #define SEARCH_SLOW 0.99
 
-/* residual over its weight that ends a round */
+/* residual over its weight that ends a round [test_equilibrium] */
 #define SEARCH_ROUND_RESIDUAL 1e-15
 
 /* relative step that ends a round */
@@ -92,7 +93,7 @@
 /* of the largest force, or entry of a row: the least weight in the last round */
 #define SEARCH_LEAST_WEIGHT 1e-9
 
-/* rad or m */
+/* rad or m; no coordinate moves further in a step [test_linear] */
 #define SEARCH_LONGEST_STEP 1.0
 
 /* fraction of a step at which the line search ends */
@@ -102,7 +103,7 @@
  * may not exceed, which then is no limit */
 #define SEARCH_UNDEFINED 1e60
 
-/* unknowns of a network up to which dense matrices are used */
+/* unknowns of a network up to which dense matrices are used [test_operating] */
 #define SEARCH_MOST_DENSE 300
 
 /* unknowns up to which a singular value decomposition finds the loosest one */

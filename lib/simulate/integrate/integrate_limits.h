@@ -2,7 +2,7 @@
  *
  * Relative and without unit where none is stated; "tolerances" are multiples of the requested
  * tolerance, and "of the run" means times its duration. Coefficients of methods stand in their
- * files. */
+ * files. The test in brackets fails when the value is ten times as large. */
 #ifndef COTREE_SIMULATE_INTEGRATE_INTEGRATE_LIMITS_H
 #define COTREE_SIMULATE_INTEGRATE_INTEGRATE_LIMITS_H
 
@@ -65,7 +65,8 @@
 /* of the failed step: the longest one that is tried past a singular position */
 #define DOP853_LEAP 1.2
 
-/* of a step: the latest position in it of a singular position, between the last two stages */
+/* of a step: the latest position in it of a singular position, between the last two stages
+ * [test_integration] */
 #define DOP853_LEAP_PAST 0.93
 
 /* --- dop853_dense.c --- */
