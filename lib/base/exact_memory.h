@@ -12,9 +12,9 @@
 void exact_begin(void);
 void exact_end(void);
 
-/* The same where FLINT is used, after flint_load(). It preserves integers for the next use by its thread, so that no
- * call may leave any behind, and none from before may grow inside. One at a time in a thread; a
- * field of an object of the call. */
+/* The same where FLINT is used, after flint_load(). It preserves integers for the next use by its
+ * thread, so that no call may leave any behind, and none from before may grow inside. One at a time
+ * in a thread; a field of an object of the call. */
 typedef struct ExactMemory {
     Cleanup cleanup;
 } ExactMemory;
