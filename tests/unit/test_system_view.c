@@ -73,13 +73,14 @@ typedef LIST(Expr) Exprs;
 static void form_all(System *view, Exprs *out)
 {
     const Switch *switches;
+    SystemSurface surface;
     int of_time;
     const int count = system_switches(view, &switches, &of_time);
 
     for (int i = 0; i < count; i++)
         LIST_PUSH(*out, switches[i].condition);
-    for (int i = 0; system_surface(view, i) != NULL; i++)
-        LIST_PUSH(*out, system_surface(view, i));
+    for (int i = 0; system_surface(view, i, &surface); i++)
+        LIST_PUSH(*out, surface.condition);
     for (Block block = 0; block < BLOCK_EMBEDDED_MASS; block++) {
         int rows, columns;
 
