@@ -65,6 +65,25 @@ static void bench_stiff_chain(const char *name, const char *method)
     text_free(&text);
 }
 
+/* 21 flywheels and 20 clutches that stick and slip, or the same laws with tanh(w/1e-4) */
+static void bench_clutches(const char *name, bool regularised)
+{
+    Text text = {0};
+
+    for (int i = 0; i <= 20; i++)
+        text_addf(&text, "flywheel J%d a%d 0 J=%g\ninit J%d.w = %d\n", i, i, 1 + 0.3 * (i % 3), i,
+                  i * 13 % 7 - 3);
+    for (int i = 0; i < 20; i++)
+        if (regularised)
+            text_addf(&text, "torquesource c%d a%d a%d -%d*tanh((J%d.w - J%d.w)/1e-4)\n", i, i,
+                      i + 1, 3 + 2 * (i * 7 % 5), i, i + 1);
+        else
+            text_addf(&text, "clutch c%d a%d a%d torque=%d\n", i, i, i + 1, 3 + 2 * (i * 7 % 5));
+    text_add(&text, "torquesource T a0 0 10*sin(4*t)\nsimulate 3\n");
+    bench_text(name, text.at, (Changes){.method = regularised ? "radau" : NULL});
+    text_free(&text);
+}
+
 int main(void)
 {
     static const struct {
@@ -105,5 +124,7 @@ int main(void)
         bench_case(cases[i].name, cases[i].path, cases[i].changes);
     bench_stiff_chain("stiff_chain_40_radau", "radau");
     bench_stiff_chain("stiff_chain_40_bdf", "bdf");
+    bench_clutches("clutches_20", false);
+    bench_clutches("clutches_20_tanh", true);
     return test_faults > 0 ? 1 : 0;
 }
