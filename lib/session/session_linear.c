@@ -29,6 +29,26 @@ static Status read_instant(const ct_session *session, const Syntax *at, double *
     return OK;
 }
 
+/* what friction holds at rest elsewhere, too */
+static void remark_friction(ct_session *session)
+{
+    Text line = {0};
+    int count = 0;
+
+    for (int i = 0; i < model_count(session->model); i++) {
+        const Instance *part = model_instance(session->model, i);
+
+        if (part->row->sticks && count++ < MOST_NAMES)
+            text_addf(&line, "%s%s", line.length > 0 ? ", " : "", part->name);
+    }
+    if (count == 0)
+        return;
+    text_addf(&line, "%s at rest: this equilibrium is the one that asks for no dry friction",
+              count > MOST_NAMES ? ", ... may hold other positions" : " may hold other positions");
+    session_remark(session, line.at);
+    text_free(&line);
+}
+
 Status session_equilibrium(ct_session *session, const Statement *s, Diag *diag)
 {
     RunInput input = {0};
@@ -53,6 +73,7 @@ Status session_equilibrium(ct_session *session, const Statement *s, Diag *diag)
     session->start_is_later = true;
     session->reporter = NULL;
     session_remark_result(session, result);
+    remark_friction(session);
 done:
     run_free(&found);
     run_input_free(&input);
@@ -214,6 +235,39 @@ done:
     return status;
 }
 
+/* A law that jumps at the point, as friction at rest, has no derivative there. */
+static void remark_jump(ct_session *session, const Linear *linear, const char *what)
+{
+    Text line = {0};
+
+    if (linear->on_jump == NULL)
+        return;
+    text_addf(&line, "%s %s at the point: the %s are those without what it holds", linear->on_jump,
+              strchr(linear->on_jump, ',') != NULL ? "jump" : "jumps", what);
+    session_remark(session, line.at);
+    text_free(&line);
+}
+
+/* Eigenvalues of a linear system are its own, whatever describes it; those at an instant of a
+ * motion aren't. */
+static void remark_passing(ct_session *session, const Linear *linear, const char *what)
+{
+    Text line = {0};
+
+    remark_jump(session, linear, what);
+    if (!linear->is_passing)
+        return;
+    text_addf(&line,
+              "no rest and no steady motion at t = %.6g s: the %s are those of the coordinates",
+              linear->at, what);
+    for (int i = 0; i < linear->freedoms && i < MOST_NAMES; i++)
+        text_addf(&line, "%s %s", i == 0 ? "" : ",", linear->state_names[i]);
+    text_addf(&line, "%s; other independent coordinates have others",
+              linear->freedoms > MOST_NAMES ? ", ..." : "");
+    session_remark(session, line.at);
+    text_free(&line);
+}
+
 static void report_linear(const ct_session *session, Text *out)
 {
     const View view = session_view(session);
@@ -231,27 +285,9 @@ Status session_linearize(ct_session *session, const Statement *s, Diag *diag)
     session->linear = linear;
     session->linear_is_old = false;
     session->reporter = report_linear;
+    remark_jump(session, linear, "matrices");
 done:
     return status;
-}
-
-/* Eigenvalues of a linear system are its own, whatever describes it; those at an instant of a
- * motion aren't. */
-static void remark_passing(ct_session *session, const Linear *linear, const char *what)
-{
-    Text line = {0};
-
-    if (!linear->is_passing)
-        return;
-    text_addf(&line,
-              "no rest and no steady motion at t = %.6g s: the %s are those of the coordinates",
-              linear->at, what);
-    for (int i = 0; i < linear->freedoms && i < MOST_NAMES; i++)
-        text_addf(&line, "%s %s", i == 0 ? "" : ",", linear->state_names[i]);
-    text_addf(&line, "%s; other independent coordinates have others",
-              linear->freedoms > MOST_NAMES ? ", ..." : "");
-    session_remark(session, line.at);
-    text_free(&line);
 }
 
 void session_remark_linear(ct_session *session)

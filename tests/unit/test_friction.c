@@ -203,6 +203,21 @@ static void stribeck_and_viscous_friction(void)
     kit_free(&kit);
 }
 
+/* at rest sign() has no derivative, and friction holds other places too; where it slips it has */
+static void what_sticks_is_marked_in_linearizations(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDE "spring k s k=100\nfriction f s force=5 viscous=1\n"
+                            "init s = 0, s' = 0\nlinearize\n");
+    EXPECT_HOLDS(ct_remarks(kit.session), "f jumps at the point");
+    EXPECT_DONE(&kit, "equilibrium\n");
+    EXPECT_HOLDS(ct_remarks(kit.session), "f may hold other positions");
+    EXPECT_DONE(&kit, "init s' = 1\nlinearize\n");
+    EXPECT_LACKS(ct_remarks(kit.session), "jumps");
+    kit_free(&kit);
+}
+
 static void wrong_uses_name_their_cure(void)
 {
     static const struct {
@@ -252,6 +267,7 @@ int main(void)
     RUN(discs_and_clutches);
     RUN(a_one_way_clutch_drives_and_runs_free);
     RUN(stribeck_and_viscous_friction);
+    RUN(what_sticks_is_marked_in_linearizations);
     RUN(wrong_uses_name_their_cure);
     return test_end();
 }

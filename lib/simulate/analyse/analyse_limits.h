@@ -36,6 +36,11 @@
 /* products below this lose digits, as they are near the least double; it bounds their error */
 #define GAIN_LEAST 1e-290
 
+/* --- linearize.c --- */
+
+/* value of a condition, in its own unit, at which its law jumps */
+#define LINEARIZE_ON_JUMP 1e-10
+
 /* --- linearize_point.c --- */
 
 /* rad; the state is compared after the time in which the fastest oscillation moves by this angle */

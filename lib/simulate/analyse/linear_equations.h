@@ -25,6 +25,7 @@ typedef struct Linear {
                         capacitors in a loop with a source: b and d apply to these */
     bool is_passing; /* mechanical coefficients change along the motion: eigenvalues differ in other
                         coordinates */
+    char *on_jump; /* parts whose law jumps at the point, as friction at rest: "f, g"; NULL: none */
     char **state_names, **input_names, **output_names, **part_names;
 } Linear;
 

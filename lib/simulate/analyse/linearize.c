@@ -7,7 +7,10 @@
 #include "simulate/analyse/linearize_impl.h"
 
 #include "base/memory.h"
+#include "base/text.h"
+#include "simulate/analyse/analyse_limits.h"
 
+#include <math.h>
 #include <string.h>
 
 /* --- the equations, with symbols for inputs --- */
@@ -231,6 +234,40 @@ static void work_free(Work *w)
              w->matrix, w->matrix_error, w->dependent, w->dependent_error);
 }
 
+/* Names the laws that jump where they are linearized: their derivative there is none. */
+static Status find_jumps(const Work *w, Linear *linear, Diag *diag)
+{
+    System *system = w->phase->system;
+    LinearizeRoots conditions = {0};
+    SystemSurface surface;
+    Probe *probe = NULL;
+    double *values = NULL;
+    Text names = {0};
+    Status status = OK;
+
+    for (int i = 0; system_surface(system, i, &surface); i++)
+        LIST_PUSH(conditions, surface.condition);
+    if (conditions.count == 0)
+        goto done;
+    CHECK(probe_new(w->phase->layout, &w->order->about->phases->parameters, conditions.at,
+                    conditions.count, &probe, diag));
+    values = NEW_ARRAY(double, conditions.count);
+    phase_probe_at(w->phase, probe, w->order->at, w->y, NULL, conditions.count, values);
+    for (int i = 0; i < conditions.count; i++) {
+        const char *part = system_jumping_part(system, conditions.at[i]);
+
+        if (fabs(values[i]) <= LINEARIZE_ON_JUMP)
+            text_addf(&names, "%s%s", names.length > 0 ? ", " : "", part != NULL ? part : "a law");
+    }
+    linear->on_jump = names.at != NULL ? text_done(&names) : NULL;
+done:
+    text_free(&names);
+    probe_free(probe);
+    mem_free(values);
+    LIST_FREE(conditions);
+    return status;
+}
+
 Status linearize(const LinearOrder *order, Linear **out, Diag *diag)
 {
     Work w = {.order = order};
@@ -243,6 +280,11 @@ Status linearize(const LinearOrder *order, Linear **out, Diag *diag)
     CHECK(linear_point(&w, diag));
     CHECK(linear_settled(&w, out, diag));
     (*out)->is_passing = linear_is_passing(&w, *out);
+    status = find_jumps(&w, *out, diag);
+    if (status != OK) {
+        linear_free(*out);
+        *out = NULL;
+    }
 done:
     work_free(&w);
     return status;

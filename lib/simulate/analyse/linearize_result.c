@@ -86,7 +86,7 @@ void linear_free(Linear *linear)
         return;
     MEM_FREE(linear->a, linear->b, linear->c, linear->d, linear->a_error, linear->b_error,
              linear->c_error, linear->d_error, linear->motion, linear->mass, linear->mass_error,
-             linear->force, linear->force_error);
+             linear->force, linear->force_error, linear->on_jump);
     free_names(linear->state_names, linear->states);
     free_names(linear->input_names, linear->inputs);
     free_names(linear->output_names, linear->outputs);
