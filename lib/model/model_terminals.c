@@ -345,7 +345,8 @@ static Status read_terminals(PartDraft *draft)
         pool_alloc(draft->state->pool, (size_t)component_terminals(row) * sizeof *draft->terminals);
     for (int k = 0; k < component_terminals(row); k++)
         TRY(next_terminal(draft, k));
-    draft->part->on_angle = draft->part->on_angle || row->domain == DOMAIN_SHAFT;
+    if (row->places == PLACES_TERMINALS) /* else a joint tells */
+        draft->part->on_angle = row->domain == DOMAIN_SHAFT;
     for (int k = 0; k < count; k++) {
         const char *plus = edges[k].plus < 0 ? "0" : draft->terminals[edges[k].plus];
         const char *minus = edges[k].minus < 0 ? "0" : draft->terminals[edges[k].minus];
