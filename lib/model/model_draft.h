@@ -27,6 +27,8 @@ void part_draft_commit(PartDraft *draft, const char *text);
 /* reads the name of the part, then what it connects (model_terminals.c) */
 MUST_USE Status part_draft_read_name(PartDraft *draft);
 MUST_USE Status part_draft_read_terminals(PartDraft *draft);
+/* whether a part has a coordinate of that name, or is a joint */
+bool state_names_joint(const State *state, const char *name);
 /* the row of a statement: `row`, or its variant where its places are terminals */
 const Component *row_at_places(const State *state, const Statement *statement,
                                const Component *row);

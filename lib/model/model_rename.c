@@ -326,6 +326,16 @@ static int named_places(const Component *row)
     }
 }
 
+/* whether place i of a part that acts on joints or on terminals is a terminal */
+static bool is_of_terminals(const ModelRenameRenaming *r, const Component *row, int i,
+                            const Syntax *value)
+{
+    const char *name = syntax_name(value);
+
+    return row->variants != NULL && i > 0 && i <= component_terminals(row) && name != NULL &&
+           !state_names_joint(r->state, own_name(r, name));
+}
+
 static Status rename_component(const ModelRenameRenaming *r, Statement *s)
 {
     const Component *row = s->row.component;
@@ -339,7 +349,8 @@ static Status rename_component(const ModelRenameRenaming *r, Statement *s)
         if (i == 0) {
             TRY(check_made_first(r, &s->operands.at[i]));
             rename_new(r, value);
-        } else if (has_terminals && i >= before && i < before + terminals)
+        } else if ((has_terminals && i >= before && i < before + terminals) ||
+                   is_of_terminals(r, row, i, value))
             TRY(rename_terminal(r, value));
         else
             TRY(i <= places ? rename_places(r, value) : rename_in(r, value));

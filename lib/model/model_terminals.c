@@ -401,8 +401,7 @@ static Status two_parts(PartDraft *draft)
     return OK;
 }
 
-/* whether a part has a coordinate of that name, or is a joint */
-static bool is_of_joint(const State *state, const char *name)
+bool state_names_joint(const State *state, const char *name)
 {
     int joint, coordinate;
     const Instance *part = state_part(state, name);
@@ -430,7 +429,7 @@ const Component *row_at_places(const State *state, const Statement *statement, c
     for (int i = 1; i < 3 && i < statement->operands.count; i++) {
         const char *name = syntax_name(statement->operands.at[i].value);
 
-        if (name != NULL && is_of_joint(state, name))
+        if (name != NULL && state_names_joint(state, name))
             return row;
         if (name != NULL && strcmp(name, "gnd") != 0 && names_find(state->terminals, name) >= 0)
             domain = terminal_domain(state, name);

@@ -203,6 +203,38 @@ static void stribeck_and_viscous_friction(void)
     kit_free(&kit);
 }
 
+/* the same two drums written out, and as instances with a terminal of their own and a joint */
+static void parts_of_a_subsystem(void)
+{
+    Kit flat = kit_new(), used = kit_new();
+
+    EXPECT_DONE(&used, "subsystem drum terminals=[P]\n"
+                       "flywheel J P 0 J=0.5\nbrake b P 0 torque=2\n"
+                       "friction f P q torque=1 static=1.5\nflywheel K q 0 J=2\n"
+                       "init J.w = 0, K.w = 0\nend\n"
+                       "use drum D1 P=a\nuse drum D2 P=c\nclutch cc a c torque=4\n"
+                       "torquesource T a 0 10*sin(t)\nsimulate 5\n");
+    EXPECT_DONE(&flat, "flywheel J1 a 0 J=0.5\nbrake b1 a 0 torque=2\n"
+                       "friction f1 a q1 torque=1 static=1.5\nflywheel K1 q1 0 J=2\n"
+                       "flywheel J2 c 0 J=0.5\nbrake b2 c 0 torque=2\n"
+                       "friction f2 c q2 torque=1 static=1.5\nflywheel K2 q2 0 J=2\n"
+                       "clutch cc a c torque=4\ntorquesource T a 0 10*sin(t)\n"
+                       "init J1.w = 0, K1.w = 0, J2.w = 0, K2.w = 0\nsimulate 5\n");
+    EXPECT(is_near(kit_value(&used, "D1.K.w"), kit_value(&flat, "K1.w"), 1e-9));
+    EXPECT(is_near(kit_value(&used, "D2.J.w"), kit_value(&flat, "J2.w"), 1e-9));
+    kit_free(&used);
+    kit_free(&flat);
+    used = kit_new();
+    EXPECT_DONE(&used, "scene planar\nsubsystem cart frames=[A, m]\nbody m mass=1\n"
+                       "prismatic s A m axis=x\nfriction f s force=1\nbody m2 mass=2\n"
+                       "prismatic s2 A m2 axis=x\nclutch c s s2 force=2\nend\n"
+                       "use cart C1 A=ground\nforce F C1.m [4, 0]\n"
+                       "init C1.s = 0, C1.s' = 0, C1.s2 = 0, C1.s2' = 0\nsimulate 1\n");
+    EXPECT(is_near(kit_value(&used, "C1.s2'"), 1, 1e-9)); /* (4 - 1)/3 */
+    EXPECT(is_near(kit_value(&used, "C1.s'"), 1, 1e-9));
+    kit_free(&used);
+}
+
 /* at rest sign() has no derivative, and friction holds other places too; where it slips it has */
 static void what_sticks_is_marked_in_linearizations(void)
 {
@@ -267,6 +299,7 @@ int main(void)
     RUN(discs_and_clutches);
     RUN(a_one_way_clutch_drives_and_runs_free);
     RUN(stribeck_and_viscous_friction);
+    RUN(parts_of_a_subsystem);
     RUN(what_sticks_is_marked_in_linearizations);
     RUN(wrong_uses_name_their_cure);
     return test_end();

@@ -170,8 +170,8 @@ static bool comes_later(const char *text)
 static void later_words_say_that_they_are(void)
 {
     static const char *const lines[] = {"sweep L from=1 to=2 steps=3 : simulate 1",
-                                        "montecarlo 10 L=normal(1, 0.1) : simulate 1",
-                                        "stop s1 h", "fit k to=\"a.csv\" : simulate 1"};
+                                        "montecarlo 10 L=normal(1, 0.1) : simulate 1", "stop s1 h",
+                                        "fit k to=\"a.csv\" : simulate 1"};
 
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
         Kit kit = kit_new();
