@@ -435,7 +435,7 @@ Instance *part_new(State *state, const Component *row, bool is_virtual)
 Instance *part_add(State *state, const Component *row, const char *name, int tail, int head,
                    const char *terminal)
 {
-    const char *terminals[] = {terminal, "0"};
+    const char *terminals[] = {terminal, "0", "0", "0"};
     PartDraft draft = {.state = state, .part = part_new(state, row, false)};
 
     draft.part->name = state_text(state, name);

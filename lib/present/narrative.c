@@ -54,7 +54,7 @@ SumOrder narrative_order(const int *sign, int count, size_t stride)
 {
     SumOrder order = {0, 1, count};
 
-    if (count == 0 || sign[0] > 0)
+    if (count <= 0 || sign[0] > 0)
         return order;
     for (int i = count - 1; i > 0; i--)
         if (*(const int *)((const char *)sign + (size_t)i * stride) > 0) {

@@ -430,7 +430,7 @@ Status slide_choose(void *context, double t, double low, double high, const doub
         motion_partition(s.phase->motion, t, y);
         CHECK(choose_phase(c, now, all, count, &s, low, high, &next, diag));
     } else {
-        CHECK(phase_on(c, now, all, count, &s, &next, diag));
+        CHECK(phase_on(c, now, all, count, NULL, &next, diag));
     }
     if (next == now)
         goto done;
