@@ -41,9 +41,34 @@ static const char *bound_name(const Instance *instance)
     return instance->on_angle ? "torque" : "force";
 }
 
-static Expr bound_of(const Instance *instance)
+/* whether e is known to be 0 or above: of parameters the check asks for that, and t begins at 0 */
+static bool is_never_negative(Expr e)
 {
-    return instance_scalar(instance, bound_name(instance));
+    const int count = expr_arg_count(e);
+    const bool is_if = expr_kind(e) == EXPR_CALL && expr_op(e) == OP_IF;
+
+    if (expr_is_number(e))
+        return expr_value(e) >= 0;
+    if (expr_kind(e) == EXPR_SYMBOL)
+        return expr_symbol_kind(e) == SYMBOL_PARAMETER || expr_symbol_kind(e) == SYMBOL_TIME;
+    if (expr_kind(e) == EXPR_CALL && expr_op(e) == OP_ABS)
+        return true;
+    if (expr_kind(e) == EXPR_CALL && !is_if && expr_op(e) != OP_MIN && expr_op(e) != OP_MAX)
+        return false;
+    if (expr_kind(e) == EXPR_POWER)
+        return is_never_negative(expr_arg(e, 0));
+    for (int i = is_if; i < count; i++)
+        if (!is_never_negative(expr_arg(e, i)))
+            return false;
+    return true;
+}
+
+/* A brake whose law falls below 0 is open: friction drives nothing. */
+static Expr bound_of(const Instance *instance, Arena *arena)
+{
+    const Expr bound = instance_scalar(instance, bound_name(instance));
+
+    return is_never_negative(bound) ? bound : expr_call1(arena, OP_RAMP, bound);
 }
 
 /* what acts against the rate v, as far as it is positive */
@@ -52,15 +77,15 @@ static Expr resistance(const Instance *instance, Arena *arena, Expr v)
     const Expr one = expr_int(arena, 1), ratio = instance_scalar(instance, "static");
     const bool falls =
         has_param(instance, "stribeck") && !expr_is_zero(instance_scalar(instance, "stribeck"));
-    Expr dry = expr_mul(arena, bound_of(instance), expr_call2(arena, OP_STICK, v, ratio));
+    Expr dry = expr_mul(arena, bound_of(instance, arena), expr_call2(arena, OP_STICK, v, ratio));
 
     if (falls) {
         const Expr part = expr_div(arena, v, instance_scalar(instance, "stribeck"));
         const Expr fall = expr_call1(arena, OP_EXP, expr_neg(arena, expr_mul(arena, part, part)));
         const Expr curve = expr_add(arena, one, expr_mul(arena, expr_sub(arena, ratio, one), fall));
 
-        dry = expr_product(arena,
-                           (Expr[]){bound_of(instance), curve, expr_call1(arena, OP_SIGN, v)}, 3);
+        dry = expr_product(
+            arena, (Expr[]){bound_of(instance, arena), curve, expr_call1(arena, OP_SIGN, v)}, 3);
     }
     if (!has_param(instance, "viscous"))
         return dry;
@@ -86,7 +111,7 @@ static Expr carried(const Instance *instance, Arena *arena, Expr v)
     const Expr half = expr_rational(arena, 1, 2), one = expr_int(arena, 1);
     const Expr share = expr_mul(arena, half, expr_add(arena, one, expr_call1(arena, OP_SIGN, v)));
 
-    return expr_mul(arena, bound_of(instance), share);
+    return expr_mul(arena, bound_of(instance, arena), share);
 }
 
 static Expr oneway_effort(const Instance *instance, Arena *arena, const Motion1 *motion)

@@ -203,6 +203,18 @@ static void stribeck_and_viscous_friction(void)
     kit_free(&kit);
 }
 
+/* 5 cos(t) N m hold 0.1 N m until acos(0.02) s, and nothing brakes or drives from pi/2 s on */
+static void a_bound_below_zero_is_an_open_brake(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "flywheel J a 0 J=1\nbrake b a 0 torque=5*cos(t)\n"
+                      "torquesource T a 0 0.1\ninit J.w = 0\nsimulate 4\n");
+    EXPECT(
+        is_near(kit_value(&kit, "J.w"), 0.1 * (4 - acos(0.02)) - 5 * (1 - sin(acos(0.02))), 1e-7));
+    kit_free(&kit);
+}
+
 /* the same two drums written out, and as instances with a terminal of their own and a joint */
 static void parts_of_a_subsystem(void)
 {
@@ -299,6 +311,7 @@ int main(void)
     RUN(discs_and_clutches);
     RUN(a_one_way_clutch_drives_and_runs_free);
     RUN(stribeck_and_viscous_friction);
+    RUN(a_bound_below_zero_is_an_open_brake);
     RUN(parts_of_a_subsystem);
     RUN(what_sticks_is_marked_in_linearizations);
     RUN(wrong_uses_name_their_cure);
