@@ -319,19 +319,19 @@ Status show_sides(const View *view, const Selection *selection, Text *out, Diag 
     int count = 0;
 
     (void)selection, (void)diag;
-    table_cells(&table, "part\tat the end\tstuck [s]\tslips");
     for (int i = 0; i < model_count(view->model); i++) {
         const Instance *part = model_instance(view->model, i);
         StickRecord record;
 
         if (!part->row->sticks || !result_stick(view->result, part->name, &record))
             continue;
+        if (count++ == 0)
+            table_cells(&table, "part\tat the end\tstuck [s]\tslips");
         table_cells(&table, "%s\t%s\t%.6g\t%d", part->name,
                     record.is_held  ? "held at its bound"
                     : record.sticks ? "sticks"
                                     : "slips",
                     record.stuck, record.slips);
-        count++;
     }
     if (count > 0)
         table_finish(out, &table, 0);
