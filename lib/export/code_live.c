@@ -53,7 +53,6 @@ static void add_side(Code *code, Expr condition, Expr call)
     if (expr_is_number(condition) || (expr_kinds(condition) & unknown) != 0)
         return;
     side.surface.condition = side.surface.measure = surface_of(code->arena, condition, &way);
-    side.surface.side = 1;
     side.surface.ratio = switch_jumps(call) ? surface_ratio(call) : NULL;
     side.is_floor = (expr_kinds(condition) & ~of_time) == 0 && expr_op(call) == OP_FLOOR;
     side.is_timed = (expr_kinds(condition) & ~of_time) == 0 &&

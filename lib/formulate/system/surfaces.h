@@ -15,10 +15,9 @@ typedef struct Surface {
     int number;     /* of system_surface(); -1: of none */
     Expr condition; /* h, as system_surface() returns it */
     Expr ratio;     /* r; NULL: 1 */
-    int side;       /* of h, on which the equations are: -1 or 1; 0: they slide along it */
-    bool held;      /* h remains 0 all the same, as other parts hold it there */
-    Expr sign;      /* of h: -1, 1 or an unknown */
-    Expr measure;   /* h, with the other surfaces' signs substituted */
+    bool may_slide; /* the sign may be between -1 and 1 */
+    Expr sign;      /* symbol of the sign of h */
+    Expr measure;   /* h, with the surfaces' signs substituted */
 } Surface;
 
 /* h of a condition, whatever its scale; *way -1: with the opposite sign */

@@ -28,10 +28,11 @@ typedef struct Putting {
     int count;
 } Putting;
 
-static bool holds_side(const Putting *put, Expr e)
+/* whether e may be between 0 and 1 */
+static bool may_be_between(const Putting *put, Expr e)
 {
     for (int i = 0; i < put->count; i++)
-        if (put->surfaces[i].side == 0 && expr_depends(e, put->surfaces[i].sign))
+        if (put->surfaces[i].may_slide && expr_depends(e, put->surfaces[i].sign))
             return true;
     return false;
 }
@@ -90,27 +91,35 @@ static Expr put_jump(Arena *arena, const Putting *put, Expr e)
     return share(arena, sign, expr_op(e) == OP_STEP ? 1 : -1);
 }
 
-/* replacement for a choice whose condition is no longer 0 or 1 */
+/* b + a (c - b); c or b themselves where a is 1 or 0, as the other may have no value on that side.
+ * A sign that is solved for may be beyond its interval during a step: the formula holds there, too.
+ */
+static Expr put_if(Arena *arena, Expr a, Expr c, Expr b)
+{
+    const Expr between = expr_add(arena, b, expr_mul(arena, a, expr_sub(arena, c, b)));
+
+    return expr_if(arena, expr_call2(arena, OP_EQ, a, expr_int(arena, 1)), c,
+                   expr_if(arena, expr_call2(arena, OP_EQ, a, expr_int(arena, 0)), b, between));
+}
+
+/* replacement for a choice whose condition may be between 0 and 1 */
 static Expr put_choice(Arena *arena, const Putting *put, Expr e)
 {
     Expr a = expr_arg(e, 0), one = expr_int(arena, 1);
 
     switch (expr_op(e)) {
     case OP_IF:
-        if (!holds_side(put, a))
-            return e;
-        return expr_add(arena, expr_arg(e, 2),
-                        expr_mul(arena, a, expr_sub(arena, expr_arg(e, 1), expr_arg(e, 2))));
+        return may_be_between(put, a) ? put_if(arena, a, expr_arg(e, 1), expr_arg(e, 2)) : e;
     case OP_AND:
-        return holds_side(put, e) ? expr_mul(arena, a, expr_arg(e, 1)) : e;
+        return may_be_between(put, e) ? expr_mul(arena, a, expr_arg(e, 1)) : e;
     case OP_OR: /* 1 - (1 - a)(1 - b) */
-        if (!holds_side(put, e))
+        if (!may_be_between(put, e))
             return e;
         return expr_sub(
             arena, one,
             expr_mul(arena, expr_sub(arena, one, a), expr_sub(arena, one, expr_arg(e, 1))));
     case OP_NOT:
-        return holds_side(put, a) ? expr_sub(arena, one, a) : e;
+        return may_be_between(put, a) ? expr_sub(arena, one, a) : e;
     default:
         return e;
     }

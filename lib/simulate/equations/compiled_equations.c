@@ -149,7 +149,6 @@ Status compiled_new(const VariableIndex *layout, Parameters *parameters, Compile
         nb, accelerations, nb->eliminated_by != ELIMINATED_NOT ? 2 * layout->nu : 0, diag));
     CHECK(compiled_compile_mass(nb, diag));
     CHECK(compiled_watch(nb, parameters, diag));
-    CHECK(compiled_slide(nb, parameters, diag));
     *out = nb;
     nb = NULL;
 done:
@@ -177,7 +176,8 @@ void compiled_free(CompiledEquations *nb)
     mem_free(nb->network_places);
     MEM_FREE(nb->magnitude_bound, nb->unit);
     probe_free(nb->slip);
-    MEM_FREE(nb->guards, nb->shown_guards, nb->sign_bounds, nb->eliminated_rows, nb);
+    MEM_FREE(nb->guards, nb->shown_guards, nb->of_surface, nb->sign_bounds, nb->eliminated_rows,
+             nb);
 }
 
 const Program *compiled_program(const CompiledEquations *nb, CompiledPart part)

@@ -12,6 +12,11 @@ MUST_USE Status compiled_new(const VariableIndex *layout, Parameters *parameters
                              CompiledEquations **out, Diag *diag);
 void compiled_free(CompiledEquations *numbers); /* NULL is fine */
 const Equations *compiled_equations(const CompiledEquations *numbers);
+/* Prepare for modes that slide along the layout's surfaces where `on` does. E_MISSING: how one of
+ * them is left can't be determined. */
+MUST_USE Status compiled_slide(CompiledEquations *numbers, const OnSurface *on, Diag *diag);
+/* Set conditions and surfaces to the layout's mode, when that has changed. */
+void compiled_enter_mode(CompiledEquations *numbers);
 /* Set a parameter in all of its programs that contain it. */
 void compiled_set(CompiledEquations *numbers, Expr parameter, double value);
 /* The programs of a run: first the equations, with M and F where these are requested. */

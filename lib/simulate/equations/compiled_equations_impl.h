@@ -10,6 +10,12 @@
 
 typedef LIST(Expr) CompiledRoots;
 
+/* the two conditions of a surface whose sign is an input */
+typedef struct SurfaceGuards {
+    int first;
+    Stage stage; /* of its measure */
+} SurfaceGuards;
+
 struct CompiledEquations {
     Equations eq;
     const VariableIndex *layout;
@@ -36,10 +42,13 @@ struct CompiledEquations {
      * indicators */
     bool has_rates_of_q;
     int rates_excess, rates_pivots;
-    double *sign_bounds; /* of their signs */
-    Probe *slip;         /* of surfaces slid along: slip of each, then `off` of each */
-    Guard *guards;       /* of the conditions, */
-    Expr *shown_guards;  /* the expressions that users see for these; NULL: margins */
+    double *sign_bounds;       /* of the signs of surfaces that the motion slides along */
+    Probe *slip;               /* of all surfaces: slip of each, then `off` of each */
+    SurfaceGuards *of_surface; /* of each surface */
+    Guard *guards;             /* of the conditions, in the current mode; */
+    Expr *shown_guards;        /* the expressions that users see for these; NULL: margins */
+    bool guards_read_network;  /* in modes that slide along no surface, */
+    bool guards_follow_time;   /* likewise */
     int *quaternions, *network_places;
     LIST(int) margins;   /* number of the switch that each belongs to */
     bool is_network_new; /* its program was run with the current t, q, u, x */
@@ -87,11 +96,9 @@ bool compiled_speeds_are_rates(const System *system);       /* q' = u */
 MUST_USE Status compiled_rates(CompiledEquations *numbers, const Constrained *solved, Diag *diag);
 void compiled_end_rates(CompiledEquations *numbers);
 
-/* --- compiled_watch.c --- */
+/* --- compiled_guards.c --- */
 
 /* Conditions of jumps and kinks, and of switches that keep their states; with their program. */
 MUST_USE Status compiled_watch(CompiledEquations *numbers, Parameters *parameters, Diag *diag);
-/* the conditions at which the motion leaves the surfaces that it slides along */
-MUST_USE Status compiled_slide(CompiledEquations *numbers, Parameters *parameters, Diag *diag);
 
 #endif

@@ -8,8 +8,11 @@
 static void slide(void *context, const double *signs)
 {
     CompiledEquations *nb = context;
+    const VariableIndex *l = nb->layout;
 
-    inputs_set(probe_inputs(nb->main), nb->layout->signs, signs, nb->layout->slides);
+    for (int k = 0; k < l->slides; k++)
+        l->sign_values[l->slid[k]] = signs[k];
+    inputs_set(probe_inputs(nb->main), l->signs, l->sign_values, l->surface_count);
 }
 
 static void slip(void *context, double t, const double *y, const Solved *solved, double *slip,
@@ -20,30 +23,47 @@ static void slip(void *context, double t, const double *y, const Solved *solved,
     const RowValues row = row_of_solved(l, t, y, solved);
     const double *values = probe_values(nb->slip, &row);
 
-    memcpy(slip, values, (size_t)l->slides * sizeof(double));
-    memcpy(off, values + l->slides, (size_t)l->slides * sizeof(double));
+    for (int k = 0; k < l->slides; k++) {
+        slip[k] = values[l->slid[k]];
+        off[k] = values[l->surface_count + l->slid[k]];
+    }
+}
+
+/* how far the signs of surfaces that the motion slides along are from their bounds */
+static void put_sign_conditions(const CompiledEquations *nb, double *out)
+{
+    const VariableIndex *l = nb->layout;
+
+    for (int k = 0; k < l->slides; k++) {
+        const double sign = l->sign_values[l->slid[k]], bound = nb->sign_bounds[k];
+
+        double *both = out + nb->of_surface[l->slid[k]].first;
+
+        both[0] = bound - sign;
+        both[1] = bound + sign;
+    }
 }
 
 static void switches(void *context, double t, const double *q, const double *u, const double *x,
                      double *out)
 {
     CompiledEquations *nb = context;
+    const VariableIndex *l = nb->layout;
     double *inputs = probe_inputs(nb->switching);
 
-    inputs[nb->layout->t] = t;
-    inputs_set(inputs, nb->layout->references, probe_inputs(nb->main) + nb->layout->references,
-               nb->layout->multi_turns);
-    inputs_set(inputs, nb->layout->q, q, nb->layout->n);
-    inputs_set(inputs, nb->layout->u, u, nb->layout->nu);
-    inputs_set(inputs, nb->layout->x, x, nb->layout->nx);
-    inputs_set(inputs, nb->layout->signs, probe_inputs(nb->main) + nb->layout->signs,
-               nb->layout->slides);
+    inputs[l->t] = t;
+    inputs_set(inputs, l->references, probe_inputs(nb->main) + l->references, l->multi_turns);
+    inputs_set(inputs, l->q, q, l->n);
+    inputs_set(inputs, l->u, u, l->nu);
+    inputs_set(inputs, l->x, x, l->nx);
+    inputs_set(inputs, l->signs, l->sign_values, l->surface_count);
     if (nb->eq.switches_read_network)
-        memcpy(inputs + nb->layout->rates, probe_inputs(nb->main) + nb->layout->rates,
-               (size_t)(nb->layout->nx + nb->layout->nz) * sizeof(double));
+        memcpy(inputs + l->rates, probe_inputs(nb->main) + l->rates,
+               (size_t)(l->nx + l->nz) * sizeof(double));
     workspace_run(nb->switching->workspace, STAGE_TIME, STAGE_NETWORK);
     memcpy(out, workspace_roots(nb->switching->workspace),
            (size_t)nb->eq.switch_count * sizeof(double));
+    put_sign_conditions(nb, out);
 }
 
 static bool guard_is_of_stiff_element(void *context, int k)
@@ -69,7 +89,7 @@ static Status add_margins(CompiledEquations *nb, CompiledRoots *roots, Diag *dia
         stage = ideal.margin != NULL ? stage_of(ideal.margin) : STAGE_PARAMETER;
         if (stage == STAGE_PARAMETER || stage > STAGE_NETWORK)
             continue;
-        nb->eq.switches_read_network = nb->eq.switches_read_network || stage == STAGE_NETWORK;
+        nb->guards_read_network = nb->guards_read_network || stage == STAGE_NETWORK;
         LIST_PUSH(*roots, variable_index_on_surfaces(nb->layout, ideal.margin));
         LIST_PUSH(nb->margins, i);
         nb->eq.margin_count++;
@@ -93,32 +113,37 @@ static void push_condition(CompiledEquations *nb, Conditions *c, Expr condition,
         return;
     if (guard.surface >= 0)
         (void)system_surface(nb->layout->system, guard.surface, &surface);
-    nb->eq.switches_read_network = nb->eq.switches_read_network || stage == STAGE_NETWORK;
+    nb->guards_read_network = nb->guards_read_network || stage == STAGE_NETWORK;
     guard.solved = guard.surface >= 0 && stage == STAGE_NETWORK;
     LIST_PUSH(c->roots, condition);
     LIST_PUSH(c->shown_guards, surface.condition);
     LIST_PUSH(c->guards, guard);
 }
 
-/* The condition of a surface that the equations stay on: whether its sign leaves -r .. r, or its
- * side changes. */
-static void push_surface(CompiledEquations *nb, Conditions *c, int number, const Surface *surface)
+static bool is_measured(SurfaceGuards own)
 {
-    Arena *arena = system_arena(nb->layout->system);
-    const Expr ratio = surface->ratio != NULL ? surface->ratio : expr_int(arena, 1);
-
-    if (surface->side != 0) {
-        push_condition(nb, c, surface->measure,
-                       (Guard){number, .side = surface->side, .held = surface->held});
-        return;
-    }
-    nb->eq.switches_read_network = true; /* signs follow from it */
-    push_condition(nb, c, expr_sub(arena, ratio, surface->sign), (Guard){number, .end = 1});
-    push_condition(nb, c, expr_add(arena, ratio, surface->sign), (Guard){number, .end = -1});
+    return own.stage != STAGE_PARAMETER && own.stage <= STAGE_NETWORK;
 }
 
-/* the entry of the layout's surfaces for a switch; NULL: none */
-static const Surface *find_surface(const VariableIndex *l, const Switch *entry)
+/* Two conditions of a surface whose sign is an input: on a side of it its measure, and none; where
+ * it is slid along, how far the sign is from either bound. Which ones hold is set with the mode. */
+static void push_surface(CompiledEquations *nb, Conditions *c, int i)
+{
+    const Surface *surface = &nb->layout->surfaces[i];
+    const SurfaceGuards own = {.first = c->roots.count, .stage = stage_of(surface->measure)};
+    const Expr one = expr_int(system_arena(nb->layout->system), 1);
+
+    nb->guards_read_network = nb->guards_read_network || own.stage == STAGE_NETWORK;
+    nb->of_surface[i] = own;
+    for (int k = 0; k < 2; k++) {
+        LIST_PUSH(c->roots, k == 0 && is_measured(own) ? surface->measure : one);
+        LIST_PUSH(c->shown_guards, surface->condition);
+        LIST_PUSH(c->guards, (Guard){.surface = surface->number});
+    }
+}
+
+/* the layout's surface of a switch; -1: none */
+static int find_surface(const VariableIndex *l, const Switch *entry)
 {
     int way;
     Expr surface =
@@ -127,8 +152,8 @@ static const Surface *find_surface(const VariableIndex *l, const Switch *entry)
     for (int i = 0; i < l->surface_count; i++)
         if (entry->surface >= 0 ? l->surfaces[i].number == entry->surface
                                 : l->surfaces[i].condition == surface)
-            return &l->surfaces[i];
-    return NULL;
+            return i;
+    return -1;
 }
 
 static bool is_watched(const Conditions *c, int surface)
@@ -149,19 +174,18 @@ static void push_conditions(CompiledEquations *nb, Conditions *c)
 
     for (int i = 0; i < count; i++) {
         int number = switches[i].surface;
-        const Surface *on = i < time_only ? NULL : find_surface(l, &switches[i]);
-        int before = c->roots.count;
-
+        const int on = i < time_only ? -1 : find_surface(l, &switches[i]);
+        const int before = c->roots.count;
         SystemSurface surface;
 
         if (is_watched(c, number))
             continue;
-        if (number >= 0 && on != NULL)
-            push_surface(nb, c, number, on);
+        if (number >= 0 && on >= 0)
+            push_surface(nb, c, on);
         else if (number >= 0 && system_surface(l->system, number, &surface))
             push_condition(nb, c, variable_index_on_surfaces(l, surface.condition),
                            (Guard){.surface = number});
-        else if (on == NULL) /* else a surface monitors its kink */
+        else if (on < 0) /* else a surface monitors its kink */
             push_condition(nb, c, variable_index_on_surfaces(l, switches[i].condition),
                            (Guard){.surface = -1});
         nb->eq.time_only += i < time_only ? c->roots.count - before : 0;
@@ -175,6 +199,7 @@ Status compiled_watch(CompiledEquations *nb, Parameters *parameters, Diag *diag)
 
     nb->eq.switches = switches;
     nb->eq.guard_is_of_stiff_element = guard_is_of_stiff_element;
+    nb->of_surface = NEW_ARRAY(SurfaceGuards, nb->layout->surface_count);
     push_conditions(nb, &c);
     CHECK(add_margins(nb, &c.roots, diag));
     while (c.guards.count < c.roots.count)
@@ -182,7 +207,7 @@ Status compiled_watch(CompiledEquations *nb, Parameters *parameters, Diag *diag)
     while (c.shown_guards.count < c.roots.count)
         LIST_PUSH(c.shown_guards, NULL);
     nb->eq.switch_count = c.roots.count;
-    nb->eq.switches_follow_time =
+    nb->guards_follow_time =
         c.roots.at != NULL && variable_index_follows_time(nb->layout, c.roots.at + nb->eq.time_only,
                                                           c.roots.count - nb->eq.time_only);
     if (c.roots.count > 0)
@@ -191,6 +216,7 @@ Status compiled_watch(CompiledEquations *nb, Parameters *parameters, Diag *diag)
     c.guards.at = NULL;
     nb->shown_guards = c.shown_guards.at;
     c.shown_guards.at = NULL;
+    compiled_enter_mode(nb);
 done:
     LIST_FREE(c.shown_guards);
     LIST_FREE(c.roots);
@@ -221,36 +247,92 @@ done:
     return status;
 }
 
-Status compiled_slide(CompiledEquations *nb, Parameters *parameters, Diag *diag)
+/* slip of all surfaces, then `off` of each; 0 where slip can't be determined */
+static Status compile_slip(CompiledEquations *nb, Diag *diag)
 {
     const VariableIndex *l = nb->layout;
+    const Expr zero = expr_int(system_arena(l->system), 0);
     CompiledRoots roots = {0};
     CompiledRoots off = {0};
     Status status = OK;
 
-    nb->eq.slide_count = l->slides;
-    if (l->slides == 0)
-        return OK;
-    nb->eq.slide = slide;
-    nb->eq.slip = slip;
-    nb->eq.sign_bounds = nb->sign_bounds = NEW_ARRAY(double, l->slides);
-    for (int i = 0; i < l->slides; i++) {
-        const Expr ratio = l->surfaces[i].ratio;
-        Expr both[2];
+    for (int i = 0; i < l->surface_count; i++) {
+        Expr both[2] = {zero, zero};
 
-        nb->sign_bounds[i] =
-            ratio != NULL ? expr_evaluate(ratio, parameters_value_in, parameters) : 1;
-        CHECK(slip_of(l, l->surfaces[i].measure, &both[0], &both[1], diag));
-        LIST_PUSH(roots, both[0]);
-        LIST_PUSH(off, both[1]);
+        status = slip_of(l, l->surfaces[i].measure, &both[0], &both[1], NULL);
+        if (status != OK && status != E_MISSING)
+            CHECK(diag_set(diag, status, "the slip of a surface can't be formed"));
+        LIST_PUSH(roots, status == OK ? both[0] : zero);
+        LIST_PUSH(off, status == OK ? both[1] : zero);
     }
     for (int i = 0; i < off.count; i++)
         LIST_PUSH(roots, off.at[i]);
-    CHECK(probe_new(l, parameters, roots.at, roots.count, &nb->slip, diag));
+    CHECK(probe_new(l, nb->parameters, roots.at, roots.count, &nb->slip, diag));
 done:
     LIST_FREE(roots);
     LIST_FREE(off);
     return status;
+}
+
+Status compiled_slide(CompiledEquations *nb, const OnSurface *on, Diag *diag)
+{
+    const VariableIndex *l = nb->layout;
+    bool any = false;
+
+    for (int i = 0; i < l->surface_count; i++) {
+        Expr slip, off;
+
+        if (on[i].side != 0)
+            continue;
+        TRY(slip_of(l, l->surfaces[i].measure, &slip, &off, diag));
+        any = true;
+    }
+    if (!any || nb->slip != NULL)
+        return OK;
+    mem_keep(nb);
+    return compile_slip(nb, diag);
+}
+
+/* the two conditions of a surface that is on that side, or slid along */
+static void set_guards(Guard *both, const OnSurface *on, SurfaceGuards own)
+{
+    const Guard none = {.surface = on->surface, .is_idle = true};
+
+    if (on->side == 0) {
+        both[0] = (Guard){.surface = on->surface, .end = 1};
+        both[1] = (Guard){.surface = on->surface, .end = -1};
+        return;
+    }
+    both[0] = is_measured(own) ? (Guard){.surface = on->surface,
+                                         .side = on->side,
+                                         .held = on->held,
+                                         .solved = own.stage == STAGE_NETWORK}
+                               : none;
+    both[1] = none;
+}
+
+void compiled_enter_mode(CompiledEquations *nb)
+{
+    const VariableIndex *l = nb->layout;
+    const bool slides = l->slides > 0;
+
+    nb->eq.surface_count = l->surface_count;
+    nb->eq.slide_count = l->slides;
+    nb->eq.slide = slide;
+    nb->eq.slip = slip;
+    if (nb->sign_bounds == NULL)
+        nb->eq.sign_bounds = nb->sign_bounds = NEW_ARRAY(double, l->surface_count);
+    for (int k = 0; k < l->slides; k++) {
+        const Expr ratio = l->surfaces[l->slid[k]].ratio;
+
+        nb->sign_bounds[k] =
+            ratio != NULL ? expr_evaluate(ratio, parameters_value_in, nb->parameters) : 1;
+    }
+    for (int i = 0; i < l->surface_count; i++)
+        set_guards(nb->guards + nb->of_surface[i].first, &l->on[i], nb->of_surface[i]);
+    nb->eq.switches_read_network = nb->guards_read_network || slides;
+    nb->eq.switches_follow_time =
+        nb->guards_follow_time || (slides && variable_index_signs_follow_time(l));
 }
 
 Expr compiled_condition(const CompiledEquations *nb, int i)

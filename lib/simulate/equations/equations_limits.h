@@ -177,10 +177,17 @@
 #define SIGNS_ITERATIONS 30
 
 /* perturbation of difference quotients */
-#define SIGNS_DIFFERENCE 1e-6
+#define SIGNS_DIFFERENCE 1e-4
 
 /* Newton step that is the last */
 #define SIGNS_CONVERGED 1e-11
+
+/* the same with factors of an earlier search, whose last step is not taken */
+#define SIGNS_ROUNDING 4e-16
+
+/* a step over the one before it, with factors of an earlier search; more than that: they are
+ * renewed */
+#define SIGNS_CONTRACTION 0.1
 
 /* least pivot over largest below which the least-squares solution is used */
 #define SIGNS_SINGULAR 1e-11

@@ -329,7 +329,9 @@ int implicit_jacobian_pattern(void *context, const int **row, const int **column
 {
     ImplicitSlopes *j = context;
 
-    if (!j->is_asked && j->l->slides == 0) {
+    if (j->l->slides > 0)
+        return -1;
+    if (!j->is_asked) {
         mem_keep(j);
         j->is_made = make(j);
         j->is_asked = true;

@@ -36,6 +36,22 @@ static void open_projection(Motion *mo)
     mem_free(place);
 }
 
+static void set_projection(Motion *mo)
+{
+    const Equations *eq = mo->eq;
+    const bool projects =
+        mo->used > 0 || eq->quaternion_count > 0 || eq->multi_turn_count > 0 || eq->slide_count > 0;
+
+    mo->ode.project = projects ? project : NULL;
+}
+
+void motion_enter_mode(Motion *mo)
+{
+    set_projection(mo);
+    if (mo->eq->slide_count > 0)
+        signs_begin(mo->signs, mo->eq->slide_count, mo->eq->sign_bounds);
+}
+
 static void describe_ode(Motion *mo)
 {
     const Equations *eq = mo->eq;
@@ -49,8 +65,7 @@ static void describe_ode(Motion *mo)
                     .rounding_error = mo->used > 0 ? rounding_error : NULL,
                     .magnitude_bound = eq->magnitude_bound,
                     .unit = eq->unit};
-    if (mo->used > 0 || eq->quaternion_count > 0 || eq->multi_turn_count > 0 || eq->slide_count > 0)
-        mo->ode.project = project;
+    set_projection(mo);
     mo->error_floor = NEW_ARRAY(double, mo->ode.n);
     for (int k = 0; k < eq->multi_turn_count; k++)
         mo->error_floor[multi_turn_place(eq) + k] = REFERENCE_ERROR_FLOOR;
@@ -107,9 +122,10 @@ Motion *motion_new(const Equations *eq, const MotionOptions *options)
     mo->by_groups = mo->by_all = (Trend){.at = NAN, .before_at = NAN};
     if (mo->used > 0)
         open_projection(mo);
-    if (eq->slide_count > 0)
+    if (eq->surface_count > 0)
         motion_open_surfaces(mo);
     describe_ode(mo);
+    motion_enter_mode(mo);
     return mo;
 }
 
@@ -197,7 +213,7 @@ void motion_switches(Motion *mo, double t, const double *y, double *out)
     const Equations *eq = mo->eq;
 
     if (eq->switches_read_network &&
-        !(mo->signs != NULL ? motion_find_signs(mo, t, y) : motion_find_network(mo, t, y))) {
+        !(eq->slide_count > 0 ? motion_find_signs(mo, t, y) : motion_find_network(mo, t, y))) {
         for (int i = 0; i < eq->switch_count; i++)
             out[i] = NAN;
         return;
@@ -302,7 +318,7 @@ static bool rate_outright(Motion *mo, double t, const double *y, double *out)
 {
     const Equations *eq = mo->eq;
 
-    if (eq->outright == NULL || mo->signs != NULL || mo->partitioning != NULL ||
+    if (eq->outright == NULL || eq->slide_count > 0 || mo->partitioning != NULL ||
         (mo->used > 0 && !motion_rows_are_fixed(mo)))
         return false;
     mo->is_evaluated = mo->is_evaluated && eq->is_outright_apart;
@@ -572,7 +588,7 @@ bool motion_project(Motion *mo, double t, double *y)
         motion_at_position(mo, t, y);
     else if (!project_both(mo, t, y))
         return false;
-    if (mo->signs != NULL && !motion_project_surfaces(mo, t, y))
+    if (eq->slide_count > 0 && !motion_project_surfaces(mo, t, y))
         return false;
     if (eq->multi_turn_count > 0)
         memcpy(y + multi_turn_place(eq), eq->multi_turn,

@@ -26,11 +26,12 @@ typedef struct Solved Solved;
 
 /* A condition of the equations that a run monitors. */
 typedef struct Guard {
-    int surface; /* surface on which the equations jump; -1: a kink at most */
-    int side;    /* side of the surface that they are on; 0: they jump, or slide along it */
-    int end;     /* of its sign's interval, left there: -1 or 1; 0: no sliding */
-    bool held;   /* on a side, and other parts keep it on its surface: its sign tells nothing */
-    bool solved; /* its measure is solved for with the jump: always on one side */
+    int surface;  /* surface on which the equations jump; -1: a kink at most */
+    int side;     /* side of the surface that they are on; 0: they jump, or slide along it */
+    int end;      /* of its sign's interval, left there: -1 or 1; 0: no sliding */
+    bool held;    /* on a side, and other parts keep it on its surface: its sign tells nothing */
+    bool solved;  /* its measure is solved for with the jump: always on one side */
+    bool is_idle; /* it tells nothing in the current mode */
 } Guard;
 
 /* What a program has eliminated in closed form, for these constraint rows in use. */
@@ -129,6 +130,7 @@ typedef struct Equations {
     const Guard *guards;        /* switch_count; NULL: all are kinks at most */
     void (*switches)(void *context, double t, const double *q, const double *u, const double *x,
                      double *out);
+    int surface_count; /* whose signs are inputs: a mode changes guards and what follows */
     /* surfaces that the motion slides along: signs are solved for such that slip is 0 */
     int slide_count;
     const double *sign_bounds;                         /* slide_count: largest size of each sign */
@@ -187,7 +189,6 @@ struct Solved {
     const double *multipliers;  /* m: lambda, of minimum norm where rows are redundant */
     const double *rates;        /* nx: x' */
     const double *algebraic;    /* nz: z */
-    const double *signs;        /* slide_count: of surfaces that are slid along */
 };
 /* [x'; z] at (t, y): borrowed, until the next call. Where the last evaluation was at that time and
  * state, its result is returned. NULL: there is no solution. */
@@ -202,6 +203,8 @@ bool motion_solve_in_use(Motion *motion, double t, const double *y, Solved *out)
 const int *motion_rows(const Motion *motion, int *count); /* in use; borrowed */
 void motion_rows_in_use(const Motion *motion, bool *out); /* the same: whether each is (m) */
 
+/* Set what depends on the mode of the equations, when that has changed. */
+void motion_enter_mode(Motion *motion);
 /* Slip for given signs (slide_count each). */
 bool motion_drift(Motion *motion, double t, const double *y, const double *signs, double *slip,
                   double *off);

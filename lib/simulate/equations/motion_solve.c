@@ -196,7 +196,6 @@ bool motion_report(const Motion *mo, Solved *out)
     const Equations *eq = mo->eq;
 
     *out = (Solved){.acceleration = mo->du,
-                    .signs = mo->signs != NULL ? signs_values(mo->signs) : NULL,
                     .multipliers = mo->lambda_all,
                     .rates = mo->solved,
                     .algebraic = mo->solved + eq->nx};
@@ -208,7 +207,7 @@ bool motion_solve_in_use(Motion *mo, double t, const double *y, Solved *out)
 {
     const bool spreads = mo->eq->network_reads != NULL && mo->used < mo->eq->m;
 
-    if (mo->signs != NULL || mo->is_projecting || spreads || !motion_evaluate(mo, t, y) ||
+    if (mo->eq->slide_count > 0 || mo->is_projecting || spreads || !motion_evaluate(mo, t, y) ||
         !motion_solve_plain(mo) || (mo->is_factored && kkt_is_regularised(mo->kkt)))
         return false;
     place_multipliers(mo);

@@ -14,9 +14,9 @@
 
 void motion_open_surfaces(Motion *mo)
 {
-    int count = mo->eq->slide_count;
+    int count = mo->eq->surface_count;
 
-    mo->signs = signs_new(count, mo->eq->sign_bounds);
+    mo->signs = signs_new(count);
     mo->slip = NEW_ARRAY(double, count);
     mo->off = NEW_ARRAY(double, count);
     mo->way = NEW_ARRAY(double, (count + 1) * motion_length(mo));
@@ -33,10 +33,8 @@ static bool try_signs(void *context, const double *signs, double *slip)
 {
     const Where *at = context;
     Motion *mo = at->motion;
-    Solved solved = {.acceleration = mo->du,
-                     .rates = mo->solved,
-                     .algebraic = mo->solved + mo->eq->nx,
-                     .signs = signs};
+    Solved solved = {
+        .acceleration = mo->du, .rates = mo->solved, .algebraic = mo->solved + mo->eq->nx};
 
     mo->eq->slide(mo->eq->context, signs);
     if (!motion_evaluate(mo, at->t, at->y) || !motion_solve_rates(mo))
@@ -130,5 +128,5 @@ bool motion_project_surfaces(Motion *mo, double t, double *y)
 
 bool motion_evaluate_all(Motion *mo, double t, const double *y)
 {
-    return mo->signs != NULL ? motion_find_signs(mo, t, y) : motion_evaluate(mo, t, y);
+    return mo->eq->slide_count > 0 ? motion_find_signs(mo, t, y) : motion_evaluate(mo, t, y);
 }

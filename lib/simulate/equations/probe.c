@@ -91,8 +91,7 @@ const Residual *probe_residual(const Probe *probe)
 
 bool probe_reads_state(const Probe *probe)
 {
-    /* signs of surfaces that the motion slides along are inputs of the program, and have to be
-     * solved for */
+    /* signs of surfaces that the motion slides along have to be solved for */
     return probe->layout->slides == 0 &&
            program_last_stage(residual_program(probe->residual)) <= STAGE_VELOCITY;
 }
@@ -115,9 +114,12 @@ double *probe_input(Probe *probe, int place)
 
 void probe_set_sides(Probe *probe)
 {
-    probe->seen = probe->layout->sides;
+    const VariableIndex *l = probe->layout;
+
+    probe->seen = l->sides;
+    inputs_set(probe->inputs, l->signs, l->sign_values, l->surface_count);
     for (int i = 0; i < probe->sides.count; i++)
-        probe->inputs[probe->sides.at[i].input] = probe->layout->closed[probe->sides.at[i].side];
+        probe->inputs[probe->sides.at[i].input] = l->closed[probe->sides.at[i].side];
     if (probe->sides.count > 0)
         workspace_run(probe->workspace, STAGE_PARAMETER, STAGE_PARAMETER);
 }
@@ -141,7 +143,6 @@ RowValues row_of_solved(const VariableIndex *l, double t, const double *y, const
     row.z = solved->algebraic;
     row.acceleration = solved->acceleration;
     row.multipliers = solved->multipliers;
-    row.signs = solved->signs;
     return row;
 }
 
@@ -156,6 +157,8 @@ bool row_solve(const VariableIndex *l, Motion *motion, double t, const double *y
 
 static void put_state(const VariableIndex *l, const RowValues *row, double *inputs)
 {
+    inputs_set(inputs, l->signs, row->signs != NULL ? row->signs : l->sign_values,
+               l->surface_count);
     inputs[l->t] = row->t;
     inputs_set(inputs, l->references, row->references, l->multi_turns);
     inputs_set(inputs, l->q, row->q, l->n);
@@ -166,7 +169,6 @@ static void put_state(const VariableIndex *l, const RowValues *row, double *inpu
 static void put_row(const VariableIndex *l, const RowValues *row, double *inputs)
 {
     put_state(l, row, inputs);
-    inputs_set(inputs, l->signs, row->signs, l->slides);
     inputs_set(inputs, l->rates, row->rates, l->nx);
     inputs_set(inputs, l->z, row->z, l->nz);
     inputs_set(inputs, l->acceleration, row->acceleration, l->nu);
@@ -193,6 +195,7 @@ static double *input_errors(const Probe *probe, const RowValues *errors)
     double *inputs = NEW_ARRAY(double, count);
 
     put_row(l, errors, inputs);
+    inputs_set(inputs, l->signs, errors->signs, l->surface_count);
     for (int i = l->count; i < count; i++)
         inputs[i] = number_error(probe->inputs[i]);
     return inputs;

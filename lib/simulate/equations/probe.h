@@ -14,7 +14,7 @@
 
 #include <string.h>
 
-/* Known values at an instant; NULL arrays are 0. */
+/* Known values at an instant; NULL arrays are 0, but `signs` those of the layout. */
 typedef struct RowValues {
     double t;
     const double *references, *q, *u, *x, *signs, *rates, *z, *acceleration, *multipliers, *efforts,

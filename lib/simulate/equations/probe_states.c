@@ -25,6 +25,18 @@ static void put_parameters(const Probe *probe, SimdBatch *lanes)
     }
 }
 
+/* signs of surfaces on whose sides all states are */
+static void put_signs(const VariableIndex *l, SimdBatch *lanes)
+{
+    double values[LANES];
+
+    for (int i = 0; i < l->surface_count; i++) {
+        for (int k = 0; k < LANES; k++)
+            values[k] = l->sign_values[i];
+        simd_batch_set(lanes, l->signs + i, STAGE_VELOCITY, values);
+    }
+}
+
 /* Set one part of these states, from index `place` of y on. */
 static void put_part(const double *const y[LANES], int place, int count, int input, Stage stage,
                      SimdBatch *lanes)
@@ -68,6 +80,7 @@ static void by_lanes(Probe *probe, Evaluator evaluator, const ProbeStates *s, in
 
     (void)probe_inputs(probe); /* brings sides of switches up to date */
     put_parameters(probe, lanes);
+    put_signs(probe->layout, lanes);
     for (int first = 0; first < s->count; first += LANES) {
         const int count = s->count - first < LANES ? s->count - first : LANES;
 

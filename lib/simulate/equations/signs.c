@@ -1,9 +1,10 @@
 /* signs.c: signs on surfaces that a motion slides along
  *
  * Newton's method for slip(s) = 0, s (count) the values that replace sign() of each surface, with
- * difference quotients. Where the derivative is singular the step is the least-squares solution of
- * least norm, (A^T A + d) x = A^T b with small d and refinement. |s_k| > 1: the motion leaves
- * surface k. */
+ * difference quotients A = d slip/d s. The factors of A are kept from one search to the next, as
+ * long as steps with them converge quickly: of a linear slip they always do. Where A is singular
+ * the step is the least-squares solution of least norm, (A^T A + d) x = A^T b with small d and
+ * refinement. |s_k| > 1: the motion leaves surface k. */
 #include "simulate/equations/signs.h"
 
 #include "algebra/linear.h"
@@ -15,28 +16,42 @@
 
 struct Signs {
     int count;
-    double *values, *bounds, *slip, *matrix, *move;
+    double *values, *bounds, *slip, *matrix, *move, *kept;
+    Lu *factors; /* of the matrix, */
+    bool is_factored;
 };
 
-Signs *signs_new(int count, const double *bounds)
+Signs *signs_new(int room)
 {
     Signs *s = NEW(Signs);
 
-    s->count = count;
-    s->values = NEW_ARRAY(double, count);
-    s->bounds = NEW_ARRAY(double, count);
-    memcpy(s->bounds, bounds, (size_t)count * sizeof(double));
-    s->slip = NEW_ARRAY(double, count);
-    s->move = NEW_ARRAY(double, count);
-    s->matrix = NEW_ARRAY(double, count *count);
+    s->values = NEW_ARRAY(double, room);
+    s->bounds = NEW_ARRAY(double, room);
+    s->slip = NEW_ARRAY(double, room);
+    s->move = NEW_ARRAY(double, room);
+    s->kept = NEW_ARRAY(double, room);
+    s->matrix = NEW_ARRAY(double, room *room);
     return s;
+}
+
+void signs_begin(Signs *s, int count, const double *bounds)
+{
+    if (s->count != count) {
+        lu_free(s->factors);
+        s->factors = lu_new(count);
+    }
+    s->count = count;
+    s->is_factored = false;
+    memset(s->values, 0, (size_t)count * sizeof(double));
+    memcpy(s->bounds, bounds, (size_t)count * sizeof(double));
 }
 
 void signs_free(Signs *s)
 {
     if (s == NULL)
         return;
-    MEM_FREE(s->values, s->bounds, s->slip, s->move, s->matrix, s);
+    lu_free(s->factors);
+    MEM_FREE(s->values, s->bounds, s->slip, s->move, s->kept, s->matrix, s);
 }
 
 double *signs_values(Signs *s)
@@ -46,6 +61,7 @@ double *signs_values(Signs *s)
 
 bool signs_slopes(Signs *s, SignsTrial trial, void *context, double *slip)
 {
+    s->is_factored = false;
     if (!trial(context, s->values, slip))
         return false;
     for (int k = 0; k < s->count; k++) {
@@ -104,13 +120,17 @@ static bool least(const double *a, int n, double *b)
     return sound;
 }
 
+static bool factor(Lu *lu, const double *matrix, int n)
+{
+    memcpy(lu_matrix(lu), matrix, (size_t)(n * n) * sizeof(double));
+    return lu_factor(lu) && lu_pivot_ratio(lu) > SIGNS_SINGULAR;
+}
+
 bool signs_least(const double *matrix, int n, double *b)
 {
     Lu *lu = lu_new(n);
-    bool sound;
+    bool sound = factor(lu, matrix, n);
 
-    memcpy(lu_matrix(lu), matrix, (size_t)(n * n) * sizeof(double));
-    sound = lu_factor(lu) && lu_pivot_ratio(lu) > SIGNS_SINGULAR;
     if (sound)
         lu_solve(lu, b);
     else
@@ -123,7 +143,43 @@ bool signs_solve(Signs *s, double *slip)
 {
     for (int i = 0; i < s->count; i++)
         slip[i] = -slip[i];
-    return signs_least(s->matrix, s->count, slip);
+    s->is_factored = s->is_factored || factor(s->factors, s->matrix, s->count);
+    if (!s->is_factored)
+        return least(s->matrix, s->count, slip) && vector_is_finite(slip, s->count);
+    lu_solve(s->factors, slip);
+    return vector_is_finite(slip, s->count);
+}
+
+/* With the factors of an earlier search. False: they are none, or converge too slowly; the values
+ * are as before. */
+static bool iterate_with_factors(Signs *s, SignsTrial trial, void *context)
+{
+    const size_t bytes = (size_t)s->count * sizeof(double);
+    double before = INFINITY;
+
+    if (!s->is_factored)
+        return false;
+    memcpy(s->kept, s->values, bytes);
+    for (int turn = 0; turn < SIGNS_ITERATIONS && trial(context, s->values, s->slip); turn++) {
+        const double size = fmax(1, vector_largest(s->values, s->count));
+        double moved;
+
+        if (!signs_solve(s, s->slip))
+            break;
+        moved = vector_largest(s->slip, s->count);
+        if (moved <= SIGNS_ROUNDING * size)
+            return true;
+        if (!(moved <= SIGNS_CONTRACTION * before)) {
+            if (moved <= SIGNS_CONVERGED * size)
+                return true; /* as close as rounding allows */
+            break;
+        }
+        before = moved;
+        for (int i = 0; i < s->count; i++)
+            s->values[i] += s->slip[i];
+    }
+    memcpy(s->values, s->kept, bytes);
+    return false;
 }
 
 static bool newton(Signs *s, SignsTrial trial, void *context)
@@ -216,7 +272,7 @@ static bool lies_beyond(Signs *s, SignsTrial trial, void *context)
 
 bool signs_find(Signs *s, SignsTrial trial, void *context)
 {
-    bool found = newton(s, trial, context);
+    bool found = iterate_with_factors(s, trial, context) || newton(s, trial, context);
 
     /* where slip is strongly nonlinear, one by one, as initial guess of Newton's method */
     for (int round = 0; round < SIGNS_ROUNDS && !found; round++) {

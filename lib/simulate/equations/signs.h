@@ -11,8 +11,10 @@ typedef struct Signs Signs;
 /* slip at these signs; false: it can't be evaluated there */
 typedef bool (*SignsTrial)(void *context, const double *signs, double *slip);
 
-/* New, all 0; free with signs_free(). Sign i is between -bounds[i] and bounds[i]; copied. */
-Signs *signs_new(int count, const double *bounds);
+/* New, with room for so many; free with signs_free(). */
+Signs *signs_new(int room);
+/* Begin with `count` signs, all 0. Sign i is between -bounds[i] and bounds[i]; copied. */
+void signs_begin(Signs *signs, int count, const double *bounds);
 void signs_free(Signs *signs);      /* NULL is fine */
 double *signs_values(Signs *signs); /* of the last search; the next one starts there */
 /* The matrix d slip_i / d sign_k at the values; slip there is stored in `slip`. */

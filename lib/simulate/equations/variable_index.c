@@ -27,41 +27,91 @@ static Expr jerk_symbol(System *system, int i)
     return symbol;
 }
 
-/* Number the surfaces, those that are slid along first; the measure of a surface contains the signs
- * of inner ones. */
-static void place_surfaces(VariableIndex *l, const OnSurface *on, int count)
+/* Whether a condition jumps on surfaces itself, which then are inner ones. */
+static bool is_nested(System *system, Expr condition)
+{
+    return switch_jumps_over(system_arena(system), condition, ~0U);
+}
+
+/* The measure of a surface contains the signs of inner ones: as often as they are nested. */
+static void find_measures(VariableIndex *l)
 {
     Arena *arena = system_arena(l->system);
+    bool changed = true;
 
-    l->surfaces = NEW_ARRAY(Surface, count);
-    for (int pass = 0; pass < 2; pass++)
-        for (int i = 0; i < count; i++) {
-            Surface *surface = &l->surfaces[l->surface_count];
-            SystemSurface known;
-            Text name = {0};
-
-            if ((on[i].side == 0) != (pass == 0) ||
-                !system_surface(l->system, on[i].surface, &known))
-                continue;
-            text_addf(&name, "#sign %d", on[i].surface + 1);
-            surface->number = on[i].surface;
-            surface->condition = surface->measure = known.condition;
-            surface->ratio = known.ratio;
-            surface->side = on[i].side;
-            surface->held = on[i].held;
-            surface->sign = on[i].side != 0 ? expr_int(arena, on[i].side)
-                                            : expr_symbol(arena, name.at, SYMBOL_STATE);
-            l->surface_count++;
-            l->slides += on[i].side == 0;
-            text_free(&name);
-        }
-    for (int turn = 0; turn < l->surface_count; turn++) /* as deep as they are nested */
+    for (int turn = 0; turn < l->surface_count && changed; turn++) {
+        changed = false;
         for (int i = 0; i < l->surface_count; i++) {
+            Surface *surface = &l->surfaces[i];
             int way;
+            Expr measure;
 
-            l->surfaces[i].measure = surface_of(
-                arena, surfaces_substitute(arena, l->surfaces[i].condition, l->surfaces, i), &way);
+            if (!is_nested(l->system, surface->condition))
+                continue;
+            measure = surface_of(
+                arena,
+                surfaces_substitute(arena, surface->condition, l->surfaces, l->surface_count),
+                &way);
+            changed = changed || measure != surface->measure;
+            surface->measure = measure;
         }
+    }
+}
+
+static void place_surfaces(VariableIndex *l, const OnSurface *on, int count)
+{
+    l->surfaces = NEW_ARRAY(Surface, count);
+    l->on = NEW_ARRAY(OnSurface, count);
+    l->slid = NEW_ARRAY(int, count);
+    l->sign_values = NEW_ARRAY(double, count);
+    for (int i = 0; i < count; i++) {
+        Surface *surface = &l->surfaces[i];
+        SystemSurface known = {0};
+        Text name = {0};
+
+        (void)system_surface(l->system, on[i].surface, &known);
+        text_addf(&name, "#sign %d", on[i].surface + 1);
+        *surface = (Surface){.number = on[i].surface,
+                             .condition = known.condition,
+                             .ratio = known.ratio,
+                             .may_slide = true,
+                             .sign = expr_symbol(system_arena(l->system), name.at, SYMBOL_STATE),
+                             .measure = known.condition};
+        text_free(&name);
+    }
+    l->surface_count = count;
+    find_measures(l);
+    variable_index_set_on(l, on);
+}
+
+bool variable_index_has_surfaces(const VariableIndex *l, const OnSurface *on, int count)
+{
+    bool same = l->surface_count == count;
+
+    for (int i = 0; i < count && same; i++)
+        same = l->surfaces[i].number == on[i].surface;
+    return same;
+}
+
+bool variable_index_is_on(const VariableIndex *l, const OnSurface *on)
+{
+    bool same = true;
+
+    for (int i = 0; i < l->surface_count && same; i++)
+        same = l->on[i].side == on[i].side && l->on[i].held == on[i].held;
+    return same;
+}
+
+void variable_index_set_on(VariableIndex *l, const OnSurface *on)
+{
+    l->slides = 0;
+    for (int i = 0; i < l->surface_count; i++) {
+        l->on[i] = on[i];
+        l->sign_values[i] = on[i].side;
+        if (on[i].side == 0)
+            l->slid[l->slides++] = i;
+    }
+    l->sides++;
 }
 
 static void find_sides(VariableIndex *l)
@@ -121,7 +171,7 @@ VariableIndex *variable_index_new_on(System *system, const OnSurface *on, int co
     for (int i = 0; i < l->nx; i++)
         (void)append(l, &room, system_x(system, i)->symbol);
     l->signs = l->count;
-    for (int i = 0; i < l->slides; i++)
+    for (int i = 0; i < l->surface_count; i++)
         (void)append(l, &room, l->surfaces[i].sign);
     l->rates = l->count;
     for (int i = 0; i < l->nx; i++)
@@ -192,24 +242,38 @@ void variable_index_free(VariableIndex *layout)
 {
     if (layout == NULL)
         return;
-    MEM_FREE(layout->symbols, layout->side, layout->closed, layout->surfaces, layout);
+    MEM_FREE(layout->symbols, layout->side, layout->closed, layout->surfaces, layout->on,
+             layout->slid, layout->sign_values, layout);
+}
+
+static unsigned network_kinds(const VariableIndex *l)
+{
+    const EquationForm *run = system_run(l->system);
+    unsigned kinds = 0;
+
+    for (int i = 0; i < l->nx + l->nz; i++)
+        kinds |= expr_kinds(run->network_residual[i]);
+    return kinds;
 }
 
 bool variable_index_follows_time(const VariableIndex *l, const Expr *roots, int count)
 {
-    const EquationForm *run = system_run(l->system);
     const unsigned solved = 1U << SYMBOL_ALGEBRAIC | 1U << SYMBOL_STATE_RATE;
     unsigned kinds = 0;
 
     for (int i = 0; i < count; i++)
         kinds |= expr_kinds(roots[i]);
     if ((kinds & solved) != 0)
-        for (int i = 0; i < l->nx + l->nz; i++)
-            kinds |= expr_kinds(run->network_residual[i]);
-    for (int i = 0; i < l->nu && l->slides > 0; i++) /* signs depend on forces */
-        kinds |= expr_kinds(run->force[i]);
-    for (int i = 0; i < l->nx + l->nz && l->slides > 0; i++)
-        kinds |= expr_kinds(run->network_residual[i]);
+        kinds |= network_kinds(l);
+    return (kinds & 1U << SYMBOL_TIME) != 0;
+}
+
+bool variable_index_signs_follow_time(const VariableIndex *l)
+{
+    unsigned kinds = network_kinds(l);
+
+    for (int i = 0; i < l->nu; i++)
+        kinds |= expr_kinds(system_run(l->system)->force[i]);
     return (kinds & 1U << SYMBOL_TIME) != 0;
 }
 

@@ -1,13 +1,19 @@
 /* variable_index.h: the order of inputs of all programs over one system
  *
  * t, references of multi-turn angles, q, u, x, signs on surfaces, x', z, u', lambda, efforts, u'';
- * a program's parameters come after these. Programs are on the layout's sides of its surfaces
- * (formulate/system/surfaces.h). */
+ * a program's parameters come after these. Programs read the signs of the layout's surfaces
+ * (formulate/system/surfaces.h) in place of what jumps there. */
 #ifndef COTREE_SIMULATE_EQUATIONS_VARIABLE_INDEX_H
 #define COTREE_SIMULATE_EQUATIONS_VARIABLE_INDEX_H
 
 #include "formulate/system/surfaces.h"
 #include "formulate/system/system.h"
+
+/* a side of one of the system's surfaces, by number: -1 or 1; 0: the motion slides along it */
+typedef struct OnSurface {
+    int surface, side;
+    bool held; /* on a side, but parts that stick keep it on the surface: its sign tells nothing */
+} OnSurface;
 
 typedef struct VariableIndex {
     System *system;
@@ -19,9 +25,12 @@ typedef struct VariableIndex {
     int t, references, q, u, x, signs, rates, z, acceleration, multipliers, efforts,
         jerk; /* index of the first */
     int count;
-    Expr *symbols; /* count */
-    Surface *surfaces;
-    int surface_count; /* sliding ones come first: `slides` of them */
+    Expr *symbols;     /* count */
+    Surface *surfaces; /* whose signs are inputs; */
+    int surface_count;
+    OnSurface *on;       /* the sides of these in the current mode; `slides` of them are 0: */
+    int *slid;           /* their indices, */
+    double *sign_values; /* and the current sign of each surface */
 } VariableIndex;
 
 /* y of a run is q, u, x, references, work */
@@ -33,13 +42,14 @@ variable_index_references(const VariableIndex *l) /* index of the first referenc
 
 VariableIndex *variable_index_new(
     System *system); /* new; free with variable_index_free(). Symbols of u'' are made. */
-/* The same with given sides of some of the system's surfaces, by number: -1 or 1; 0: slides along
- * it. */
-typedef struct OnSurface {
-    int surface, side;
-    bool held; /* on a side, but parts that stick keep it on the surface: its sign tells nothing */
-} OnSurface;
+/* The same where the signs of some of the system's surfaces are inputs, which begins on these
+ * sides. */
 VariableIndex *variable_index_new_on(System *system, const OnSurface *on, int count);
+/* whether these are its surfaces, in that order; whether it is on these sides of them */
+bool variable_index_has_surfaces(const VariableIndex *layout, const OnSurface *on, int count);
+bool variable_index_is_on(const VariableIndex *layout, const OnSurface *on);
+/* Set the sides of its surfaces, for all programs over the layout. O(surfaces). */
+void variable_index_set_on(VariableIndex *layout, const OnSurface *on);
 /* x, x', z: 2 nx + nz symbols; new */
 Expr *variable_index_network(const VariableIndex *layout);
 /* e on the sides of the layout's surfaces */
@@ -53,5 +63,7 @@ void variable_index_free(VariableIndex *layout);
 void variable_index_set_sides(VariableIndex *layout, const bool *closed);
 /* whether any of the roots changes with t alone, while no state does */
 bool variable_index_follows_time(const VariableIndex *layout, const Expr *roots, int count);
+/* the same of signs of surfaces that the motion slides along: what acts on it changes with t */
+bool variable_index_signs_follow_time(const VariableIndex *layout);
 
 #endif

@@ -171,7 +171,7 @@ static Status ask_energies(Phases *phases, const Phase *phase, const void *conte
 {
     ActiveRun *r = (ActiveRun *)context;
 
-    if (phase == r->energies_of && r->energies != NULL) {
+    if (r->energies != NULL && phase->like == r->energies_of->like) {
         mem_keep(r);
         *out = r->energies;
         r->energies = NULL;

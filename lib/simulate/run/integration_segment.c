@@ -8,7 +8,6 @@
 #include <string.h>
 
 #define ROUNDS 20 /* events and ideal switches that trigger each other at one instant */
-#define KEPT   64 /* surfaces up to which all sides are stored: each set of sides is a phase */
 
 /* --- steps --- */
 
@@ -138,7 +137,7 @@ static Status enter(Integration *m, const Segment *segment, double t, const doub
 }
 
 /* what is known of the surface that condition i belongs to */
-static bool meets(Integration *m, int i, Meeting *out)
+static void meet_surface(Integration *m, int i, Meeting *out)
 {
     const Guard guard = equations_guard(m->eq, i);
     bool near;
@@ -150,11 +149,10 @@ static bool meets(Integration *m, int i, Meeting *out)
                      .settles = i == m->root && m->chatters[guard.surface].settles};
     if (!near)
         out->side = m->conditions[i] > 0 ? 1 : -1;
-    return near || m->surfaces <= KEPT;
 }
 
-/* The surfaces that the run is on, and, where there are few, all others, so that no step evaluates
- * the other side of one. `on`: whether the segment is on a side of any. */
+/* The surfaces that the run is on, and all others, so that no step evaluates the other side of one.
+ * `on`: whether the segment is on a side of any. */
 static int find_meetings(Integration *m, Meeting *at, bool *on)
 {
     int count = 0;
@@ -164,7 +162,7 @@ static int find_meetings(Integration *m, Meeting *at, bool *on)
     for (int i = 0; i < m->eq->switch_count; i++) {
         const Guard guard = equations_guard(m->eq, i);
 
-        if (guard.surface < 0)
+        if (guard.surface < 0 || guard.is_idle)
             continue;
         *on = *on || guard.side != 0 || guard.end != 0;
         if (guard.end < 0) { /* with the other end, just before it */
@@ -172,8 +170,8 @@ static int find_meetings(Integration *m, Meeting *at, bool *on)
                 at[count - 1] = (Meeting){guard.surface, .side = -1, .ends = true};
         } else if (guard.end > 0) {
             at[count++] = (Meeting){guard.surface, i == m->root ? 1 : 0, .ends = i == m->root};
-        } else if (meets(m, i, &at[count])) {
-            count++;
+        } else {
+            meet_surface(m, i, &at[count++]);
         }
     }
     return count;
@@ -193,12 +191,11 @@ static Status slide(Integration *m, bool *entered, bool *changed, Diag *diag)
     if (m->plan->choose == NULL || m->root == ROOT_NONE || (count == 0 && !on))
         goto done;
     memcpy(y, m->stepper->y, (size_t)m->length * sizeof(double));
+    integration_reach(m); /* the guards are those of the segment until another one is chosen */
     CHECK(
         m->plan->choose(m->plan->context, t, m->low, m->high, y, at, count, &next, entered, diag));
-    if (*entered) {
-        integration_reach(m);
+    if (*entered)
         CHECK(enter(m, &next, t, y, changed, diag));
-    }
     motion_window(m->segment.motion, m->low, m->high);
     if (*entered)
         (void)motion_project(m->segment.motion, t, m->stepper->y);

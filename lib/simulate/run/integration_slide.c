@@ -21,7 +21,7 @@ void integration_reach(Integration *m)
     for (int i = 0; i < m->eq->switch_count; i++) {
         const Guard guard = equations_guard(m->eq, i);
 
-        if (guard.surface >= 0 && guard.end == 0)
+        if (guard.surface >= 0 && guard.end == 0 && !guard.is_idle)
             m->reach[guard.surface] = fmax(m->reach[guard.surface], m->largest[i]);
     }
 }
@@ -31,7 +31,7 @@ void integration_begin_surfaces(Integration *m)
     for (int i = 0; i < m->eq->switch_count; i++) {
         const Guard guard = equations_guard(m->eq, i);
 
-        if (guard.surface < 0)
+        if (guard.surface < 0 || guard.is_idle)
             continue;
         if (guard.end != 0) {
             m->mode[i] = 1;

@@ -67,8 +67,8 @@ static bool is_left_out(const Integration *m, int i)
     if (integration_is_of_event(m, i))
         return false;
     guard = equations_guard(m->eq, i);
-    if (guard.held || !(m->plan->span > 0))
-        return guard.held;
+    if (guard.held || guard.is_idle || !(m->plan->span > 0))
+        return guard.held || guard.is_idle;
     return integration_is_margin(m, i) || guard.side != 0 || guard.end != 0;
 }
 

@@ -1,6 +1,7 @@
-/* mode_phases.c: the phase of each mode and of each side of surfaces that a run stays on
+/* mode_phases.c: the phase of each mode: sides of ideal switches, and of surfaces
  *
- * One of the same System shares its equations with the one that was made first. */
+ * Phases of the same System share their equations with the one that was made first: sides of
+ * switches between two resistances, and signs on surfaces, are inputs of its programs. */
 #include "simulate/run/mode_phases.h"
 
 #include "base/memory.h"
@@ -85,7 +86,7 @@ Status mode_phases_get(ActiveRun *r, const SimulationInput *setting, const bool 
     TRY(system_mode(r->system, setting->scene, closed, setting->watch, &system, diag));
     for (int i = 1; i < r->phases->count; i++)
         if (r->phases->at[i]->system == system && r->phases->at[i]->on_count == 0) {
-            *out = phase_new_like(r->phases->at[i], closed, count);
+            *out = phase_new_like(r->phases->at[i], closed, count, NULL);
             phases_add(r->phases, *out);
             return OK;
         }
@@ -93,37 +94,60 @@ Status mode_phases_get(ActiveRun *r, const SimulationInput *setting, const bool 
     return add_phase(r, setting, phase, out, diag);
 }
 
-/* whether a phase stays on these sides of surfaces */
-static bool is_on(const Phase *phase, const OnSurface *on, int count)
+static bool is_closed(const ActiveRun *r, const Phase *phase, const bool *closed)
 {
-    if (phase->on_count != count)
-        return false;
-    for (int i = 0; i < count; i++)
-        if (phase->on[i].surface != on[i].surface || phase->on[i].side != on[i].side ||
-            phase->on[i].held != on[i].held)
+    const size_t bytes = (size_t)system_ideal_count(r->system) * sizeof(bool);
+
+    if (phase->closed == NULL || closed == NULL)
+        return phase->closed == closed;
+    return memcmp(phase->closed, closed, bytes) == 0;
+}
+
+static bool is_on(const Phase *phase, const OnSurface *on)
+{
+    for (int i = 0; i < phase->on_count; i++)
+        if (phase->on[i].side != on[i].side || phase->on[i].held != on[i].held)
             return false;
     return true;
 }
 
-/* The phase of the same system on these sides of surfaces: with switches on the same sides, or
- * NULL; *shared: any, or NULL. */
+/* The phase of the same system with these switches, on these sides of these surfaces; NULL: none.
+ * *like: one whose equations have the signs of these surfaces as inputs, or NULL. */
 static Phase *find_on(const ActiveRun *r, const System *system, const bool *closed,
-                      const OnSurface *on, int count, Phase **shared)
+                      const OnSurface *on, int count, Phase **like)
 {
-    size_t bytes = (size_t)system_ideal_count(r->system) * sizeof(bool);
-
-    *shared = NULL;
+    *like = NULL;
     for (int i = 0; i < r->phases->count; i++) {
         Phase *phase = r->phases->at[i];
 
-        if (phase->motion == NULL || phase->system != system || !is_on(phase, on, count) ||
-            (phase->closed == NULL) != (closed == NULL))
+        if (phase->motion == NULL || phase->system != system ||
+            (phase->closed == NULL) != (closed == NULL) ||
+            !variable_index_has_surfaces(phase->layout, on, count))
             continue;
-        *shared = phase;
-        if (closed == NULL || memcmp(phase->closed, closed, bytes) == 0)
+        *like = phase->like;
+        if (is_closed(r, phase, closed) && is_on(phase, on))
             return phase;
     }
     return NULL;
+}
+
+/* Equations with the signs of these surfaces as inputs; on one side of each. */
+static Status new_equations(ActiveRun *r, const SimulationInput *setting, System *system,
+                            const bool *closed, const OnSurface *on, int count, Phase **out,
+                            Diag *diag)
+{
+    OnSurface *first = NEW_ARRAY(OnSurface, count);
+    Phase *phase;
+    Status status = OK;
+
+    for (int i = 0; i < count; i++)
+        first[i] = (OnSurface){.surface = on[i].surface, .side = 1};
+    CHECK(phase_new_on(system, &r->phases->parameters, closed, system_ideal_count(r->system), first,
+                       count, &phase, diag));
+    CHECK(add_phase(r, setting, phase, out, diag));
+done:
+    mem_free(first);
+    return status;
 }
 
 Status mode_phases_get_on(ActiveRun *r, const SimulationInput *setting, System *system,
@@ -131,19 +155,20 @@ Status mode_phases_get_on(ActiveRun *r, const SimulationInput *setting, System *
                           Diag *diag)
 {
     mem_keep(r);
-    int ideals = system_ideal_count(r->system);
-    Phase *shared, *phase = NULL;
+    Phase *like;
 
-    *out = find_on(r, system, closed, on, count, &shared);
+    *out = find_on(r, system, closed, on, count, &like);
     if (*out != NULL)
         return OK;
-    if (shared != NULL) {
-        *out = phase_new_like(shared, closed, ideals);
-        phases_add(r->phases, *out);
+    if (like == NULL)
+        TRY(new_equations(r, setting, system, closed, on, count, &like, diag));
+    *out = like;
+    if (is_closed(r, like, closed) && is_on(like, on))
         return OK;
-    }
-    TRY(phase_new_on(system, &r->phases->parameters, closed, ideals, on, count, &phase, diag));
-    return add_phase(r, setting, phase, out, diag);
+    TRY(compiled_slide(like->numbers, on, diag));
+    *out = phase_new_like(like, closed, system_ideal_count(r->system), on);
+    phases_add(r->phases, *out);
+    return OK;
 }
 
 Status mode_phases_events(ActiveRun *r, const Phase *now, const Phase *next,

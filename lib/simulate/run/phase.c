@@ -25,6 +25,15 @@ static bool *copy_sides(const bool *closed, int count)
     return copy;
 }
 
+static OnSurface *copy_on(const OnSurface *on, int count)
+{
+    OnSurface *copy = NEW_ARRAY(OnSurface, count);
+
+    for (int i = 0; i < count; i++)
+        copy[i] = on[i];
+    return copy;
+}
+
 Status phase_new(System *system, Parameters *parameters, const bool *closed, int count, Phase **out,
                  Diag *diag)
 {
@@ -43,9 +52,7 @@ Status phase_new_on(System *system, Parameters *parameters, const bool *closed, 
     phase->like = phase;
     if (closed != NULL)
         phase->closed = copy_sides(closed, count);
-    phase->on = NEW_ARRAY(OnSurface, on_count);
-    for (int i = 0; i < on_count; i++)
-        phase->on[i] = on[i];
+    phase->on = copy_on(on, on_count);
     phase->on_count = on_count;
     phase_enter(phase);
     CHECK(compiled_new(phase->layout, parameters, &phase->numbers, diag));
@@ -57,12 +64,13 @@ done:
     return status;
 }
 
-Phase *phase_new_like(Phase *other, const bool *closed, int count)
+Phase *phase_new_like(Phase *other, const bool *closed, int count, const OnSurface *on)
 {
     Phase *phase = NEW(Phase);
 
     *phase = *other->like;
-    phase->closed = copy_sides(closed, count);
+    phase->closed = closed != NULL ? copy_sides(closed, count) : NULL;
+    phase->on = copy_on(on, phase->on_count);
     return phase;
 }
 
@@ -70,6 +78,11 @@ void phase_enter(const Phase *phase)
 {
     if (phase->closed != NULL)
         variable_index_set_sides(phase->layout, phase->closed);
+    if (variable_index_is_on(phase->layout, phase->on))
+        return;
+    variable_index_set_on(phase->layout, phase->on);
+    compiled_enter_mode(phase->numbers);
+    motion_enter_mode(phase->motion);
 }
 
 /* exact derivatives of the rates and of the implicit equations, for implicit methods */
@@ -110,7 +123,7 @@ void phase_free(Phase *phase)
 {
     if (phase == NULL)
         return;
-    mem_free(phase->closed);
+    MEM_FREE(phase->closed, phase->on);
     if (phase->like != phase) {
         mem_free(phase);
         return;
@@ -128,7 +141,7 @@ void phase_free(Phase *phase)
     motion_free(phase->motion);
     compiled_free(phase->numbers);
     variable_index_free(phase->layout);
-    MEM_FREE(phase->on, phase);
+    mem_free(phase);
 }
 
 const Method *phase_stiff_method(const Phase *phase)
@@ -306,8 +319,8 @@ void phase_probe_at(Phase *phase, Probe *probe, double t, const double *y, const
 {
     RowValues row;
 
+    phase_enter(phase);
     if (probe_reads_state(probe)) {
-        phase_enter(phase);
         row = row_of_state(phase->layout, t, y);
         memcpy(out, probe_values(probe, &row), (size_t)count * sizeof(double));
     } else if (driven_row(phase, t, y, driven, &row))

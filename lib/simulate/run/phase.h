@@ -22,7 +22,7 @@ struct Phase {
     int number;     /* among the phases of its run, as rows bear it */
     bool *closed;   /* sides of its switches; NULL: it is in no mode */
     Phase *like;    /* that it shares all below with, and which owns it; itself */
-    OnSurface *on;  /* surfaces whose sides it stays on, or along which it slides */
+    OnSurface *on;  /* sides of surfaces; 0: it slides along them */
     int on_count;
     VariableIndex *layout;
     CompiledEquations *numbers;
@@ -45,12 +45,13 @@ struct Phase {
  * `count` sides; NULL: in no mode. */
 MUST_USE Status phase_new(System *system, Parameters *parameters, const bool *closed, int count,
                           Phase **out, Diag *diag);
-/* The same on sides of surfaces that its equations jump on. */
+/* The same where the signs of surfaces that its equations jump on are inputs; on these sides. */
 MUST_USE Status phase_new_on(System *system, Parameters *parameters, const bool *closed, int count,
                              const OnSurface *on, int on_count, Phase **out, Diag *diag);
-/* New: the mode of `closed` with the equations of another phase, which outlives it. */
-Phase *phase_new_like(Phase *other, const bool *closed, int count);
-/* Its switches are on their sides in the equations that it may share with others. */
+/* New: the mode of `closed` (NULL: none) and `on`, on the surfaces of another phase, with the
+ * equations of that one, which outlives it. */
+Phase *phase_new_like(Phase *other, const bool *closed, int count, const OnSurface *on);
+/* Set its mode in the equations that it may share with others. O(switches + surfaces). */
 void phase_enter(const Phase *phase);
 /* What solves its equations; once. The options are copied. Fails as samples_new() does. */
 MUST_USE Status phase_open(Phase *phase, Parameters *parameters, const MotionOptions *options,

@@ -177,13 +177,13 @@ Status phases_ask(Phases *p, const Grid *grid, const Driven *driven, int first, 
         CHECK(ask(p, p->at[first], context, &probes[first], diag));
     for (int i = 0, rows; i < grid->count; i += rows) {
         Phase *phase = p->at[grid->phase[i]];
-        Probe **probe = &probes[grid->phase[i]];
+        Probe **probe = &probes[phase->like->number];
 
         rows = same_phase(grid, i);
         if (*probe == NULL)
-            CHECK(ask(p, phase, context, probe, diag));
+            CHECK(ask(p, phase->like, context, probe, diag));
+        phase_enter(phase);
         if (probe_reads_state(*probe)) {
-            phase_enter(phase);
             probe_values_of_states(*probe, p->parameters.evaluator, grid->times + i,
                                    grid_row(grid, i), grid_length(grid, i), rows, count,
                                    out + (ptrdiff_t)i * count);

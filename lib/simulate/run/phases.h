@@ -60,7 +60,7 @@ const double *driven_row(const Driven *driven, int row);
 MUST_USE Status phases_probe(Phases *phases, const Phase *phase, const Expr *items, int count,
                              Probe **out, Diag *diag);
 
-/* what is asked at every row, in the equations of its phase */
+/* what is asked at every row, in the equations of its phase, which others may share */
 typedef Status (*Ask)(Phases *phases, const Phase *phase, const void *context, Probe **out,
                       Diag *diag);
 /* The values at every row, rows x count; where there is none the question is put all the same, to

@@ -392,7 +392,9 @@ static Status choose_phase(const ModeSwitching *c, Phase *now, const Meeting *al
 
     s->y_soon = NEW_ARRAY(double, now->length);
     memcpy(s->y_soon, s->y, bytes);
+    phase_enter(now);
     looks = look_ahead(c, now, s);
+    phase_enter(s->phase);
     s->insists = !looks;
     TRY(find_side(now, s, low, high, diag));
     TRY(phase_on(c, now, all, count, s, out, diag));
@@ -426,6 +428,7 @@ Status slide_choose(void *context, double t, double low, double high, const doub
         CHECK(slide_all(c, now, all, count, &s.phase, diag));
         if (s.phase == NULL)
             goto done;
+        phase_enter(s.phase);
         slides_make_room(&s);
         motion_partition(s.phase->motion, t, y);
         CHECK(choose_phase(c, now, all, count, &s, low, high, &next, diag));
@@ -438,6 +441,7 @@ Status slide_choose(void *context, double t, double low, double high, const doub
     *segment = phases_segment(next, events);
     *entered = true;
 done:
+    phase_enter(c->run->phases->at[segment->phase]);
     slides_free(&s);
     mem_free(all);
     mem_free(near);
