@@ -25,6 +25,7 @@ libcore_la_SOURCES += \
   lib/model/model_mark.c \
   lib/model/model_names.c \
   lib/model/model_number.c \
+  lib/model/model_override.c \
   lib/model/model_opened.c \
   lib/model/model_param.c \
   lib/model/model_terminals.c \

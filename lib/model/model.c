@@ -10,7 +10,8 @@
 
 struct Model {
     Arena *arena;
-    bool is_fork; /* it shares the arena of another model */
+    Overrides *overrides;
+    bool is_fork; /* it shares the arena and the overrides of another model */
     State *state;
     Opened *opened; /* the definition that is being read; NULL */
     DataFinder finder;
@@ -26,6 +27,7 @@ static Model *model_around(Arena *arena, State *state)
     Model *model = NEW(Model);
 
     model->arena = arena;
+    model->overrides = state->overrides;
     model->state = state;
     history_open(&model->history);
     model->undone = "";
@@ -37,7 +39,7 @@ Model *model_new(void)
 {
     Arena *arena = arena_new();
 
-    return model_around(arena, state_new(arena, verb_apply));
+    return model_around(arena, state_new(arena, overrides_new(), verb_apply));
 }
 
 Status model_fork(const Model *model, Model **out, Diag *diag)
@@ -67,8 +69,10 @@ void model_free(Model *model)
         return;
     opened_free(model->opened);
     state_free(model->state);
-    if (!model->is_fork)
+    if (!model->is_fork) {
         arena_free(model->arena);
+        overrides_free(model->overrides);
+    }
     history_close(&model->history);
     MEM_FREE(model->remarks, model);
 }
@@ -390,6 +394,74 @@ double model_number(const Model *model, Expr e)
 double model_scene_number(const void *model, Expr e)
 {
     return model_number(model, e);
+}
+
+/* --- overrides --- */
+
+int model_override_count(const Model *model)
+{
+    return model->overrides->list.count;
+}
+
+const char *model_override_name(const Model *model, int i)
+{
+    return model->overrides->list.at[i].name;
+}
+
+void model_override(Model *model, const char *name, double value)
+{
+    overrides_add(model->overrides, name, value, (Measure){.kind = MEASURE_ANY});
+    definitions_forget_values(model->state);
+}
+
+Status model_check_parameter(Model *model, const char *name, Diag *diag)
+{
+    State *state = model->state;
+    const Definition *d = definition_find(state, name, DEFINES_PARAMETER);
+    Text remarks = {0};
+    Status status = OK;
+
+    if (d != NULL && !isfinite(definition_value(state, definition_index(state, d))))
+        status = diag_set(diag, E_VALUE, "%s has no finite value", name);
+    else if (d != NULL)
+        status = parts_check_after(state, definition_index(state, d), &remarks, diag);
+    text_free(&remarks);
+    return status;
+}
+
+Status model_override_by(Model *model, const char *name, const Syntax *value, Diag *diag)
+{
+    State *state = model->state;
+    const Definition *d = definition_find(state, name, DEFINES_PARAMETER);
+    Scope scope = {.state = state, .kind = SCOPE_PARAMETER};
+    Measure measure;
+    double number;
+    Expr body;
+    Status status;
+
+    CHECK(scope_expression(&scope, value, &body, diag));
+    CHECK(measure_of(&scope, value, &measure, diag));
+    number = state_number(state, body);
+    if (!isfinite(number)) {
+        status = diag_at(diag, E_DOMAIN, value->place, "%s has no finite value here", name);
+        goto done;
+    }
+    overrides_add(model->overrides, name, number, measure);
+    definitions_forget_values(state);
+    status = d != NULL ? override_check(state, name, d->measure, diag) : OK;
+    if (status == OK)
+        status = model_check_parameter(model, name, diag);
+    if (status != OK)
+        model_drop_overrides(model, model_override_count(model) - 1);
+done:
+    LIST_FREE(scope.uses);
+    return status;
+}
+
+void model_drop_overrides(Model *model, int count)
+{
+    overrides_drop(model->overrides, count);
+    definitions_forget_values(model->state);
 }
 
 static Status make_scene(const void *context, Scene *out, Diag *diag)

@@ -92,6 +92,16 @@ SceneSource model_scene_source(const Model *model);
 int model_parameter_count(const Model *model);
 Expr model_parameter(const Model *model, int i, Expr *definition);
 double model_parameter_value(const Model *model, Expr symbol); /* current value, SI */
+/* Values that replace those of definitions, of which statements and `save` know nothing: of several
+ * of a name the last one applies. */
+int model_override_count(const Model *model);
+const char *model_override_name(const Model *model, int i);
+void model_override(Model *model, const char *name, double value); /* adds one, in SI */
+/* E_VALUE and others if a parameter's value is one that parts refuse, such as a mass below 0. */
+MUST_USE Status model_check_parameter(Model *model, const char *name, Diag *diag);
+/* Adds one by an expression, of a parameter that may be defined later. A failure adds none. */
+MUST_USE Status model_override_by(Model *model, const char *name, const Syntax *value, Diag *diag);
+void model_drop_overrides(Model *model, int count); /* all after the first `count` */
 /* value of an expression of parameters only */
 double model_number(const Model *model, Expr e);
 /* the same, as Scene.number */

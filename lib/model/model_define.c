@@ -209,6 +209,23 @@ void parameter_measure_like(State *state, const char *name, Measure measure)
         d->measure = measure;
 }
 
+Status override_check(const State *state, const char *name, Measure measure, Diag *diag)
+{
+    const Override *override = override_find(state, name);
+    Text was = {0}, is = {0};
+
+    if (override == NULL || measures_fit(measure, override->measure))
+        return OK;
+    measure_print(&was, measure);
+    measure_print(&is, override->measure);
+    (void)diag_set(diag, E_UNIT, "%s is in %s, and the value that overrides it in %s", name, was.at,
+                   is.at);
+    diag_hint(diag, SI_HINT);
+    text_free(&was);
+    text_free(&is);
+    return E_UNIT;
+}
+
 Status apply_parameter(State **state, const Statement *statement, Outcome *outcome, Diag *diag)
 {
     State *s = *state;
@@ -223,6 +240,11 @@ Status apply_parameter(State **state, const Statement *statement, Outcome *outco
         CHECK(check_new_name(s, statement->name, DEFINES_PARAMETER, statement->name_place, diag));
     CHECK(scope_expression(&scope, statement->value, &body, diag));
     CHECK(measure_of(&scope, statement->value, &measure, diag));
+    status = override_check(s, statement->name, measure, diag);
+    if (status != OK) {
+        diag->place = statement->value->place;
+        goto done;
+    }
     if (!isfinite(state_number(s, body))) {
         status = diag_at(diag, E_DOMAIN, statement->value->place, "%s has no finite value here",
                          statement->name);

@@ -74,7 +74,7 @@ void history_clear(History *history, State **state)
 {
     const StateMark mark = state_mark(*state);
 
-    state_replace(state, state_new((*state)->arena, (*state)->apply));
+    state_replace(state, state_new((*state)->arena, (*state)->overrides, (*state)->apply));
     state_forget_before(*state, most_kept);
     add(history, verb_row(VERB_clear).name, true, &mark)->clears = true;
 }
@@ -101,7 +101,7 @@ static Status take_again(History *history, int i, State **state, Diag *diag)
     mem_keep_part(history->list.at, &step->mark, sizeof step->mark);
     if (step->clears) {
         step->mark = state_mark(*state);
-        state_replace(state, state_new((*state)->arena, (*state)->apply));
+        state_replace(state, state_new((*state)->arena, (*state)->overrides, (*state)->apply));
         return OK;
     }
     CHECK(statement_parse(step->text, 1, (SyntaxOptions){.whole = true}, NULL, &statement, diag));
@@ -115,7 +115,7 @@ done:
 /* rebuilds the state after the first `count` steps, from their texts */
 static Status make_anew(History *history, int count, State **state, Diag *diag)
 {
-    State *made = state_new((*state)->arena, (*state)->apply);
+    State *made = state_new((*state)->arena, (*state)->overrides, (*state)->apply);
     int first = count;
     Status status = OK;
 

@@ -139,8 +139,19 @@ typedef struct Outcome {
 typedef MUST_USE Status Apply(State **state, const Statement *statement, Outcome *outcome,
                               Diag *diag);
 
+/* A value that replaces that of a parameter's definition (model_override.c). */
+typedef struct Override {
+    char *name;
+    double value;
+    Measure measure;
+} Override;
+typedef struct Overrides {
+    LIST(Override) list;
+} Overrides;
+
 struct State {
-    Arena *arena; /* the model's */
+    Arena *arena;         /* the model's */
+    Overrides *overrides; /* the model's */
     Apply *apply; /* carries out statements: those of a definition, lines of a state rebuilt */
     Pool *pool;
     Setup setup;
@@ -174,7 +185,7 @@ struct State {
     int number;           /* number of states that the model had before this one */
 };
 
-State *state_new(Arena *arena, Apply *apply);
+State *state_new(Arena *arena, Overrides *overrides, Apply *apply);
 void state_free(State *state); /* including those before it; NULL is fine */
 /* Carries out a statement by the function of its verb (model_apply.c): what a State is given. */
 Apply verb_apply;
@@ -391,6 +402,13 @@ MUST_USE Status part_check_plane(const State *state, const Instance *part, Place
 
 /* Adds a definition and the line that makes it, as the last line. */
 int definition_add(State *state, Definition d, const char *text, const Scope *scope);
+Overrides *overrides_new(void);
+void overrides_free(Overrides *overrides);                           /* NULL is fine */
+const Override *override_find(const State *state, const char *name); /* NULL: there is none */
+void overrides_add(Overrides *overrides, const char *name, double value, Measure measure);
+void overrides_drop(Overrides *overrides, int count); /* all after the first `count` */
+/* E_UNIT if the override of a parameter that is to have that measure has another dimension */
+MUST_USE Status override_check(const State *state, const char *name, Measure measure, Diag *diag);
 Definition *definition_find(const State *state, const char *name, DefinitionKind kind); /* NULL */
 int definition_index(const State *state, const Definition *d);
 /* --- definitions and lines --- */

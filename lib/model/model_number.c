@@ -65,10 +65,13 @@ double definition_value(State *state, int definition)
     while (stack.count > 0) {
         Definition *d = &state->definitions.at[stack.at[stack.count - 1]];
 
-        if (d->is_known || !push_unknown(state, d->body, &stack)) {
+        const Override *override = override_find(state, d->name);
+
+        if (d->is_known || override != NULL || !push_unknown(state, d->body, &stack)) {
             mem_keep_part(state->definitions.at, d, sizeof *d);
             if (!d->is_known)
-                d->value = expr_evaluate(d->body, known_value, state);
+                d->value =
+                    override != NULL ? override->value : expr_evaluate(d->body, known_value, state);
             d->is_known = true;
             stack.count--;
         }
@@ -114,7 +117,11 @@ double state_number_now(const State *state, Expr body)
                 mem_free(symbols);
                 return NAN;
             }
-            body = expr_substitute(state->arena, body, &symbols[i], &d->body, 1);
+            const Override *override = override_find(state, d->name);
+            const Expr value =
+                override != NULL ? expr_real(state->arena, override->value) : d->body;
+
+            body = expr_substitute(state->arena, body, &symbols[i], &value, 1);
         }
         mem_free(symbols);
         symbols = NULL;

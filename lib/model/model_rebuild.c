@@ -21,7 +21,7 @@ static bool sets_inside(const State *state, const Line *line, const char *use)
 Status state_rebuild(const State *old, int without, State **out, NameList *broken, Text *remarks,
                      Diag *diag)
 {
-    State *state = state_new(old->arena, old->apply);
+    State *state = state_new(old->arena, old->overrides, old->apply);
     const int gone = without >= 0 ? old->lines.at[without].part : -1;
     const int gone_use = without >= 0 ? old->lines.at[without].use : -1;
     int count = 0;

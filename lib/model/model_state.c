@@ -3,11 +3,12 @@
 
 #include <string.h>
 
-State *state_new(Arena *arena, Apply *apply)
+State *state_new(Arena *arena, Overrides *overrides, Apply *apply)
 {
     State *state = NEW(State);
 
     state->arena = arena;
+    state->overrides = overrides;
     state->apply = apply;
     state->pool = pool_new(0);
     for (int i = 0; i < 3; i++)
