@@ -231,6 +231,9 @@ typedef struct ct_run_options {
 ct_status ct_simulate(ct_session *session, const ct_run_options *options, ct_error *error);
 char *ct_report(ct_session *session);        /* new: the last run's report, as `show run` */
 int ct_run_count(const ct_session *session); /* runs so far: run1 ... */
+/* Of random numbers, as of montecarlo; a new session has 0. Numbers depend on the seed and on the
+ * number of the run alone. */
+void ct_seed(ct_session *session, uint64_t seed);
 /* What a run reports, as numbers: NAN where one is not known. */
 typedef struct ct_figures {
     const char *method; /* that ran last; NULL: nothing was integrated */

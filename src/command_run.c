@@ -12,7 +12,10 @@
 /* if the statement requests a result (ct_prints()), the report is its output */
 ct_status command_run(Call *call, ct_error *error)
 {
-    ct_status status = ct_run(call->session, call->statement, error);
+    ct_status status;
+
+    ct_seed(call->session, (uint64_t)call->shell->settings.seed);
+    status = ct_run(call->session, call->statement, error);
 
     if (status == CT_OK && ct_prints(call->statement)) {
         char *text = ct_report(call->session);

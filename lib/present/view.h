@@ -10,6 +10,7 @@
 #include "present/layout.h"
 #include "present/terminal_graph.h"
 #include "simulate/analyse/linearize.h"
+#include "simulate/sweep/sweep_table.h"
 
 typedef struct View {
     const Model *model;
@@ -20,6 +21,7 @@ typedef struct View {
     const void *session;
     int run_count;
     const Linear *linear;          /* the last linearisation; NULL */
+    const SweepTable *sweep;       /* the last sweep; NULL */
     const TerminalGraph *terminal; /* the graph with instances as their ports; NULL: as it is */
     int freedoms;                  /* degrees of freedom found by an assembly; -1: none yet */
     Page page;

@@ -29,8 +29,14 @@ libcore_la_SOURCES += \
   lib/session/session_spectrum.c \
   lib/session/session_start.c \
   lib/session/session_statement.c \
+  lib/session/session_sweep.c \
+  lib/session/session_sweep.h \
+  lib/session/session_sweep_entry.c \
+  lib/session/session_sweep_plan.c \
+  lib/session/session_sweep_sets.c \
   lib/session/session_systems.c \
   lib/session/session_table.c \
   lib/session/session_trees.c \
   lib/session/session_value.c \
+  lib/session/session_verbs.c \
   lib/cotree.h

@@ -81,6 +81,8 @@ static void drop_runs(ct_session *session)
     session->linear = NULL;
     modes_free(session->modes);
     session->modes = NULL;
+    sweep_table_free(session->sweep);
+    session->sweep = NULL;
     session->reporter = NULL;
     for (int i = 0; i < session->systems.count; i++)
         system_free(session->systems.at[i]);

@@ -11,7 +11,7 @@ void session_note_change(ct_session *session, uint64_t revision, bool trees_only
     /* the figures of another graph don't apply to this one */
     if (model_revision(session->model) != revision && !trees_only)
         tree_costs_free(&session->costs);
-    session_sweep(session);
+    session_free_unused(session);
 }
 
 void session_end_group(ct_session *session, int group, const char *called, uint64_t revision,

@@ -104,7 +104,7 @@ done:
 static const struct {
     const char *prefix;
     Status (*value)(ct_session *session, const char *path, double *out, Diag *diag);
-} sizes[] = {{"model.", model_size}, {"count.", count_size}};
+} sizes[] = {{"model.", model_size}, {"count.", count_size}, {"sweep.", sweep_size}};
 
 static int find_size(const char *path)
 {
@@ -133,7 +133,8 @@ static int run_prefix(const char *path, const char **rest)
 
 static bool is_entry(const Syntax *syntax)
 {
-    return syntax->kind == SYNTAX_CALL && session_entry(syntax->text) >= 0;
+    return syntax->kind == SYNTAX_CALL &&
+           (session_entry(syntax->text) >= 0 || sweep_entry_is_called(syntax));
 }
 
 /* whether the model understands the whole subtree; run: the one that all its names have, 0: none */
@@ -386,6 +387,23 @@ done:
     return status;
 }
 
+/* sweep.value(3, max(h1)) */
+static Status cut_sweep(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
+{
+    const Syntax *argument = sweep_entry_number(syntax);
+    double number = 0, value = 0;
+    Status status = OK;
+
+    if (argument != NULL)
+        CHECK(session_number(cut->session, argument, &number, diag));
+    CHECK(sweep_entry_value(cut->session, syntax, number, &value, diag));
+    *out = push_leaf(cut, (Leaf){.kind = LEAF_CONSTANT, .value = value, .run = -1});
+done:
+    if (status != OK && diag->place.line == 0)
+        diag->place = syntax->place;
+    return status;
+}
+
 /* a function or law of leaves; the parameters that a law brings are leaves more */
 static Status cut_call(Cut *cut, const Syntax *syntax, const Expr *args, Expr *out, Diag *diag)
 {
@@ -453,6 +471,8 @@ static Status cut_any(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
         return cut_figure(cut, syntax, out, diag);
     if (syntax->kind == SYNTAX_VARIABLE && find_size(syntax->text) >= 0)
         return cut_size(cut, syntax, out, diag);
+    if (sweep_entry_is_called(syntax))
+        return cut_sweep(cut, syntax, out, diag);
     if (is_entry(syntax))
         return cut_entry(cut, syntax, out, diag);
     if (is_pure(syntax, &run, &bare))

@@ -14,6 +14,7 @@
 #include "present/show.h"
 #include "simulate/analyse/linearize.h"
 #include "simulate/run/run.h"
+#include "simulate/sweep/sweep_table.h"
 
 #include <string.h>
 
@@ -49,6 +50,9 @@ struct ct_session {
     Linear *linear;         /* the last linearisation; NULL */
     bool linear_is_old;     /* the model has changed since */
     Modes *modes;           /* and modes */
+    SweepTable *sweep;      /* of the last sweep or Monte Carlo; NULL */
+    uint64_t seed;          /* of random numbers */
+    bool is_sweeping;       /* a run is one of many, which leave the model as it is */
     Report *reporter;       /* for ct_report(); NULL: as in runs */
     bool start_is_later;    /* a bare name means the start, not the end of the last run */
     bool changed;           /* since the last run */
@@ -131,7 +135,7 @@ MUST_USE Status session_prepare(ct_session *session, Need need, View *view, Diag
 MUST_USE Status session_prepare_formulas(ct_session *session, Need need, View *view, Diag *diag);
 void session_end_formulas(const View *view); /* once they are written */
 /* free systems that neither the model nor a run needs any more */
-void session_sweep(ct_session *session);
+void session_free_unused(ct_session *session);
 /* what there is to look at; `system` and `result` as needed */
 View session_view(const ct_session *session);
 
@@ -219,6 +223,16 @@ MUST_USE Status session_entry_value(const ct_session *session, int entry, const 
                                     int count, double *out, Diag *diag);
 /* of an entry whose numbers are written out; the context of an EntryFinder is the session */
 bool session_entry_dimension(void *context, const Syntax *call, Dimension *out);
+
+/* entries of the last sweep, sweep.value(3, max(h1)), and its sizes, sweep.runs
+ * (session_sweep_entry.c) */
+bool sweep_entry_is_called(const Syntax *syntax);
+/* the argument that is a number, as the run of sweep.value; NULL: there is none */
+const Syntax *sweep_entry_number(const Syntax *call);
+MUST_USE Status sweep_entry_value(const ct_session *session, const Syntax *call, double number,
+                                  double *out, Diag *diag);
+MUST_USE Status sweep_size(ct_session *session, const char *path, double *out, Diag *diag);
+bool sweep_entry_dimension(const ct_session *session, const Syntax *call, Dimension *out);
 
 /* --- values --- */
 

@@ -66,7 +66,8 @@ Status session_equilibrium(ct_session *session, const Statement *s, Diag *diag)
         CHECK(read_instant(session, at, &input.setting.at, diag));
     CHECK(run_equilibrium(system, &input.setting, &result, &reader, diag));
     found = run_input_done(&input, result, reader);
-    CHECK(session_store_equilibrium(session, &found, s->verb, diag));
+    if (!session->is_sweeping)
+        CHECK(session_store_equilibrium(session, &found, s->verb, diag));
     run_free(&session->start);
     session->start = found;
     found = (Run){0};
@@ -429,6 +430,8 @@ bool session_entry_dimension(void *context, const Syntax *call, Dimension *out)
     LinearMatrix matrix;
     int i, j;
 
+    if (sweep_entry_is_called(call))
+        return sweep_entry_dimension(session, call, out);
     if (entry < 0 || entries[entry].of != NULL || session->linear == NULL || call->count != 2)
         return false;
     matrix = linear_matrix(session->linear, strchr(entries[entry].name, '.')[1]);

@@ -81,7 +81,7 @@ static bool is_current(const ct_session *session, const System *system)
     return system_holds(system, model_revision(session->model), model_scene_number, session->model);
 }
 
-void session_sweep(ct_session *session)
+void session_free_unused(ct_session *session)
 {
     const System *last = NULL, *before = NULL;
     int kept = 0;
@@ -156,7 +156,7 @@ Status session_system_of(ct_session *session, NetworkForm form, bool has_lifted,
     CHECK(system_new_view(&scene, &options, &system, diag));
     system_set_watch(system, &session->watch);
     LIST_PUSH(session->systems, system);
-    session_sweep(session);
+    session_free_unused(session);
     *out = system;
 done:
     scene_free(&scene);
@@ -238,6 +238,7 @@ View session_view(const ct_session *session)
                   .session = session,
                   .run_count = runs,
                   .linear = session->linear,
+                  .sweep = session->sweep,
                   .freedoms = session_freedoms(session),
                   .page = {.columns = session->hooks.columns,
                            .unicode = session->hooks.unicode,

@@ -343,7 +343,7 @@ static void show_takes_topics_entries_and_a_notation(void)
 
 static void a_statement_may_follow_a_colon(void)
 {
-    Statement *s = read_text("sweep L4 from=0.1 to=0.3 steps=20 : simulate 5 every=0.1");
+    Statement *s = read_text("sweep L4=range(0.1, 0.3, 20) keep=s11 : simulate 5 every=0.1");
 
     EXPECT(s != NULL && s->rest != NULL);
     if (s == NULL || s->rest == NULL)
@@ -502,7 +502,7 @@ static void deep_nesting_is_an_error_with_a_place(void)
         mem_free(text);
     }
     for (int i = 0; i < 2; i++) {
-        char *text = repeat("", i == 0 ? "time " : "sweep L : ", 100000, "quit");
+        char *text = repeat("", i == 0 ? "time " : "sweep L=1 : ", 100000, "quit");
         size_t next = 0;
         Statement *s = NULL;
 

@@ -1,0 +1,293 @@
+/* session_sweep.c: `sweep` and `montecarlo`
+ *
+ * The parameters of a run are overrides of the model's (model_override.h), so that a changed number
+ * forms no equations anew, and the model is afterwards what it was. What the session knows of its
+ * last run, its start and its linearisation is laid aside meanwhile. Nothing that a run leaves is
+ * seen by the next one: its row depends on its parameters alone. */
+#include "session/session_sweep.h"
+
+#include "base/clock.h"
+#include "language/verbs.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* what a run changes in the session */
+typedef struct SessionFocus {
+    Run start;
+    Linear *linear;
+    Modes *modes;
+    Report *reporter;
+    bool linear_is_old, start_is_later, changed;
+    uint64_t covered, freed;
+    int freedoms;
+} SessionFocus;
+
+static void focus_put_aside(ct_session *session, SessionFocus *out)
+{
+    *out = (SessionFocus){.start = session->start,
+                          .linear = session->linear,
+                          .modes = session->modes,
+                          .reporter = session->reporter,
+                          .linear_is_old = session->linear_is_old,
+                          .start_is_later = session->start_is_later,
+                          .changed = session->changed,
+                          .covered = session->covered,
+                          .freed = session->freed,
+                          .freedoms = session->freedoms};
+    session->start = (Run){0};
+    session->linear = NULL;
+    session->modes = NULL;
+}
+
+/* as before any run of the model with these parameters */
+static void focus_clear(ct_session *session, int runs)
+{
+    while (session->runs.count > runs)
+        run_free(&session->runs.at[--session->runs.count]);
+    run_free(&session->start);
+    linear_free(session->linear);
+    session->linear = NULL;
+    modes_free(session->modes);
+    session->modes = NULL;
+    session->start_is_later = true;
+    session->covered = session->freed = 0;
+    session_begin(session);
+}
+
+static void focus_restore(ct_session *session, const SessionFocus *focus)
+{
+    session->start = focus->start;
+    session->linear = focus->linear;
+    session->modes = focus->modes;
+    session->reporter = focus->reporter;
+    session->linear_is_old = focus->linear_is_old;
+    session->start_is_later = focus->start_is_later;
+    session->changed = focus->changed;
+    session->covered = focus->covered;
+    session->freed = focus->freed;
+    session->freedoms = focus->freedoms;
+}
+
+/* --- one run --- */
+
+static Analysis *analysis_of(const Statement *s)
+{
+    static Analysis *const verbs[VERB_COUNT] = {
+        [VERB_simulate] = session_simulate,       [VERB_kinematics] = session_kinematics,
+        [VERB_inverse] = session_inverse,         [VERB_assemble] = session_assemble,
+        [VERB_equilibrium] = session_equilibrium, [VERB_op] = session_op,
+        [VERB_linearize] = session_linearize,     [VERB_modes] = session_modes,
+    };
+
+    return s != NULL && s->kind == STATEMENT_VERB && s->row.component == NULL && s->row.number >= 0
+               ? verbs[s->row.number]
+               : NULL;
+}
+
+static Status check_rest(const Statement *s, Diag *diag)
+{
+    if (analysis_of(s->rest) != NULL)
+        return OK;
+    (void)diag_at(diag, E_VALUE, s->rest->place, "'%s' computes nothing that could be kept",
+                  s->rest->verb != NULL ? s->rest->verb : s->rest->text);
+    diag_hint(diag, "simulate, kinematics, inverse, assemble, equilibrium, op, linearize and modes "
+                    "may stand behind the colon");
+    return E_VALUE;
+}
+
+/* whether it is the fault of the parameters of one run; else the statement is wrong */
+static bool is_of_one_run(Status status)
+{
+    return status == E_VALUE || status == E_ASSEMBLE || status == E_SINGULAR ||
+           status == E_SOLVER || status == E_DOMAIN || status == E_MODEL || status == E_BRANCH;
+}
+
+static Status set_parameters(ct_session *session, const SweepTable *table, int row, Diag *diag)
+{
+    const double *values = sweep_table_row(table, row);
+    Status status = OK;
+
+    /* all of them, so that what one refuses may be allowed with the next */
+    for (int i = 0; i < table->parameter_count; i++)
+        model_override(session->model, table->columns.at[i].name, values[i]);
+    for (int i = 0; i < table->parameter_count; i++)
+        CHECK(model_check_parameter(session->model, table->columns.at[i].name, diag));
+done:
+    return status;
+}
+
+static Status keep_figures(ct_session *session, const Statement *s, const SweepTable *table,
+                           int row, Diag *diag)
+{
+    double *values = sweep_table_row(table, row) + table->parameter_count;
+    Status first = OK;
+
+    for (int i = 0; sweep_kept(s, i) != NULL; i++) {
+        Diag why = {0};
+        const Status status = session_value_at(session, sweep_kept(s, i), NULL, &values[i], &why);
+
+        if (status == OK)
+            continue;
+        values[i] = NAN;
+        if (first == OK) {
+            *diag = why;
+            first = status;
+        }
+        if (!is_of_one_run(status)) {
+            *diag = why;
+            return status;
+        }
+    }
+    return first;
+}
+
+static Status run_row(ct_session *session, const Statement *s, const SweepTable *table, int row,
+                      Diag *diag)
+{
+    TRY(set_parameters(session, table, row, diag));
+    TRY(analysis_of(s->rest)(session, s->rest, diag));
+    return keep_figures(session, s, table, row, diag);
+}
+
+/* --- all of them --- */
+
+static void note_failure(SweepTable *table, int row, Status status, const Diag *diag)
+{
+    const char *text =
+        diag->status == status && diag->message[0] != '\0' ? diag->message : status_text(status);
+
+    table->reasons[row] = mem_text(text, strlen(text));
+    table->failures++;
+}
+
+static void report_progress(const ct_session *session, const char *verb, int row, int planned)
+{
+    if (session->hooks.progress != NULL)
+        session->hooks.progress(session->hooks.context, verb, (double)row / planned);
+}
+
+/* Stops after the row at which it was requested; the rows before it are kept. */
+static Status run_rows(ct_session *session, const Statement *s, SweepTable *table, Diag *diag)
+{
+    void (*progress)(void *, const char *, double) = session->watch.progress;
+    const int overrides = model_override_count(session->model), runs = session->runs.count;
+    const double began = clock_now();
+    Status status = OK;
+
+    session->watch.progress = NULL; /* the phases of each run are of no interest */
+    while (status == OK && table->rows < table->planned) {
+        Diag why = {0};
+
+        report_progress(session, s->verb, table->rows, table->planned);
+        focus_clear(session, runs);
+        CHECK(monitor_poll(&session->watch));
+        status = run_row(session, s, table, table->rows, &why);
+        model_drop_overrides(session->model, overrides);
+        /* from now on there is something to lose */
+        transaction_stop_asking();
+        if (is_of_one_run(status)) {
+            note_failure(table, table->rows, status, &why);
+            if (table->failures == 1)
+                *diag = why;
+            status = OK;
+        } else if (status != OK) {
+            *diag = why;
+        }
+        table->rows += status == OK;
+    }
+done:
+    focus_clear(session, runs);
+    session->watch.progress = progress;
+    table->wall = clock_now() - began;
+    return status;
+}
+
+static void remark_rows(ct_session *session, const Statement *s, const SweepTable *table)
+{
+    Text line = {0};
+
+    text_addf(&line, "%s: %d run%s", s->verb, table->rows, table->rows == 1 ? "" : "s");
+    if (table->rows < table->planned)
+        text_addf(&line, " of %d", table->planned);
+    if (table->failures > 0)
+        text_addf(&line, ", %d failed", table->failures);
+    text_addf(&line, ", %.2g s; 'show %s' prints %s", table->wall,
+              table->is_random ? "statistics" : "sweep",
+              table->is_random ? "statistics" : "the table");
+    session_remark(session, line.at);
+    text_free(&line);
+}
+
+/* a warning of the first run that failed */
+static void remark_failures(ct_session *session, const SweepTable *table)
+{
+    Text line = {0};
+
+    for (int r = 0; r < table->rows && line.length == 0; r++)
+        if (table->reasons[r] != NULL)
+            text_addf(&line, "warning: run %d failed: %s%s", r + 1, table->reasons[r],
+                      table->failures > 1 ? "; 'show sweep' has the reasons of the others" : "");
+    session_remark(session, line.at);
+    text_free(&line);
+}
+
+static bool has_figure(const SweepTable *table)
+{
+    for (int r = 0; r < table->rows; r++)
+        for (int c = table->parameter_count; c < table->columns.count; c++)
+            if (table->reasons[r] == NULL || isfinite(sweep_table_row(table, r)[c]))
+                return true;
+    return false;
+}
+
+static void report_nothing(const ct_session *session, Text *out)
+{
+    (void)session, (void)out;
+}
+
+Status session_sweep(ct_session *session, const Statement *s, Diag *diag)
+{
+    SessionFocus focus;
+    SweepTable *table = NULL;
+    Status status;
+
+    CHECK(check_rest(s, diag));
+    CHECK(sweep_plan(session, s, &table, diag));
+    focus_put_aside(session, &focus);
+    session->is_sweeping = true;
+    status = run_rows(session, s, table, diag);
+    session->is_sweeping = false;
+    focus_restore(session, &focus);
+    if ((status != OK && status != E_STOPPED) || table->rows == 0)
+        goto done;
+    session->reporter = report_nothing;
+    remark_rows(session, s, table);
+    if (status == OK && !has_figure(table)) {
+        const Diag why = *diag;
+
+        status = diag_at(diag, why.status, why.place, "all %d runs failed; the first: %.400s",
+                         table->rows, table->reasons[0]);
+        diag_hint(diag, "%s", why.hint);
+    } else {
+        remark_failures(session, table);
+    }
+    sweep_table_free(session->sweep);
+    session->sweep = table;
+    table = NULL;
+done:
+    sweep_table_free(table);
+    return status;
+}
+
+Status session_montecarlo(ct_session *session, const Statement *s, Diag *diag)
+{
+    return session_sweep(session, s, diag);
+}
+
+void ct_seed(ct_session *session, uint64_t seed)
+{
+    SESSION_CALL(session, );
+
+    session->seed = seed;
+}

@@ -1,0 +1,28 @@
+/* session_sweep.h: many runs of one statement, with other values of parameters each */
+#ifndef COTREE_SESSION_SESSION_SWEEP_H
+#define COTREE_SESSION_SESSION_SWEEP_H
+
+#include "session/session_impl.h"
+
+#include "simulate/sweep/sweep_table.h"
+
+/* The sets of a file: a column for each parameter, a row for each run. */
+typedef struct SweepSets {
+    LIST(char *) names;
+    LIST(double) values; /* row by row, SI where the head has a unit, else as written */
+    LIST(Unit) units;    /* of heads; factor 0: none */
+    int rows;
+} SweepSets;
+/* of a file that the statement names; *out needs sweep_sets_free() even then */
+MUST_USE Status sweep_sets_read(ct_session *session, const Syntax *file, SweepSets *out,
+                                Diag *diag);
+void sweep_sets_free(SweepSets *sets);
+
+/* The table of a statement, with the parameters of all its runs and the names of the figures that
+ * it keeps: new. */
+MUST_USE Status sweep_plan(ct_session *session, const Statement *statement, SweepTable **out,
+                           Diag *diag);
+/* the figure i of keep=; NULL: there are no more */
+const Syntax *sweep_kept(const Statement *statement, int i);
+
+#endif
