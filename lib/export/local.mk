@@ -39,6 +39,7 @@ libcore_la_SOURCES += \
   lib/export/write_fmu.c \
   lib/export/write_fortran.c \
   lib/export/write_latex.c \
+  lib/export/write_json.c \
   lib/export/write_mat.c \
   lib/export/write_matlab.c \
   lib/export/write_python.c \

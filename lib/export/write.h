@@ -28,6 +28,7 @@ typedef struct Exported {
     ResultReader *start;
     const Inverse *inverse;              /* efforts of drivers from their motion; NULL */
     const Modes *modes;                  /* or these; NULL */
+    const SweepTable *sweep;             /* that the numbers are of; NULL */
     bool with_header;                    /* the file is new */
     int version;                         /* of FMUs, 2 or 3 */
     bool only_exchange, only_simulation; /* else both kinds */
@@ -38,7 +39,8 @@ typedef struct Format {
     Need need;
     Status (*write)(const Exported *what, Text *out, Diag *diag); /* NULL: it is no text, but */
     Status (*pack)(const Exported *what, struct Archive **out, Diag *diag); /* files in a new one */
-    bool takes_keys; /* of the statement, which choose among its forms */
+    bool splits_units; /* units are apart from the names of columns */
+    bool takes_keys;   /* of the statement, which choose among its forms */
 } Format;
 
 #define FORMAT(word, brief) extern const Format format_##word;

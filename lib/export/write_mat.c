@@ -66,4 +66,4 @@ static Status pack(const Exported *what, Archive **out, Diag *diag)
     return OK;
 }
 
-const Format format_mat = {.need = NEED_RUN, .pack = pack};
+const Format format_mat = {.need = NEED_RUN, .pack = pack, .splits_units = true};

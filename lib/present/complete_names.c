@@ -118,9 +118,10 @@ static void offer_exported(TypedLine *line)
 {
     static const struct {
         const char *format, *word;
-    } all[] = {{"csv", "start"},     {"csv", "modes"},       {"mat", "start"},
-               {"c", "inverse"},     {"fortran", "inverse"}, {"matlab", "inverse"},
-               {"python", "inverse"}};
+    } all[] = {{"csv", "start"},      {"csv", "modes"},     {"csv", "sweep"},
+               {"mat", "start"},      {"mat", "sweep"},     {"json", "start"},
+               {"json", "sweep"},     {"c", "inverse"},     {"fortran", "inverse"},
+               {"matlab", "inverse"}, {"python", "inverse"}};
 
     for (int i = 0; line->before.count == 2 && i < COUNT(all); i++)
         if (strcmp(line->before.at[1], all[i].format) == 0)

@@ -454,9 +454,35 @@ static bool begins_with(const Statement *s, const char *word)
            strcmp(item->text, word) == 0;
 }
 
-static bool is_modes(const Statement *s)
+static bool is_alone(const Statement *s, const char *word)
 {
-    return s->operands.count == 2 && begins_with(s, "modes");
+    return s->operands.count == 2 && begins_with(s, word);
+}
+
+/* the table of the last sweep; names and units are copied */
+static Status read_sweep(const ct_session *session, const Statement *s, TableSheet *sheet,
+                         Exported *what, Diag *diag)
+{
+    const SweepTable *sweep = session->sweep;
+
+    if (sweep == NULL) {
+        (void)diag_at(diag, E_MISSING, s->operands.at[1].place, "there is no sweep yet");
+        diag_hint(diag, "sweep L=range(0.1, 0.3, 20) keep=[max(h1)] : simulate 5");
+        return E_MISSING;
+    }
+    for (int c = 0; c < sweep->columns.count; c++) {
+        const SweepColumn *column = &sweep->columns.at[c];
+
+        LIST_PUSH(sheet->names, mem_text(column->name, strlen(column->name)));
+        LIST_PUSH(sheet->units, mem_text(column->unit, strlen(column->unit)));
+    }
+    what->sweep = sweep;
+    what->names = (const char *const *)sheet->names.at;
+    what->units = (const char *const *)sheet->units.at;
+    what->values = sweep->values;
+    what->rows = sweep->rows;
+    what->columns = sweep->columns.count;
+    return OK;
 }
 
 /* A requested `t` is the first column, which is always there. */
@@ -490,12 +516,16 @@ static Status read_numbers(ct_session *session, const Statement *s, bool splits_
     Run *source = NULL;
     Status status = OK;
 
-    what->modes = is_modes(s) ? session->modes : NULL;
-    if (is_modes(s) && what->modes == NULL) {
+    if (is_alone(s, "sweep")) {
+        status = read_sweep(session, s, sheet, what, diag);
+        goto done;
+    }
+    what->modes = is_alone(s, "modes") ? session->modes : NULL;
+    if (is_alone(s, "modes") && what->modes == NULL) {
         status = diag_at(diag, E_MISSING, s->operands.at[1].place, "there are no modes yet");
         diag_hint(diag, "'modes' finds them");
     }
-    if (status != OK || is_modes(s))
+    if (status != OK || is_alone(s, "modes"))
         goto done;
     for (int i = 0; i < count; i++)
         items[i] = s->operands.at[i + first].value;
@@ -564,7 +594,7 @@ static Status prepare(ct_session *session, const Statement *s, const Format *for
     Status status = OK;
 
     if (need == NEED_RUN)
-        return read_numbers(session, s, format->pack != NULL, sheet, what, diag);
+        return read_numbers(session, s, format->splits_units, sheet, what, diag);
     for (int i = is_inverse ? 2 : 1; need == NEED_CODE && status == OK && i < s->operands.count;
          i++)
         status = session_code_item(session, s->operands.at[i].value, items, diag);
