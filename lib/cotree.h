@@ -289,6 +289,10 @@ typedef struct ct_column {
 ct_status ct_columns(ct_session *session, const ct_expression *const *items, int count,
                      double every, ct_column **out, int *columns, int *rows, ct_error *error);
 void ct_columns_free(ct_column *columns); /* NULL is fine */
+/* The table of the last sweep or Monte Carlo, in units of a list (NULL: SI): *parameters columns of
+ * parameters, then figures, NAN where a run failed. ct_columns_free() */
+ct_status ct_sweep_columns(ct_session *session, const char *units, ct_column **out, int *columns,
+                           int *parameters, int *rows, bool *is_random, ct_error *error);
 /* The points of measured data, table("file", x, column) over a run: when x is that of a point, and
  * the point's value in the item's unit. `values` is new, rows x 2, and so is the name for a reader;
  * both NULL of any other item. */
@@ -299,6 +303,7 @@ typedef struct ct_plot {
     double x[2], y[2]; /* NAN, NAN: not given */
     bool x_is_log, y_is_log;
     bool panels;       /* each item has its own */
+    bool map;          /* of a sweep of two parameters: colours and contours */
     const char *title; /* the statement's, or the model's; "" */
 } ct_plot;
 ct_status ct_plot_keys(ct_session *session, const ct_statement *statement, ct_plot *out,

@@ -16,7 +16,8 @@ cotree_SOURCES = \
     src/main.c \
     src/out_of_memory.c src/out_of_memory.h \
     src/pager.c src/pager.h \
-    src/plot.c src/plot.h src/plot_commands.c src/plot_text.c \
+    src/plot.c src/plot.h src/plot_commands.c src/plot_sweep.c src/plot_sweep.h \
+    src/plot_text.c \
     src/process.c src/process.h \
     src/progress.c src/progress.h \
     src/reader.c src/reader.h \

@@ -5,6 +5,7 @@
  * commands contain the data, so `plot ... > "fig.gp"` writes a script that needs nothing else. */
 #include "plot.h"
 #include "copy.h"
+#include "plot_sweep.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -283,8 +284,17 @@ static void plot_free(Plot *plot)
 static ct_status plot(Call *call, const char *path, ct_error *error)
 {
     Plot plot = {.session = call->session};
-    ct_status status = ct_plot_keys(call->session, call->statement, &plot.keys, error);
+    ct_status status;
 
+    if (plot_is_of_sweep(call->statement))
+        return plot_sweep(call, path, error);
+    status = ct_plot_keys(call->session, call->statement, &plot.keys, error);
+    if (status == CT_OK && plot.keys.map) {
+        (void)ct_error_at(call->statement, ct_key_value(call->statement, "map"), error,
+                          "map= is of a sweep's table");
+        error_hint(error, "plot sweep map=on");
+        status = CT_FAILED;
+    }
     if (status == CT_OK)
         status = gather(call, &plot, error);
     if (status == CT_OK) {

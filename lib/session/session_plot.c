@@ -80,7 +80,7 @@ static Status read_key(ct_session *session, const Statement *s, const Pair *pair
         out->y_is_log = word > 0;
     } else {
         word = find_word(pair, "on|off", diag);
-        out->panels = word == 0;
+        *(strcmp(pair->name, "map") == 0 ? &out->map : &out->panels) = word == 0;
     }
     return word < 0 ? E_VALUE : OK;
 }

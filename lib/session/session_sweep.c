@@ -291,3 +291,54 @@ void ct_seed(ct_session *session, uint64_t seed)
 
     session->seed = seed;
 }
+
+/* a column in units of a list */
+static ct_column column_in(const SweepTable *table, int c, const char *units)
+{
+    const SweepColumn *from = &table->columns.at[c];
+    Text text = {0};
+    double size = 1;
+    Unit unit;
+    size_t fault;
+
+    if (units != NULL && from->unit[0] != '\0' &&
+        unit_parse(from->unit, strlen(from->unit), &unit, &fault))
+        size = dimension_print_in(&text, dimension_without_angle(unit.dimension), units);
+    if (size == 1) {
+        text_free(&text);
+        text_add(&text, from->unit);
+    }
+
+    ct_column out = {.name = mem_text(from->name, strlen(from->name)),
+                     .unit = text_done(&text),
+                     .values = NEW_ARRAY(double, table->rows)};
+
+    for (int r = 0; r < table->rows; r++)
+        out.values[r] = sweep_table_row(table, r)[c] / size;
+    return out;
+}
+
+ct_status ct_sweep_columns(ct_session *session, const char *units, ct_column **out, int *columns,
+                           int *parameters, int *rows, bool *is_random, ct_error *error)
+{
+    SESSION_WORK(session, error);
+
+    const SweepTable *table = session->sweep;
+    Diag diag = {0};
+    Status status = OK;
+
+    session_begin(session);
+    if (table == NULL) {
+        status = diag_set(&diag, E_MISSING, "there is no sweep yet");
+        diag_hint(&diag, "sweep L=range(0.1, 0.3, 20) keep=[max(h1)] : simulate 5");
+        return session_report(status, &diag, error);
+    }
+    *columns = table->columns.count;
+    *parameters = table->parameter_count;
+    *rows = table->rows;
+    *is_random = table->is_random;
+    *out = NEW_ARRAY(ct_column, table->columns.count + 1);
+    for (int c = 0; c < table->columns.count; c++)
+        (*out)[c] = column_in(table, c, units);
+    return session_report(status, &diag, error);
+}
