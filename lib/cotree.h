@@ -231,6 +231,10 @@ typedef struct ct_run_options {
 ct_status ct_simulate(ct_session *session, const ct_run_options *options, ct_error *error);
 char *ct_report(ct_session *session);        /* new: the last run's report, as `show run` */
 int ct_run_count(const ct_session *session); /* runs so far: run1 ... */
+/* "L = 0.7 m" or "L=0.7": a value that a parameter has whatever statements define it with, now or
+ * later; save and undo know nothing of it. */
+ct_status ct_override(ct_session *session, const char *text, ct_error *error);
+const char *ct_override_unused(const ct_session *session); /* a name that no parameter has; NULL */
 /* Of random numbers, as of montecarlo; a new session has 0. Numbers depend on the seed and on the
  * number of the run alone. */
 void ct_seed(ct_session *session, uint64_t seed);

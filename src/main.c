@@ -28,6 +28,7 @@ enum {
 };
 
 static const struct option long_options[] = {
+    {"define", required_argument, NULL, 'D'},
     {"execute", required_argument, NULL, 'e'},
     {"interactive", no_argument, NULL, 'i'},
     {"keep-going", no_argument, NULL, 'k'},
@@ -46,6 +47,7 @@ static const char usage[] =
     "Model mechatronic multibody systems as linear graphs. Executes the files and the\n"
     "-e statements in their order; without any, reads standard input.\n"
     "\n"
+    "  -D, --define NAME=VALUE  a parameter's value that wins over the files'; repeatable\n"
     "  -e, --execute STATEMENT  execute a statement; repeatable\n"
     "  -i, --interactive        continue at the prompt afterwards\n"
     "  -k, --keep-going         continue after a statement that failed\n"
@@ -70,6 +72,8 @@ typedef struct Invocation {
         bool is_file;
     } * sources;
     int count;
+    const char **defined; /* NAME=VALUE; of argv */
+    int defined_count;
     bool interactive;
     bool keep_going;
     bool quiet;
@@ -103,6 +107,7 @@ static void request_free(Invocation *request)
     for (int i = 0; i < request->count; i++)
         free((char *)request->sources[i].text);
     free(request->sources);
+    free(request->defined);
 }
 
 static int write_usage(const char *format, const char *what)
@@ -138,13 +143,17 @@ static int read_options(Invocation *request, int argc, char **argv)
     int option;
 
     request->sources = check_allocated(calloc((size_t)argc + 1, sizeof *request->sources));
+    request->defined = check_allocated(calloc((size_t)argc + 1, sizeof *request->defined));
     opterr = 0;
 
     /* "-" makes getopt return files in place, so that their order among -e is preserved */
-    while ((option = getopt_long(argc, argv, "-:e:ikq", long_options, NULL)) != -1) {
+    while ((option = getopt_long(argc, argv, "-:D:e:ikq", long_options, NULL)) != -1) {
         switch (option) {
         case 1:
             add_file(request, optarg);
+            break;
+        case 'D':
+            request->defined[request->defined_count++] = optarg;
             break;
         case 'e':
             add_statement(request, optarg);
@@ -260,6 +269,33 @@ static void run_sources(Shell *shell, const Invocation *request)
     }
 }
 
+/* 0, or an exit status after a message */
+static int define_parameters(Shell *shell, const Invocation *request)
+{
+    for (int i = 0; i < request->defined_count; i++) {
+        ct_error error;
+
+        if (ct_override(shell->session, request->defined[i], &error) == CT_OK)
+            continue;
+        fprintf(stderr, "cotree: -D %s: %s\n", request->defined[i], error.message);
+        if (error.hint[0] != '\0')
+            fprintf(stderr, "    hint: %s\n", error.hint);
+        return WRONG_USAGE;
+    }
+    return 0;
+}
+
+/* A mistyped name would otherwise go unnoticed. */
+static void check_defined(Shell *shell)
+{
+    const char *unused = ct_override_unused(shell->session);
+
+    if (unused == NULL || shell->failed > 0)
+        return;
+    remark("cotree: -D %s: there is no such parameter", unused);
+    shell->failed++;
+}
+
 static int run(const Invocation *request)
 {
     Shell shell;
@@ -282,11 +318,21 @@ static int run(const Invocation *request)
         shell_close(&shell);
         return write_usage("--seed: %s", error.message);
     }
+    const int refused = define_parameters(&shell, request);
+
+    if (refused != 0) {
+        shell_close(&shell);
+        return refused;
+    }
     run_sources(&shell, request);
+    if (request->count > 0 && !piped)
+        check_defined(&shell);
     if (typed && !shell.quitting)
         run_prompt(&shell, request->no_init || request->safe);
     else if (piped && !shell.quitting && (shell.failed + shell.unmet == 0 || shell.keep_going))
         replay_file(&shell, "-", &error);
+    if (piped)
+        check_defined(&shell);
 
     int status = typed                           ? DONE
                  : shell.failed > shell.unsolved ? FAILED
