@@ -423,6 +423,14 @@ static const Member thermal[] = {
 };
 /* clang-format on */
 
+/* of an edge between frames, in addition to the others */
+static const Member power = {"power", "W", "power given to its frames: F.v + T.w", 0};
+
+bool component_acts_on_frames(const Component *row)
+{
+    return row->family != FAMILY_SCALAR && row->family != FAMILY_TRANSDUCER;
+}
+
 /* of a part with one scalar edge; parts with more edges list theirs in their rows */
 static const Member *scalar_members(const Component *row, int *count)
 {
@@ -480,7 +488,10 @@ const Member *component_member(const Component *row, bool planar, int i)
 
     if (i < count)
         return &members[i];
-    return i - count < row->member_count ? &row->members[i - count] : NULL;
+    i -= count;
+    if (i < row->member_count)
+        return &row->members[i];
+    return i == row->member_count && component_acts_on_frames(row) ? &power : NULL;
 }
 
 /* whether a name consists of the stem of its own states and a number from 1 */

@@ -436,6 +436,8 @@ Expr instance_lifted_constant(const Instance *instance, Arena *arena, int param,
 /* Members of an instance of this family and row, in order: NULL at the end. Those of its
  * coordinates (Instance.coord) are not repeated here, unless the family has them anyway. */
 const Member *component_member(const Component *row, bool planar, int i);
+/* whether its edge is between frames alone: no transducer */
+bool component_acts_on_frames(const Component *row);
 const Member *component_find_member(const Component *row, bool planar, const char *name); /* NULL */
 
 /* --- helpers for scalar rows --- */

@@ -105,12 +105,13 @@ static bool ends_value(const TypedLine *line)
 }
 
 /* the words that may follow operands, each once */
-static void offer_trailing(TypedLine *line, const char *pattern)
+static void offer_trailing(TypedLine *line, const Verb *verb, const char *pattern)
 {
     for (; *pattern != '\0'; pattern++) {
         const char *word = pattern_word(*pattern);
 
-        if (word == NULL || has_word(line, word))
+        if (word == NULL || has_word(line, word) ||
+            (*pattern == '@' && verb->offers == OFFERS_TOPICS && !topic_takes_instant(line)))
             continue;
         if (*pattern == 'C' && !has_word(line, "~"))
             word = "~"; /* a ~ b within c */
@@ -139,7 +140,7 @@ static void offer_operand(TypedLine *line, const Verb *verb, int first)
     if (!has_options || (strchr("eiC=", pattern[at]) != NULL && !has_operand))
         return;
     if (has_operand && ends_value(line))
-        offer_trailing(line, pattern);
+        offer_trailing(line, verb, pattern);
     /* keys, if no operand is missing; V and P may be skipped */
     while (pattern[at] != '\0' && strchr("PVWIiextya@C*", pattern[at]) != NULL)
         at++;

@@ -34,6 +34,7 @@ void offer_coordinates(TypedLine *line);
 void offer_place(TypedLine *line, const Component *row, int place); /* of a component */
 void offer_help_words(TypedLine *line);
 void offer_notations(TypedLine *line);
+bool topic_takes_instant(const TypedLine *line); /* of `show` */
 /* what a setting of that name may be set to; false: there is none */
 bool offer_setting(TypedLine *line, const char *name);
 /* where a row or a key finds its words, in addition to values; false: nothing of its own */

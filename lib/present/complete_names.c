@@ -378,6 +378,14 @@ void offer_notations(TypedLine *line)
     for (int i = 0; (word = topic_notation(topic, i)) != NULL; i++)
         offer(line, word);
 }
+
+bool topic_takes_instant(const TypedLine *line)
+{
+    const Topic *topic = line->before.count > 1 ? topic_find(line->before.at[1]) : NULL;
+
+    return topic != NULL && topic->need == NEED_INSTANT;
+}
+
 /* --- which of them --- */
 
 /* words from tables other than the row, or names of one kind */

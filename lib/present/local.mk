@@ -56,6 +56,8 @@ libcore_la_SOURCES += \
   lib/present/show_graph.c \
   lib/present/show_linear.c \
   lib/present/show_response.c \
+  lib/present/present_limits.h \
+  lib/present/show_power.c \
   lib/present/show_program.c \
   lib/present/show_session.c \
   lib/present/show_structure.c \

@@ -40,6 +40,7 @@ static const Topic topics[] = {
     {"thevenin",     "a linear network between two terminals: source and impedance", NEED_MODEL, OPERANDS_ITEMS, AS_FORMULAS, show_thevenin},
     {"norton",       "the same: source and admittance",                    NEED_MODEL,  OPERANDS_ITEMS,   AS_FORMULAS, show_norton},
     {"derivation",   "how an equation came about, step by step",           NEED_SYSTEM, OPERANDS_ENTRY,   AS_NARRATIVE,    show_derivation},
+    {"power",        "power of each edge, through times across, and their sums", NEED_INSTANT, OPERANDS_NOTHING, AS_TEXT, show_power},
     {"events",       "events, and when they happened in the last run",     NEED_MODEL,  OPERANDS_NOTHING, AS_TEXT,     show_events},
 };
 /* clang-format on */
@@ -166,6 +167,17 @@ static Status read_notation(const Statement *statement, const Topic *topic, Nota
     return E_NAME;
 }
 
+/* the word `at` belongs to topics of values */
+static Status check_at(const Statement *statement, const Topic *topic, Diag *diag)
+{
+    if (statement->at == NULL || (topic != NULL && topic->need == NEED_INSTANT))
+        return OK;
+    (void)diag_at(diag, E_SYNTAX, statement->at->place, "'show%s%s' shows no values at an instant",
+                  topic != NULL ? " " : "", topic != NULL ? topic->name : "");
+    diag_hint(diag, "'show power at 2' does, and 'print' prints values: print mass(1,1) at 2");
+    return E_SYNTAX;
+}
+
 Status show_need(const View *view, const Statement *statement, Need *need, Diag *diag)
 {
     const Topic *topic = find_topic(view->linear, statement);
@@ -178,6 +190,7 @@ Status show_need(const View *view, const Statement *statement, Need *need, Diag 
                         "'help show' lists them");
         return E_SYNTAX;
     }
+    TRY(check_at(statement, topic, diag));
     if (topic != NULL)
         *need = topic->need;
     else
@@ -344,7 +357,9 @@ static Status show_topic(const View *view, const Topic *topic, const Statement *
     }
     status = topic->show(view, &selection, out, diag);
     if (status != OK && diag->place.line == 0)
-        diag->place = statement->operands.at[statement->operands.count > 1 ? 1 : 0].place;
+        diag->place = statement->at != NULL
+                          ? statement->at->place
+                          : statement->operands.at[statement->operands.count > 1 ? 1 : 0].place;
 done:
     MEM_FREE(names, args);
     return status;

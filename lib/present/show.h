@@ -12,6 +12,7 @@ typedef enum Need {
     NEED_RUNNING, /* equations as a run evaluates them */
     NEED_CODE,    /* these, and the assembled start */
     NEED_RUN,     /* the last run; equations too */
+    NEED_INSTANT, /* values at an instant of the last run, or at the start */
     NEED_LINEAR   /* the last linearisation */
 } Need;
 
@@ -75,7 +76,7 @@ ShowFunction show_graph, show_nodes, show_edges, show_tree, show_incidence, show
 ShowFunction show_coordinates, show_constraints, show_jacobian, show_mass, show_forces,
     show_equations, show_network, show_events, show_sides;
 ShowFunction show_sweep, show_statistics;
-ShowFunction show_derivation;
+ShowFunction show_derivation, show_power;
 ShowFunction show_outputs, show_params, show_init, show_run, show_runs, show_settings, show_program;
 
 /* --- equations one by one, each after its edge's name --- */

@@ -12,6 +12,14 @@
 #include "simulate/analyse/linearize.h"
 #include "simulate/sweep/sweep_table.h"
 
+/* reads expressions over the user's variables at one instant: out[i] of items[i], 0 where it is no
+ * more than rounding */
+typedef struct ViewInstant {
+    Status (*read)(const void *context, const Expr *items, int count, double *out, Diag *diag);
+    const void *context;
+    double time; /* s */
+} ViewInstant;
+
 typedef struct View {
     const Model *model;
     System *system;       /* of the model as it is; NULL unless equations are needed */
@@ -23,6 +31,7 @@ typedef struct View {
     const Linear *linear;          /* the last linearisation; NULL */
     const SweepTable *sweep;       /* the last sweep; NULL */
     const TerminalGraph *terminal; /* the graph with instances as their ports; NULL: as it is */
+    const ViewInstant *instant;    /* where a topic shows values; NULL */
     int freedoms;                  /* degrees of freedom found by an assembly; -1: none yet */
     Page page;
     const CallMonitor *watch;

@@ -276,6 +276,8 @@ bool formula_may_be_rounding(const Syntax *item, double value); /* it is small e
 MUST_USE Status formula_round(ct_session *session, const Formula *formula, Run *source,
                               const double *at, double *value, Diag *diag);
 /* the run whose grid a list is on: the one that its items name, else `source` */
+/* a time of the grid that is meant: within rounding of one, that one */
+double session_row_time(const Result *result, double t);
 Run *formula_grid(ct_session *session, const Formula *formulas, int count, Run *source);
 /* values at `rows` times of several formulas, row by row: out is rows x stride, from column
  * `first` on; times NULL: the rows of `grid` */

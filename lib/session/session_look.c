@@ -4,6 +4,9 @@
 #include "model/model.h"
 #include "present/info.h"
 #include "present/show.h"
+#include "session/session_limits.h"
+
+#include <math.h>
 
 /* returns the text, or frees it and reports the error */
 static ct_status finish(Status status, Text *out, const Diag *diag, char **text, ct_error *error)
@@ -30,12 +33,59 @@ static Status check_no_units(const Statement *s, Diag *diag)
     return OK;
 }
 
+/* An instant of the last run, or without one the end of what a bare name means (`at` NULL). */
+typedef struct InstantReader {
+    Run *run;
+    double time; /* s */
+} InstantReader;
+
+static Status instant_reader_find(ct_session *session, const Syntax *at, InstantReader *out,
+                                  Diag *diag)
+{
+    const int runs = session->runs.count;
+    const double *times;
+    double instant = 0;
+
+    if (at != NULL)
+        TRY(session_instant(session, at, &instant, diag));
+    if (at != NULL && runs > 0)
+        out->run = session->runs.at + runs - 1;
+    else
+        TRY(session_source(session, &out->run, diag));
+    times = result_times(out->run->result);
+    out->time = at != NULL ? session_row_time(out->run->result, instant)
+                           : times[result_rows(out->run->result) - 1];
+    return OK;
+}
+
+/* expressions over the user's variables there; the context is an InstantReader */
+static Status instant_read(const void *context, const Expr *items, int count, double *out,
+                           Diag *diag)
+{
+    const InstantReader *instant = context;
+    ResultReader *reader = instant->run->reader;
+
+    TRY(result_reader_values_at(reader, items, count, instant->time, out, diag));
+    for (int i = 0; i < count; i++) {
+        double open;
+
+        if (out[i] == 0 || !(fabs(out[i]) <= NOISE_LARGEST))
+            continue;
+        TRY(result_reader_rounding(reader, items[i], &instant->time, 1, &open, diag));
+        if (fabs(out[i]) <= NOISE_ROUNDINGS * open)
+            out[i] = 0;
+    }
+    return OK;
+}
+
 ct_status ct_show(ct_session *session, const ct_statement *statement, char **text, ct_error *error)
 {
     SESSION_WORK(session, error);
 
     const Statement *s = statement_of(statement);
     View view = session_view(session);
+    InstantReader reader;
+    ViewInstant instant;
     Text out = {0};
     Diag diag = {0};
     Status status;
@@ -44,6 +94,11 @@ ct_status ct_show(ct_session *session, const ct_statement *statement, char **tex
     session_begin(session);
     CHECK(check_no_units(s, &diag));
     CHECK(show_need(&view, s, &need, &diag));
+    if (need == NEED_INSTANT) {
+        CHECK(instant_reader_find(session, s->at, &reader, &diag));
+        instant = (ViewInstant){instant_read, &reader, reader.time};
+        view.instant = &instant;
+    }
     CHECK(session_prepare_formulas(session, need, &view, &diag));
     monitor_report(&session->watch, "writing out", -1);
     CHECK(show(&view, s, &out, &diag));

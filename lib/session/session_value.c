@@ -36,8 +36,7 @@ static Run *leaf_run(ct_session *session, const Leaf *leaf, Run *source)
     return leaf->run >= 0 ? session->runs.at + leaf->run : source;
 }
 
-/* a time of the grid that is meant: within rounding of one, that one */
-static double snap(const Result *result, double t)
+double session_row_time(const Result *result, double t)
 {
     const double *times = result_times(result);
     int low = 0, high = result_rows(result) - 1;
@@ -134,9 +133,10 @@ static Status evaluate_leaf(ct_session *session, const Leaf *leaf, Run *run, con
         return OK;
     }
     times = result_times(run->result);
-    status = result_reader_values_at(
-        run->reader, &leaf->expr, 1,
-        at != NULL ? snap(run->result, *at) : times[result_rows(run->result) - 1], out, diag);
+    status = result_reader_values_at(run->reader, &leaf->expr, 1,
+                                     at != NULL ? session_row_time(run->result, *at)
+                                                : times[result_rows(run->result) - 1],
+                                     out, diag);
     return status == E_VALUE && leaf->run >= 0 && at != NULL
                ? refuse_instant(leaf, run->result, *at, diag)
                : status;
@@ -310,7 +310,7 @@ static Status leaf_along(ct_session *session, const Leaf *leaf, Run *run, const 
     Status status;
 
     for (int r = 0; r < rows; r++)
-        snapped[r] = snap(run->result, times[r]);
+        snapped[r] = session_row_time(run->result, times[r]);
     status = result_reader_values_along(run->reader, leaf->expr, snapped, rows, &session->watch,
                                         out, diag);
     mem_free(snapped);

@@ -270,6 +270,11 @@ family_rounding_SOURCES = tests/family/family_rounding.c tests/family/family.h \
 	tests/family/script.h tests/random.h tests/unit/session_kit.h tests/unit/test.h
 family_rounding_LDADD = libcotree.la $(unit_ldadd)
 
+FAMILIES += family_power
+family_power_SOURCES = tests/family/family_power.c tests/family/family.h tests/family/script.h \
+	tests/random.h tests/unit/session_kit.h tests/unit/test.h
+family_power_LDADD = libcotree.la $(unit_ldadd)
+
 FAMILIES += family_edges
 family_edges_SOURCES = tests/family/family_edges.c tests/family/family.h tests/family/script.h \
 	tests/random.h tests/unit/session_kit.h tests/unit/test.h

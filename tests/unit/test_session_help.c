@@ -349,6 +349,7 @@ static void completion_tells_units_from_words(void)
         {"print h8, a",            "abs(",        "at"},
         {"keep A = h8 ",           "at",          "within"},
         {"show mass a",            "as",          "at"},
+        {"show power a",           "at",          "abs("},
         {"init h8 = 2*L",          "L4",          "log"},
         /* help of all that has a name */
         {"help h",                 "h8",          "h"},

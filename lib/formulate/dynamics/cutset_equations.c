@@ -346,6 +346,18 @@ void loads_add_inertia(const System *system, Loads *loads, const Vec *alpha, con
     outward_free(&gravity);
 }
 
+void loads_add_mass(const System *system, Loads *loads, const Mass *mass, const Vec *alpha,
+                    const Vec *a)
+{
+    Outward gravity = outward_new(system, system->origin->gravity);
+    const Inertia inertia = inertia_of(system, mass, &gravity, alpha, a);
+    const int axes = node_axes(system, mass->node);
+
+    loads_add_force(system, loads, mass->node, inertia.force, axes);
+    loads_add_torque(system, loads, mass->node, inertia.torque, axes);
+    outward_free(&gravity);
+}
+
 static bool is_one_of(Expr symbol, const Expr *symbols, int count)
 {
     for (int i = 0; i < count; i++)

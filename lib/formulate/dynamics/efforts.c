@@ -235,39 +235,42 @@ void loads_add_effort(System *system, Loads *loads, const Instance *owner, int c
             add_shift(system, loads, owner, &steps.shift[k], effort);
 }
 
-Status efforts_add(System *system, Loads *loads, int take, Diag *diag)
+Status effort_add(System *system, const Instance *instance, Loads *loads, int take, Diag *diag)
 {
     Arena *arena = system->arena;
+    Effort effort;
+    Vec force;
+    Vec torque;
+    int chain;
 
-    for (int i = 0; i < system->origin->instance_count; i++) {
-        const Instance *instance = &system->origin->instances[i];
-        Effort effort;
-        Vec force;
-        Vec torque;
-        int chain;
-
-        if (instance->row->wrench != NULL) {
-            TRY(wrench_of(system, instance, take, &force, &torque, &chain, diag));
-            loads_add_force(system, loads, instance->head, force, chain);
-            loads_add_torque(system, loads, instance->head, torque, chain);
-        }
-        if (instance->row->effort == NULL || (instance->joint >= 0 && take != TAKE_ALL))
-            continue;
-        TRY(effort_of(system, instance, &effort, diag));
-        if (!effort.is_line) {
-            loads_add_effort(system, loads, &system->origin->instances[instance->joint],
-                             instance->joint_coordinate, effort.value);
-            if (instance->second_joint >= 0)
-                loads_add_effort(system, loads, &system->origin->instances[instance->second_joint],
-                                 instance->second_coordinate, expr_neg(arena, effort.value));
-            continue;
-        }
-        TRY(law_add(system, instance, take, &effort.value, diag));
-        force = vec_hold(
-            arena, vec_scale(arena, expr_name_temporary(arena, effort.value), effort.direction));
-        loads_add_force(system, loads, instance->head, force, 0);
-        loads_add_force(system, loads, instance->tail, vec_neg(arena, force), 0);
+    if (instance->row->wrench != NULL) {
+        TRY(wrench_of(system, instance, take, &force, &torque, &chain, diag));
+        loads_add_force(system, loads, instance->head, force, chain);
+        loads_add_torque(system, loads, instance->head, torque, chain);
     }
+    if (instance->row->effort == NULL || (instance->joint >= 0 && take != TAKE_ALL))
+        return OK;
+    TRY(effort_of(system, instance, &effort, diag));
+    if (!effort.is_line) {
+        loads_add_effort(system, loads, &system->origin->instances[instance->joint],
+                         instance->joint_coordinate, effort.value);
+        if (instance->second_joint >= 0)
+            loads_add_effort(system, loads, &system->origin->instances[instance->second_joint],
+                             instance->second_coordinate, expr_neg(arena, effort.value));
+        return OK;
+    }
+    TRY(law_add(system, instance, take, &effort.value, diag));
+    force = vec_hold(arena,
+                     vec_scale(arena, expr_name_temporary(arena, effort.value), effort.direction));
+    loads_add_force(system, loads, instance->head, force, 0);
+    loads_add_force(system, loads, instance->tail, vec_neg(arena, force), 0);
+    return OK;
+}
+
+Status efforts_add(System *system, Loads *loads, int take, Diag *diag)
+{
+    for (int i = 0; i < system->origin->instance_count; i++)
+        TRY(effort_add(system, &system->origin->instances[i], loads, take, diag));
     for (int i = 0; i < system->dynamics->elastics.count; i++)
         TRY(elastic_add_load(system, &system->dynamics->elastics.at[i], take, loads, diag));
     return OK;

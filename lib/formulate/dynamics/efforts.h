@@ -19,6 +19,9 @@ MUST_USE Status drive_coordinate(System *system, int drive, Expr *out, Diag *dia
 /* wrench of force and torque components, in the axes of *chain */
 MUST_USE Status wrench_of(System *system, const Instance *instance, int take, Vec *force,
                           Vec *torque, int *chain, Diag *diag);
+/* the applied loads of one part; a load on a joint's coordinate only with TAKE_ALL */
+MUST_USE Status effort_add(System *system, const Instance *instance, Loads *loads, int take,
+                           Diag *diag);
 /* all applied loads, without inertia and multipliers; loads on joints' coordinates only with
  * TAKE_ALL */
 MUST_USE Status efforts_add(System *system, Loads *loads, int take, Diag *diag);

@@ -35,6 +35,10 @@ Loads loads_new(const System *system);
  * without */
 void loads_add_inertia(const System *system, Loads *loads, const Vec *alpha, const Vec *a,
                        const Expr *accelerations);
+struct Mass;
+/* the same of one mass, with u' */
+void loads_add_mass(const System *system, Loads *loads, const struct Mass *mass, const Vec *alpha,
+                    const Vec *a);
 void loads_add_force(const System *system, Loads *loads, int node, Vec force, int chain);
 void loads_add_torque(const System *system, Loads *loads, int node, Vec torque, int chain);
 /* Adds a force or torque `effort` along a coordinate of an instance: on its head, and reversed on

@@ -23,23 +23,29 @@
 
 #include <math.h>
 
-static Status add_rotors(System *system, Loads *loads, Diag *diag)
+Status rotor_add(System *system, const Instance *instance, Loads *loads, Diag *diag)
 {
-    for (int i = 0; i < system->origin->instance_count; i++) {
-        const Instance *instance = &system->origin->instances[i];
-        const Instance *joint;
-        Expr inertia;
-        Expr second;
+    const Instance *joint;
+    Expr inertia;
+    Expr second;
 
-        if (instance->row->rotor == NULL || instance->joint < 0)
-            continue;
-        inertia = instance->row->rotor(instance, system->arena);
-        joint = &system->origin->instances[instance->joint];
-        TRY(coordinate_value(system, joint, instance->joint_coordinate, 2, &second, diag));
-        loads_add_effort(system, loads, joint, instance->joint_coordinate,
-                         expr_neg(system->arena, expr_mul(system->arena, inertia, second)));
-    }
+    if (instance->row->rotor == NULL || instance->joint < 0)
+        return OK;
+    inertia = instance->row->rotor(instance, system->arena);
+    joint = &system->origin->instances[instance->joint];
+    TRY(coordinate_value(system, joint, instance->joint_coordinate, 2, &second, diag));
+    loads_add_effort(system, loads, joint, instance->joint_coordinate,
+                     expr_neg(system->arena, expr_mul(system->arena, inertia, second)));
     return OK;
+}
+
+void drive_add(System *system, const Drive *drive, Loads *loads)
+{
+    const Instance *driver = &system->origin->instances[drive->instance];
+
+    if (driver->by >= 0 && driver->by_coordinate >= 0)
+        loads_add_effort(system, loads, &system->origin->instances[driver->by],
+                         driver->by_coordinate, drive->effort);
 }
 
 Status actual_build(System *system, Diag *diag)
@@ -62,18 +68,13 @@ Status actual_build(System *system, Diag *diag)
     loads_add_inertia(system, &loads, system->shown->actual_alpha, system->shown->actual_a,
                       system->kinematics->accelerations);
     TRY(efforts_add(system, &loads, TAKE_ALL, diag));
-    TRY(add_rotors(system, &loads, diag));
+    for (int i = 0; i < system->origin->instance_count; i++)
+        TRY(rotor_add(system, &system->origin->instances[i], &loads, diag));
     for (int k = 0; k < system->constraints->rows.count; k++)
         loads_add_row(system, &loads, &system->constraints->rows.at[k],
                       system->constraints->multipliers[k]);
-    for (int i = 0; i < system->constraints->drives.count; i++) {
-        const Instance *driver =
-            &system->origin->instances[system->constraints->drives.at[i].instance];
-
-        if (driver->by >= 0 && driver->by_coordinate >= 0)
-            loads_add_effort(system, &loads, &system->origin->instances[driver->by],
-                             driver->by_coordinate, system->constraints->drives.at[i].effort);
-    }
+    for (int i = 0; i < system->constraints->drives.count; i++)
+        drive_add(system, &system->constraints->drives.at[i], &loads);
     if (system->constraints->redundant_rows.count > 0)
         recovery_build(system, &loads);
     for (int k = 0; k < system->constraints->redundant_rows.count; k++)
@@ -236,13 +237,22 @@ const Row *reaction_open_row(System *system, const Instance *part, RowShare *sha
     return found;
 }
 
+Vec rigid_reaction(System *system, const Instance *joint, bool rotation, int *chain)
+{
+    const Tree *tree = system->origin->trees[rotation ? TREE_ROTATION : TREE_TRANSLATION];
+
+    *chain = 0;
+    return tree_has(tree, joint->edge)
+               ? branch_reaction(system, joint, system->shown->actual, rotation, chain)
+               : chord_reaction(system, joint, rotation);
+}
+
 Status joint_reaction(System *system, const Instance *joint, ReactionPart part, Expr *out,
                       Diag *diag)
 {
-    const Tree *tree = system->origin->trees[part.moment ? TREE_ROTATION : TREE_TRANSLATION];
     const Row *open;
     Vec vector;
-    int chain = 0;
+    int chain;
 
     TRY(actual_build(system, diag));
     if (joint->is_virtual) {
@@ -262,9 +272,7 @@ Status joint_reaction(System *system, const Instance *joint, ReactionPart part, 
                   chord);
         return E_MISSING;
     }
-    vector = tree_has(tree, joint->edge)
-                 ? branch_reaction(system, joint, system->shown->actual, part.moment, &chain)
-                 : chord_reaction(system, joint, part.moment);
+    vector = rigid_reaction(system, joint, part.moment, &chain);
     *out = component(system, joint, part, vector, chain);
     return OK;
 }

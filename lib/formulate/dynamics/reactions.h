@@ -15,6 +15,10 @@ typedef struct Recovery {
     Sample *sample;    /* the position */
 } Recovery;
 
+/* d'Alembert's load of a part's rotor on its joint; nothing without a rotor */
+MUST_USE Status rotor_add(System *system, const Instance *instance, Loads *loads, Diag *diag);
+/* the effort of a drive on the coordinate that supplies its motion, if that is another one */
+void drive_add(System *system, const Drive *drive, Loads *loads);
 /* accelerations with u', sums inward with lambda */
 MUST_USE Status actual_build(System *system, Diag *diag);
 /* multipliers of the redundant rows, from the loads without them */
@@ -23,6 +27,9 @@ void recovery_build(System *system, const Loads *loads);
 /* the force or torque that a branch carries from its tail to its head, in the axes of `chain` */
 Vec branch_reaction(const System *system, const Instance *instance, const Sums *sums, bool rotation,
                     int *chain);
+/* The same of a joint or an arm, branch or chord, after actual_build(): its force on the head, or
+ * with `rotation` its moment about the head's origin. Multipliers that nothing determines are 0. */
+Vec rigid_reaction(System *system, const Instance *joint, bool rotation, int *chain);
 /* derivative of a part's quantity `wanted` by the multiplier of a redundant row */
 typedef Expr RowShare(System *system, const Instance *part, const void *wanted, int redundant);
 /* A redundant row whose multiplier nothing determines, though the quantity depends on it. NULL:

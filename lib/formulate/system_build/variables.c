@@ -3,6 +3,7 @@
  * A name is a coordinate, an entry (lambda(1), mass(2,2)), an output, or a member of a part: the
  * tables below list the members of each family and the function that returns them. */
 #include "component/equation_block.h"
+#include "formulate/dynamics/edge_power.h"
 #include "formulate/dynamics/efforts.h"
 #include "formulate/dynamics/reactions.h"
 #include "formulate/dynamics/sections.h"
@@ -624,6 +625,8 @@ static Status member_variable(System *system, const char *path, Expr *out, Diag 
         return terminal_variable(system, node, out, diag);
     if (instance == NULL)
         return frame_variable(system, node, member, out, diag);
+    if (edge_power_is_named(instance, member))
+        return edge_power(system, instance, member, out, diag);
     if (instance->row->deforming != NULL && strchr(member, '(') != NULL)
         return deflection_variable(system, instance, member, out, diag);
     switch (instance->row->family) {

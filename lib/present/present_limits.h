@@ -1,0 +1,12 @@
+/* present_limits.h: tolerances of what is shown */
+#ifndef COTREE_PRESENT_PRESENT_LIMITS_H
+#define COTREE_PRESENT_PRESENT_LIMITS_H
+
+/* Powers at an instant, relative to the sum of magnitudes over a domain (1). A power below the
+ * first consists of rounding errors, some 1e4 of them: it is a sum over many terms. A sum below the
+ * second is 0: accelerations and multipliers are solved for, with the condition of their
+ * equations. */
+#define POWER_NOISE 1e-12
+#define POWER_BALANCE 1e-9
+
+#endif
