@@ -25,6 +25,9 @@ static bool is_of(Form form, Block block)
     case BLOCK_EMBEDDED_MASS:
     case BLOCK_EMBEDDED_FORCES:
         return form == FORM_EMBEDDED;
+    case BLOCK_DEPENDENT_RATES:
+    case BLOCK_COMPLEMENT: /* the embedded blocks contain them */
+        return false;
     default:
         return true;
     }
@@ -38,8 +41,7 @@ static Form form_of(const View *view)
     return model_form(view->model, &independent, &count);
 }
 
-/* the form that can be written out: the embedded one has a bound on constraints */
-static Form written_form(System *system, Form form)
+Form form_written(System *system, Form form)
 {
     int rows, columns;
     Diag ignored;
@@ -54,7 +56,7 @@ static Form written_form(System *system, Form form)
 
 static Status count_total(System *system, Form form, bool shared, OpCount *out, Diag *diag)
 {
-    const Form written = written_form(system, form);
+    const Form written = form_written(system, form);
     OpCount sum = {0, 0, 0};
 
     for (int b = 0; b < BLOCK_COUNT; b++) {
@@ -149,7 +151,7 @@ static Status print_blocks(const View *view, const Statement *statement, Text *o
             goto done;
     }
     if (statement->operands.count == 0) {
-        const Form form = written_form(view->system, form_of(view));
+        const Form form = form_written(view->system, form_of(view));
 
         for (int b = 0; b < BLOCK_COUNT; b++)
             if (is_of(form, (Block)b) && !is_empty(view, (Block)b))
@@ -157,7 +159,7 @@ static Status print_blocks(const View *view, const Statement *statement, Text *o
         CHECK(block_row(&table, view, "total", diag));
     }
     text_add(out, "operations as written, and after common subexpressions are shared\n");
-    if (form_of(view) != written_form(view->system, form_of(view)))
+    if (form_of(view) != form_written(view->system, form_of(view)))
         text_add(out, "(of the augmented form: the embedded one has too many constraints to be "
                       "written out)\n");
     table_print(out, &table, 0);

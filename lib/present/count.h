@@ -7,6 +7,8 @@
 
 /* the names of blocks that can be counted: 0, 1, ... until NULL */
 const char *count_block_name(int i);
+/* the form that can be written out: the embedded one has a bound on constraints */
+Form form_written(System *system, Form form);
 /* additions, multiplications and functions of one block ("mass", "total"), as written or after
  * sharing; the total is that of the equations in their form. Fails with E_NAME where there is no
  * such block. */

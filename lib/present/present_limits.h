@@ -9,4 +9,8 @@
 #define POWER_NOISE 1e-12
 #define POWER_BALANCE 1e-9
 
+/* The largest entry of Phi_q G relative to its terms (1): entries of G are quotients of
+ * determinants of up to three rows, which cancel where Phi_d is nearly singular. */
+#define COMPLEMENT_ROUNDING 1e-9
+
 #endif

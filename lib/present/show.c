@@ -21,6 +21,8 @@ static const Topic topics[] = {
     {"jacobian",     "derivatives of the constraints by the coordinates",  NEED_SYSTEM, OPERANDS_NUMBERS, AS_FORMULAS, show_jacobian},
     {"mass",         "mass matrix M",                                      NEED_SYSTEM, OPERANDS_NUMBERS, AS_FORMULAS, show_mass},
     {"forces",       "right side F of the motion equations",               NEED_SYSTEM, OPERANDS_NUMBERS, AS_FORMULAS, show_forces},
+    {"partition",    "dependent and independent coordinates of the embedded form", NEED_SYSTEM, OPERANDS_NOTHING, AS_TEXT, show_partition},
+    {"complement",   "J and G, with Phi_q G = 0, of the embedded form",    NEED_SYSTEM, OPERANDS_NUMBERS, AS_FORMULAS, show_complement},
     {"equations",    "all equations, row by row",                          NEED_SYSTEM, OPERANDS_NOTHING, AS_FORMULAS, show_equations},
     {"network",      "electrical equations, and those of other scalar domains", NEED_SYSTEM, OPERANDS_NOTHING, AS_FORMULAS, show_network},
     {"outputs",      "outputs and their expressions",                      NEED_MODEL,  OPERANDS_NOTHING, AS_FORMULAS, show_outputs},

@@ -1,8 +1,11 @@
 /* show_equations.c: coordinates, constraints, M, F and the network, as a person writes them
  *
  * M u' + Phi_u^T lambda = F, a row a speed; Phi = 0; left = right of each network unknown. */
+#include "present/count.h"
+#include "present/present_limits.h"
 #include "present/show.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -149,6 +152,13 @@ static bool is_chosen(const Selection *selection, int row, int column)
            (selection->number_count < 2 || selection->numbers[1] == column + 1);
 }
 
+/* also where it has one column */
+static bool is_matrix(Block block)
+{
+    return block == BLOCK_MASS || block == BLOCK_JACOBIAN || block == BLOCK_EMBEDDED_MASS ||
+           block == BLOCK_DEPENDENT_RATES || block == BLOCK_COMPLEMENT;
+}
+
 /* Entries of a block under their names; of a symmetric one those on and above the diagonal, unless
  * a row was requested. Zeros are left out where many entries are written. */
 static Status add_entries(Text *out, const View *view, Block block, const char *letter,
@@ -163,7 +173,7 @@ static Status add_entries(Text *out, const View *view, Block block, const char *
     system_block_size(view->system, block, &rows, &columns);
     for (int r = 0; r < rows; r++)
         for (int c = whole && block == BLOCK_MASS ? r : 0; c < columns; c++) {
-            const bool vector = columns == 1 && block != BLOCK_MASS && block != BLOCK_JACOBIAN;
+            const bool vector = columns == 1 && !is_matrix(block);
             Expr e;
 
             if (!is_chosen(selection, r, c))
@@ -194,10 +204,161 @@ static void add_block_title(Text *out, const View *view, const char *what, const
     mem_free(names);
 }
 
+/* --- the embedded form --- */
+
+/* names of some of the speeds */
+static char *speed_names(const System *system, const int *speeds, int count)
+{
+    Text names = {0};
+
+    for (int i = 0; i < count; i++)
+        layout_item(&names, system_u(system, speeds[i])->name);
+    return text_done(&names);
+}
+
+/* the same of their coordinates: h8 of h8' */
+static char *coordinate_names(const System *system, const int *speeds, int count)
+{
+    Text names = {0};
+
+    for (int i = 0; i < count; i++) {
+        const char *speed = system_u(system, speeds[i])->name;
+        char *name = mem_text(speed, strcspn(speed, "'"));
+
+        layout_item(&names, name);
+        mem_free(name);
+    }
+    return text_done(&names);
+}
+
+/* the form that M and F are shown of, with a remark where the embedded one can't be written out */
+static Form shown_form(Text *out, const View *view, const Selection *selection)
+{
+    const char *const *independent;
+    int count;
+    const Form form =
+        system_m(view->system) > 0 ? model_form(view->model, &independent, &count) : FORM_AUGMENTED;
+    const Form written = form_written(view->system, form);
+
+    if (form != written && selection->number_count == 0)
+        view_comment(out, view,
+                     "of the augmented form: the embedded one has too many constraints to be "
+                     "written out");
+    return written;
+}
+
+/* "Mt = G^T M, 1 x 2; rows h8', columns h8', h10'" */
+static Status add_embedded_title(Text *out, const View *view, const char *what, bool has_columns,
+                                 Diag *diag)
+{
+    const int nu = system_nu(view->system);
+    char *names, *all;
+    int *speeds, dependent;
+    Text line = {0};
+
+    TRY(system_partition(view->system, &speeds, &dependent, diag));
+    names = speed_names(view->system, speeds + dependent, nu - dependent);
+    all = name_list(system_u, view->system, nu);
+    text_addf(&line, "%s of the embedded form, %d x %d; rows %s", what, nu - dependent,
+              has_columns ? nu : 1, names);
+    if (has_columns)
+        text_addf(&line, "; columns %s; entries not listed are 0", all);
+    view_comment(out, view, line.at);
+    text_free(&line);
+    MEM_FREE(names, all, speeds);
+    return OK;
+}
+
+static Status show_embedded(const View *view, Block block, const Selection *selection, Text *out,
+                            Diag *diag)
+{
+    const bool is_mass = block == BLOCK_EMBEDDED_MASS;
+
+    if (selection->number_count == 0)
+        TRY(add_embedded_title(out, view, is_mass ? "mass matrix G^T M" : "right side G^T F",
+                               is_mass, diag));
+    return add_entries(out, view, block, is_mass ? "\\tilde{M}" : "\\tilde{F}", selection, diag);
+}
+
+Status show_partition(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    const int nu = system_nu(view->system);
+    char *names[2];
+    int *speeds, dependent;
+    Table table = table_for("ll");
+
+    (void)selection;
+    if (says_nothing_moves(out, view, "coordinates"))
+        return OK;
+    TRY(system_partition(view->system, &speeds, &dependent, diag));
+    names[0] = coordinate_names(view->system, speeds, dependent);
+    names[1] = coordinate_names(view->system, speeds + dependent, nu - dependent);
+    table_cells(&table, "dependent (%d)\t%s", dependent, dependent > 0 ? names[0] : "none");
+    table_cells(&table, "independent (%d)\t%s", nu - dependent, nu > dependent ? names[1] : "none");
+    table_wrap(out, &table, 0, view->page.columns);
+    table_free(&table);
+    MEM_FREE(names[0], names[1], speeds);
+    return OK;
+}
+
+/* "Phi_q G = 0: the largest entry is 2e-16 of its terms", in numbers */
+static Status add_check(Text *out, const View *view, Diag *diag)
+{
+    double error;
+    Text line = {0};
+
+    TRY(system_complement_error(view->system, &error, diag));
+    if (isnan(error))
+        text_add(&line, "Phi_q G can't be evaluated at numbers drawn at random");
+    else if (error <= COMPLEMENT_ROUNDING)
+        text_add(&line, "Phi_q G = 0 at numbers drawn at random, to rounding");
+    else
+        text_addf(&line, "Phi_q G is %.2g of its terms at numbers drawn at random", error);
+    view_comment(out, view, line.at);
+    text_free(&line);
+    return OK;
+}
+
+Status show_complement(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    const int nu = system_nu(view->system);
+    char *names[2];
+    int *speeds, dependent;
+    Text line = {0};
+    Status status = OK;
+
+    if (selection->number_count > 0)
+        return add_entries(out, view, BLOCK_COMPLEMENT, "G", selection, diag);
+    if (says_nothing_moves(out, view, "complement"))
+        return OK;
+    TRY(system_partition(view->system, &speeds, &dependent, diag));
+    names[0] = speed_names(view->system, speeds, dependent);
+    names[1] = speed_names(view->system, speeds + dependent, nu - dependent);
+    if (dependent == 0) {
+        view_comment(out, view, "no constraints: all coordinates are independent, and G is 1");
+        goto done;
+    }
+    text_addf(&line, "J, %d x %d; rows %s; columns %s; entries not listed are 0", dependent,
+              nu - dependent, names[0], names[1]);
+    view_comment(out, view, line.at);
+    CHECK(add_entries(out, view, BLOCK_DEPENDENT_RATES, "J", selection, diag));
+    line.length = 0;
+    text_addf(&line, "G = [J; 1], %d x %d; rows %s, %s", nu, nu - dependent, names[0], names[1]);
+    view_comment(out, view, line.at);
+    CHECK(add_entries(out, view, BLOCK_COMPLEMENT, "G", selection, diag));
+    CHECK(add_check(out, view, diag));
+done:
+    text_free(&line);
+    MEM_FREE(names[0], names[1], speeds);
+    return status;
+}
+
 Status show_mass(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
     const int nu = system_nu(view->system);
 
+    if (shown_form(out, view, selection) == FORM_EMBEDDED)
+        return show_embedded(view, BLOCK_EMBEDDED_MASS, selection, out, diag);
     if (selection->number_count == 0) {
         char what[64];
 
@@ -213,6 +374,8 @@ Status show_forces(const View *view, const Selection *selection, Text *out, Diag
 {
     if (selection->number_count == 0 && says_nothing_moves(out, view, "forces"))
         return OK;
+    if (shown_form(out, view, selection) == FORM_EMBEDDED)
+        return show_embedded(view, BLOCK_EMBEDDED_FORCES, selection, out, diag);
     if (selection->number_count == 0)
         add_block_title(out, view, "right side F of the motion equations", "rows", "");
     return add_entries(out, view, BLOCK_FORCES, "F", selection, diag);

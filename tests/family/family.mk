@@ -275,6 +275,11 @@ family_power_SOURCES = tests/family/family_power.c tests/family/family.h tests/f
 	tests/random.h tests/unit/session_kit.h tests/unit/test.h
 family_power_LDADD = libcotree.la $(unit_ldadd)
 
+FAMILIES += family_complement
+family_complement_SOURCES = tests/family/family_complement.c tests/family/family.h \
+	tests/family/script.h tests/random.h tests/unit/session_kit.h tests/unit/test.h
+family_complement_LDADD = libcotree.la $(unit_ldadd)
+
 FAMILIES += family_edges
 family_edges_SOURCES = tests/family/family_edges.c tests/family/family.h tests/family/script.h \
 	tests/random.h tests/unit/session_kit.h tests/unit/test.h

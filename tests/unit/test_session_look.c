@@ -376,6 +376,8 @@ static void the_embedded_form_has_no_multipliers(void)
     EXPECT_HOLDS(kit.text, "h8''");
     EXPECT_DONE(&kit, "count");
     EXPECT_HOLDS(kit.text, "embedded");
+    EXPECT_DONE(&kit, "show mass");
+    EXPECT_HOLDS(kit.text, "G^T M of the embedded form, 1 x 2");
     kit_free(&kit);
 }
 
@@ -388,6 +390,8 @@ static void the_embedded_form_of_many_constraints_is_counted_as_the_augmented(vo
     EXPECT_HOLDS(kit.text, "mass");
     EXPECT(kit_do(&kit, "show equations") == CT_FAILED);
     EXPECT(kit.error.hint[0] != '\0');
+    EXPECT_DONE(&kit, "show forces");
+    EXPECT_HOLDS(kit.text, "too many constraints");
     EXPECT_DONE(&kit, "show constraints");
     kit_free(&kit);
 }
@@ -412,10 +416,10 @@ static void info_tells_what_can_be_asked_of_a_part(void)
     } parts[] = {
         {"info M1", "M1.v [V], M1.i [A], M1.power [W], M1.torque [N*m]"},
         {"info V1", "V1.v [V], V1.i [A], V1.power [W]\n"},
-        {"info S1", "S1.effort [N*m]\n"},
-        {"info S2", "S2.effort [N]\n"},
-        {"info A1", "A1.effort [N]\n"},
-        {"info D1", "D1.effort [N]\n"},
+        {"info S1", "S1.effort [N*m], S1.power [W]\n"},
+        {"info S2", "S2.effort [N], S2.power [W]\n"},
+        {"info A1", "A1.effort [N], A1.power [W]\n"},
+        {"info D1", "D1.effort [N], D1.power [W]\n"},
         {"info C1", "C1.v [V], C1.i [A], C1.power [W], C1.q [C], C1.force [N],\n"},
         {"info s", "s [m], s' [m/s], s.fx [N]"},
         {"info h", "h [rad], h' [rad/s], h.fx [N]"},

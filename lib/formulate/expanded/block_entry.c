@@ -11,6 +11,10 @@ Status show_entry(System *system, Block block, int row, int column, Expr *out, D
         return entry_formed(system, block, embedded_mass, row, column, out, diag);
     case BLOCK_EMBEDDED_FORCES:
         return entry_formed(system, block, embedded_force, row, column, out, diag);
+    case BLOCK_DEPENDENT_RATES:
+        return entry_formed(system, block, embedded_dependent_rate, row, column, out, diag);
+    case BLOCK_COMPLEMENT:
+        return entry_formed(system, block, embedded_complement, row, column, out, diag);
     default:
         return expanded_entry(system, block, row, column, out, diag);
     }

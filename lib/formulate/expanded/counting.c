@@ -23,6 +23,8 @@ static const Expr *run_block(const System *system, Block block)
     case BLOCK_NETWORK: /* sparse */
     case BLOCK_EMBEDDED_MASS:
     case BLOCK_EMBEDDED_FORCES:
+    case BLOCK_DEPENDENT_RATES:
+    case BLOCK_COMPLEMENT:
     case BLOCK_COUNT:
         break;
     }

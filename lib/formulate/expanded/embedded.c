@@ -1,4 +1,4 @@
-/* embedded.c: G^T M and G^T F in symbols, for up to three constraints
+/* embedded.c: J, G, G^T M and G^T F in symbols, for up to three constraints
  *
  * G = [J; 1] with J = -Phi_d^-1 Phi_i by minors (Cramer), so that every column of G has the
  * determinant of Phi_d below it once. Phi excludes drivers, and driven coordinates are independent:
@@ -13,6 +13,7 @@
 #include "formulate/system/shown.h"
 #include "formulate/system/system_impl.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { MOST_ROWS = 3 };
@@ -246,6 +247,105 @@ Status embedded_force(System *system, int row, int column, Expr *out, Diag *diag
 {
     (void)column;
     return project(system, row, BLOCK_FORCES, 0, out, diag);
+}
+
+/* of the dependent speeds in ascending order, by independent ones in ascending order */
+Status embedded_dependent_rate(System *system, int row, int column, Expr *out, Diag *diag)
+{
+    Partition part;
+    Status status = OK;
+    Expr rate;
+
+    CHECK(partition(system, &part, diag));
+    rate = follow(system, &part, row, independent_speed(system, &part, column), diag, &status);
+    CHECK(status);
+    *out = rate;
+done:
+    return status;
+}
+
+Status embedded_complement(System *system, int row, int column, Expr *out, Diag *diag)
+{
+    const int dependent = system->kinematics->u.count - embedded_rows(system);
+
+    if (row < dependent)
+        return embedded_dependent_rate(system, row, column, out, diag);
+    *out = expr_int(system->arena, row - dependent == column);
+    return OK;
+}
+
+Status system_partition(System *system, int **speeds, int *dependent, Diag *diag)
+{
+    const int nu = system->kinematics->u.count;
+    Partition part;
+
+    system_touch(system);
+    TRY(partition(system, &part, diag));
+    *speeds = NEW_ARRAY(int, nu);
+    for (int i = 0; i < part.m; i++)
+        (*speeds)[i] = part.dependent[i];
+    for (int i = 0; i < nu - part.m; i++)
+        (*speeds)[part.m + i] = independent_speed(system, &part, i);
+    *dependent = part.m;
+    return OK;
+}
+
+/* --- Phi_q G = 0, in numbers --- */
+
+enum { SAMPLES = 8 };
+
+/* a number of a symbol, between 0.3 and 1.7, another one at each place */
+static double sample_value(void *context, Expr symbol)
+{
+    const double at = (double)(expr_symbol_number(symbol) + 1) * 0.6180339887498949 +
+                      (double)*(const int *)context * 0.7548776662466927;
+
+    return 0.3 + 1.4 * (at - floor(at));
+}
+
+/* row k of Phi_q times column `column` of G, at a place */
+static Status complement_error(System *system, const Partition *part, int k, int column, int place,
+                               double *out, Diag *diag)
+{
+    const int nu = system->kinematics->u.count;
+    double sum = 0, size = 0;
+
+    for (int row = 0; row < nu; row++) {
+        const int speed =
+            row < part->m ? part->dependent[row] : independent_speed(system, part, row - part->m);
+        Expr phi, g;
+        double term;
+
+        TRY(expanded_entry(system, BLOCK_JACOBIAN, part->row[k], speed, &phi, diag));
+        TRY(entry_formed(system, BLOCK_COMPLEMENT, embedded_complement, row, column, &g, diag));
+        if (expr_is_zero(phi) || expr_is_zero(g))
+            continue;
+        term = expr_evaluate(phi, sample_value, &place) * expr_evaluate(g, sample_value, &place);
+        sum += term;
+        size += fabs(term);
+    }
+    *out = size > 0 ? fabs(sum) / size : 0;
+    return OK;
+}
+
+Status system_complement_error(System *system, double *out, Diag *diag)
+{
+    const int f = embedded_rows(system);
+    Partition part;
+    double most = NAN;
+
+    system_touch(system);
+    TRY(partition(system, &part, diag));
+    for (int place = 0; place < SAMPLES; place++)
+        for (int k = 0; k < part.m; k++)
+            for (int column = 0; column < f; column++) {
+                double error;
+
+                TRY(complement_error(system, &part, k, column, place, &error, diag));
+                most = fmax(most, error);
+            }
+    *out = most;
+    return OK;
 }
 
 /* effort = (G^T (M u' - F)) / (G^T B), B the direction of the driven coordinate */

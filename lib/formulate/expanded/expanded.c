@@ -406,6 +406,8 @@ static const BlockRow blocks[BLOCK_COUNT] = {
     [BLOCK_NETWORK_RHS] = {"network_rhs", show_network_rhs, NULL},
     [BLOCK_EMBEDDED_MASS] = {"embedded_mass", NULL, NULL},
     [BLOCK_EMBEDDED_FORCES] = {"embedded_forces", NULL, NULL},
+    [BLOCK_DEPENDENT_RATES] = {"dependent_rates", NULL, NULL},
+    [BLOCK_COMPLEMENT] = {"complement", NULL, NULL},
 };
 
 const char *block_name(Block block)
@@ -429,11 +431,18 @@ void system_block_size(const System *system, Block block, int *rows, int *column
     int w = system->network->x.count + system->network->z.count;
     int f = embedded_rows(system);
     const int sizes[BLOCK_COUNT][2] = {
-        [BLOCK_MASS] = {n, n},          [BLOCK_FORCES] = {n, 1},
-        [BLOCK_CONSTRAINTS] = {m, 1},   [BLOCK_JACOBIAN] = {m, n},
-        [BLOCK_VELOCITY] = {m, 1},      [BLOCK_ACCELERATION] = {m, 1},
-        [BLOCK_NETWORK] = {w, w},       [BLOCK_NETWORK_RHS] = {w, 1},
-        [BLOCK_EMBEDDED_MASS] = {f, n}, [BLOCK_EMBEDDED_FORCES] = {f, 1},
+        [BLOCK_MASS] = {n, n},
+        [BLOCK_FORCES] = {n, 1},
+        [BLOCK_CONSTRAINTS] = {m, 1},
+        [BLOCK_JACOBIAN] = {m, n},
+        [BLOCK_VELOCITY] = {m, 1},
+        [BLOCK_ACCELERATION] = {m, 1},
+        [BLOCK_NETWORK] = {w, w},
+        [BLOCK_NETWORK_RHS] = {w, 1},
+        [BLOCK_EMBEDDED_MASS] = {f, n},
+        [BLOCK_EMBEDDED_FORCES] = {f, 1},
+        [BLOCK_DEPENDENT_RATES] = {n - f, f},
+        [BLOCK_COMPLEMENT] = {n, f},
     };
 
     *rows = sizes[block][0];

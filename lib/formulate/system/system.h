@@ -242,6 +242,8 @@ typedef enum Block {
     BLOCK_NETWORK_RHS,
     BLOCK_EMBEDDED_MASS,   /* Mt = G^T M, f x n; with at most 3 constraints */
     BLOCK_EMBEDDED_FORCES, /* Ft = G^T F */
+    BLOCK_DEPENDENT_RATES, /* J: q_d' = J q_i', in the order of system_partition() */
+    BLOCK_COMPLEMENT,      /* G = [J; 1], of Phi_q without drivers: Phi_q G = 0; n x f */
     BLOCK_COUNT
 } Block;
 /* rows and columns of a block; columns 1 for vectors */
@@ -249,6 +251,12 @@ void system_block_size(const System *system, Block block, int *rows, int *column
 const char *block_name(Block block); /* "mass", "forces" ... */
 MUST_USE Status system_show(System *system, Block block, int row, int column, Expr *out,
                             Diag *diag);
+/* Coordinate partitioning of the embedded form (theory 6): speeds, the dependent ones first, and the
+ * number of these. A new array, mem_free(). Fails as system_show() of embedded blocks does. */
+MUST_USE Status system_partition(System *system, int **speeds, int *dependent, Diag *diag);
+/* The largest entry of Phi_q G at random values of all symbols, relative to its terms; NAN where
+ * none of them can be evaluated. */
+MUST_USE Status system_complement_error(System *system, double *out, Diag *diag);
 /* an entry of A; 0 where there is none. O(entries) */
 Expr system_network_entry(const System *system, int row, int column);
 /* all of A, row by row; a new array, freed with mem_free() */
