@@ -376,8 +376,6 @@ static void the_embedded_form_has_no_multipliers(void)
     EXPECT_HOLDS(kit.text, "h8''");
     EXPECT_DONE(&kit, "count");
     EXPECT_HOLDS(kit.text, "embedded");
-    EXPECT_DONE(&kit, "show mass");
-    EXPECT_HOLDS(kit.text, "G^T M of the embedded form, 1 x 2");
     kit_free(&kit);
 }
 
@@ -390,8 +388,6 @@ static void the_embedded_form_of_many_constraints_is_counted_as_the_augmented(vo
     EXPECT_HOLDS(kit.text, "mass");
     EXPECT(kit_do(&kit, "show equations") == CT_FAILED);
     EXPECT(kit.error.hint[0] != '\0');
-    EXPECT_DONE(&kit, "show forces");
-    EXPECT_HOLDS(kit.text, "too many constraints");
     EXPECT_DONE(&kit, "show constraints");
     kit_free(&kit);
 }
