@@ -197,7 +197,10 @@ static Status run_rows(ct_session *session, const Statement *s, SweepTable *tabl
         table->rows += status == OK;
     }
 done:
+    model_drop_overrides(session->model, overrides);
     focus_clear(session, runs);
+    if (status == E_STOPPED)
+        status = diag_set(diag, status, "stopped in run %d of %d", table->rows + 1, table->planned);
     session->watch.progress = progress;
     table->wall = clock_now() - began;
     return status;
