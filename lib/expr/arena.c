@@ -23,8 +23,8 @@ enum { WHOLES = 32 }; /* that are found without a look into the table */
 enum { NODE_WORK = 64 }; /* of making or finding one, for transaction_worked() */
 
 typedef struct Slot {
-    uint32_t hash;
-    uint32_t id; /* number + 1; 0: empty */
+    uint32_t hash; /* slot_hash() of a node, or the hash of a stored result */
+    uint32_t id;   /* number + 1; 0: empty */
 } Slot;
 
 /* a stored derivative, or another stored result; then `symbol` is a number that distinguishes them:
@@ -128,6 +128,23 @@ static inline bool same_words(const void *one, const void *other, int count)
 
 /* --- tables --- */
 
+/* What the table finds a node by: the hash of its structure, and the numbers of its arguments. The
+ * hash alone repeats along a deep chain: x -> x^2/2 + 1 maps 32 bits to 32 bits, so that its hashes
+ * run in a circle after some 2^16 levels, and each further node has the hash of thousands. */
+static inline uint32_t slot_hash(uint32_t hash, const Expr *args, int count)
+{
+    uint32_t numbers = 0;
+
+    for (int i = 0; i < count; i++)
+        numbers += args[i]->number;
+    return hash ^ numbers * 2654435769U;
+}
+
+static inline uint32_t node_slot_hash(Expr e)
+{
+    return slot_hash(e->hash, node_args(e), e->count);
+}
+
 static void slots_insert(Slot *slots, uint32_t size, uint32_t hash, uint32_t id)
 {
     uint32_t i = hash & (size - 1);
@@ -174,7 +191,7 @@ static void table_grow(Arena *arena, uint32_t size)
 
     for (int i = 0; i < arena->nodes.count; i++) {
         transaction_worked(NODE_WORK);
-        slots_insert(slots, size, arena->nodes.at[i]->hash, (uint32_t)i + 1);
+        slots_insert(slots, size, node_slot_hash(arena->nodes.at[i]), (uint32_t)i + 1);
     }
     mem_free(arena->slots);
     arena->slots = slots;
@@ -183,7 +200,7 @@ static void table_grow(Arena *arena, uint32_t size)
 
 /* --- nodes --- */
 
-/* The slot of the node of these contents, or the empty slot for it. */
+/* The slot of the node of these contents, or the empty slot for it; `hash` is its slot_hash(). */
 static uint32_t slot_of(const Arena *arena, uint32_t hash, ExprKind kind, unsigned op,
                         const void *words, int count)
 {
@@ -209,19 +226,24 @@ static inline Expr at_slot(const Arena *arena, uint32_t slot)
     return arena->slots[slot].id != 0 ? arena->nodes.at[arena->slots[slot].id - 1] : NULL;
 }
 
-/* A new node, entered at an empty slot, followed by `size` uninitialised bytes. */
-static inline struct ExprNode *node_new(Arena *arena, uint32_t hash, uint32_t slot, size_t size)
+/* A new node, followed by `size` uninitialised bytes. The table finds it by `found_by`, of which
+ * `slot` is the empty slot. */
+static inline struct ExprNode *node_new(Arena *arena, uint32_t hash, uint32_t found_by,
+                                        uint32_t slot, size_t size)
 {
     struct ExprNode *node;
 
     arena_keep_whole(arena);
     node = pool_room(arena->pool, sizeof(struct ExprNode) + size);
     *node = (struct ExprNode){.number = (uint32_t)arena->nodes.count, .hash = hash};
-    LIST_APPEND(arena->nodes, node);
-    if ((uint32_t)arena->nodes.count > arena->size / 2)
+    if ((uint32_t)arena->nodes.count >= arena->size / 2) {
         table_grow(arena, 2 * arena->size);
-    else
-        arena->slots[slot] = (Slot){hash, node->number + 1};
+        LIST_APPEND(arena->nodes, node);
+        slots_insert(arena->slots, arena->size, found_by, node->number + 1);
+    } else {
+        LIST_APPEND(arena->nodes, node);
+        arena->slots[slot] = (Slot){found_by, node->number + 1};
+    }
     return node;
 }
 
@@ -250,7 +272,8 @@ static inline bool may_grow(Arena *arena)
 Expr node_intern(Arena *arena, ExprKind kind, Op op, const Expr *args, int count)
 {
     const uint32_t hash = hash_args((uint64_t)kind << 8 | op, args, count);
-    const uint32_t slot = slot_of(arena, hash, kind, op, args, count);
+    const uint32_t found_by = slot_hash(hash, args, count);
+    const uint32_t slot = slot_of(arena, found_by, kind, op, args, count);
     const Expr found = at_slot(arena, slot);
     struct ExprNode *node;
     Expr *own;
@@ -261,7 +284,7 @@ Expr node_intern(Arena *arena, ExprKind kind, Op op, const Expr *args, int count
         return found;
     if (!may_grow(arena))
         return arena->zero;
-    node = node_new(arena, hash, slot, sizeof(Expr) * (size_t)count);
+    node = node_new(arena, hash, found_by, slot, sizeof(Expr) * (size_t)count);
     node->kind = (uint8_t)kind;
     node->op = (uint8_t)op;
     node->count = count;
@@ -285,7 +308,7 @@ static Expr leaf_intern(Arena *arena, ExprKind kind, uint8_t op, const void *wor
 
     if (found != NULL)
         return found;
-    node = node_new(arena, hash, slot, 8 * (size_t)count);
+    node = node_new(arena, hash, hash, slot, 8 * (size_t)count);
     node->kind = (uint8_t)kind;
     node->op = op;
     memcpy(node + 1, words, 8 * (size_t)count);
@@ -356,7 +379,7 @@ Expr expr_symbol(Arena *arena, const char *name, SymbolKind kind)
         return found;
     arena_keep_whole(arena);
     data.number = arena->symbols++;
-    node = node_new(arena, hash, slot, sizeof data);
+    node = node_new(arena, hash, hash, slot, sizeof data);
     node->kind = EXPR_SYMBOL;
     node->kinds = (uint16_t)(kind == SYMBOL_TABLE ? 0 : 1U << kind);
     data.name = pool_text(arena->pool, name, strlen(name));
@@ -698,7 +721,8 @@ void arena_release(Arena *arena, ArenaMark *mark)
         if (arena->whole[i] != NULL && arena->whole[i]->number >= (uint32_t)mark->nodes)
             arena->whole[i] = NULL;
     while (arena->nodes.count > mark->nodes) {
-        slots_drop(arena->slots, arena->size, arena->nodes.at[arena->nodes.count - 1]->hash,
+        slots_drop(arena->slots, arena->size,
+                   node_slot_hash(arena->nodes.at[arena->nodes.count - 1]),
                    (uint32_t)arena->nodes.count);
         arena->nodes.at[--arena->nodes.count] = NULL;
     }
