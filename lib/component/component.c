@@ -195,21 +195,21 @@ Status instance_check(const Instance *instance, Arena *arena, bool planar, Diag 
 
 const char *domain_across(Domain domain)
 {
-    static const char *const names[] = {"", "v", "p", "w", "v", "T"};
+    static const char *const names[] = {"", "v", "p", "w", "v", "T", "load"};
 
     return names[domain];
 }
 
 const char *domain_through(Domain domain)
 {
-    static const char *const names[] = {"", "i", "flow", "torque", "force", "heat"};
+    static const char *const names[] = {"", "i", "flow", "torque", "force", "heat", ""};
 
     return names[domain];
 }
 
 const char *domain_across_unit(Domain domain)
 {
-    static const char *const units[] = {"", "V", "Pa", "rad/s", "m/s", "K"};
+    static const char *const units[] = {"", "V", "Pa", "rad/s", "m/s", "K", "N"};
 
     return units[domain];
 }
@@ -219,8 +219,8 @@ const ScalarEdge *component_scalar_edges(const Component *row, int *count)
     static const ScalarEdge one = {"", 0, 1, BRANCH_MAY, 0};
 
     *count = 0;
-    if (row->places != PLACES_TERMINALS && row->places != PLACES_TRANSDUCER &&
-        row->places != PLACES_SENSED)
+    if (row->scalar_edges == NULL && row->places != PLACES_TERMINALS &&
+        row->places != PLACES_TRANSDUCER && row->places != PLACES_SENSED)
         return NULL;
     *count = row->scalar_edges != NULL ? row->scalar_edge_count : 1;
     return row->scalar_edges != NULL ? row->scalar_edges : &one;
@@ -421,6 +421,10 @@ static const Member thermal[] = {
     {"T",    "K", "temperature, plus against minus", 2},
     {"heat", "W", "heat flow, from plus to minus inside", 2},
 };
+
+static const Member load[] = {
+    {"load", "N", "what presses the surfaces of the joint together", 1},
+};
 /* clang-format on */
 
 /* of an edge between frames, in addition to the others */
@@ -453,6 +457,9 @@ static const Member *scalar_members(const Component *row, int *count)
     case DOMAIN_THERMAL:
         *count = COUNT(thermal);
         return thermal;
+    case DOMAIN_LOAD:
+        *count = COUNT(load);
+        return load;
     default:
         *count = COUNT(electrical);
         return electrical;

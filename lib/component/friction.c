@@ -10,6 +10,12 @@
  * is needed for that (formulate/system/surfaces.h). */
 #include "component/component_rows.h"
 
+/* Of friction with mu=, T is mu times a load: of a turn, T = mu*radius*N with N the norm of the
+ * joint's reaction force; of a shift, T = mu*N with N the norm of that force across the axis plus
+ * the norm of the reaction moment over the span. The reaction depends on T itself. So N is an
+ * unknown of the equations, the potential of a node that no other part has, and its equation
+ * stands beside theirs. */
+
 /* clang-format off */
 #define BOUNDS                                                                                      \
     {"torque", PARAM_LAW, "N*m", "0", "kinetic bound on an angle or a shaft", GIVES_LOAD},          \
@@ -23,6 +29,11 @@ static const Param friction_params[] = {
     {"stribeck", PARAM_SCALAR, "m/s|rad/s", "0",
      "rate at which the static bound has fallen to the kinetic one; 0: at once", 0},
     {"viscous", PARAM_SCALAR, "N*s/m|N*m*s", "0", "viscous friction per rate, beside it", 0},
+    {"mu", PARAM_LAW, "1", "0", "kinetic bound over the load of the joint, in place of the bound",
+     0},
+    {"radius", PARAM_SCALAR, "m", "0", "with mu=, of a revolute: lever of the friction", 0},
+    {"span", PARAM_SCALAR, "m", "0",
+     "with mu=, of a prismatic: length over which it carries moments; 0: they press nothing", 0},
 };
 static const Param brake_params[] = {BOUNDS, STATIC};
 static const Param oneway_params[] = {BOUNDS};
@@ -34,6 +45,12 @@ static const Member effort_members[] = {
 static bool has_param(const Instance *instance, const char *name)
 {
     return component_param(instance->row, name) >= 0;
+}
+
+/* its bound follows from the reaction of its joint */
+static bool is_by_load(const Instance *instance)
+{
+    return instance->row->domain == DOMAIN_LOAD;
 }
 
 static const char *bound_name(const Instance *instance)
@@ -66,8 +83,14 @@ static bool is_never_negative(Expr e)
 /* A brake whose law falls below 0 is open: friction drives nothing. */
 static Expr bound_of(const Instance *instance, Arena *arena)
 {
-    const Expr bound = instance_scalar(instance, bound_name(instance));
+    Expr bound = instance_scalar(instance, is_by_load(instance) ? "mu" : bound_name(instance));
 
+    if (is_by_load(instance)) {
+        if (instance->on_angle)
+            bound = expr_mul(arena, bound, instance_scalar(instance, "radius"));
+        return expr_mul(arena, is_never_negative(bound) ? bound : expr_call1(arena, OP_RAMP, bound),
+                        instance_across(instance, arena, 0));
+    }
     return is_never_negative(bound) ? bound : expr_call1(arena, OP_RAMP, bound);
 }
 
@@ -103,6 +126,21 @@ static void friction_relation(const Instance *instance, Arena *arena, int which,
     (void)which;
     *out = (Relation){.kind = RELATION_CONDUCTIVE,
                       .value = resistance(instance, arena, motion->across)};
+}
+
+/* N - its value = 0, over the joint's reaction in the names that formulate/ gives to it */
+static void load_relation(const Instance *instance, Arena *arena, int which, const Motion1 *motion,
+                          Relation *out)
+{
+    Expr load = instance_variable(instance, arena, "reaction");
+
+    (void)which, (void)motion;
+    if (!instance->on_angle && instance_value(instance, "span")->given)
+        load = expr_add(arena, load,
+                        expr_div(arena, instance_variable(instance, arena, "moment"),
+                                 instance_scalar(instance, "span")));
+    *out = (Relation){.kind = RELATION_FREE,
+                      .value = expr_sub(arena, instance_across(instance, arena, 0), load)};
 }
 
 /* v > 0 is driven along, with at most T; v < 0 runs free */
@@ -152,6 +190,58 @@ static Status check_bound(const Instance *instance, Diag *diag)
     return status;
 }
 
+/* mu= with what belongs to it, and nothing of it without mu= */
+static Status check_load(const Instance *instance, Diag *diag)
+{
+    static const char *const own[] = {"radius", "span"};
+    const char *lacks = instance->on_angle ? "span" : "radius";
+    Status status;
+
+    for (int i = 0; i < COUNT(own); i++)
+        if (!is_by_load(instance) && instance_value(instance, own[i])->given) {
+            status = diag_set(diag, E_VALUE, "%s= has no effect without mu=", own[i]);
+            diag_hint(diag, "mu=0.1 %s=... bounds %s by the load of its joint", own[i],
+                      instance->name);
+            diag_about(diag, "%s", own[i]);
+            return status;
+        }
+    if (!is_by_load(instance)) {
+        if (!instance_value(instance, "mu")->given)
+            return OK;
+        status = diag_set(diag, E_VALUE, "mu= needs a joint: terminals carry no load across");
+        diag_hint(diag, "on terminals give the bound: %s=mu*n", bound_name(instance));
+        diag_about(diag, "mu");
+        return status;
+    }
+    TRY(check_not_negative(instance, "mu", diag));
+    if (instance_value(instance, bound_name(instance))->given ||
+        instance_value(instance, instance->on_angle ? "force" : "torque")->given) {
+        const char *bound = instance_value(instance, "torque")->given ? "torque" : "force";
+
+        status = diag_set(diag, E_VALUE, "%s takes mu= or %s=, not both", instance->name, bound);
+        diag_hint(diag, "a second friction on the same joint adds a constant bound");
+        diag_about(diag, "%s", bound);
+        return status;
+    }
+    if (instance_value(instance, lacks)->given) {
+        status = diag_set(diag, E_VALUE, "%s= does not fit: %s acts on %s", lacks, instance->name,
+                          instance->on_angle ? "an angle" : "a length");
+        diag_hint(diag, "use %s=", instance->on_angle ? "radius" : "span");
+        diag_about(diag, "%s", lacks);
+        return status;
+    }
+    if (instance->on_angle && !instance_value(instance, "radius")->given) {
+        status =
+            diag_set(diag, E_VALUE, "mu= on an angle needs radius=, the lever of the friction");
+        diag_hint(diag, "mu=0.1 radius=20 mm");
+        diag_about(diag, "mu");
+        return status;
+    }
+    if (instance->on_angle)
+        return check_not_negative(instance, "radius", diag);
+    return instance_value(instance, "span")->given ? check_positive(instance, "span", diag) : OK;
+}
+
 static Status check_ratio(const Instance *instance, Diag *diag)
 {
     const Expr ratio = instance_scalar(instance, "static");
@@ -172,7 +262,10 @@ static Status friction_check(const Instance *instance, Arena *arena, bool planar
 
     (void)arena;
     (void)planar;
-    TRY(check_bound(instance, diag));
+    if (has_param(instance, "mu"))
+        TRY(check_load(instance, diag));
+    if (!is_by_load(instance))
+        TRY(check_bound(instance, diag));
     TRY(check_ratio(instance, diag));
     if (!has_param(instance, "stribeck"))
         return OK;
@@ -203,13 +296,37 @@ static Status oneway_check(const Instance *instance, Arena *arena, bool planar, 
         .places = PLACES_TERMINALS, .params = row##_params, .param_count = COUNT(row##_params),    \
         .translation = BRANCH_MAY, .preference = 30, .relation = law, .check = check_of            \
     }
-#define VARIANTS(row, law, check_of)                                                               \
+#define ROWS(row, law, check_of)                                                                   \
     static const Component row##_shaft = ON_TERMINALS(row, DOMAIN_SHAFT, law, check_of);           \
-    static const Component row##_slide = ON_TERMINALS(row, DOMAIN_SLIDE, law, check_of);           \
+    static const Component row##_slide = ON_TERMINALS(row, DOMAIN_SLIDE, law, check_of);
+#define VARIANTS(row, law, check_of)                                                               \
+    ROWS(row, law, check_of)                                                                       \
     static const Component *const row##_variants[] = {&row##_shaft, &row##_slide, NULL};
 
+/* on a joint, by its load */
+static const Component friction_by_load = {
+    .name = "friction",
+    .sticks = true,
+    .family = FAMILY_TRANSDUCER,
+    .domain = DOMAIN_LOAD,
+    .places = PLACES_JOINT,
+    .params = friction_params,
+    .param_count = COUNT(friction_params),
+    .preference = 30,
+    .terminal_count = 1,
+    .scalar_edges = (const ScalarEdge[]){{"", 0, -1, BRANCH_ALWAYS, 10}},
+    .scalar_edge_count = 1,
+    .effort = friction_effort,
+    .relation = load_relation,
+    .members = effort_members,
+    .member_count = COUNT(effort_members),
+    .check = friction_check,
+};
+
 #define clutch_params brake_params
-VARIANTS(friction, friction_relation, friction_check)
+ROWS(friction, friction_relation, friction_check)
+static const Component *const friction_variants[] = {&friction_shaft, &friction_slide,
+                                                     &friction_by_load, NULL};
 VARIANTS(brake, friction_relation, friction_check)
 VARIANTS(clutch, friction_relation, friction_check)
 VARIANTS(oneway, oneway_relation, oneway_check)
@@ -233,10 +350,17 @@ const Component component_friction = {
         "torque= on an angle, force= on a length, against the motion. At rest it holds up to "
         "static= times as much, and a run keeps it exactly at rest. With stribeck= the bound falls "
         "from the static to the kinetic one as T*(1 + (static - 1)*exp(-(rate/stribeck)^2)). "
-        "viscous= adds a damper. The bound may be any expression of t, parameters and variables.",
+        "viscous= adds a damper. The bound may be any expression of t, parameters and variables. "
+        "With mu= the bound follows from the joint's reaction, NAME.load: of a revolute it is "
+        "mu*radius times the norm of its force, in space with the component along the axis; of a "
+        "prismatic it is mu times the norm of the force across its axis, plus that of its moment "
+        "over span=.",
     .example = "scene planar\nbody m mass=1\nprismatic s ground m axis=x\n"
                "friction f s force=5 static=1.2\nactuator l s force=2*t\ninit s = 0, s' = 0\n"
-               "simulate 4\nprint s, s', f.effort",
+               "simulate 4\nprint s, s', f.effort\n"
+               "clear\nscene planar; gravity [0, -9.81]\nbody b mass=2\narm top b [0, 0.5]\n"
+               "revolute h ground top\nfriction f h mu=0.3 radius=20 mm\n"
+               "init h = 60 deg\nsimulate 10\nprint h [deg], f.load, f.effort",
     .see = "brake clutch oneway damper",
 };
 

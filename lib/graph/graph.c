@@ -36,6 +36,7 @@ static const struct {
     [TREE_SHAFT] = {"shaft", DOMAIN_SHAFT},
     [TREE_SLIDE] = {"slide", DOMAIN_SLIDE},
     [TREE_THERMAL] = {"thermal", DOMAIN_THERMAL},
+    [TREE_LOAD] = {"load", DOMAIN_LOAD},
 };
 
 const char *domain_name(Domain domain)

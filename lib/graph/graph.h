@@ -16,7 +16,8 @@
     X(HYDRAULIC, "hydraulic", "pressure", "flow", "Pa", "m^3/s")                                   \
     X(SHAFT, "shaft", "rate", "torque", "rad/s", "N*m")                                            \
     X(SLIDE, "slide", "velocity", "force", "m/s", "N")                                             \
-    X(THERMAL, "thermal", "temperature", "heat", "K", "W")
+    X(THERMAL, "thermal", "temperature", "heat", "K", "W")                                         \
+    X(LOAD, "load", "load", "", "N", "")
 
 typedef enum Domain {
 #define X(id, ...) DOMAIN_##id,
@@ -34,6 +35,7 @@ typedef enum TreeKind {
     TREE_SHAFT,
     TREE_SLIDE,
     TREE_THERMAL,
+    TREE_LOAD,
     TREE_KINDS
 } TreeKind;
 

@@ -333,6 +333,36 @@ done:
     return status;
 }
 
+/* The node of a part's own unknown, the load of its joint. One axis tells which components of the
+ * reaction press. */
+static Status own_terminal(PartDraft *draft)
+{
+    State *state = draft->state;
+    const Instance *joint = state->parts.at[draft->part->joint];
+    const Place place = draft->statement->operands.at[draft->at - 1].place;
+    Text name = {0};
+    Steps steps;
+    Status status;
+
+    joint->row->steps(joint, state->arena, state->setup.planar, &steps);
+    if (steps.shift_count + steps.turn_count != 1 || steps.quaternion) {
+        status = diag_at(draft->diag, E_VALUE, place,
+                         "mu= needs a revolute or a prismatic, and %s is a %s", joint->name,
+                         joint->row->name);
+        diag_hint(draft->diag, "give the bound itself: %s=2",
+                  draft->part->on_angle ? "torque" : "force");
+        return status;
+    }
+    if (joint->is_virtual)
+        return diag_at(draft->diag, E_VALUE, place, "%s is virtual: it carries no load",
+                       joint->name);
+    text_addf(&name, "%s.node", draft->part->name);
+    draft->terminals = pool_alloc(state->pool, sizeof *draft->terminals);
+    draft->terminals[0] = state_text(state, name.at);
+    text_free(&name);
+    return OK;
+}
+
 /* as many as the row requires; the ends of an edge must differ */
 static Status read_terminals(PartDraft *draft)
 {
@@ -418,26 +448,36 @@ static bool has_pair(const Statement *statement, const char *key)
     return false;
 }
 
-/* The first place tells: a joint, or a terminal that has a domain already; a new terminal is of a
- * slide where a force is given, otherwise of a shaft. */
+/* that variant; NULL: there is none */
+static const Component *variant_find(const Component *row, Domain domain)
+{
+    for (int i = 0; row->variants[i] != NULL; i++)
+        if (row->variants[i]->domain == domain)
+            return row->variants[i];
+    return NULL;
+}
+
+/* mu= of friction asks for a row by the joint's load. The first place tells: a joint, or a terminal
+ * that has a domain already; a new terminal is of a slide where a force is given, otherwise of a
+ * shaft. */
 const Component *row_at_places(const State *state, const Statement *statement, const Component *row)
 {
     Domain domain = has_pair(statement, "force") ? DOMAIN_SLIDE : DOMAIN_SHAFT;
+    const Component *on_terminals, *by_load;
 
     if (row->variants == NULL || statement->operands.count < 2)
         return row;
+    by_load = has_pair(statement, "mu") ? variant_find(row, DOMAIN_LOAD) : NULL;
     for (int i = 1; i < 3 && i < statement->operands.count; i++) {
         const char *name = syntax_name(statement->operands.at[i].value);
 
         if (name != NULL && state_names_joint(state, name))
-            return row;
+            return by_load != NULL ? by_load : row;
         if (name != NULL && strcmp(name, "gnd") != 0 && names_find(state->terminals, name) >= 0)
             domain = terminal_domain(state, name);
     }
-    for (int i = 0; row->variants[i] != NULL; i++)
-        if (row->variants[i]->domain == domain)
-            return row->variants[i];
-    return row->variants[0];
+    on_terminals = variant_find(row, domain);
+    return on_terminals != NULL ? on_terminals : row->variants[0];
 }
 
 Status part_draft_read_terminals(PartDraft *draft)
@@ -459,7 +499,8 @@ Status part_draft_read_terminals(PartDraft *draft)
     case PLACES_LINK:
         return link_places(draft);
     case PLACES_JOINT:
-        return on_joint(draft);
+        TRY(on_joint(draft));
+        return part->row->scalar_edges != NULL ? own_terminal(draft) : OK;
     case PLACES_JOINTS:
         return two_joints(draft);
     case PLACES_COORDINATE:

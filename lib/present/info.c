@@ -25,7 +25,10 @@ static void add_convention(Text *out, const View *view, const Component *row)
 {
     Text line = {0};
 
-    if (row->family == FAMILY_SCALAR || row->family == FAMILY_TRANSDUCER)
+    if (row->domain == DOMAIN_LOAD)
+        text_addf(&line, "%s presses the joint; %s", domain_across(row->domain),
+                  conventions[FAMILY_COUPLER]);
+    else if (row->family == FAMILY_SCALAR || row->family == FAMILY_TRANSDUCER)
         text_addf(&line, "%s is plus against minus; %s goes from plus to minus inside%s",
                   domain_across(row->domain), domain_through(row->domain),
                   row->family == FAMILY_TRANSDUCER ? "; its force or torque acts on the joint's tip"
@@ -226,13 +229,19 @@ static void add_variables(Text *out, const View *view, const Instance *instance)
     text_free(&items);
 }
 
+/* a variant of a row has that of the row */
+static const char *brief_of(const Component *row)
+{
+    return row->brief != NULL ? row->brief : component_find(row->name)->brief;
+}
+
 static void print_instance(Text *out, const View *view, const Instance *instance)
 {
     Table table = table_for("ll");
     Text coordinates = {0};
 
     text_addf(out, "%s: %s%s, %s\n", instance->name, instance->is_virtual ? "virtual " : "",
-              instance->row->name, instance->row->brief);
+              instance->row->name, brief_of(instance->row));
     add_ends(&table, view, instance);
     add_standing(&table, view, instance->edge, false);
     for (int k = 0; k < instance->scalar_count; k++)

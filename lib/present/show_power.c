@@ -172,7 +172,7 @@ Status show_power(const View *view, const Selection *selection, Text *out, Diag 
         PowerTable table = power_table_of(view, domain);
         Status status = OK;
 
-        if (table.edges.count > 0) {
+        if (table.edges.count > 0 && domain != DOMAIN_LOAD) { /* an unknown without a flow */
             status = read_values(view, &table, diag);
             if (status == OK && domain == DOMAIN_MECHANICAL)
                 print_mechanical(&table, graph, out);

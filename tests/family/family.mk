@@ -309,3 +309,7 @@ FAMILIES += family_friction
 family_friction_SOURCES = tests/family/family_friction.c tests/family/family.h \
 	tests/random.h tests/unit/session_kit.h tests/unit/test.h
 family_friction_LDADD = libcotree.la $(unit_ldadd)
+FAMILIES += family_journals
+family_journals_SOURCES = tests/family/family_journals.c tests/family/family.h \
+	tests/random.h tests/unit/session_kit.h tests/unit/test.h
+family_journals_LDADD = libcotree.la $(unit_ldadd)

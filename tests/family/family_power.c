@@ -237,7 +237,7 @@ typedef struct Moving {
 
 static Moving moving_of(Kit *kit, const Powered *p, const char *frame)
 {
-    Moving out;
+    Moving out = {0};
 
     vector_of(kit, p, frame, "", out.r);
     vector_of(kit, p, frame, "v", out.v);

@@ -276,7 +276,7 @@ static void wrong_uses_name_their_cure(void)
         {HINGE "friction f h torque=1 stribeck=0.1\n", "without static=", "static=1.5"},
         {HINGE "friction f h torque=1 static=2 stribeck=-1\n", "stribeck", ""},
         {HINGE "friction f h torque=1 viscous=-1\n", "viscous", ""},
-        {HINGE "friction f h torque=1 mu=0.1\n", "'friction' has no key 'mu'", ""},
+        {HINGE "friction f h torque=1 nu=0.1\n", "'friction' has no key 'nu'", ""},
         {HINGE "friction f torque=1\n", "expected a place", "JOINT"},
         {HINGE "friction f ground m torque=1\n", "ground", ""},
         {HINGE "friction f m torque=1\n", "m", ""},

@@ -92,7 +92,7 @@ static void branching_depends_on_the_tree(void)
 static void kinds_and_domains_have_names(void)
 {
     static const char *const kinds[] = {"translation", "rotation", "electrical", "hydraulic",
-                                        "shaft",       "slide",    "thermal"};
+                                        "shaft",       "slide",    "thermal",    "load"};
 
     for (int k = 0; k < TREE_KINDS; k++) {
         EXPECT_TEXT(tree_kind_name((TreeKind)k), kinds[k]);

@@ -276,3 +276,56 @@ Status joint_reaction(System *system, const Instance *joint, ReactionPart part, 
     *out = component(system, joint, part, vector, chain);
     return OK;
 }
+
+/* the norm of a vector whose entries along known axes are 0; |x| where one is left */
+static Expr norm_of(Arena *arena, Vec vector)
+{
+    Expr left = NULL;
+    int count = 0;
+
+    for (int i = 0; i < 3; i++)
+        if (!expr_is_zero(vector.at[i])) {
+            left = vector.at[i];
+            count++;
+        }
+    if (count == 0)
+        return expr_int(arena, 0);
+    return count == 1 ? expr_call1(arena, OP_ABS, left)
+                      : expr_sqrt(arena, vec_dot(arena, vector, vector));
+}
+
+Status joint_load(System *system, const Instance *part, bool moment, Expr *out, Diag *diag)
+{
+    Arena *arena = system->arena;
+    const Instance *joint = &system->origin->instances[part->joint];
+    const bool planar = system->origin->planar;
+    Vec load = vec_zero(arena);
+    Steps steps;
+    Diag why = {0};
+
+    instance_steps(system, joint, &steps);
+    for (int i = 0; i < 3; i++) {
+        const ReactionPart wanted = {moment, true, i};
+        Status status;
+
+        if (planar && (i == 2) != moment)
+            continue;
+        status = joint_reaction(system, joint, wanted, &load.at[i], &why);
+        if (status == OK)
+            continue;
+        (void)diag_set(diag, status, "the load of %s can't be determined: %s", part->name,
+                       why.message);
+        if (why.hint[0] != '\0')
+            diag_hint(diag, "%s", why.hint);
+        return status;
+    }
+    if (!moment && steps.shift_count > 0) {
+        const Vec axis = {{steps.shift[0].axis[0], steps.shift[0].axis[1], steps.shift[0].axis[2]}};
+
+        load = vec_cross(arena, axis, load);
+    }
+    for (int i = 0; i < 3; i++)
+        load.at[i] = expr_name_temporary(arena, load.at[i]);
+    *out = norm_of(arena, load);
+    return OK;
+}

@@ -44,5 +44,10 @@ typedef struct ReactionPart { /* a component of a force or a moment */
 } ReactionPart;
 MUST_USE Status joint_reaction(System *system, const Instance *joint, ReactionPart part, Expr *out,
                                Diag *diag);
+/* The norm of what presses the joint of a part by its load, N: the reaction force, of a shift
+ * across its axis, or with `moment` the reaction moment, N*m. It is without the efforts on the
+ * joint's own coordinate, which act along that axis. */
+MUST_USE Status joint_load(System *system, const Instance *part, bool moment, Expr *out,
+                           Diag *diag);
 
 #endif

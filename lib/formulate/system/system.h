@@ -351,6 +351,9 @@ bool system_surface(System *system, int i, SystemSurface *out); /* false at the 
 int system_surface_of_part(System *system, const char *part);
 /* The part whose values jump or have a kink where that is 0, for messages; NULL: unknown. */
 const char *system_jumping_part(System *system, Expr condition);
+/* Hints, where no acceleration fits, at the parts whose friction is bounded by the load of their
+ * joint: what they hold may press it more than that. False: there are none. */
+bool system_hint_locking(System *system, Diag *diag);
 /* the derivative of e along the motion, in u', x' and the other variables solved for; E_MISSING
  * where it can't be determined */
 MUST_USE Status system_rate(System *system, Expr e, Expr *out, Diag *diag);

@@ -420,6 +420,26 @@ const char *system_jumping_part(System *system, Expr condition)
     return NULL;
 }
 
+bool system_hint_locking(System *system, Diag *diag)
+{
+    system_touch(system);
+    Text names = {0};
+    bool found;
+
+    for (int i = 0; i < system->origin->instance_count; i++)
+        if (system->origin->instances[i].row->domain == DOMAIN_LOAD)
+            text_addf(&names, "%s%s", names.length > 0 ? ", " : "",
+                      system->origin->instances[i].name);
+    found = names.length > 0;
+    if (found)
+        diag_hint(diag,
+                  "self-locking of %s: the friction presses its joint by more than it holds; a "
+                  "smaller mu= or radius=, or a longer span=, has a motion",
+                  names.at);
+    text_free(&names);
+    return found;
+}
+
 /* a call of a part's law that jumps on a surface of the equations; -1: none */
 static int surface_of_call(System *system, Expr call)
 {

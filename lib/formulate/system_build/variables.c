@@ -343,6 +343,10 @@ static Status scalar_variable(System *system, const Instance *instance, const ch
     }
     if (count == 0)
         return diag_set(diag, E_MISSING, "%s.%s can't be determined", instance->name, member);
+    if (domain == DOMAIN_LOAD && strcmp(member, "effort") == 0)
+        return effort_variable(system, instance, member, out, diag);
+    if (domain == DOMAIN_LOAD && strcmp(member, domain_across(domain)) != 0)
+        return joint_load(system, instance, strcmp(member, "moment") == 0, out, diag);
     branch = scalar_branch(system, instance, which);
     if (name[0] == '\0' || strcmp(name, domain_across(domain)) == 0)
         return network_across(system, branch, out, diag);

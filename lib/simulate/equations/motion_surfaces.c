@@ -87,15 +87,18 @@ static bool sweep_surfaces(Motion *mo, const Where *at, double *y)
     keep_way(mo, base);
     memcpy(mo->slip, mo->off, (size_t)count * sizeof(double));
     for (int k = 0; k < count; k++) {
+        /* a sign beyond its interval may have no solution, as of friction by a load that it makes
+         */
+        const double kept = values[k], move = kept > 0 ? -1 : 1;
         double *way = mo->way + k * length;
 
-        values[k] += 1;
+        values[k] += move;
         if (!try_signs((void *)at, values, mo->off))
             return false;
-        values[k] -= 1;
+        values[k] = kept;
         keep_way(mo, way);
         for (int i = 0; i < length; i++)
-            way[i] -= base[i];
+            way[i] = (way[i] - base[i]) / move;
     }
     if (!signs_solve(mo->signs, mo->slip))
         return false;

@@ -150,7 +150,8 @@ VariableIndex *variable_index_new_on(System *system, const OnSurface *on, int co
     int room = 0;
 
     l->system = system;
-    place_surfaces(l, on, count);
+    if (on != NULL)
+        place_surfaces(l, on, count);
     l->n = system_n(system);
     l->nu = system_nu(system);
     l->m = system_m(system);

@@ -58,6 +58,8 @@ static Status check_start(ActiveRun *r, Diag *diag)
     if (failure_diagnose(r->phase->layout, &r->phases->parameters, 0, r->begin, what, diag))
         return E_SINGULAR;
     (void)diag_set(diag, E_SINGULAR, "%s", what);
+    if (system_hint_locking(r->phase->system, diag))
+        return E_SINGULAR;
     diag_hint(diag, is_network ? "a circuit needs every current and voltage determined"
                                : "a part that moves freely needs a mass or an inertia; a circuit "
                                  "needs every current and voltage determined");

@@ -289,9 +289,9 @@ static Status no_side(const Phase *now, double t, const Meeting *at, int count, 
                    "at t = %.9g s: no motion leads on from where %s %s 0: neither to a side nor "
                    "between",
                    t, what.at, count > 1 ? "are" : "is");
-    diag_hint(diag,
-              "a steep but continuous law, such as tanh(x/0.001) in the place of sign(x), has "
-              "a motion there");
+    if (!system_hint_locking(now->system, diag))
+        diag_hint(diag, "a steep but continuous law, such as tanh(x/0.001) in the place of "
+                        "sign(x), has a motion there");
     text_free(&what);
     return E_SOLVER;
 }
