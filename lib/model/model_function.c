@@ -24,12 +24,15 @@ static const struct {
     int args;
     const char *unit;
 } entries[] = {
-    {"lambda", 1, NULL},       {"mass", 2, NULL},           {"forces", 1, NULL},
-    {"constraints", 1, NULL},  {"jacobian", 2, NULL},       {"velocity", 1, NULL},
-    {"acceleration", 1, NULL}, {"modes.omega", 1, "rad/s"}, {"modes.damping", 1, "1"},
-    {"linear.A", 2, NULL},     {"linear.B", 2, NULL},       {"linear.C", 2, NULL},
-    {"linear.D", 2, NULL},     {"complement", 2, NULL},     {"dependent_rates", 2, NULL},
-    {"embedded_mass", 2, NULL}, {"embedded_forces", 1, NULL},
+    {"lambda", 1, NULL},          {"mass", 2, NULL},
+    {"forces", 1, NULL},          {"constraints", 1, NULL},
+    {"jacobian", 2, NULL},        {"velocity", 1, NULL},
+    {"acceleration", 1, NULL},    {"modes.omega", 1, "rad/s"},
+    {"modes.damping", 1, "1"},    {"linear.A", 2, NULL},
+    {"linear.B", 2, NULL},        {"linear.C", 2, NULL},
+    {"linear.D", 2, NULL},        {"complement", 2, NULL},
+    {"dependent_rates", 2, NULL}, {"embedded_mass", 2, NULL},
+    {"embedded_forces", 1, NULL},
 };
 
 const char *entry_unit(const char *name)

@@ -6,7 +6,7 @@
  * first consists of rounding errors, some 1e4 of them: it is a sum over many terms. A sum below the
  * second is 0: accelerations and multipliers are solved for, with the condition of their
  * equations. */
-#define POWER_NOISE 1e-12
+#define POWER_NOISE   1e-12
 #define POWER_BALANCE 1e-9
 
 /* The largest entry of Phi_q G relative to its terms (1): entries of G are quotients of

@@ -142,8 +142,8 @@ static bool is_call(const Syntax *syntax, const char *name)
 static Status read_range(const SweepPlan *plan, SweepAxis *axis, bool is_log)
 {
     const Syntax *call = axis->value;
-    double ends[2];
-    int count;
+    double ends[2] = {0};
+    int count = 0;
 
     if (call->count != 3) {
         (void)diag_at(plan->diag, E_VALUE, call->place, "%s takes 3 numbers, not %d", call->text,

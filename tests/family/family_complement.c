@@ -137,7 +137,7 @@ static bool read_partition(Kit *kit, const Chain *c, int *place)
     const char *at;
     int found = 0;
 
-    if (kit_do(kit, "show partition\n") != CT_OK)
+    if (kit_do(kit, "show partition\n") != CT_OK || kit->text == NULL)
         return false;
     for (at = kit->text; *at != '\0' && found < c->count;) {
         const size_t length = strcspn(at, " ,\n");
@@ -153,8 +153,8 @@ static bool read_partition(Kit *kit, const Chain *c, int *place)
 static Verdict compare(Member *member, Kit *kit, const Chain *c)
 {
     const int f = c->count - c->constraints;
-    int place[2 * MOST];
-    double G[2 * MOST][2 * MOST];
+    int place[2 * MOST] = {0};
+    double G[2 * MOST][2 * MOST] = {{0}};
 
     if (!read_partition(kit, c, place)) {
         tell(member, "%s", kit->text != NULL ? kit->text : kit->error.message);
@@ -196,7 +196,7 @@ static Verdict compare(Member *member, Kit *kit, const Chain *c)
         if (!keeps(member, "G^T M q'' - G^T F", fabs(sum), 1e-8 * (1 + size)))
             return DISAGREES;
     }
-    if (kit_do(kit, "show complement\n") != CT_OK ||
+    if (kit_do(kit, "show complement\n") != CT_OK || kit->text == NULL ||
         strstr(kit->text, "Phi_q G = 0 at numbers") == NULL) {
         tell(member, "%s", kit->text != NULL ? kit->text : kit->error.message);
         return DISAGREES;

@@ -214,7 +214,7 @@ static void read_end(Kit *kit, const Bars *b, Found *out)
 
 static Verdict compare(Member *member, const Bars *b, const Found *f)
 {
-    double load[JOINTS], x[UNKNOWNS];
+    double load[JOINTS] = {0}, x[UNKNOWNS] = {0};
     bool right = true;
 
     if (!settle(b, f, load, x))

@@ -353,7 +353,7 @@ static bool sums_are_zero(Member *member, Kit *kit)
 {
     const char *line;
 
-    if (kit_do(kit, "show power\n") != CT_OK) {
+    if (kit_do(kit, "show power\n") != CT_OK || kit->text == NULL) {
         tell(member, "show power: %s\n", kit->error.message);
         return false;
     }

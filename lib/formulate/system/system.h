@@ -251,8 +251,8 @@ void system_block_size(const System *system, Block block, int *rows, int *column
 const char *block_name(Block block); /* "mass", "forces" ... */
 MUST_USE Status system_show(System *system, Block block, int row, int column, Expr *out,
                             Diag *diag);
-/* Coordinate partitioning of the embedded form (theory 6): speeds, the dependent ones first, and the
- * number of these. A new array, mem_free(). Fails as system_show() of embedded blocks does. */
+/* Coordinate partitioning of the embedded form (theory 6): speeds, the dependent ones first, and
+ * the number of these. A new array, mem_free(). Fails as system_show() of embedded blocks does. */
 MUST_USE Status system_partition(System *system, int **speeds, int *dependent, Diag *diag);
 /* The largest entry of Phi_q G at random values of all symbols, relative to its terms; NAN where
  * none of them can be evaluated. */

@@ -328,7 +328,7 @@ void compiled_enter_mode(CompiledEquations *nb)
         nb->sign_bounds[k] =
             ratio != NULL ? expr_evaluate(ratio, parameters_value_in, nb->parameters) : 1;
     }
-    for (int i = 0; i < l->surface_count; i++)
+    for (int i = 0; i < l->surface_count && nb->guards != NULL; i++)
         set_guards(nb->guards + nb->of_surface[i].first, &l->on[i], nb->of_surface[i]);
     nb->eq.switches_read_network = nb->guards_read_network || slides;
     nb->eq.switches_follow_time =

@@ -51,14 +51,6 @@ int sweep_table_find(const SweepTable *table, const char *name)
     return -1;
 }
 
-bool sweep_table_varies(const SweepTable *table, int column)
-{
-    for (int r = 1; r < table->rows; r++)
-        if (sweep_table_row(table, r)[column] != sweep_table_row(table, 0)[column])
-            return true;
-    return false;
-}
-
 /* mean and sum of squares by updates, which keep their digits (Welford 1962) */
 SweepStatistics sweep_statistics(const SweepTable *table, int column)
 {

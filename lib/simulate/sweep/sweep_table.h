@@ -38,8 +38,6 @@ static inline double *sweep_table_row(const SweepTable *table, int row)
 }
 /* the column with that name; -1: there is none */
 int sweep_table_find(const SweepTable *table, const char *name);
-/* whether row i has another value of the column than the first one */
-bool sweep_table_varies(const SweepTable *table, int column);
 
 /* of the finite values of a column; NAN where there are too few */
 typedef struct SweepStatistics {
