@@ -355,12 +355,12 @@ const Component component_friction = {
         "mu*radius times the norm of its force, in space with the component along the axis; of a "
         "prismatic it is mu times the norm of the force across its axis, plus that of its moment "
         "over span=.",
-    .example = "scene planar\nbody m mass=1\nprismatic s ground m axis=x\n"
-               "friction f s force=5 static=1.2\nactuator l s force=2*t\ninit s = 0, s' = 0\n"
-               "simulate 4\nprint s, s', f.effort\n"
-               "clear\nscene planar; gravity [0, -9.81]\nbody b mass=2\narm top b [0, 0.5]\n"
-               "revolute h ground top\nfriction f h mu=0.3 radius=20 mm\n"
-               "init h = 60 deg\nsimulate 10\nprint h [deg], f.load, f.effort",
+    .example = "scene planar; gravity [0, -9.81]\nbody m mass=1\nprismatic s ground m axis=x\n"
+               "friction f s force=5 static=1.2\nactuator l s force=2*t\n"
+               "body b mass=2\narm top b [0, 0.5]\nrevolute h ground top\n"
+               "friction g h mu=0.3 radius=20 mm\n"
+               "init s = 0, s' = 0, h = 60 deg\nsimulate 4\n"
+               "print s, s', f.effort, h [deg], g.load, g.effort",
     .see = "brake clutch oneway damper",
 };
 
