@@ -4,7 +4,7 @@
 
 #include "bench.h"
 
-enum { TRIES = 5, DEEP = 100000, WIDE = 20000 };
+enum { TRIES = 5, DEEP = 100000, WIDE = 20000, CHAIN = 800000 };
 
 static Expr parameter(Arena *arena, const char *letter, int i)
 {
@@ -82,6 +82,20 @@ static void measure_derivative(void)
     arena_free(arena);
 }
 
+/* 8e5 levels of x -> x^2/2 + 1: hashes of 32 bits repeat along such a chain */
+static void measure_chain(void)
+{
+    Arena *arena = arena_new();
+    const Expr half = expr_rational(arena, 1, 2), one = expr_int(arena, 1);
+    Expr e = expr_symbol(arena, "x", SYMBOL_STATE);
+    const double start = clock_now();
+
+    for (int i = 0; i < CHAIN; i++)
+        e = expr_add(arena, expr_mul(arena, half, expr_square(arena, e)), one);
+    bench_line("expr.chain_8e5", 1e3 * (clock_now() - start), "ms");
+    arena_free(arena);
+}
+
 /* sum of p_i (cos x_j cos y_k + sin x_j sin y_k) */
 static void measure_folding(void)
 {
@@ -116,5 +130,6 @@ int main(void)
     measure_building();
     measure_derivative();
     measure_folding();
+    measure_chain();
     return 0;
 }

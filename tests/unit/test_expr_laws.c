@@ -1,8 +1,6 @@
 /* test_expr_laws.c: laws of every function of the table, of derivatives and substitution */
 #include "test_expr.h"
 
-#include <time.h>
-
 /* A call of op with arguments that move with x, where it is smooth: the argument ranges
  * of each function meet in (0.3, 0.9). */
 static Expr sample_call(World *w, Op op)
@@ -287,33 +285,6 @@ static void deep_expressions_need_no_stack(void)
     arena_free(w.arena);
 }
 
-/* s of processor time to add `levels` of x -> x^2/2 + 1 to a chain */
-static double time_of_levels(Arena *arena, Expr *e, int levels)
-{
-    const Expr half = expr_rational(arena, 1, 2), one = expr_int(arena, 1);
-    const clock_t start = clock();
-
-    for (int i = 0; i < levels; i++)
-        *e = expr_add(arena, expr_mul(arena, half, expr_square(arena, *e)), one);
-    return (double)(clock() - start) / CLOCKS_PER_SEC;
-}
-
-/* hashes of 32 bits repeat along a chain; a node is found in the same time nevertheless */
-static void levels_of_a_chain_cost_the_same_however_deep(void)
-{
-    World w = world_new(1);
-    Expr e = w.symbols[3];
-    const double first = time_of_levels(w.arena, &e, 100000);
-    double last;
-
-    (void)time_of_levels(w.arena, &e, 600000);
-    last = time_of_levels(w.arena, &e, 100000);
-    EXPECT(last < 4 * first);
-    if (!(last < 4 * first))
-        printf("    %g s, then %g s\n", first, last);
-    arena_free(w.arena);
-}
-
 static void count_rule(const char *what, Expr e, int add, int mul, int fun)
 {
     OpCount count = expr_count(&e, 1);
@@ -381,7 +352,6 @@ int main(void)
     RUN(renaming_is_substitution);
     RUN(symbols_are_listed_in_their_order);
     RUN(deep_expressions_need_no_stack);
-    RUN(levels_of_a_chain_cost_the_same_however_deep);
     RUN(counting_follows_the_rule);
     RUN(shared_work_counts_once);
     return test_end();
