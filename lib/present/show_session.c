@@ -221,14 +221,18 @@ void report_line(Text *out, const Result *result, const char *name)
     text_char(out, '\n');
 }
 
+static Status no_run(Diag *diag)
+{
+    (void)diag_set(diag, E_MISSING, "there is no run yet");
+    diag_hint(diag, "'simulate 10' makes one");
+    return E_MISSING;
+}
+
 Status show_run(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
     (void)selection;
-    if (view->result == NULL) {
-        diag_set(diag, E_MISSING, "there is no run yet");
-        diag_hint(diag, "'simulate 10' makes one");
-        return E_MISSING;
-    }
+    if (view->result == NULL)
+        return no_run(diag);
     report_print(out, view->result, "run");
     remarks_write(result_remarks(view->result), out);
     return OK;
@@ -318,7 +322,9 @@ Status show_sides(const View *view, const Selection *selection, Text *out, Diag 
     Table table = table_for("llrr");
     int count = 0;
 
-    (void)selection, (void)diag;
+    (void)selection;
+    if (view->result == NULL)
+        return no_run(diag);
     for (int i = 0; i < model_count(view->model); i++) {
         const Instance *part = model_instance(view->model, i);
         StickRecord record;

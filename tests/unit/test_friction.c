@@ -290,6 +290,7 @@ static void wrong_uses_name_their_cure(void)
         {"flywheel J a 0 J=1\nclutch c a a torque=1\n", "both ends of c are a", ""},
         {"resistor R a 0 1\nbrake b a 0 torque=1\n", "a is electrical", "first component"},
         {HINGE "friction f h torque=1 kg\n", "torque", ""},
+        {HINGE "friction f h torque=1\nshow sides\n", "there is no run yet", "simulate 10"},
     };
 
     for (int i = 0; i < (int)(sizeof wrong / sizeof wrong[0]); i++) {
