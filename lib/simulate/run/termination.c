@@ -420,6 +420,8 @@ void termination_diagnose(void *context, const Segment *segment, Stepper *steppe
         report(&end, stepper, is_rounding, diag);
     else
         report_undefined(&end, diag);
+    if (diag->hint[0] == '\0')
+        (void)system_hint_locking(phase->system, diag);
     mem_free(end.rate);
     mem_free(end.ahead);
 }
