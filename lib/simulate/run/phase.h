@@ -1,9 +1,11 @@
 /* phase.h: the equations of a part of a run, and all that computes them
  *
- * A model without switches has one. With them there is one of the whole, in which each switch is on
- * both sides and which no row is of, and one for each mode that a run comes to. Modes in which the
- * ideal switches are on the same sides share their equations, in which other switches are numbers:
- * phase_enter() sets these before anything but phase_row() reads them. */
+ * A model without switches and jumps has one. With switches there is one of the whole, in which
+ * each switch is on both sides and which no row is of, and one for each mode that a run comes to;
+ * with jumps one for each set of sides of their surfaces. Modes in which the ideal switches are on
+ * the same sides share their equations, in which other switches and the signs on surfaces are
+ * numbers: phase_enter() sets these before anything but phase_row() and phase_probe_at() reads
+ * them. */
 #ifndef COTREE_SIMULATE_RUN_PHASE_H
 #define COTREE_SIMULATE_RUN_PHASE_H
 
