@@ -185,6 +185,7 @@ static bool project_between(const Phase *phase, double t, double *y)
     bool sound;
 
     memcpy(first, y, bytes);
+    phase_enter(phase);
     sound = motion_project(phase->motion, t, y);
     for (int again = 0; again < DENSE_PROJECTIONS && !sound && moved < DENSE_MISSED_BRANCH;
          again++) {
