@@ -277,7 +277,8 @@ done:
 Status compiled_slide(CompiledEquations *nb, const OnSurface *on, Diag *diag)
 {
     const VariableIndex *l = nb->layout;
-    bool any = false;
+    bool any = false, before;
+    Status status;
 
     for (int i = 0; i < l->surface_count; i++) {
         Expr slip, off;
@@ -290,7 +291,10 @@ Status compiled_slide(CompiledEquations *nb, const OnSurface *on, Diag *diag)
     if (!any || nb->slip != NULL)
         return OK;
     mem_keep(nb);
-    return compile_slip(nb, diag);
+    before = mem_scratch(true);
+    status = compile_slip(nb, diag);
+    (void)mem_scratch(before);
+    return status;
 }
 
 /* the two conditions of a surface that is on that side, or slid along */
