@@ -29,6 +29,11 @@ Lu *lu_new(int n)
     return lu;
 }
 
+void lu_resize(Lu *lu, int n)
+{
+    lu->n = n;
+}
+
 void lu_free(Lu *lu)
 {
     if (lu == NULL)

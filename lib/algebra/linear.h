@@ -14,9 +14,10 @@
 
 typedef struct Lu Lu;
 
-Lu *lu_new(int n);         /* new, all 0; free with lu_free() */
-void lu_free(Lu *lu);      /* NULL is fine */
-double *lu_matrix(Lu *lu); /* n x n; overwritten by lu_factor() */
+Lu *lu_new(int n);             /* new, all 0; free with lu_free() */
+void lu_free(Lu *lu);          /* NULL is fine */
+void lu_resize(Lu *lu, int n); /* to n x n, at most as in lu_new(); what it stores is undefined */
+double *lu_matrix(Lu *lu);     /* n x n; overwritten by lu_factor() */
 /* Factor in place with row exchanges (Gauss). False when a pivot is 0 or not finite. O(n^3). */
 bool lu_factor(Lu *lu);
 /* the same; false also when the watch requests a stop */

@@ -31,15 +31,13 @@ Signs *signs_new(int room)
     s->move = NEW_ARRAY(double, room);
     s->kept = NEW_ARRAY(double, room);
     s->matrix = NEW_ARRAY(double, room *room);
+    s->factors = lu_new(room);
     return s;
 }
 
 void signs_begin(Signs *s, int count, const double *bounds)
 {
-    if (s->count != count) {
-        lu_free(s->factors);
-        s->factors = lu_new(count);
-    }
+    lu_resize(s->factors, count);
     s->count = count;
     s->is_factored = false;
     memset(s->values, 0, (size_t)count * sizeof(double));

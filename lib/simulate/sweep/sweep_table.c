@@ -13,9 +13,14 @@ SweepTable *sweep_table_new(int planned)
     return table;
 }
 
+static void free_later(void *object)
+{
+    sweep_table_free(object);
+}
+
 void sweep_table_free(SweepTable *table)
 {
-    if (table == NULL)
+    if (table == NULL || mem_frees_later(table, free_later))
         return;
     for (int i = 0; i < table->columns.count; i++)
         MEM_FREE(table->columns.at[i].name, table->columns.at[i].unit);
