@@ -368,6 +368,14 @@ Expr model_parameter(const Model *model, int i, Expr *definition)
     return d->symbol;
 }
 
+bool model_has_parameter(const Model *model, const char *name)
+{
+    for (int i = 0; i < model_parameter_count(model); i++)
+        if (strcmp(expr_name(model_parameter(model, i, NULL)), name) == 0)
+            return true;
+    return false;
+}
+
 static double symbol_value(void *context, Expr symbol)
 {
     State *state = context;

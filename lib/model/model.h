@@ -91,7 +91,8 @@ SceneSource model_scene_source(const Model *model);
  * no revision, so refer to them by symbol, not by number. */
 int model_parameter_count(const Model *model);
 Expr model_parameter(const Model *model, int i, Expr *definition);
-double model_parameter_value(const Model *model, Expr symbol); /* current value, SI */
+bool model_has_parameter(const Model *model, const char *name); /* O(parameters) */
+double model_parameter_value(const Model *model, Expr symbol);  /* current value, SI */
 /* Values that replace those of definitions, of which statements and `save` know nothing: of several
  * of a name the last one applies. */
 int model_override_count(const Model *model);

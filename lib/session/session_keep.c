@@ -32,16 +32,6 @@ static Status write_definition(ct_session *session, const Pair *pair, const doub
     return OK;
 }
 
-static bool is_parameter(const Model *model, const char *name)
-{
-    bool is = false;
-    Expr definition;
-
-    for (int i = 0; !is && i < model_parameter_count(model); i++)
-        is = strcmp(expr_name(model_parameter(model, i, &definition)), name) == 0;
-    return is;
-}
-
 /* nothing depends on new names yet: then bare ones still mean the run */
 static void note(ct_session *session, uint64_t revision, bool is_new)
 {
@@ -89,7 +79,7 @@ Status session_keep(ct_session *session, const Statement *s, Diag *diag)
     for (int i = 0; i < s->pairs.count; i++) {
         Text text = {0};
 
-        is_new = is_new && !is_parameter(session->model, s->pairs.at[i].name);
+        is_new = is_new && !model_has_parameter(session->model, s->pairs.at[i].name);
         status = write_definition(session, &s->pairs.at[i], s->at != NULL ? &instant : NULL, &text,
                                   diag);
         LIST_PUSH(texts, text_done(&text));

@@ -141,17 +141,6 @@ done:
     return status;
 }
 
-static bool is_parameter(const Model *model, const char *name)
-{
-    for (int i = 0; i < model_parameter_count(model); i++) {
-        Expr definition;
-
-        if (strcmp(expr_name(model_parameter(model, i, &definition)), name) == 0)
-            return true;
-    }
-    return false;
-}
-
 static Status read_input(const Model *model, const Syntax *syntax, LinearQuery *asked, Diag *diag)
 {
     Suggest suggest = suggest_for(syntax->text);
@@ -160,11 +149,11 @@ static Status read_input(const Model *model, const Syntax *syntax, LinearQuery *
     Expr definition;
 
     /* a source before a parameter of its name: the parameter may be its amplitude alone */
-    if (part != NULL && (instance_input(part) >= 0 || !is_parameter(model, syntax->text))) {
+    if (part != NULL && (instance_input(part) >= 0 || !model_has_parameter(model, syntax->text))) {
         LIST_PUSH(asked->inputs, (LinearInput){syntax->text, syntax->text});
         return OK;
     }
-    if (is_name && is_parameter(model, syntax->text)) {
+    if (is_name && model_has_parameter(model, syntax->text)) {
         LIST_PUSH(asked->inputs, (LinearInput){syntax->text, NULL});
         return OK;
     }

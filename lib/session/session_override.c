@@ -25,21 +25,10 @@ done:
     return session_report(status, &diag, error);
 }
 
-static bool is_parameter(const Model *model, const char *name)
-{
-    for (int i = 0; i < model_parameter_count(model); i++) {
-        Expr definition;
-
-        if (strcmp(expr_name(model_parameter(model, i, &definition)), name) == 0)
-            return true;
-    }
-    return false;
-}
-
 const char *ct_override_unused(const ct_session *session)
 {
     for (int i = 0; i < model_override_count(session->model); i++)
-        if (!is_parameter(session->model, model_override_name(session->model, i)))
+        if (!model_has_parameter(session->model, model_override_name(session->model, i)))
             return model_override_name(session->model, i);
     return NULL;
 }

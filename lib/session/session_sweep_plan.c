@@ -54,24 +54,13 @@ const Syntax *sweep_kept(const Statement *statement, int i)
 
 /* --- names --- */
 
-static bool is_parameter(const Model *model, const char *name)
-{
-    for (int i = 0; i < model_parameter_count(model); i++) {
-        Expr definition;
-
-        if (strcmp(expr_name(model_parameter(model, i, &definition)), name) == 0)
-            return true;
-    }
-    return false;
-}
-
 static Status check_parameter(const SweepPlan *plan, const char *name, Place place)
 {
     const Model *model = plan->session->model;
     Suggest suggest = suggest_for(name);
     const char *dot = strrchr(name, '.');
 
-    if (is_parameter(model, name))
+    if (model_has_parameter(model, name))
         return OK;
     for (int i = 0; i < model_parameter_count(model); i++) {
         Expr definition;
