@@ -24,13 +24,6 @@ typedef struct Scaled {
     double largest;  /* of w where z is at a bound or 0 */
 } Scaled;
 
-size_t complementarity_room(int n)
-{
-    const size_t rows = 2 * (size_t)n;
-
-    return 2 * (size_t)n * (size_t)n + 8 * (size_t)n + rows * (2 * rows + 2) + rows;
-}
-
 static double *take(double **room, size_t count)
 {
     double *out = *room;

@@ -28,7 +28,8 @@ typedef struct Complementarity {
 } Complementarity;
 
 /* numbers of workspace for n unknowns */
-size_t complementarity_room(int n);
+#define COMPLEMENTARITY_ROOM(n) ((n) * (10 * (n) + 14))
+
 /* Solves the problem: `side` (n, a BoundSide each) are first guesses and become the sides of the
  * solution, z becomes its values. Unknowns BETWEEN have independent rows: M restricted to them is
  * regular, and no unknown

@@ -64,7 +64,7 @@ static void draw_bounds(Member *member, Problem *p)
 static bool solve(Problem *p)
 {
     const Complementarity c = {p->n, p->matrix, p->q, p->low, p->high};
-    double *room = malloc(complementarity_room(p->n) * sizeof(double));
+    double *room = malloc((size_t)COMPLEMENTARITY_ROOM(p->n) * sizeof(double));
     const bool found = complementarity_solve(&c, p->side, p->z, room);
 
     free(room);

@@ -124,19 +124,6 @@ static bool factor(Lu *lu, const double *matrix, int n)
     return lu_factor(lu) && lu_pivot_ratio(lu) > SIGNS_SINGULAR;
 }
 
-bool signs_least(const double *matrix, int n, double *b)
-{
-    Lu *lu = lu_new(n);
-    bool sound = factor(lu, matrix, n);
-
-    if (sound)
-        lu_solve(lu, b);
-    else
-        sound = least(matrix, n, b);
-    lu_free(lu);
-    return sound && vector_is_finite(b, n);
-}
-
 bool signs_solve(Signs *s, double *slip)
 {
     for (int i = 0; i < s->count; i++)

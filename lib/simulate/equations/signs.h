@@ -19,9 +19,6 @@ void signs_free(Signs *signs);      /* NULL is fine */
 double *signs_values(Signs *signs); /* of the last search; the next one starts there */
 /* The matrix d slip_i / d sign_k at the values; slip there is stored in `slip`. */
 bool signs_slopes(Signs *signs, SignsTrial trial, void *context, double *slip);
-/* Solve matrix x = b, x replaces b (n x n); where the matrix is singular the x of least norm, if
- * there is one. */
-bool signs_least(const double *matrix, int n, double *b);
 /* After signs_slopes(): the moves of signs that change slip by -`slip`, in its place. */
 bool signs_solve(Signs *signs, double *slip);
 /* False: no signs were found. The last trial was at the values. */

@@ -1,32 +1,15 @@
-/* sliding.c: signs on the surfaces that a run stands on
- *
- *     slip = a + B s,  -r <= s <= r
- *
- * slip: how each surface is left, h' or what of it signs affect. s = r: it is left to h > 0, slip
- * >= 0; s = -r: to h < 0, slip <= 0; otherwise the motion slides along it, slip = 0. With M = -B
- * and q = -a that is a complementarity problem with bounds (algebra/complementarity.h). M is
- * positive semidefinite where what jumps pushes back, as dry friction does. Where B_ii > 0 what
- * jumps pushes away, and nothing slides there.
- *
- * r is above 1 where static friction is larger than kinetic: a surface that is left then has the
- * sign +-1, and the others are solved for again. At most as many rounds as surfaces. */
+/* sliding.c: signs on the surfaces that a run stands on, by algebra/surface_sides.h */
 #include "simulate/run/sliding.h"
 
-#include "algebra/complementarity.h"
 #include "algebra/linear.h"
+#include "algebra/surface_sides.h"
 #include "base/memory.h"
-#include "simulate/equations/signs.h"
 #include "simulate/run/mode_phases.h"
 
 #include <math.h>
 #include <string.h>
 
-#define FLAT      1e-12 /* of the largest entry: no influence at all */
-#define WRONG     1e-9  /* of the largest: a slip that leads back, and not by rounding */
-#define AHEAD     1e-7  /* of the run: so soon */
-#define DEPENDENT 1e-9  /* of B_ii: what is left of a row that depends on others */
-#define REFINED   8     /* where slip isn't linear in the signs */
-#define STILL     1e-8  /* of y: what is 0 on a surface and so is its rate, where slip is h'' */
+#define AHEAD 1e-7 /* of the run: so soon */
 
 typedef struct Slides {
     int count;
@@ -36,236 +19,52 @@ typedef struct Slides {
     const double *y; /* `off` is what it is there */
     double soon;    /* slip is taken then, with y there: where a sign reaches its bound, those of */
     double *y_soon; /* others that reach it next tell nothing yet at the instant itself */
-    double *signs;  /* of which slip is taken */
-    double *slip, *off, *a, *b;
-    const double *bounds; /* r */
-    int *side;            /* 0: it is slid along */
-    bool *fixed;          /* the side is known beforehand */
-    bool *held;   /* at an end of its interval, while those that stick keep it on its surface */
-    bool *loose;  /* no sign changes how it is left: its side is left to the equations */
+    double *slip, *off;
+    SurfaceSide *side;
+    double *room;
+    int *integers;
     bool insists; /* a sign that has reached its bound leaves there, whatever is solved for */
-    double largest;
 } Slides;
 
 static void slides_free(Slides *s)
 {
-    MEM_FREE(s->y_soon, s->signs, s->slip, s->off, s->a, s->b, s->side, s->fixed, s->held,
-             s->loose);
+    MEM_FREE(s->y_soon, s->slip, s->off, s->side, s->room, s->integers);
 }
 
 static void slides_make_room(Slides *s)
 {
     const int n = s->count;
 
-    s->signs = NEW_ARRAY(double, n);
     s->slip = NEW_ARRAY(double, n);
     s->off = NEW_ARRAY(double, n);
-    s->a = NEW_ARRAY(double, n);
-    s->b = NEW_ARRAY(double, n *n);
-    s->side = NEW_ARRAY(int, n);
-    s->fixed = NEW_ARRAY(bool, n);
-    s->held = NEW_ARRAY(bool, n);
-    s->loose = NEW_ARRAY(bool, n);
-    s->bounds = compiled_equations(s->phase->numbers)->sign_bounds;
+    s->side = NEW_ARRAY(SurfaceSide, n);
+    s->room = NEW_ARRAY(double, SURFACE_SIDES_ROOM(n));
+    s->integers = NEW_ARRAY(int, SURFACE_SIDES_INTEGERS(n));
 }
 
-/* --- slip in numbers --- */
-
-static bool slip_at(Slides *s, double *out)
+static bool slip_at(void *context, const double *signs, double *out)
 {
-    return motion_drift(s->phase->motion, s->soon, s->y_soon, s->signs, out, s->off);
+    Slides *s = context;
+
+    return motion_drift(s->phase->motion, s->soon, s->y_soon, signs, out, s->off);
 }
 
-/* a and B around the signs as they are; over the whole interval where there is but one sign */
-static bool find_slopes(Slides *s)
-{
-    int n = s->count;
-    double *up = NEW_ARRAY(double, n);
-    bool sound = slip_at(s, s->slip);
-
-    s->largest = vector_largest(s->slip, n);
-    for (int k = 0; k < n && sound; k++) {
-        double kept = s->signs[k];
-        const double end = s->bounds[k];
-        double low = n == 1 ? -end : kept - (kept > 0 ? 0.5 : 0), high = n == 1 ? end : low + 0.5;
-
-        s->signs[k] = low;
-        sound = slip_at(s, s->slip);
-        s->signs[k] = high;
-        sound = sound && slip_at(s, up);
-        s->signs[k] = kept;
-        for (int i = 0; i < n; i++)
-            s->b[i * n + k] = (up[i] - s->slip[i]) / (high - low);
-        if (n == 1)
-            s->a[0] = (up[0] + s->slip[0]) / 2;
-    }
-    if (n > 1) {
-        sound = sound && slip_at(s, s->slip);
-        for (int i = 0; i < n; i++) {
-            s->a[i] = s->slip[i];
-            for (int k = 0; k < n; k++)
-                s->a[i] -= s->b[i * n + k] * s->signs[k];
-        }
-    }
-    for (int i = 0; i < n * n; i++)
-        s->largest = fmax(s->largest, fabs(s->b[i]));
-    mem_free(up);
-    return sound;
-}
-
-/* --- sides --- */
-
-/* the sides and signs of those that aren't fixed, with the others as they are; false: none */
-static bool solve_sides(Slides *s)
-{
-    const int n = s->count;
-    double *matrix = NEW_ARRAY(double, n *n), *q = NEW_ARRAY(double, n);
-    double *low = NEW_ARRAY(double, n), *z = NEW_ARRAY(double, n), *high = NEW_ARRAY(double, n);
-    int *place = NEW_ARRAY(int, n), *side = NEW_ARRAY(int, n);
-    Complementarity problem = {.matrix = matrix, .q = q, .low = low, .high = high};
-    double *room;
-    bool found;
-
-    for (int i = 0; i < n; i++)
-        if (!s->fixed[i])
-            place[problem.n++] = i;
-        else
-            s->signs[i] = s->side[i];
-    for (int i = 0; i < problem.n; i++) {
-        const double *row = s->b + (ptrdiff_t)place[i] * n;
-
-        high[i] = s->bounds[place[i]];
-        low[i] = -high[i];
-        side[i] = s->side[place[i]];
-        q[i] = -s->a[place[i]];
-        for (int k = 0; k < n; k++)
-            q[i] -= s->fixed[k] ? row[k] * s->signs[k] : 0;
-        for (int k = 0; k < problem.n; k++)
-            matrix[i * problem.n + k] = -row[place[k]];
-    }
-    room = NEW_ARRAY(double, complementarity_room(problem.n));
-    found = complementarity_solve(&problem, side, z, room);
-    for (int i = 0; i < problem.n && found; i++) {
-        s->side[place[i]] = side[i];
-        s->signs[place[i]] = z[i];
-    }
-    MEM_FREE(matrix, q, low, high, z, place, side, room);
-    return found;
-}
-
-/* Surfaces that are left have their kinetic sign. Whether any had another one. */
-static bool leave(Slides *s)
-{
-    bool any = false;
-
-    for (int i = 0; i < s->count; i++) {
-        if (s->fixed[i] || s->side[i] == 0 || s->bounds[i] == 1)
-            continue;
-        s->fixed[i] = any = true;
-        s->signs[i] = s->side[i];
-    }
-    return any;
-}
-
-static bool solve_problem(Slides *s)
-{
-    bool *fixed = NEW_ARRAY(bool, s->count);
-    bool found;
-
-    memcpy(fixed, s->fixed, (size_t)s->count * sizeof(bool));
-    do
-        found = solve_sides(s);
-    while (found && leave(s));
-    memcpy(s->fixed, fixed, (size_t)s->count * sizeof(bool));
-    mem_free(fixed);
-    return found;
-}
-
-/* what is known before: which sides, and where no sign matters */
-static void begin_sides(Slides *s)
-{
-    int n = s->count;
-    double size = fmax(1, vector_largest(s->y, s->phase->length - 1));
-
-    (void)motion_drift(s->phase->motion, s->t, s->y, s->signs, s->slip, s->off);
-    for (int i = 0; i < n; i++) {
-        double own = s->b[i * n + i];
-
-        s->side[i] = s->at[i].side;
-        s->fixed[i] = s->side[i] != 0 && (s->insists || !s->at[i].ends);
-        s->loose[i] = false;
-        if (s->fixed[i])
-            continue;
-        if (fabs(s->off[i]) > STILL * size && !s->at[i].settles) { /* it is on its way through */
-            s->side[i] = s->off[i] > 0 ? 1 : -1;
-            s->fixed[i] = true;
-        } else if (fabs(own) <= FLAT * s->largest) {
-            double slip = s->a[i];
-
-            s->fixed[i] = true;
-            s->side[i] = slip < 0 ? -1 : 1;
-            s->loose[i] = fabs(slip) <= WRONG * s->largest;
-        } else if (own > 0) {
-            s->side[i] = s->a[i] < 0 ? -1 : 1;
-        }
-    }
-}
-
-/* Whether surface i can't be left while the motion slides along all surfaces of side 0: B_ii less
- * what these take of it, B_iS B_SS^-1 B_Si, is 0. */
-static bool is_held(const Slides *s, int i)
-{
-    const int n = s->count;
-    double *matrix = NEW_ARRAY(double, n *n), *x = NEW_ARRAY(double, n);
-    double left = s->b[i * n + i];
-    int between = 0;
-
-    for (int k = 0; k < n; k++) {
-        if (s->side[k] != 0)
-            continue;
-        x[between++] = s->b[k * n + i];
-    }
-    for (int k = 0, at = 0; k < n; k++)
-        for (int j = 0; j < n && s->side[k] == 0; j++)
-            if (s->side[j] == 0)
-                matrix[at++] = s->b[k * n + j];
-    if (between == 0 || !signs_least(matrix, between, x))
-        left = INFINITY;
-    for (int k = 0, at = 0; k < n && between > 0; k++)
-        if (s->side[k] == 0)
-            left -= s->b[i * n + k] * x[at++];
-    MEM_FREE(matrix, x);
-    return fabs(left) <= DEPENDENT * fabs(s->b[i * n + i]);
-}
-
-static void find_held(Slides *s)
-{
-    const double size = fmax(1, vector_largest(s->y, s->phase->length - 1));
-
-    for (int i = 0; i < s->count; i++)
-        s->held[i] = s->side[i] != 0 && s->b[i * s->count + i] < 0 &&
-                     fabs(s->off[i]) <= STILL * size && is_held(s, i);
-}
-
-/* Sides by the linear reading, which is then taken anew around the signs, until they stay. */
+/* Sides from how the surfaces were met. */
 static bool find_sides(Slides *s)
 {
-    int n = s->count;
-    int *before = NEW_ARRAY(int, n);
-    bool stays = false;
+    const double *bounds = compiled_equations(s->phase->numbers)->sign_bounds;
+    const double size = fmax(1, vector_largest(s->y, s->phase->length - 1));
 
-    for (int turn = 0; turn < REFINED && !stays; turn++) {
-        if (!find_slopes(s))
-            break;
-        if (turn == 0)
-            begin_sides(s);
-        memcpy(before, s->side, (size_t)n * sizeof(int));
-        if (!solve_problem(s))
-            break;
-        stays = n == 1 || (turn > 0 && memcmp(before, s->side, (size_t)n * sizeof(int)) == 0);
-    }
-    mem_free(before);
-    return stays;
+    memset(s->room, 0, (size_t)s->count * sizeof(double)); /* signs of 0 */
+    (void)motion_drift(s->phase->motion, s->t, s->y, s->room, s->slip, s->off);
+    for (int i = 0; i < s->count; i++)
+        s->side[i] = (SurfaceSide){.bound = bounds[i],
+                                   .off = s->off[i],
+                                   .side = s->at[i].side,
+                                   .ends = s->at[i].ends,
+                                   .settles = s->at[i].settles};
+    return surface_sides_find(s->side, s->count, slip_at, s, s->insists, size, s->room,
+                              s->integers);
 }
 
 /* --- phases --- */
@@ -324,8 +123,8 @@ static Status phase_on(const ModeSwitching *c, const Phase *now, const Meeting *
             on[length++] = (OnSurface){all[i].surface, all[i].side, false};
         else if (s == NULL)
             on[length++] = (OnSurface){all[i].surface, 0, false};
-        else if (!s->loose[k])
-            on[length++] = (OnSurface){all[i].surface, s->side[k], s->held[k]};
+        else if (!s->side[k].is_unaffected)
+            on[length++] = (OnSurface){all[i].surface, s->side[k].side, s->side[k].held};
     }
     status =
         mode_phases_get_on(c->run, c->setting, now->system, now->closed, on, length, out, diag);
@@ -354,9 +153,7 @@ static Status find_side(const Phase *now, Slides *s, double low, double high, Di
     Status status = OK;
 
     motion_window(s->phase->motion, low, high);
-    if (find_sides(s))
-        find_held(s);
-    else
+    if (!find_sides(s))
         status = no_side(now, s->t, s->at, s->count, diag);
     motion_window(s->phase->motion, -INFINITY, INFINITY);
     return status;

@@ -1,0 +1,298 @@
+/* surface_sides.c: slip around the signs, its complementarity problem, until the sides stay */
+#include "algebra/surface_sides.h"
+
+#include <math.h>
+#include <string.h>
+
+#define FLAT      1e-12 /* of the largest entry: no influence at all */
+#define WRONG     1e-9  /* of the largest: a slip that leads back, and not by rounding */
+#define DEPENDENT 1e-9  /* of B_ii: what is left of a row that depends on others */
+#define REGULAR   1e-13 /* least pivot over the largest entry */
+#define REFINED   8     /* where slip isn't linear in the signs */
+#define STILL     1e-8  /* of the state: what is 0 on a surface and so is its rate */
+
+typedef struct Search {
+    SurfaceSide *at;
+    int n;
+    SurfaceSlip slip_of;
+    void *context;
+    bool insists;
+    double size, largest; /* of the state; of a and B */
+    double *a, *b, *slip, *other, *signs, *matrix, *q, *low, *high, *z, *room;
+    int *place, *side, *before;
+} Search;
+
+static double largest_of(const double *v, int n)
+{
+    double most = 0;
+
+    for (int i = 0; i < n; i++)
+        most = fmax(most, fabs(v[i]));
+    return most;
+}
+
+static bool slip_at(const Search *s, double *out)
+{
+    if (!s->slip_of(s->context, s->signs, out))
+        return false;
+    for (int i = 0; i < s->n; i++)
+        if (!isfinite(out[i]))
+            return false;
+    return true;
+}
+
+/* column k of B from slip at two values of its sign; a where there is no other */
+static bool find_slope(Search *s, int k)
+{
+    const int n = s->n;
+    const double kept = s->signs[k], end = s->at[k].bound;
+    const double low = n == 1 ? -end : kept - (kept > 0 ? 0.5 : 0), high = n == 1 ? end : low + 0.5;
+    bool sound;
+
+    s->signs[k] = low;
+    sound = slip_at(s, s->slip);
+    s->signs[k] = high;
+    sound = sound && slip_at(s, s->other);
+    s->signs[k] = kept;
+    for (int i = 0; i < n; i++)
+        s->b[i * n + k] = (s->other[i] - s->slip[i]) / (high - low);
+    if (n == 1)
+        s->a[0] = (s->other[0] + s->slip[0]) / 2;
+    return sound;
+}
+
+/* a and B around the signs as they are; over the whole interval where there is but one sign */
+static bool find_slopes(Search *s)
+{
+    const int n = s->n;
+    bool sound = slip_at(s, s->slip);
+
+    s->largest = largest_of(s->slip, n);
+    for (int k = 0; k < n && sound; k++)
+        sound = find_slope(s, k);
+    sound = sound && (n == 1 || slip_at(s, s->slip));
+    for (int i = 0; i < n && n > 1 && sound; i++) {
+        s->a[i] = s->slip[i];
+        for (int k = 0; k < n; k++)
+            s->a[i] -= s->b[i * n + k] * s->signs[k];
+    }
+    s->largest = fmax(s->largest, largest_of(s->b, n * n));
+    return sound;
+}
+
+/* what is known before: which sides, and where no sign matters */
+static void begin_sides(Search *s)
+{
+    for (int i = 0; i < s->n; i++) {
+        SurfaceSide *at = &s->at[i];
+        const double own = s->b[i * s->n + i];
+
+        at->is_known = at->side != 0 && (s->insists || !at->ends);
+        at->is_unaffected = false;
+        if (at->is_known)
+            continue;
+        if (fabs(at->off) > STILL * s->size && !at->settles) { /* it is on its way through */
+            at->side = at->off > 0 ? 1 : -1;
+            at->is_known = true;
+        } else if (fabs(own) <= FLAT * s->largest) {
+            at->side = s->a[i] < 0 ? -1 : 1;
+            at->is_known = true;
+            at->is_unaffected = fabs(s->a[i]) <= WRONG * s->largest;
+        } else if (own > 0)
+            at->side = s->a[i] < 0 ? -1 : 1;
+    }
+}
+
+/* the sides and signs of those that aren't fixed, with the others as they are; false: none */
+static bool solve_sides(Search *s)
+{
+    const int n = s->n;
+    Complementarity problem = {0, s->matrix, s->q, s->low, s->high};
+
+    for (int i = 0; i < n; i++)
+        if (!s->at[i].is_fixed)
+            s->place[problem.n++] = i;
+        else
+            s->signs[i] = s->at[i].side;
+    for (int i = 0; i < problem.n; i++) {
+        const SurfaceSide *at = &s->at[s->place[i]];
+        const double *row = s->b + s->place[i] * n;
+
+        s->high[i] = at->bound;
+        s->low[i] = -at->bound;
+        s->side[i] = at->side;
+        s->q[i] = -s->a[s->place[i]];
+        for (int k = 0; k < n; k++)
+            s->q[i] -= s->at[k].is_fixed ? row[k] * s->signs[k] : 0;
+        for (int k = 0; k < problem.n; k++)
+            s->matrix[i * problem.n + k] = -row[s->place[k]];
+    }
+    if (!complementarity_solve(&problem, s->side, s->z, s->room))
+        return false;
+    for (int i = 0; i < problem.n; i++) {
+        s->at[s->place[i]].side = s->side[i];
+        s->signs[s->place[i]] = s->z[i];
+    }
+    return true;
+}
+
+/* Surfaces that are left have their kinetic sign. Whether any had another one. */
+static bool leave(Search *s)
+{
+    bool any = false;
+
+    for (int i = 0; i < s->n; i++) {
+        SurfaceSide *at = &s->at[i];
+
+        if (at->is_fixed || at->side == 0 || at->bound == 1)
+            continue;
+        at->is_fixed = any = true;
+        s->signs[i] = at->side;
+    }
+    return any;
+}
+
+static bool solve_problem(Search *s)
+{
+    bool found;
+
+    for (int i = 0; i < s->n; i++)
+        s->at[i].is_fixed = s->at[i].is_known;
+    do
+        found = solve_sides(s);
+    while (found && leave(s));
+    return found;
+}
+
+/* A x = b by elimination with row exchanges, x in place of b; false: A is singular */
+static bool eliminate(double *a, int n, double *b)
+{
+    const double least = REGULAR * largest_of(a, n * n);
+
+    for (int k = 0; k < n; k++) {
+        int best = k;
+
+        for (int i = k + 1; i < n; i++)
+            if (fabs(a[i * n + k]) > fabs(a[best * n + k]))
+                best = i;
+        if (!(fabs(a[best * n + k]) > least))
+            return false;
+        for (int j = 0; j <= n && best != k; j++) {
+            double *one = j < n ? &a[k * n + j] : &b[k], *two = j < n ? &a[best * n + j] : &b[best];
+            const double kept = *one;
+
+            *one = *two;
+            *two = kept;
+        }
+        for (int i = k + 1; i < n; i++) {
+            const double factor = a[i * n + k] / a[k * n + k];
+
+            for (int j = k; j < n; j++)
+                a[i * n + j] -= factor * a[k * n + j];
+            b[i] -= factor * b[k];
+        }
+    }
+    for (int i = n - 1; i >= 0; i--) {
+        for (int j = i + 1; j < n; j++)
+            b[i] -= a[i * n + j] * b[j];
+        b[i] /= a[i * n + i];
+    }
+    return true;
+}
+
+/* Whether surface i can't be left while the motion slides along all surfaces of side 0: B_ii less
+ * what these take of it, B_iS B_SS^-1 B_Si, is 0. */
+static bool is_held(const Search *s, int i)
+{
+    const int n = s->n;
+    double left = s->b[i * n + i];
+    int between = 0;
+
+    for (int k = 0, at = 0; k < n; k++) {
+        if (s->at[k].side != 0)
+            continue;
+        s->z[between++] = s->b[k * n + i];
+        for (int j = 0; j < n; j++)
+            if (s->at[j].side == 0)
+                s->matrix[at++] = s->b[k * n + j];
+    }
+    if (between == 0 || !eliminate(s->matrix, between, s->z))
+        return false;
+    for (int k = 0, at = 0; k < n; k++)
+        if (s->at[k].side == 0)
+            left -= s->b[i * n + k] * s->z[at++];
+    return fabs(left) <= DEPENDENT * fabs(s->b[i * n + i]);
+}
+
+static void find_held(const Search *s)
+{
+    for (int i = 0; i < s->n; i++) {
+        SurfaceSide *at = &s->at[i];
+
+        at->held = at->side != 0 && s->b[i * s->n + i] < 0 &&
+                   (at->settles || fabs(at->off) <= STILL * s->size) && is_held(s, i);
+    }
+}
+
+static double *take(double **room, int count)
+{
+    double *out = *room;
+
+    *room += count;
+    return out;
+}
+
+static Search search_in(int n, double *room, int *integers)
+{
+    Search s = {.n = n};
+
+    s.a = take(&room, n);
+    s.b = take(&room, n * n);
+    s.slip = take(&room, n);
+    s.other = take(&room, n);
+    s.signs = take(&room, n);
+    s.matrix = take(&room, n * n);
+    s.q = take(&room, n);
+    s.low = take(&room, n);
+    s.high = take(&room, n);
+    s.z = take(&room, n);
+    s.room = room;
+    s.place = integers;
+    s.side = integers + n;
+    s.before = integers + 2 * n;
+    return s;
+}
+
+bool surface_sides_find(SurfaceSide *at, int n, SurfaceSlip slip, void *context, bool insists,
+                        double size, double *room, int *integers)
+{
+    Search s = search_in(n, room, integers);
+    bool is_same = false;
+
+    s.at = at;
+    s.slip_of = slip;
+    s.context = context;
+    s.insists = insists;
+    s.size = size;
+    for (int i = 0; i < n; i++)
+        s.signs[i] = 0;
+    /* the linear problem is formed anew around the signs, until the sides stay */
+    for (int turn = 0; turn < REFINED && !is_same; turn++) {
+        if (!find_slopes(&s))
+            return false;
+        if (turn == 0)
+            begin_sides(&s);
+        is_same = turn > 0;
+        for (int i = 0; i < n; i++)
+            s.before[i] = at[i].side;
+        if (!solve_problem(&s))
+            return false;
+        for (int i = 0; i < n; i++)
+            is_same = is_same && s.before[i] == at[i].side;
+        is_same = is_same || n == 1;
+    }
+    for (int i = 0; i < n; i++)
+        at[i].sign = s.signs[i];
+    find_held(&s);
+    return is_same;
+}
