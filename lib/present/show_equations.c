@@ -530,7 +530,32 @@ static char *edge_lead(const View *view, const Variable *of, int width)
     return text_done(&lead);
 }
 
-/* row i of the embedded form, Mt u' = Ft */
+/* the efforts of drivers, which the embedded form has on the left: G^T Phi_D^T lambda_D */
+static Status push_driver_efforts(const View *view, ShownEquation *equation, int i, Diag *diag)
+{
+    Arena *arena = model_arena(view->model);
+    const int nu = system_nu(view->system);
+    int *speeds, dependent;
+    Status status = OK;
+
+    TRY(system_partition(view->system, &speeds, &dependent, diag));
+    for (int k = 0; k < system_m(view->system); k++) {
+        Expr sum = expr_int(arena, 0), g, phi;
+
+        for (int j = 0; system_constraint(view->system, k)->is_driver && j < nu; j++) {
+            CHECK(system_show(view->system, BLOCK_COMPLEMENT, j, i, &g, diag));
+            CHECK(system_show(view->system, BLOCK_JACOBIAN, k, speeds[j], &phi, diag));
+            sum = expr_add(arena, sum, expr_mul(arena, g, phi));
+        }
+        if (!expr_is_zero(sum))
+            LIST_PUSH(equation->left, (ViewTerm){sum, system_multiplier(view->system, k)});
+    }
+done:
+    mem_free(speeds);
+    return status;
+}
+
+/* row i of the embedded form, Mt u' + G^T Phi_D^T lambda_D = Ft */
 static Status push_embedded(const View *view, EquationList *equations, int i, Diag *diag)
 {
     ShownEquation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
@@ -538,6 +563,7 @@ static Status push_embedded(const View *view, EquationList *equations, int i, Di
     Text lead = {0};
 
     CHECK(push_terms(view, &equation, BLOCK_EMBEDDED_MASS, i, false, system_acceleration, diag));
+    CHECK(push_driver_efforts(view, &equation, i, diag));
     CHECK(push_right(view, &equation, BLOCK_EMBEDDED_FORCES, i, diag));
     text_addf(&lead, "%d:  ", i + 1);
     equation.lead = text_done(&lead);
@@ -562,13 +588,14 @@ done:
 static Status push_motions(const View *view, EquationList *equations, int lead_width, Diag *diag)
 {
     const char *const *independent;
-    const int m = system_m(view->system), nu = system_nu(view->system);
-    int count;
-    const bool embedded = model_form(view->model, &independent, &count) == FORM_EMBEDDED && m > 0;
+    int count, rows, columns;
+    const bool embedded = model_form(view->model, &independent, &count) == FORM_EMBEDDED &&
+                          system_m(view->system) > 0;
 
-    for (int i = 0; embedded && i < nu - m; i++)
+    system_block_size(view->system, BLOCK_EMBEDDED_FORCES, &rows, &columns);
+    for (int i = 0; embedded && i < rows; i++)
         TRY(push_embedded(view, equations, i, diag));
-    for (int i = 0; !embedded && i < nu; i++)
+    for (int i = 0; !embedded && i < system_nu(view->system); i++)
         TRY(equations_add_motion(view, equations, i, lead_width, diag));
     return OK;
 }
