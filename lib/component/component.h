@@ -333,6 +333,9 @@ struct Component {
     /* the force along the line (on the head, away from the tail) or the generalised force on the
      * joint's coordinate (on the head); NULL where it exerts none */
     Expr (*effort)(const Instance *instance, Arena *arena, const Motion1 *motion);
+    /* of a part that sticks: the most that its dry friction is at this rate, or at rest the most
+     * that it holds */
+    Expr (*bound)(const Instance *instance, Arena *arena, Expr rate, bool at_rest);
     Expr (*potential)(const Instance *instance, Arena *arena,
                       const Motion1 *motion); /* energy stored; NULL: none */
     Expr (*rotor)(const Instance *instance,

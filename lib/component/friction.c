@@ -38,8 +38,17 @@ static const Param friction_params[] = {
 static const Param brake_params[] = {BOUNDS, STATIC};
 static const Param oneway_params[] = {BOUNDS};
 
-static const Member effort_members[] = {
+/* clang-format off */
+#define FRICTION_MEMBERS                                                                            \
+    {"bound", "N|N*m", "the most that its dry friction is at the present rate", 0},                 \
+    {"hold",  "N|N*m", "the most that it holds at rest", 0},                                        \
+    {"loss",  "W",     "power lost in it", 0}
+/* clang-format on */
+
+static const Member terminal_members[] = {FRICTION_MEMBERS};
+static const Member joint_members[] = {
     {"effort", NULL, "force or torque on the tip, or on the first of two joints", 0},
+    FRICTION_MEMBERS,
 };
 
 static bool has_param(const Instance *instance, const char *name)
@@ -94,22 +103,46 @@ static Expr bound_of(const Instance *instance, Arena *arena)
     return is_never_negative(bound) ? bound : expr_call1(arena, OP_RAMP, bound);
 }
 
+static bool has_stribeck(const Instance *instance)
+{
+    return has_param(instance, "stribeck") && !expr_is_zero(instance_scalar(instance, "stribeck"));
+}
+
+/* Stribeck's curve: 1 + (r - 1) exp(-(v/s)^2) */
+static Expr stribeck_curve(const Instance *instance, Arena *arena, Expr v)
+{
+    const Expr one = expr_int(arena, 1), ratio = instance_scalar(instance, "static");
+    const Expr part = expr_div(arena, v, instance_scalar(instance, "stribeck"));
+    const Expr fall = expr_call1(arena, OP_EXP, expr_neg(arena, expr_mul(arena, part, part)));
+
+    return expr_add(arena, one, expr_mul(arena, expr_sub(arena, ratio, one), fall));
+}
+
+static Expr friction_bound(const Instance *instance, Arena *arena, Expr rate, bool at_rest)
+{
+    const Expr bound = bound_of(instance, arena);
+
+    if (at_rest)
+        return has_param(instance, "static")
+                   ? expr_mul(arena, bound, instance_scalar(instance, "static"))
+                   : bound;
+    return has_stribeck(instance) ? expr_mul(arena, bound, stribeck_curve(instance, arena, rate))
+                                  : bound;
+}
+
 /* what acts against the rate v, as far as it is positive */
 static Expr resistance(const Instance *instance, Arena *arena, Expr v)
 {
-    const Expr one = expr_int(arena, 1), ratio = instance_scalar(instance, "static");
-    const bool falls =
-        has_param(instance, "stribeck") && !expr_is_zero(instance_scalar(instance, "stribeck"));
-    Expr dry = expr_mul(arena, bound_of(instance, arena), expr_call2(arena, OP_STICK, v, ratio));
+    const Expr ratio = instance_scalar(instance, "static");
+    Expr dry;
 
-    if (falls) {
-        const Expr part = expr_div(arena, v, instance_scalar(instance, "stribeck"));
-        const Expr fall = expr_call1(arena, OP_EXP, expr_neg(arena, expr_mul(arena, part, part)));
-        const Expr curve = expr_add(arena, one, expr_mul(arena, expr_sub(arena, ratio, one), fall));
-
-        dry = expr_product(
-            arena, (Expr[]){bound_of(instance, arena), curve, expr_call1(arena, OP_SIGN, v)}, 3);
-    }
+    if (has_stribeck(instance))
+        dry = expr_product(arena,
+                           (Expr[]){bound_of(instance, arena), stribeck_curve(instance, arena, v),
+                                    expr_call1(arena, OP_SIGN, v)},
+                           3);
+    else
+        dry = expr_mul(arena, bound_of(instance, arena), expr_call2(arena, OP_STICK, v, ratio));
     if (!has_param(instance, "viscous"))
         return dry;
     return expr_add(arena, dry, expr_mul(arena, instance_scalar(instance, "viscous"), v));
@@ -294,7 +327,8 @@ static Status oneway_check(const Instance *instance, Arena *arena, bool planar, 
     {                                                                                              \
         .name = #row, .sticks = true, .family = FAMILY_SCALAR, .domain = domain_of,                \
         .places = PLACES_TERMINALS, .params = row##_params, .param_count = COUNT(row##_params),    \
-        .translation = BRANCH_MAY, .preference = 30, .relation = law, .check = check_of            \
+        .translation = BRANCH_MAY, .preference = 30, .relation = law, .bound = friction_bound,     \
+        .members = terminal_members, .member_count = COUNT(terminal_members), .check = check_of    \
     }
 #define ROWS(row, law, check_of)                                                                   \
     static const Component row##_shaft = ON_TERMINALS(row, DOMAIN_SHAFT, law, check_of);           \
@@ -317,9 +351,10 @@ static const Component friction_by_load = {
     .scalar_edges = (const ScalarEdge[]){{"", 0, -1, BRANCH_ALWAYS, 10}},
     .scalar_edge_count = 1,
     .effort = friction_effort,
+    .bound = friction_bound,
     .relation = load_relation,
-    .members = effort_members,
-    .member_count = COUNT(effort_members),
+    .members = joint_members,
+    .member_count = COUNT(joint_members),
     .check = friction_check,
 };
 
@@ -342,8 +377,9 @@ const Component component_friction = {
     .params = friction_params,
     .param_count = COUNT(friction_params),
     .effort = friction_effort,
-    .members = effort_members,
-    .member_count = COUNT(effort_members),
+    .bound = friction_bound,
+    .members = joint_members,
+    .member_count = COUNT(joint_members),
     .check = friction_check,
     .help =
         "Dry friction on a joint's coordinate, or between two terminals of a shaft or slide: "
@@ -375,8 +411,9 @@ const Component component_brake = {
     .params = brake_params,
     .param_count = COUNT(brake_params),
     .effort = friction_effort,
-    .members = effort_members,
-    .member_count = COUNT(effort_members),
+    .bound = friction_bound,
+    .members = joint_members,
+    .member_count = COUNT(joint_members),
     .check = friction_check,
     .help = "Dry friction whose bound is applied: torque= or force= is an expression of t, "
             "parameters and variables, 0 while the brake is open. At rest it holds up to static= "
@@ -397,8 +434,9 @@ const Component component_clutch = {
     .params = clutch_params,
     .param_count = COUNT(clutch_params),
     .effort = friction_effort,
-    .members = effort_members,
-    .member_count = COUNT(effort_members),
+    .bound = friction_bound,
+    .members = joint_members,
+    .member_count = COUNT(joint_members),
     .check = friction_check,
     .help = "Dry friction between the coordinates of two joints, or between two terminals of a "
             "shaft or slide. torque= or force= is the kinetic bound, an expression of t, "
@@ -420,8 +458,9 @@ const Component component_oneway = {
     .params = oneway_params,
     .param_count = COUNT(oneway_params),
     .effort = oneway_effort,
-    .members = effort_members,
-    .member_count = COUNT(effort_members),
+    .bound = friction_bound,
+    .members = joint_members,
+    .member_count = COUNT(joint_members),
     .check = oneway_check,
     .help = "The first of two joints, shafts or slides drives the second along and never runs "
             "ahead of it; the second may run ahead freely. torque= or force= is the most that it "

@@ -28,7 +28,7 @@ static const Topic topics[] = {
     {"outputs",      "outputs and their expressions",                      NEED_MODEL,  OPERANDS_NOTHING, AS_FORMULAS, show_outputs},
     {"params",       "parameters and their values",                        NEED_MODEL,  OPERANDS_NOTHING, AS_TEXT,     show_params},
     {"structure",    "sizes, instances, where M and the jacobian are not zero",  NEED_RUNNING, OPERANDS_NOTHING, AS_TEXT,     show_structure},
-    {"sides",        "what stuck and slipped in the last run",             NEED_RUN,    OPERANDS_NOTHING, AS_TEXT,     show_sides},
+    {"sides",        "what stuck and slipped in the last run, or at an instant", NEED_COURSE, OPERANDS_NOTHING, AS_TEXT,     show_sides},
     {"run",          "report of the last run",                             NEED_RUN,    OPERANDS_NOTHING, AS_TEXT,     show_run},
     {"runs",         "all runs: what ran, from when to when, in how many steps", NEED_MODEL, OPERANDS_NOTHING, AS_TEXT,     show_runs},
     {"sweep",        "runs of the last sweep: parameters, figures, reasons of failures", NEED_MODEL, OPERANDS_NOTHING, AS_TEXT, show_sweep},
@@ -172,7 +172,8 @@ static Status read_notation(const Statement *statement, const Topic *topic, Nota
 /* the word `at` belongs to topics of values */
 static Status check_at(const Statement *statement, const Topic *topic, Diag *diag)
 {
-    if (statement->at == NULL || (topic != NULL && topic->need == NEED_INSTANT))
+    if (statement->at == NULL ||
+        (topic != NULL && (topic->need == NEED_INSTANT || topic->need == NEED_COURSE)))
         return OK;
     (void)diag_at(diag, E_SYNTAX, statement->at->place, "'show%s%s' shows no values at an instant",
                   topic != NULL ? " " : "", topic != NULL ? topic->name : "");
@@ -193,7 +194,9 @@ Status show_need(const View *view, const Statement *statement, Need *need, Diag 
         return E_SYNTAX;
     }
     TRY(check_at(statement, topic, diag));
-    if (topic != NULL)
+    if (topic != NULL && topic->need == NEED_COURSE)
+        *need = statement->at != NULL ? NEED_INSTANT : NEED_RUN;
+    else if (topic != NULL)
         *need = topic->need;
     else
         *need = has_formula(view->model, statement) ? NEED_SYSTEM : NEED_MODEL;

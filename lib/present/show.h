@@ -12,6 +12,7 @@ typedef enum Need {
     NEED_RUNNING, /* equations as a run evaluates them */
     NEED_CODE,    /* these, and the assembled start */
     NEED_RUN,     /* the last run; equations too */
+    NEED_COURSE,  /* the last run, or with `at` values at an instant of it */
     NEED_INSTANT, /* values at an instant of the last run, or at the start */
     NEED_LINEAR   /* the last linearisation */
 } Need;
@@ -118,6 +119,8 @@ void event_print(Text *out, const Event *event);
 MUST_USE Status show_expression(const View *view, const Syntax *syntax, int number, Text *out,
                                 Diag *diag);
 
+/* E_MISSING: there is no run */
+MUST_USE Status show_without_run(Diag *diag);
 /* a run's report: what ran, its work, residuals and energy; without its remarks */
 void report_print(Text *out, const Result *result, const char *name);
 /* the same in one line: final time, work, drift */

@@ -221,7 +221,7 @@ void report_line(Text *out, const Result *result, const char *name)
     text_char(out, '\n');
 }
 
-static Status no_run(Diag *diag)
+Status show_without_run(Diag *diag)
 {
     (void)diag_set(diag, E_MISSING, "there is no run yet");
     diag_hint(diag, "'simulate 10' makes one");
@@ -232,7 +232,7 @@ Status show_run(const View *view, const Selection *selection, Text *out, Diag *d
 {
     (void)selection;
     if (view->result == NULL)
-        return no_run(diag);
+        return show_without_run(diag);
     report_print(out, view->result, "run");
     remarks_write(result_remarks(view->result), out);
     return OK;
@@ -315,35 +315,6 @@ static void print_times(Text *out, const EventRecord *record)
 static bool is_computed(const EventRecord *record)
 {
     return record->count > 0 || !record->is_bound;
-}
-
-Status show_sides(const View *view, const Selection *selection, Text *out, Diag *diag)
-{
-    Table table = table_for("llrr");
-    int count = 0;
-
-    (void)selection;
-    if (view->result == NULL)
-        return no_run(diag);
-    for (int i = 0; i < model_count(view->model); i++) {
-        const Instance *part = model_instance(view->model, i);
-        StickRecord record;
-
-        if (!part->row->sticks || !result_stick(view->result, part->name, &record))
-            continue;
-        if (count++ == 0)
-            table_cells(&table, "part\tat the end\tstuck [s]\tslips");
-        table_cells(&table, "%s\t%s\t%.6g\t%d", part->name,
-                    record.is_held  ? "held at its bound"
-                    : record.sticks ? "sticks"
-                                    : "slips",
-                    record.stuck, record.slips);
-    }
-    if (count > 0)
-        table_finish(out, &table, 0);
-    else
-        text_add(out, "nothing sticks or slips\n");
-    return OK;
 }
 
 Status show_events(const View *view, const Selection *selection, Text *out, Diag *diag)

@@ -302,6 +302,34 @@ static void wrong_uses_name_their_cure(void)
     }
 }
 
+/* Pulled by 2 t N against 5 N, at rest 6 N: it sticks until 3 s. A clutch of t N m slows a
+ * flywheel. */
+static void sides_at_an_instant(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDE "friction f s force=5 static=1.2\nactuator l s force=2*t\n"
+                            "flywheel J1 a 0 J=1\nbrake b a 0 torque=t\n"
+                            "init s = 0, s' = 0, J1.w = 50\nsimulate 4\n");
+    EXPECT(is_near(kit_value(&kit, "f.hold"), 6, 1e-14));
+    EXPECT(is_near(kit_value(&kit, "f.bound"), 5, 1e-14));
+    /* s' = (t - 3) + (t - 3)^2 at 4 s */
+    EXPECT(is_near(kit_value(&kit, "f.loss"), 5 * 2, 1e-9));
+    EXPECT(is_near(kit_value(&kit, "b.loss"), 4 * (50 - 8), 1e-9));
+    EXPECT_DONE(&kit, "show sides at 1.5");
+    EXPECT_HOLDS(kit.text, "at t = 1.5 s\n"
+                           "part  side     effort    bound  share\n"
+                           "f     sticks     -3 N      6 N   50 %\n"
+                           "b     slips   1.5 N*m  1.5 N*m  100 %");
+    EXPECT_DONE(&kit, "show sides at 3.5");
+    EXPECT_HOLDS(kit.text, "f     slips     -5 N      5 N  100 %");
+    EXPECT_DONE(&kit, "show sides at 0");
+    EXPECT_HOLDS(kit.text, "f     sticks     0 N    6 N    0 %");
+    EXPECT_HOLDS(kit.text, "b     free     0 N*m  0 N*m");
+    EXPECT_FAILS(&kit, "show sides at 5", "outside the run");
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(a_block_on_an_incline);
@@ -315,6 +343,7 @@ int main(void)
     RUN(a_bound_below_zero_is_an_open_brake);
     RUN(parts_of_a_subsystem);
     RUN(what_sticks_is_marked_in_linearizations);
+    RUN(sides_at_an_instant);
     RUN(wrong_uses_name_their_cure);
     return test_end();
 }

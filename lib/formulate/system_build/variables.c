@@ -5,6 +5,7 @@
 #include "component/equation_block.h"
 #include "formulate/dynamics/edge_power.h"
 #include "formulate/dynamics/efforts.h"
+#include "formulate/dynamics/laws.h"
 #include "formulate/dynamics/reactions.h"
 #include "formulate/dynamics/sections.h"
 #include "formulate/expanded/block_entry.h"
@@ -256,6 +257,41 @@ static Status effort_variable(System *system, const Instance *instance, const ch
     TRY(effort_of(system, instance, &effort, diag));
     *out = effort.value;
     return OK;
+}
+
+/* Members that parts with dry friction have wherever they act: bounds, and the power that is lost.
+ * *found: it is one of these. */
+static Status friction_variable(System *system, const Instance *instance, const char *member,
+                                bool *found, Expr *out, Diag *diag)
+{
+    static const char *const members[] = {"bound", "hold", "loss"};
+    enum { BOUND, HOLD, LOSS, NONE } which = BOUND;
+    Expr rate, power;
+
+    while (which < NONE && (!instance->row->sticks || strcmp(members[which], member) != 0))
+        which++;
+    *found = which != NONE;
+    if (!*found)
+        return OK;
+    if (instance->row->effort != NULL) {
+        Effort effort;
+
+        TRY(effort_of(system, instance, &effort, diag));
+        rate = effort.rate;
+        power = expr_neg(system->arena, expr_mul(system->arena, effort.value, rate));
+    } else {
+        Branchlike *branch = scalar_branch(system, instance, 0);
+
+        TRY(network_across(system, branch, &rate, diag));
+        TRY(network_through(system, branch, &power, diag));
+        power = expr_mul(system->arena, power, rate);
+    }
+    if (which == LOSS) {
+        *out = power;
+        return OK;
+    }
+    return law_read(system, instance,
+                    instance->row->bound(instance, system->arena, rate, which == HOLD), out, diag);
 }
 
 static Status driver_variable(System *system, const Instance *driver, const char *member, Expr *out,
@@ -617,6 +653,7 @@ static Status member_variable(System *system, const char *path, Expr *out, Diag 
     int node;
     const char *end = path_owner(system, path, &instance, &node);
     const char *member = *end == '.' ? end + 1 : "";
+    bool found;
 
     /* the model knows the name, so these equations are out of date */
     if (instance == NULL && node < 0) {
@@ -631,6 +668,9 @@ static Status member_variable(System *system, const char *path, Expr *out, Diag 
         return frame_variable(system, node, member, out, diag);
     if (edge_power_is_named(instance, member))
         return edge_power(system, instance, member, out, diag);
+    TRY(friction_variable(system, instance, member, &found, out, diag));
+    if (found)
+        return OK;
     if (instance->row->deforming != NULL && strchr(member, '(') != NULL)
         return deflection_variable(system, instance, member, out, diag);
     switch (instance->row->family) {

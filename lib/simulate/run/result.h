@@ -53,9 +53,9 @@ typedef struct EventRecord {
     const double *times; /* s; count, ascending */
 } EventRecord;
 
-/* What became of a part that sticks (Component.sticks) in a run. */
+/* What becomes of a part that sticks (Component.sticks) in a run, or at an instant. */
 typedef struct StickRecord {
-    bool sticks;  /* at the end */
+    bool sticks;  /* at the end, or then */
     bool is_held; /* then at its bound, while other parts hold it */
     double stuck; /* s: all in all */
     int slips;    /* spans of time in which it slipped */
@@ -77,6 +77,8 @@ int result_event_count(const Result *result);
 EventRecord result_event(const Result *result, int i);
 /* False: the part rests on no surface of this run. O(corners). */
 bool result_stick(const Result *result, const char *part, StickRecord *out);
+/* The same at an instant, just after it: sticks and is_held alone. */
+bool result_stick_at(const Result *result, const char *part, double t, StickRecord *out);
 int result_rows(const Result *result);
 const double *result_times(const Result *result);
 /* instants at which a jump or kink is possible, ascending, some of them twice */

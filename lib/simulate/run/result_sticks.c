@@ -1,4 +1,4 @@
-/* result_sticks.c: when parts with dry friction stuck in a run, by the modes of its segments */
+/* result_sticks.c: when parts with dry friction stick in a run, by the modes of its segments */
 #include "simulate/run/result_impl.h"
 
 /* whether a surface is stuck to in a phase; *held: its part is at its bound */
@@ -39,4 +39,19 @@ bool result_stick(const Result *result, const char *part, StickRecord *out)
         phase = k < corners->count ? corners->phase[k] : phase;
     }
     return found;
+}
+
+bool result_stick_at(const Result *result, const char *part, double t, StickRecord *out)
+{
+    const Grid *corners = &result->corners;
+    const PhaseKey *key;
+    int phase = result->first, surface;
+
+    for (int k = 0; k < corners->count && corners->times[k] <= t; k++)
+        phase = corners->phase[k];
+    key = &result->phases.at[phase];
+    surface = system_surface_of_part(key->system, part);
+    *out = (StickRecord){0};
+    out->sticks = is_stuck(key, surface, &out->is_held);
+    return surface >= 0;
 }
