@@ -432,6 +432,27 @@ Expr arena_add_table(Arena *arena, const char *file, const char *column, const d
     return table_symbol(arena, number);
 }
 
+Expr arena_add_law(Arena *arena, const char *name, const char *argument)
+{
+    const Expr symbol = expr_symbol(arena, name, SYMBOL_TABLE);
+    SymbolData *data = (SymbolData *)(void *)(arena->nodes.at[symbol->number] + 1);
+    int number = 0;
+
+    arena_keep_whole(arena);
+    for (; number < arena->tables.count; number++) {
+        const Curve *table = arena->tables.at[number];
+
+        if (curve_is_law(table) && strcmp(table->file, name) == 0 &&
+            strcmp(table->column, argument) == 0)
+            break;
+    }
+    if (number == arena->tables.count)
+        LIST_PUSH(arena->tables, curve_new_law(name, argument));
+    pool_retain(arena->pool, data, sizeof *data);
+    data->table = arena->tables.at[number];
+    return symbol;
+}
+
 Expr arena_find_table(Arena *arena, const char *file, const char *column)
 {
     for (int i = arena->table_names.count - 1; i >= 0; i--)

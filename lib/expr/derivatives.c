@@ -54,7 +54,10 @@ static Expr d_table(Arena *arena, Expr e, const Expr *rates)
 {
     const Expr order = arg(e, 2);
 
-    if (!is_number(order) || expr_value(order) + 1 >= CURVE_ORDERS)
+    const Curve *curve = expr_data(arg(e, 0));
+
+    if (!is_number(order) ||
+        ((curve == NULL || !curve_is_law(curve)) && expr_value(order) + 1 >= CURVE_ORDERS))
         return arena_zero(arena);
     return expr_mul(arena, rates[1],
                     expr_table(arena, arg(e, 0), arg(e, 1), (int)expr_value(order) + 1));

@@ -167,6 +167,9 @@ Expr expr_open(Arena *arena, Expr e);
 Expr arena_add_table(Arena *arena, const char *file, const char *column, const double *x,
                      const double *y, int count);
 Expr arena_find_table(Arena *arena, const char *file, const char *column); /* NULL: none */
+/* The symbol of a law that formulas call by name: expr_table() of it is the call, printed C(s), or
+ * C'(s), and C' where x has the name of the law's argument. No program computes it. */
+Expr arena_add_law(Arena *arena, const char *name, const char *argument);
 /* the curve through the data at x, or a derivative of it by x */
 Expr expr_table(Arena *arena, Expr data, Expr x, int order);
 const Curve *expr_data(Expr symbol); /* of a SYMBOL_TABLE; NULL for others */

@@ -267,6 +267,25 @@ bool write_operator(Printer *printer, Expr e, const char *sign)
     return true;
 }
 
+bool write_law(Printer *printer, Expr e)
+{
+    const Expr *args = node_args(e);
+    const Curve *curve = expr_data(args[0]);
+    const int order = (int)expr_value(args[2]);
+
+    if (!curve_is_law(curve))
+        return false;
+    write_node(printer, args[0], LEVEL_ATOM);
+    for (int i = 0; i < order; i++)
+        say(printer, "'");
+    if (order > 0 && args[1]->kind == EXPR_SYMBOL && strcmp(expr_name(args[1]), curve->column) == 0)
+        return true;
+    say(printer, printer->dialect->open);
+    write_node(printer, args[1], LEVEL_ANY);
+    say(printer, printer->dialect->close);
+    return true;
+}
+
 /* --- numbers --- */
 
 bool ratio_decimal(char text[64], Number number, int most)

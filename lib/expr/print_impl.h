@@ -94,6 +94,9 @@ Level plain_power_level(Expr base, Expr exponent, Number number); /* of one with
 /* a < b, a && b, !a with the operator's sign; false where e is no such call */
 bool write_operator(Printer *printer, Expr e, const char *sign);
 
+/* C(s), C'(s), or C' where the argument has the name in the law; false: e calls no law */
+bool write_law(Printer *printer, Expr e);
+
 /* Digits of an exact decimal, e.g. 0.25 of 1/4; false where it has none, or more than `most`. */
 bool ratio_decimal(char text[64], Number number, int most);
 /* "4.7e7" of 47000000; false where that is hardly shorter. */

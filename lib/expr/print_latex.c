@@ -147,7 +147,7 @@ static void latex_symbol(Text *out, Expr symbol)
     const char *name = expr_name(symbol);
     const char *open = strchr(name, '(');
 
-    if (expr_data(symbol) != NULL) {
+    if (expr_data(symbol) != NULL && !curve_is_law(expr_data(symbol))) {
         latex_table(out, expr_data(symbol));
     } else if (open != NULL && isdigit((unsigned char)open[1])) {
         latex_name(out, name, (size_t)(open - name));
@@ -254,6 +254,8 @@ static void latex_call(Printer *printer, Expr e)
     if (e->op == OP_TABLE && expr_data(args[0]) != NULL) {
         static const char *const primes[CURVE_ORDERS] = {"", "'", "''", "'''"};
 
+        if (write_law(printer, e))
+            return;
         write_node(printer, args[0], LEVEL_ATOM);
         say(printer, primes[(int)expr_value(args[2])]);
         say(printer, "\\left(");

@@ -98,7 +98,8 @@ static void text_table(Printer *printer, Expr e)
 static void text_call(Printer *printer, Expr e)
 {
     if (e->op == OP_TABLE && expr_data(node_args(e)[0]) != NULL) {
-        text_table(printer, e);
+        if (!write_law(printer, e))
+            text_table(printer, e);
         return;
     }
     if (write_operator(printer, e, op_name(e->op)))

@@ -42,19 +42,28 @@ Model *model_new(void)
     return model_around(arena, state_new(arena, overrides_new(), verb_apply));
 }
 
-Status model_fork(const Model *model, Model **out, Diag *diag)
+static Status fork_of(const Model *model, bool named, Model **out, Diag *diag)
 {
     State *state = NULL;
-    Status status = OK;
 
-    CHECK(state_rebuild(model->state, -1, &state, NULL, NULL, diag));
+    TRY(named ? state_rebuild_named(model->state, &state, diag)
+              : state_rebuild(model->state, -1, &state, NULL, NULL, diag));
     *out = model_around(model->arena, state);
     (*out)->is_fork = true;
     (*out)->finder = model->finder;
     (*out)->finder.given = true;
     (*out)->revision = model->revision;
-done:
-    return status;
+    return OK;
+}
+
+Status model_fork(const Model *model, Model **out, Diag *diag)
+{
+    return fork_of(model, false, out, diag);
+}
+
+Status model_fork_named(const Model *model, Model **out, Diag *diag)
+{
+    return fork_of(model, true, out, diag);
 }
 
 void model_open_insides(Model *fork)

@@ -79,6 +79,9 @@ MUST_USE Status model_preset_trees(const Model *model, bool absolute, Tree *out[
 /* New: a model of the same statements over the same arena, to try others on; the first must outlive
  * it. */
 MUST_USE Status model_fork(const Model *model, Model **out, Diag *diag);
+/* The same, with laws of one argument that formulas call by name (arena_add_law()): for print only.
+ */
+MUST_USE Status model_fork_named(const Model *model, Model **out, Diag *diag);
 /* From now on statements of the fork may attach parts inside instances, to examine these. */
 void model_open_insides(Model *fork);
 

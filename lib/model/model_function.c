@@ -197,9 +197,47 @@ static Status too_long(const Syntax *syntax, Diag *diag)
     return E_VALUE;
 }
 
+/* the body of a law that is called by name, or a derivative of it, at its argument */
+static Expr open_call(Arena *arena, Expr e, void *context)
+{
+    const State *state = context;
+    const Curve *curve =
+        expr_kind(e) == EXPR_CALL && expr_op(e) == OP_TABLE ? expr_data(expr_arg(e, 0)) : NULL;
+    const Definition *law;
+    Expr body, at;
+
+    if (curve == NULL || !curve_is_law(curve))
+        return e;
+    law = definition_find((State *)state, curve->file, DEFINES_LAW);
+    body = law->body;
+    at = expr_arg(e, 1);
+    for (int order = (int)expr_value(expr_arg(e, 2)); order > 0; order--)
+        body = expr_diff(arena, body, law->arguments[0]);
+    return expr_substitute(arena, body, law->arguments, &at, 1);
+}
+
+/* without calls by name, also of laws that laws call */
+static Expr open_laws(const State *state, Expr e)
+{
+    for (Expr before = NULL; e != before;) {
+        before = e;
+        e = expr_change(state->arena, e, open_call, (void *)state);
+    }
+    return e;
+}
+
+/* Numbers, initial values and conditions need the law itself. */
+static bool is_called_by_name(const Scope *scope, const Definition *law)
+{
+    return scope->state->has_named_laws && law->argument_count == 1 &&
+           (scope->kind == SCOPE_EFFORT || scope->kind == SCOPE_DRIVE || scope->kind == SCOPE_LAW ||
+            scope->kind == SCOPE_OUTPUT || scope->kind == SCOPE_ASK);
+}
+
 static Status call_law(Scope *scope, const Syntax *syntax, int index, const Expr *args, Expr *out,
                        Diag *diag)
 {
+    Arena *arena = scope->state->arena;
     const Definition *law = &scope->state->definitions.at[index];
 
     if (law->kind != DEFINES_LAW) {
@@ -210,8 +248,15 @@ static Status call_law(Scope *scope, const Syntax *syntax, int index, const Expr
     if (syntax->count != law->argument_count)
         return diag_at(diag, E_VALUE, syntax->place, "%s takes %d argument%s, got %d", law->name,
                        law->argument_count, law->argument_count == 1 ? "" : "s", syntax->count);
-    *out = expr_substitute(scope->state->arena, law->body, law->arguments, args, syntax->count);
     scope_use(scope, index);
+    if (is_called_by_name(scope, law)) {
+        *out = expr_table(arena, arena_add_law(arena, law->name, expr_name(law->arguments[0])),
+                          args[0], 0);
+        return OK;
+    }
+    *out = expr_substitute(arena, law->body, law->arguments, args, syntax->count);
+    if (scope->state->has_named_laws && scope->kind != SCOPE_LAW)
+        *out = open_laws(scope->state, *out);
     return OK;
 }
 

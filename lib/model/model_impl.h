@@ -178,6 +178,7 @@ struct State {
     LIST(InsideChoice) inside_choices;
     int inside;   /* the use whose statements are being applied; -1 */
     bool is_open; /* statements may attach parts inside instances: a fork that examines them */
+    bool has_named_laws; /* formulas call laws by name: a fork that prints them */
     Tree *trees[TREE_KINDS];
     bool has_trees;
     LIST(Change) changes;
@@ -435,6 +436,8 @@ int *lines_in_order(const State *state, int *count);
  * failure is returned. */
 MUST_USE Status state_rebuild(const State *old, int without, State **out, NameList *broken,
                               Text *remarks, Diag *diag);
+/* the same of all lines, with laws that formulas call by name */
+MUST_USE Status state_rebuild_named(const State *old, State **out, Diag *diag);
 /* Applies each pair of a statement, all or none. */
 typedef MUST_USE Status ApplyPair(State **state, const Pair *pair, Outcome *outcome, Diag *diag);
 MUST_USE Status apply_pairs(State **state, const Statement *statement, ApplyPair *apply,

@@ -18,8 +18,8 @@ static bool sets_inside(const State *state, const Line *line, const char *use)
            name_is_inside(line->part >= 0 ? state->parts.at[line->part]->name : line->key, use);
 }
 
-Status state_rebuild(const State *old, int without, State **out, NameList *broken, Text *remarks,
-                     Diag *diag)
+static Status rebuild(const State *old, int without, bool named, State **out, NameList *broken,
+                      Text *remarks, Diag *diag)
 {
     State *state = state_new(old->arena, old->overrides, old->apply);
     const int gone = without >= 0 ? old->lines.at[without].part : -1;
@@ -28,6 +28,7 @@ Status state_rebuild(const State *old, int without, State **out, NameList *broke
     int *order = lines_in_order(old, &count);
     Status status = OK;
 
+    state->has_named_laws = named;
     for (int i = 0; i < count; i++) {
         const Line *line = &old->lines.at[order[i]];
 
@@ -50,6 +51,17 @@ done:
     mem_free(order);
     state_free(state);
     return status;
+}
+
+Status state_rebuild(const State *old, int without, State **out, NameList *broken, Text *remarks,
+                     Diag *diag)
+{
+    return rebuild(old, without, old->has_named_laws, out, broken, remarks, diag);
+}
+
+Status state_rebuild_named(const State *old, State **out, Diag *diag)
+{
+    return rebuild(old, -1, true, out, NULL, NULL, diag);
 }
 
 Status apply_pairs(State **state, const Statement *statement, ApplyPair *apply, Outcome *outcome,

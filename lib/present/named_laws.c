@@ -1,4 +1,4 @@
-/* named_laws.c: laws of parts that equations call by name
+/* named_laws.c: laws that equations call by name
  *
  * Equations are sums in which a law can't be recognised: its terms are mixed with others, or merged
  * with like terms. A sum that contains a multiple of the law's longest term, c T, becomes sum - c
@@ -123,6 +123,46 @@ static void name_law(const LawView *view, const Instance *instance, Expr across,
         LIST_PUSH(*out, (LawDefinition){written(view, across), v});
 }
 
+static bool is_defined(const DefinedLaws *defined, Expr call)
+{
+    for (int i = 0; i < defined->count; i++)
+        if (defined->at[i] == call)
+            return true;
+    return false;
+}
+
+/* "C2(s)" and "C2'", where they have no definition yet, up to the highest order in `orders` */
+static void define_orders(const LawView *view, Expr symbol, unsigned orders, LawDefinitions *out)
+{
+    Arena *arena = model_arena(view->model);
+    const Expr *arguments;
+    int count;
+    Expr value = model_law(view->model, expr_data(symbol)->file, &arguments, &count);
+
+    for (int order = 0; value != NULL && orders >> (unsigned)order != 0; order++) {
+        const Expr call = expr_table(arena, symbol, arguments[0], order);
+
+        if (order > 0)
+            value = expr_diff(arena, value, arguments[0]);
+        if ((order > 0 && (orders >> (unsigned)order & 1) == 0) || is_defined(view->defined, call))
+            continue;
+        LIST_PUSH(*view->defined, call);
+        LIST_PUSH(*out, (LawDefinition){written(view, call), expr_collect(arena, value)});
+    }
+}
+
+/* the user's laws that these expressions call */
+static void define_called(const LawView *view, const Expr *roots, int count, LawDefinitions *out)
+{
+    Expr *symbols;
+    const int found = expr_tables(roots, count, &symbols);
+
+    for (int k = 0; k < found; k++)
+        if (curve_is_law(expr_data(symbols[k])))
+            define_orders(view, symbols[k], expr_table_orders(roots, count, symbols[k]), out);
+    mem_free(symbols);
+}
+
 void named_laws(const LawView *view, Expr *roots, int count, LawDefinitions *out)
 {
     Arena *arena = model_arena(view->model);
@@ -143,6 +183,11 @@ void named_laws(const LawView *view, Expr *roots, int count, LawDefinitions *out
                 name_law(view, instance, across, relation.value, roots, count, out);
         }
     }
+    if (view->defined == NULL)
+        return;
+    define_called(view, roots, count, out);
+    for (int i = 0; i < out->count; i++) /* and those that definitions call */
+        define_called(view, &out->at[i].value, 1, out);
 }
 
 void named_laws_free(LawDefinitions *laws)

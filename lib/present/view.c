@@ -403,7 +403,7 @@ static void name_laws(const View *view, EquationList *equations, LawDefinitions 
     Expr *terms;
     bool ignored;
     const int count = gather(equations, &terms, &ignored);
-    const LawView of = {view->model, view->system, view->page.notation};
+    const LawView of = {view->model, view->system, view->page.notation, view->defined};
 
     named_laws(&of, terms, count, laws);
     scatter(equations, terms);

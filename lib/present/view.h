@@ -8,6 +8,7 @@
 #include "formulate/system/system.h"
 #include "model/model.h"
 #include "present/layout.h"
+#include "present/named_laws.h"
 #include "present/terminal_graph.h"
 #include "simulate/analyse/linearize.h"
 #include "simulate/sweep/sweep_table.h"
@@ -32,7 +33,8 @@ typedef struct View {
     const SweepTable *sweep;       /* the last sweep; NULL */
     const TerminalGraph *terminal; /* the graph with instances as their ports; NULL: as it is */
     const ViewInstant *instant;    /* where a topic shows values; NULL */
-    int freedoms;                  /* degrees of freedom found by an assembly; -1: none yet */
+    DefinedLaws *defined; /* with laws that formulas call by name; NULL: they are written out */
+    int freedoms;         /* degrees of freedom found by an assembly; -1: none yet */
     Page page;
     const CallMonitor *watch;
 } View;

@@ -22,6 +22,7 @@ libcore_la_SOURCES += \
   lib/session/session_look.c \
   lib/session/session_model.c \
   lib/session/session_model.h \
+  lib/session/session_named_laws.c \
   lib/session/session_override.c \
   lib/session/session_plot.c \
   lib/session/session_run.c \

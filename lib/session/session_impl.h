@@ -134,6 +134,21 @@ MUST_USE Status session_prepare(ct_session *session, Need need, View *view, Diag
  * omitted. */
 MUST_USE Status session_prepare_formulas(ct_session *session, Need need, View *view, Diag *diag);
 void session_end_formulas(const View *view); /* once they are written */
+/* What formulas that call laws by name are formed of (session_named_laws.c). */
+typedef struct NamedLaws {
+    ArenaMark *mark;
+    Model *fork;
+    Scene scene;
+    System *system, *substituted; /* of the fork; of the model, borrowed */
+    DefinedLaws defined;
+} NamedLaws;
+/* With `set laws named`, let the view of a statement for readers show such formulas. After
+ * session_prepare_formulas(); session_end_named_laws() in any case. */
+MUST_USE Status session_name_laws(ct_session *session, const Statement *s, NamedLaws *out,
+                                  View *view, Diag *diag);
+void session_end_named_laws(ct_session *session, NamedLaws *laws, View *view);
+/* full turns of the assembled start, of each sum of angles; new */
+int *session_turns_of_start(const System *system, const Result *start);
 /* free systems that neither the model nor a run needs any more */
 void session_free_unused(ct_session *session);
 /* what there is to look at; `system` and `result` as needed */

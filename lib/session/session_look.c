@@ -84,6 +84,7 @@ ct_status ct_show(ct_session *session, const ct_statement *statement, char **tex
 
     const Statement *s = statement_of(statement);
     View view = session_view(session);
+    NamedLaws laws = {0};
     InstantReader reader;
     ViewInstant instant;
     Text out = {0};
@@ -100,11 +101,14 @@ ct_status ct_show(ct_session *session, const ct_statement *statement, char **tex
         view.instant = &instant;
     }
     CHECK(session_prepare_formulas(session, need, &view, &diag));
+    if (need == NEED_SYSTEM)
+        CHECK(session_name_laws(session, s, &laws, &view, &diag));
     monitor_report(&session->watch, "writing out", -1);
     CHECK(show(&view, s, &out, &diag));
     if (need == NEED_LINEAR)
         session_remark_linear(session);
 done:
+    session_end_named_laws(session, &laws, &view);
     session_end_formulas(&view);
     return finish(status, &out, &diag, text, error);
 }

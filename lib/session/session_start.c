@@ -36,8 +36,7 @@ Status session_source(ct_session *session, Run **out, Diag *diag)
     return session_start(session, out, diag);
 }
 
-/* full turns of the start, of each sum of angles; new */
-static int *turns_of_start(const System *system, const Result *start)
+int *session_turns_of_start(const System *system, const Result *start)
 {
     const int count = system_whole_turns_count(system);
     int *turns = NEW_ARRAY(int, count);
@@ -63,7 +62,7 @@ Status session_prepare_formulas(ct_session *session, Need need, View *view, Diag
     session_begin(session); /* the report is that of what is written */
     TRY(session_prepare(session, need, view, diag));
     if (status == OK)
-        turns = turns_of_start(view->system, start->result);
+        turns = session_turns_of_start(view->system, start->result);
     else
         session_remark(session, "full turns of angles are left out: there is no start that chooses "
                                 "them");

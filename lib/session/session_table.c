@@ -731,6 +731,7 @@ ct_status ct_export(ct_session *session, const ct_statement *statement, bool wit
     const char *name = s->operands.count > 0 ? s->operands.at[0].value->text : "";
     const Format *format = format_find(name);
     Exported what = {.view = session_view(session), .with_header = with_header};
+    NamedLaws laws = {0};
     TableSheet sheet = {0};
     CodeItems items = {0};
     Text out = {0};
@@ -748,11 +749,14 @@ ct_status ct_export(ct_session *session, const ct_statement *statement, bool wit
         goto done;
     }
     CHECK(prepare(session, s, format, &sheet, &items, &what, &diag));
+    if (format->need == NEED_SYSTEM)
+        CHECK(session_name_laws(session, s, &laws, &what.view, &diag));
     CHECK(format->write(&what, &out, &diag));
     *text = text_done(&out);
 done:
     sheet_free(&sheet);
     code_items_free(&items);
+    session_end_named_laws(session, &laws, &what.view);
     session_end_formulas(&what.view);
     text_free(&out);
     return session_report(status, &diag, error);
