@@ -8,6 +8,8 @@ libcore_la_SOURCES += \
   lib/session/session_equilibrium.c \
   lib/session/session_evaluator.c \
   lib/session/session_expect.c \
+  lib/session/session_figure_course.c \
+  lib/session/session_figure_course.h \
   lib/session/session_figures.c \
   lib/session/session_formula.c \
   lib/session/session_freedoms.c \

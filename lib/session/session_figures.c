@@ -1,11 +1,11 @@
 /* session_figures.c: functions of a whole run: max(h8), mean, rms, final, first, settling, period
  *
  * All are of the motion: the course of the argument is read between rows from the dense output, in
- * pieces as short as the integrator's steps and never across an event. Means are quadratures,
- * halved until halves agree; extremes are searched about the largest samples and rows; instants are
- * closed in on.
+ * pieces as short as the integrator's steps and never across an event, where its rows leave a
+ * figure open (session_figure_course.h). Means are quadratures, halved until halves agree; extremes
+ * are searched about the largest samples and rows; instants are closed in on.
  */
-#include "session/session_impl.h"
+#include "session/session_figure_course.h"
 
 #include "session/session_limits.h"
 
@@ -15,102 +15,17 @@
 #include <string.h>
 
 enum {
-    POINTS = 7,    /* of a piece, by Gauss and Legendre: exact to degree 13 */
-    SAMPLES = 9,   /* of a piece: these, and its ends from inside */
-    MOST = 40000,  /* pieces */
     HALVINGS = 10, /* of a piece; a kink within is then some 1e-3 of it, */
     SHORT = 5,     /* these pieces are short, and what kinks and jumps within add up to is less */
     CLOSER = 16,   /* rounds of SAMPLES instants for an instant, each a tenth as long */
-    PEAKS = 8,     /* that an extreme is searched in, */
-    PASSES = 4,    /* so often, */
-    ABOUT = 16     /* with so many instants each, evenly spaced, and those of a parabola's top and a
-                      corner */
+    CHUNK = 8,  /* pieces that are sampled at once in a search for an instant, then twice as many */
+    PEAKS = 8,  /* that an extreme is searched in, */
+    PASSES = 4, /* so often, */
+    PEAKS_LAST = 2,  /* and that many after the first two passes */
+    PEAK_MARGIN = 4, /* times the parabola above its samples: how far an extreme may be above */
+    ABOUT = 16 /* with so many instants each, evenly spaced, and those of a parabola's top and a
+                  corner */
 };
-
-static const double nodes[POINTS] = {
-    -0.9491079123427585, -0.7415311855993945, -0.4058451513773972, 0,
-    0.4058451513773972,  0.7415311855993945,  0.9491079123427585};
-static const double weights[POINTS] = {0.1294849661688697, 0.2797053914892766, 0.3818300505051189,
-                                       0.4179591836734694, 0.3818300505051189, 0.2797053914892766,
-                                       0.1294849661688697};
-
-typedef struct FigureCourse { /* of one formula over one run */
-    ct_session *session;
-    const Syntax *call;
-    const Formula *formula; /* of its argument */
-    Run *source, *grid;
-    LIST(double) ends;   /* of pieces, rising */
-    LIST(double) times;  /* samples, SAMPLES a piece, */
-    LIST(double) values; /* and the formula there */
-} FigureCourse;
-
-static void course_free(FigureCourse *course)
-{
-    LIST_FREE(course->ends);
-    LIST_FREE(course->times);
-    LIST_FREE(course->values);
-}
-
-static Status course_at(const FigureCourse *course, const double *times, int count, double *out,
-                        Diag *diag)
-{
-    return formula_rows(course->session, course->formula, 1, course->grid, course->source, times,
-                        count, out, 1, 0, diag);
-}
-
-/* --- pieces --- */
-
-static void add_piece(FigureCourse *course, double to, int parts)
-{
-    const double from = course->ends.at[course->ends.count - 1];
-
-    for (int k = 1; k < parts; k++)
-        LIST_PUSH(course->ends, from + (to - from) * k / parts);
-    LIST_PUSH(course->ends, to);
-}
-
-/* from row to row and corner to corner, no longer than half the mean step */
-static void cut_pieces(FigureCourse *course)
-{
-    const Result *result = course->grid->result;
-    const double *rows = result_times(result), *corners = result_corner_times(result);
-    const int row_count = result_rows(result), corner_count = result_corner_count(result);
-    const double span = rows[row_count - 1] - rows[0];
-    const double most = fmin(2.0 * (double)result_report(result)->steps, MOST);
-    int corner = 0;
-
-    LIST_PUSH(course->ends, rows[0]);
-    for (int i = 1; i <= row_count - 1 && span > 0;) {
-        const double last = course->ends.at[course->ends.count - 1];
-        double next = rows[i];
-
-        while (corner < corner_count && corners[corner] <= last)
-            corner++;
-        if (corner < corner_count && corners[corner] < next)
-            next = corners[corner];
-        if (next > last)
-            add_piece(course, next, 1 + (int)((next - last) / span * most));
-        if (next == rows[i])
-            i++;
-    }
-}
-
-static Status course_sample(FigureCourse *course, Diag *diag)
-{
-    cut_pieces(course);
-    for (int i = 1; i < course->ends.count; i++) {
-        const double a = course->ends.at[i - 1], b = course->ends.at[i];
-
-        LIST_PUSH(course->times, a);
-        for (int k = 0; k < POINTS; k++)
-            LIST_PUSH(course->times, (a + b) / 2 + (b - a) / 2 * nodes[k]);
-        LIST_PUSH(course->times, b - FIGURES_END * (b - a));
-    }
-    LIST_PUSH(course->times, course->ends.at[course->ends.count - 1]);
-    LIST_ROOM(course->values, course->times.count);
-    course->values.count = course->times.count;
-    return course_at(course, course->times.at, course->times.count, course->values.at, diag);
-}
 
 /* --- means --- */
 
@@ -124,7 +39,7 @@ static double sum_up(const SessionFiguresPiece *piece, const double *values, int
     double sum = 0;
 
     for (int k = 0; k < POINTS; k++)
-        sum += weights[k] * (power == 2 ? values[k] * values[k] : values[k]);
+        sum += course_weights[k] * (power == 2 ? values[k] * values[k] : values[k]);
     return sum * (piece->b - piece->a) / 2;
 }
 
@@ -144,7 +59,7 @@ static Status halve(const FigureCourse *course, const SessionFiguresPieces *piec
 
         LIST_PUSH(*halves, half);
         for (int k = 0; k < POINTS; k++)
-            times[i * POINTS + k] = (half.a + half.b) / 2 + (half.b - half.a) / 2 * nodes[k];
+            times[i * POINTS + k] = (half.a + half.b) / 2 + (half.b - half.a) / 2 * course_nodes[k];
     }
     CHECK(course_at(course, times, POINTS * count, values, diag));
     for (int i = 0; i < count; i++)
@@ -170,24 +85,61 @@ static Status refuse_pole(const FigureCourse *course, const SessionFiguresPieces
     return E_VALUE;
 }
 
+/* The integrals over pieces between rows that these determine are added to *sum, and the others are
+ * opened; *size adds up their sizes. */
+static Status first_integrals(const FigureCourse *course, int power, SessionFiguresPieces *open,
+                              double *sum, double *size, Diag *diag)
+{
+    const int count = course->pieces.count;
+    const double span = course->pieces.at[count - 1].b - course->pieces.at[0].a;
+    double *times = NULL, *values = NULL, of_rows = 0;
+    Status status = OK;
+
+    for (int k = 0; k < count; k++)
+        if (course->pieces.at[k].row >= 0)
+            of_rows += pow(fabs(course->rows[course->pieces.at[k].row]), power) *
+                       (course->pieces.at[k].b - course->pieces.at[k].a);
+    for (int k = 0; k < count; k++) {
+        const FigurePiece *from = &course->pieces.at[k];
+        SessionFiguresPiece piece = {from->a, from->b, 0};
+        const double share = fmax((piece.b - piece.a) / span, 1e-3);
+
+        if (course_integral(course, from, power, course->tolerance * of_rows * share, &piece.sum)) {
+            *sum += piece.sum;
+            *size += fabs(piece.sum);
+        } else {
+            LIST_PUSH(*open, piece);
+        }
+    }
+    times = NEW_ARRAY(double, POINTS * open->count);
+    values = NEW_ARRAY(double, POINTS * open->count);
+    for (int i = 0; i < open->count; i++)
+        for (int k = 0; k < POINTS; k++)
+            times[i * POINTS + k] = (open->at[i].a + open->at[i].b) / 2 +
+                                    (open->at[i].b - open->at[i].a) / 2 * course_nodes[k];
+    CHECK(course_at(course, times, POINTS * open->count, values, diag));
+    for (int i = 0; i < open->count; i++) {
+        open->at[i].sum = sum_up(&open->at[i], values + (size_t)i * POINTS, power);
+        *size += fabs(open->at[i].sum);
+    }
+done:
+    MEM_FREE(times, values);
+    return status;
+}
+
 /* the mean of a power; pieces are halved where the halves give a different integral */
 static Status mean_of(const FigureCourse *course, int power, double *out, Diag *diag)
 {
-    const double span = course->ends.at[course->ends.count - 1] - course->ends.at[0];
+    const int count = course->pieces.count;
+    const double span = count > 0 ? course->pieces.at[count - 1].b - course->pieces.at[0].a : 0;
     SessionFiguresPieces open = {0}, halves = {0};
     double sum = 0, size = 0, least = INFINITY, last_width = 0;
     Status status = OK;
 
-    *out = power == 2 ? course->values.at[0] * course->values.at[0] : course->values.at[0];
+    *out = pow(course->rows[0], power);
     if (!(span > 0))
         return OK;
-    for (int i = 1; i < course->ends.count; i++) {
-        SessionFiguresPiece piece = {course->ends.at[i - 1], course->ends.at[i], 0};
-
-        piece.sum = sum_up(&piece, course->values.at + (size_t)(i - 1) * SAMPLES + 1, power);
-        size += fabs(piece.sum);
-        LIST_PUSH(open, piece);
-    }
+    CHECK(first_integrals(course, power, &open, &sum, &size, diag));
     for (int k = 0; open.count > 0; k++) {
         const bool is_noise = k > SHORT && last_width > FIGURES_NOISE * span;
         double rough = 0, width = 0; /* what the rough pieces add up to, of the course and of t */
@@ -233,13 +185,13 @@ done:
     return status;
 }
 
-static Status figure_mean(const FigureCourse *course, double band, double *out, Diag *diag)
+static Status figure_mean(FigureCourse *course, double band, double *out, Diag *diag)
 {
     (void)band;
     return mean_of(course, 1, out, diag);
 }
 
-static Status figure_rms(const FigureCourse *course, double band, double *out, Diag *diag)
+static Status figure_rms(FigureCourse *course, double band, double *out, Diag *diag)
 {
     (void)band;
     TRY(mean_of(course, 2, out, diag));
@@ -255,6 +207,7 @@ typedef struct Peak {
     double t[3], f[3];
     double top, reach;
     double corner; /* where lines from both sides meet; t[1]: unknown */
+    bool grows;    /* in every pass so far, as towards a pole */
 } Peak;
 
 typedef struct Peaks { /* those that reach highest, falling */
@@ -303,7 +256,8 @@ static void peak_about(const double *t, const double *f, int count, int k, Peak 
     if (after < count - 1 && t[after] - t[k] < FIGURES_CORNER * (t[after + 1] - t[after]) &&
         f[after + 1] <= f[k])
         after++;
-    *peak = (Peak){.t = {t[before], t[k], t[after]}, .f = {f[before], f[k], f[after]}};
+    *peak = (Peak){
+        .t = {t[before], t[k], t[after]}, .f = {f[before], f[k], f[after]}, .grows = peak->grows};
     peak_fit(peak);
 }
 
@@ -385,26 +339,35 @@ static Status peaks_search(const FigureCourse *course, double sign, Peaks *peaks
     return OK;
 }
 
+static bool may_exceed(const FigureCourse *course, const FigurePiece *piece, double level,
+                       double sign)
+{
+    const double *f = course->rows + piece->row;
+
+    return fmax(sign * f[0], sign * f[1]) + piece->bound >= level;
+}
+
 /* The largest of sign * value among the rows, which hold both sides of an event, and the samples;
  * and where the samples have peaks. NAN where a row or a sample has no value. */
-static Status sampled_extreme(const FigureCourse *course, double sign, double *best, Peaks *peaks,
+static Status sampled_extreme(FigureCourse *course, double sign, double *best, Peaks *peaks,
                               Diag *diag)
 {
-    const int rows = result_rows(course->grid->result), count = course->values.count;
-    double *values = NEW_ARRAY(double, rows), *f = NEW_ARRAY(double, count);
-    Status status;
+    double *f = NULL;
+    int count;
+    Status status = OK;
 
     *best = -INFINITY;
-    CHECK(formula_rows(course->session, course->formula, 1, course->grid, course->source, NULL,
-                       rows, values, 1, 0, diag));
-    for (int i = 0; i < rows && !isnan(*best); i++)
-        *best = isnan(values[i]) ? NAN : fmax(*best, sign * values[i]);
+    for (int i = 0; i < result_rows(course->grid->result) && !isnan(*best); i++)
+        *best = isnan(course->rows[i]) ? NAN : fmax(*best, sign * course->rows[i]);
+    CHECK(course_sample(course, 0, course->pieces.count, may_exceed, *best, sign, diag));
+    count = course->values.count;
+    f = NEW_ARRAY(double, count);
     for (int i = 0; i < count && !isnan(*best); i++) {
         f[i] = sign * course->values.at[i];
         *best = isnan(f[i]) ? NAN : fmax(*best, f[i]);
     }
     for (int i = 0; i < count && !isnan(*best); i++) {
-        Peak peak;
+        Peak peak = {.grows = true};
 
         if ((i > 0 && f[i - 1] >= f[i]) || (i < count - 1 && f[i + 1] > f[i]))
             continue;
@@ -413,7 +376,7 @@ static Status sampled_extreme(const FigureCourse *course, double sign, double *b
             peaks_add(peaks, &peak);
     }
 done:
-    MEM_FREE(values, f);
+    mem_free(f);
     return status;
 }
 
@@ -425,48 +388,69 @@ static Status refuse_growth(const FigureCourse *course, double t, Diag *diag)
     return E_VALUE;
 }
 
+/* Without peaks that are found, or that others exceed by more than their parabolas are open; later
+ * the highest two stand for all that are as high. */
+static void peaks_leave(Peaks *peaks, const Peaks *before, double best, double found, int pass)
+{
+    const Peaks all = *peaks;
+
+    peaks->count = 0;
+    for (int k = 0; k < all.count; k++) {
+        const Peak *peak = &all.at[k];
+        const double open = fabs(peak->reach - peak->f[1]);
+
+        if (peak->grows || (fabs(peak->f[1] - before->at[k].reach) > found &&
+                            peak->f[1] + PEAK_MARGIN * open >= best))
+            peaks_add(peaks, peak);
+    }
+    if (pass > 0 && peaks->count > PEAKS_LAST)
+        peaks->count = PEAKS_LAST;
+}
+
 /* the largest of sign * value, times sign; NAN where a row or a sample has no value */
-static Status extreme(const FigureCourse *course, double sign, double *out, Diag *diag)
+static Status extreme(FigureCourse *course, double sign, double *out, Diag *diag)
 {
     Peaks peaks = {0};
-    bool grows[PEAKS];
     double best;
 
     TRY(sampled_extreme(course, sign, &best, &peaks, diag));
-    memset(grows, true, sizeof grows);
     for (int pass = 0; pass < PASSES && peaks.count > 0 && isfinite(best); pass++) {
         const Peaks before = peaks;
+        double top = best;
 
         TRY(peaks_search(course, sign, &peaks, diag));
-        for (int k = 0; k < peaks.count; k++)
-            grows[k] = grows[k] && before.at[k].f[1] > 0 &&
-                       peaks.at[k].f[1] > FIGURES_GROWTH * before.at[k].f[1];
-    }
-    for (int k = 0; k < peaks.count && isfinite(best); k++) {
-        if (grows[k] && peaks.at[k].f[1] > best)
-            return refuse_growth(course, peaks.at[k].t[1], diag);
-        best = fmax(best, peaks.at[k].f[1]);
+        for (int k = 0; k < peaks.count; k++) {
+            Peak *peak = &peaks.at[k];
+
+            peak->grows = before.at[k].grows && before.at[k].f[1] > 0 &&
+                          peak->f[1] > FIGURES_GROWTH * before.at[k].f[1];
+            if (pass == PASSES - 1 && peak->grows && peak->f[1] > best)
+                return refuse_growth(course, peak->t[1], diag);
+            top = fmax(top, peak->f[1]);
+        }
+        best = top;
+        peaks_leave(&peaks, &before, best, FIGURES_FOUND * course->tolerance * course->scale, pass);
     }
     *out = sign * best;
     return OK;
 }
 
-static Status figure_max(const FigureCourse *course, double band, double *out, Diag *diag)
+static Status figure_max(FigureCourse *course, double band, double *out, Diag *diag)
 {
     (void)band;
     return extreme(course, 1, out, diag);
 }
 
-static Status figure_min(const FigureCourse *course, double band, double *out, Diag *diag)
+static Status figure_min(FigureCourse *course, double band, double *out, Diag *diag)
 {
     (void)band;
     return extreme(course, -1, out, diag);
 }
 
-static Status figure_final(const FigureCourse *course, double band, double *out, Diag *diag)
+static Status figure_final(FigureCourse *course, double band, double *out, Diag *diag)
 {
     (void)band, (void)diag;
-    *out = course->values.at[course->values.count - 1];
+    *out = course->rows[result_rows(course->grid->result) - 1];
     return OK;
 }
 
@@ -495,9 +479,11 @@ static bool is_within(double value, double level, double band)
 static Status instant(const FigureCourse *course, int k, Holds *holds, double level, double band,
                       double *out, Diag *diag)
 {
+    const double *rows = result_times(course->grid->result);
+    const double span = rows[result_rows(course->grid->result) - 1] - rows[0];
     double a = course->times.at[k - 1], b = course->times.at[k];
 
-    for (int round = 0; round < CLOSER; round++) {
+    for (int round = 0; round < CLOSER && b - a > FIGURES_INSTANT * span; round++) {
         double times[SAMPLES], values[SAMPLES];
         int first = 0;
 
@@ -513,48 +499,95 @@ static Status instant(const FigureCourse *course, int k, Holds *holds, double le
     return OK;
 }
 
-static Status figure_first(const FigureCourse *course, double band, double *out, Diag *diag)
+static bool is_needed(const FigureCourse *course, const FigurePiece *piece, double level,
+                      double band)
 {
+    (void)course, (void)piece, (void)level, (void)band;
+    return true;
+}
+
+static Status figure_first(FigureCourse *course, double band, double *out, Diag *diag)
+{
+    const int count = course->pieces.count;
     int k = 0;
 
     (void)band;
-    while (k < course->values.count && !is_true(course->values.at[k], 0, 0))
-        k++;
-    if (k == course->values.count) {
-        (void)diag_at(diag, E_VALUE, course->call->args[0]->place,
-                      "this holds at no instant of the run");
-        diag_hint(diag, "'max' and 'min' show how far it came");
-        return E_VALUE;
+    for (int from = 0, chunk = CHUNK; from == 0 || from < count; from += chunk / 2) {
+        TRY(course_sample(course, from, count - from < chunk ? count : from + chunk, is_needed, 0,
+                          0, diag));
+        for (k = 0; k < course->values.count && !is_true(course->values.at[k], 0, 0);)
+            k++;
+        *out = k < course->values.count ? course->times.at[k] : NAN;
+        if (k < course->values.count)
+            return k == 0 ? OK : instant(course, k, is_true, 0, 0, out, diag);
+        chunk *= 2;
+        if (count == 0)
+            break;
     }
-    *out = course->times.at[k];
-    return k == 0 ? OK : instant(course, k, is_true, 0, 0, out, diag);
+    (void)diag_at(diag, E_VALUE, course->call->args[0]->place,
+                  "this holds at no instant of the run");
+    diag_hint(diag, "'max' and 'min' show how far it came");
+    return E_VALUE;
 }
 
-static Status figure_settling(const FigureCourse *course, double band, double *out, Diag *diag)
+static bool may_leave(const FigureCourse *course, const FigurePiece *piece, double level,
+                      double band)
 {
-    const double level = course->values.at[course->values.count - 1];
-    int k = course->values.count - 1;
+    const double *f = course->rows + piece->row;
 
+    return !(fmax(fabs(f[0] - level), fabs(f[1] - level)) + piece->bound <= band);
+}
+
+static Status figure_settling(FigureCourse *course, double band, double *out, Diag *diag)
+{
+    const double begin = result_times(course->grid->result)[0];
+    const double level = course->rows[result_rows(course->grid->result) - 1];
+
+    *out = 0;
     if (!(band > 0))
         return diag_at(diag, E_VALUE, course->call->args[1]->place,
                        "the band has to be above 0, not %g", band);
-    while (k > 0 && is_within(course->values.at[k - 1], level, band))
-        k--;
-    *out = course->times.at[0];
-    if (k > 0)
-        TRY(instant(course, k, is_within, level, band, out, diag));
-    *out -= course->times.at[0];
+    for (int end = course->pieces.count, chunk = CHUNK; end > 0; end -= chunk / 2) {
+        int k;
+
+        TRY(course_sample(course, end > chunk ? end - chunk : 0, end, may_leave, level, band,
+                          diag));
+        k = course->values.count;
+        while (k > 0 && is_within(course->values.at[k - 1], level, band))
+            k--;
+        if (k > 0 && k < course->values.count)
+            TRY(instant(course, k, is_within, level, band, out, diag));
+        else if (k > 0)
+            *out = course->times.at[k - 1];
+        if (k > 0) {
+            *out -= begin;
+            return OK;
+        }
+        chunk *= 2;
+    }
     return OK;
 }
 
-/* from the first to the last time that it rises through its mean */
-static Status figure_period(const FigureCourse *course, double band, double *out, Diag *diag)
+/* whether it may cross the level other than once, from one end to the other */
+static bool may_cross(const FigureCourse *course, const FigurePiece *piece, double level,
+                      double band)
+{
+    const double *f = course->rows + piece->row;
+    const double nearest = fmin(fabs(f[0] - level), fabs(f[1] - level));
+
+    (void)band;
+    return (f[0] < level) == (f[1] < level) ? nearest <= piece->bound
+                                            : fabs(f[1] - f[0]) <= piece->bound;
+}
+
+static Status figure_period(FigureCourse *course, double band, double *out, Diag *diag)
 {
     double mean, from, to, least = INFINITY, most = 0;
     int first = -1, last = -1, crossings = 0;
 
     (void)band;
     TRY(mean_of(course, 1, &mean, diag));
+    TRY(course_sample(course, 0, course->pieces.count, may_cross, mean, 0, diag));
     for (int k = 1; k < course->values.count; k++) {
         if (!(course->values.at[k - 1] < mean && course->values.at[k] >= mean))
             continue;
@@ -590,7 +623,7 @@ static Status figure_period(const FigureCourse *course, double band, double *out
 typedef struct Figure {
     const char *name;
     int args;
-    Status (*value)(const FigureCourse *course, double band, double *out, Diag *diag);
+    Status (*value)(FigureCourse *course, double band, double *out, Diag *diag);
 } Figure;
 
 static const Figure figures[] = {
@@ -624,7 +657,7 @@ Status figure_value(ct_session *session, const Syntax *call, const Formula *argu
     *out = NAN;
     if (result_rows(course.grid->result) == 0)
         return OK;
-    CHECK(course_sample(&course, diag));
+    CHECK(course_open(&course, diag));
     CHECK(figure->value(&course, band, out, diag));
 done:
     course_free(&course);

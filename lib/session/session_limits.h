@@ -27,10 +27,22 @@
 /* residual of constraints, in their units, that is rounding error */
 #define EVALUATOR_CLOSED 1e-13
 
-/* --- session_figures.c: means, extremes and periods of a formula over a run --- */
+/* --- session_figures.c and _course.c: means, extremes and periods of a formula over a run --- */
 
 /* of a piece: distance of the last sample from its end, where a formula may jump */
 #define FIGURES_END 1e-9
+
+/* of the distance between two rows: what evenly spaced rows differ by at most */
+#define FIGURES_EVEN 1e-6
+
+/* of second differences of rows: fourth ones that are no larger show that rows resolve a formula */
+#define FIGURES_RESOLVED 0.5
+
+/* of the run: instants as near as that are the same */
+#define FIGURES_INSTANT 1e-14
+
+/* of the tolerance of the run: an extreme that is known as well as that isn't searched further */
+#define FIGURES_FOUND 1e-2
 
 /* of the mean size: the two halves of a piece that differ by less agree */
 #define FIGURES_AGREE 1e-12

@@ -168,6 +168,20 @@ static void moving_parallel_chain(Text *text, int n)
     text_add(text, "simulate 1e-6 every=1e-6\n");
 }
 
+static void swing_with_rows(Text *text, int n)
+{
+    text_addf(text,
+              "scene planar\nbody b mass=1 inertia=1\nrevolute h ground b\nspring k1 h k=4\n"
+              "init h = 0.5\nsimulate 10 every=%g\n",
+              10.0 / n);
+}
+
+static void swing_with_figures(Text *text, int n)
+{
+    swing_with_rows(text, n);
+    text_add(text, "keep A = max(h), B = mean(h), C = settling(h, 0.1), D = period(h)\n");
+}
+
 /* pages at and after `next` that a statement may look at, and none before */
 #define AHEAD 2
 
@@ -238,6 +252,15 @@ static void chains_of_joints_cost_as_much_as_they_have(void)
     expect_growth(moving_parallel_chain, 200, 1);
 }
 
+/* where rows are dense they determine what figures of a run need: four of them ask for some arrays
+ * of the length of the grid, and not for states between its rows */
+static void figures_cost_less_than_their_run(void)
+{
+    const double run = cost_of(swing_with_rows, 4000);
+
+    EXPECT(!COUNTS || cost_of(swing_with_figures, 4000) - run < 5 * run);
+}
+
 int main(void)
 {
     RUN(a_text_is_read_in_passing);
@@ -245,5 +268,6 @@ int main(void)
     RUN(going_back_costs_no_more_than_going_forth);
     RUN(equations_cost_the_square_of_the_bodies);
     RUN(chains_of_joints_cost_as_much_as_they_have);
+    RUN(figures_cost_less_than_their_run);
     return test_end();
 }

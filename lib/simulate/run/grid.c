@@ -14,6 +14,7 @@ void grid_add(Grid *grid, double t, int phase, const double *y, int length)
         grid->room = (int)room;
         grid->times = mem_grow(grid->times, room, sizeof(double));
         grid->phase = mem_grow(grid->phase, room, sizeof(int));
+        grid->steps = mem_grow(grid->steps, room, sizeof(int));
         grid->first = mem_grow(grid->first, room, sizeof(ptrdiff_t));
     }
     if (grid->used + length > grid->capacity) {
@@ -22,6 +23,7 @@ void grid_add(Grid *grid, double t, int phase, const double *y, int length)
     }
     grid->times[grid->count] = t;
     grid->phase[grid->count] = phase;
+    grid->steps[grid->count] = 0;
     grid->first[grid->count++] = grid->used;
     memcpy(grid->states + grid->used, y, (size_t)length * sizeof(double));
     grid->used += length;
@@ -29,8 +31,10 @@ void grid_add(Grid *grid, double t, int phase, const double *y, int length)
 
 void grid_append(Grid *grid, const Grid *more)
 {
-    for (int i = 0; i < more->count; i++)
+    for (int i = 0; i < more->count; i++) {
         grid_add(grid, more->times[i], more->phase[i], grid_row(more, i), grid_length(more, i));
+        grid->steps[grid->count - 1] = more->steps[i];
+    }
 }
 
 int grid_length(const Grid *grid, int row)
@@ -47,7 +51,7 @@ double *grid_row(const Grid *grid, int row)
 
 void grid_free(Grid *grid)
 {
-    MEM_FREE(grid->times, grid->phase, grid->first, grid->states);
+    MEM_FREE(grid->times, grid->phase, grid->steps, grid->first, grid->states);
     *grid = (Grid){0};
 }
 

@@ -10,6 +10,7 @@ typedef struct Grid {
     int count, room;
     double *times;
     int *phase;         /* number of each row's phase among those of the run */
+    int *steps;         /* of the integrator up to each row; 0 where nobody sets it */
     ptrdiff_t *first;   /* index of each row in `states` */
     double *states;     /* one block that grows */
     ptrdiff_t used;     /* entries in use */

@@ -18,6 +18,7 @@ bool integration_add_row(Integration *m, double t)
     m->out->position_residual = fmax(m->out->position_residual, position);
     m->out->velocity_residual = fmax(m->out->velocity_residual, velocity);
     grid_add(m->grid, t, m->segment.phase, m->y, m->length);
+    m->grid->steps[m->grid->count - 1] = (int)(m->earlier.steps + m->stepper->counts.steps);
     m->out->reached = t;
     if (m->plan->see != NULL && m->plan->see(m->plan->context, m->segment.phase, t, m->y))
         m->is_stopped = true;

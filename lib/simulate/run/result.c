@@ -80,6 +80,11 @@ const double *result_times(const Result *r)
     return r->grid.times;
 }
 
+const int *result_steps(const Result *r)
+{
+    return r->grid.steps;
+}
+
 int result_corner_count(const Result *r)
 {
     return r->corners.count;

@@ -81,6 +81,9 @@ bool result_stick(const Result *result, const char *part, StickRecord *out);
 bool result_stick_at(const Result *result, const char *part, double t, StickRecord *out);
 int result_rows(const Result *result);
 const double *result_times(const Result *result);
+/* Number of steps that the integrator took to reach each row. Those of a run that continues another
+ * are counted anew; all are 0 where nothing is integrated. */
+const int *result_steps(const Result *result);
 /* instants at which a jump or kink is possible, ascending, some of them twice */
 int result_corner_count(const Result *result);
 const double *result_corner_times(const Result *result);
