@@ -14,7 +14,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { SOURCES = 16, PATIENCE = 100 }; /* ms */
+enum { SOURCES = 24, PATIENCE = 100 }; /* ms */
 
 typedef struct LibraryBuilder {
     char *folder;

@@ -1,8 +1,8 @@
 /* algebra_limits.h: tolerances and limits of lib/algebra, by file
  *
  * Relative and without unit where none is stated. Constants of a method's definition stand in its
- * file, and those of row_closure.h there, since FMUs contain that file. The test in brackets fails
- * when the value is ten times as large. */
+ * file, and those of row_closure.h, complementarity.c and surface_sides.c there, since FMUs contain
+ * these files. The test in brackets fails when the value is ten times as large. */
 #ifndef COTREE_ALGEBRA_ALGEBRA_LIMITS_H
 #define COTREE_ALGEBRA_ALGEBRA_LIMITS_H
 

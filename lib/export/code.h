@@ -8,9 +8,10 @@
  * together, once, like a Program (compile/lower.h): so they compute the same numbers as a run.
  *
  * Live code handles events by itself. The parameters are followed by the signs of the event
- * functions at which equations jump, so that the equations are smooth between events. s is followed
- * by a direction (dt, dy, ds, dp), along which functions `tangent_...` are derivatives:
- * `tangent_p_...` by parameters, the others by the rest. */
+ * functions at which equations jump, so that the equations are smooth between events; while a
+ * motion slides along such a surface its sign is between the two. s is followed by a direction (dt,
+ * dy, ds, dp, dsigns), along which functions `tangent_...` are derivatives: `tangent_p_...` by
+ * parameters and signs of surfaces that may be slid along, the others by the rest. */
 #ifndef COTREE_EXPORT_CODE_H
 #define COTREE_EXPORT_CODE_H
 
@@ -48,6 +49,9 @@ typedef struct CodeSide {
     Expr call;       /* that jumps or bends there */
     bool is_timed;
     bool is_floor; /* timed, and jumps at each whole number of its phase */
+    bool is_jump;  /* of the equations, in the state: the motion may slide along it, */
+    Expr slip;     /* as long as this is 0: h, or h', which its sign affects; NULL: it doesn't */
+    Expr off;      /* what else is 0 then */
 } CodeSide;
 
 typedef struct CodeEvent {
@@ -74,13 +78,14 @@ typedef struct CodeLive {
     bool is_wanted;
     LIST(CodeSide) sides;
     int timed;
-    int first; /* of the signs, in p */
+    int first;        /* of the signs, in p */
+    LIST(int) slides; /* sides with a slip */
     LIST(CodeEvent) events;
     LIST(CodeTarget) targets;
     int given;         /* count of given ones, first; others: held, or rates */
     LIST(int) samples; /* states that are sampled */
     LIST(int) held;    /* states that an importer sets: inputs */
-    Expr *seeds;       /* the direction: 1 + ny + ns symbols, then one a model parameter */
+    Expr *seeds; /* the direction: 1 + ny + ns symbols, then one a model parameter, one a slide */
     int seed_count;
     int tangents[2][4]; /* functions: of each group, or of what modes have in its place; by p */
     bool *depends;      /* by model parameter: it follows from others */

@@ -43,7 +43,8 @@ static bool is_even(const Code *code, Expr phase)
     return expr_is_zero(expr_diff(code->arena, expr_diff(code->arena, phase, t), t));
 }
 
-static void add_side(Code *code, Expr condition, Expr call)
+/* is_jump: the equations jump there, in the state */
+static void add_side(Code *code, Expr condition, Expr call, bool is_jump)
 {
     const unsigned unknown = 1U << SYMBOL_EFFORT | 1U << SYMBOL_JERK;
     const unsigned of_time = 1U << SYMBOL_TIME | 1U << SYMBOL_PARAMETER;
@@ -58,10 +59,16 @@ static void add_side(Code *code, Expr condition, Expr call)
     side.is_timed = (expr_kinds(condition) & ~of_time) == 0 &&
                     is_even(code, side.is_floor ? expr_arg(call, 0) : side.surface.condition);
     side.is_floor = side.is_floor && side.is_timed;
-    for (int i = 0; i < code->live.sides.count; i++)
-        if (code->live.sides.at[i].surface.condition == side.surface.condition &&
-            code->live.sides.at[i].surface.ratio == side.surface.ratio)
+    side.is_jump = is_jump && !side.is_timed;
+    for (int i = 0; i < code->live.sides.count; i++) {
+        CodeSide *known = &code->live.sides.at[i];
+
+        if (known->surface.condition == side.surface.condition &&
+            known->surface.ratio == side.surface.ratio) {
+            known->is_jump = known->is_jump || side.is_jump;
             return;
+        }
+    }
     LIST_PUSH(code->live.sides, side);
 }
 
@@ -72,7 +79,7 @@ static void add_sides_of(Code *code, const Expr *formulas, int count)
     const int number = expr_find(formulas, count, has_condition, &calls, &found);
 
     for (int i = 0; i < number; i++)
-        add_side(code, switch_condition(code->arena, found[i]), found[i]);
+        add_side(code, switch_condition(code->arena, found[i]), found[i], false);
     mem_free(found);
 }
 
@@ -91,6 +98,56 @@ static void order_sides(Code *code)
         }
     for (int i = 0; i < live->sides.count; i++)
         live->sides.at[i].surface.sign = side_symbol(code, i);
+}
+
+/* --- surfaces that a motion slides along --- */
+
+/* The lowest rate of h that signs affect, h or h'; of h that is a position they affect h'', and its
+ * sign only changes. False: it can't be formed. */
+static bool find_slip(Code *code, CodeSide *side)
+{
+    const unsigned unknown = 1U << SYMBOL_EFFORT | 1U << SYMBOL_JERK;
+    const unsigned solved = 1U << SYMBOL_ALGEBRAIC | 1U << SYMBOL_STATE_RATE;
+    const Expr h = side->surface.condition;
+    Expr rate;
+
+    side->off = expr_int(code->arena, 0);
+    if ((expr_kinds(h) & solved) != 0) {
+        side->slip = h;
+        return true;
+    }
+    if (system_rate(code->layout->system, h, &rate, NULL) != OK ||
+        (expr_kinds(rate) & unknown) != 0 ||
+        (expr_kinds(rate) & (solved | 1U << SYMBOL_ACCELERATION)) == 0)
+        return false;
+    side->slip = rate;
+    side->off = h;
+    return true;
+}
+
+/* slips, distances from the surfaces, and bounds of the signs */
+static void add_slides(Code *code)
+{
+    CodeLive *live = &code->live;
+    LIST(Expr) entries = {0};
+
+    for (int i = 0; i < live->sides.count; i++)
+        if (live->sides.at[i].is_jump && find_slip(code, &live->sides.at[i])) {
+            live->sides.at[i].surface.may_slide = true;
+            LIST_PUSH(live->slides, i);
+        }
+    for (int k = 0; k < live->slides.count; k++)
+        LIST_PUSH(entries, live->sides.at[live->slides.at[k]].slip);
+    for (int k = 0; k < live->slides.count; k++)
+        LIST_PUSH(entries, live->sides.at[live->slides.at[k]].off);
+    for (int k = 0; k < live->slides.count; k++) {
+        const Expr ratio = live->sides.at[live->slides.at[k]].surface.ratio;
+
+        LIST_PUSH(entries, ratio != NULL ? ratio : expr_int(code->arena, 1));
+    }
+    code_add_function(code, "slides", "how surfaces are left, how far they are, bounds of signs",
+                      entries.at, entries.count, 1);
+    LIST_FREE(entries);
 }
 
 /* --- events of the model --- */
@@ -301,13 +358,14 @@ Status code_live_events(Code *code, Diag *diag)
 
     for (int i = 0; i < count; i++)
         if (!code_is_side(code, switches[i].call))
-            add_side(code, switches[i].condition, switches[i].call);
+            add_side(code, switches[i].condition, switches[i].call, switches[i].surface >= 0);
     for (int i = 0; i < model_event_count(model); i++)
         CHECK(add_event(code, model_event(model, i), &truths, &values, &targets, diag));
     add_held_coordinates(code, &targets);
     CHECK(code_add_samples(code, diag));
     add_sides_of(code, truths.at, truths.count);
     order_sides(code);
+    add_slides(code);
     for (int i = 0; i < live->sides.count; i++)
         LIST_PUSH(measures, live->sides.at[i].surface.condition);
     code_margins(code, margins);
@@ -350,19 +408,22 @@ static int directions(const Code *code, int most, Expr *symbols, Expr *rates)
     return count;
 }
 
-/* model parameters; dependent ones have their own seeds */
+/* model parameters, of which dependent ones have their own seeds, and signs that are slid along */
 static Expr along_parameters(const Code *code, Expr e)
 {
     const Model *model = code->view->model;
-    const int count = model_parameter_count(model);
-    Expr *symbols = NEW_ARRAY(Expr, count);
+    const int count = model_parameter_count(model), slides = code->live.slides.count;
+    Expr *symbols = NEW_ARRAY(Expr, count + slides);
 
     for (int i = 0; i < count; i++) {
         Expr definition;
 
         symbols[i] = model_parameter(model, i, &definition);
     }
-    e = expr_diff_along(code->arena, e, symbols, code->live.seeds + 1 + code->ny + code->ns, count);
+    for (int k = 0; k < slides; k++)
+        symbols[count + k] = code->live.sides.at[code->live.slides.at[k]].surface.sign;
+    e = expr_diff_along(code->arena, e, symbols, code->live.seeds + 1 + code->ny + code->ns,
+                        count + slides);
     mem_free(symbols);
     return e;
 }
@@ -428,7 +489,8 @@ static void add_rows_tangent(Code *code, const CodeGroup *group, int function, i
 
 void code_live_tangents(Code *code)
 {
-    const int count = 1 + code->ny + code->ns + model_parameter_count(code->view->model);
+    const int count = 1 + code->ny + code->ns + model_parameter_count(code->view->model) +
+                      code->live.slides.count;
 
     code->live.seeds = NEW_ARRAY(Expr, count);
     code->live.seed_count = count;
@@ -457,6 +519,8 @@ void code_live_tangents(Code *code)
                 true);
     add_tangent(code, "derivative", "tangent_p_derivative", "those of the rates", true);
     add_tangent(code, "outputs", "tangent_p_outputs", "those of outputs", true);
+    add_tangent(code, "slides", "tangent_slides", "derivatives of slides", false);
+    add_tangent(code, "slides", "tangent_p_slides", "those by parameters", true);
 }
 
 /* --- parameters --- */
@@ -498,6 +562,7 @@ void code_live_relations(Code *code)
 void code_live_free(CodeLive *live)
 {
     LIST_FREE(live->sides);
+    LIST_FREE(live->slides);
     LIST_FREE(live->events);
     LIST_FREE(live->targets);
     LIST_FREE(live->samples);

@@ -347,14 +347,19 @@ static void write_structure(Description *d)
 
 static void write_sources(const Description *d)
 {
-    if (d->what->version == 2)
+    if (d->what->version == 2) {
         text_add(d->out, ">\n    <SourceFiles>\n      <File name=\"model.c\"/>\n"
                          "      <File name=\"fmu.c\"/>\n      <File name=\"fmu_step.c\"/>\n"
                          "      <File name=\"fmu_ahead.c\"/>\n"
                          "      <File name=\"fmu_open.c\"/>\n"
                          "      <File name=\"fmu_values.c\"/>\n"
-                         "      <File name=\"row_closure.c\"/>\n"
-                         "      <File name=\"fmi2.c\"/>\n    </SourceFiles>\n");
+                         "      <File name=\"row_closure.c\"/>\n");
+        if (d->code->live.slides.count > 0)
+            text_add(d->out, "      <File name=\"fmu_slide.c\"/>\n"
+                             "      <File name=\"surface_sides.c\"/>\n"
+                             "      <File name=\"complementarity.c\"/>\n");
+        text_add(d->out, "      <File name=\"fmi2.c\"/>\n    </SourceFiles>\n");
+    }
 }
 
 static void write_kinds(const Description *d)

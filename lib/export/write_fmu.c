@@ -91,6 +91,29 @@ static void add_inputs(const Code *code, Text *out)
     mem_free(is_input);
 }
 
+/* surfaces that a motion may slide along, among all sides, and whose they are */
+static void add_slides(const Code *code, Text *out)
+{
+    const CodeLive *live = &code->live;
+    int *of = NEW_ARRAY(int, live->sides.count);
+
+    for (int i = 0; i < live->sides.count; i++)
+        of[i] = -1;
+    for (int k = 0; k < live->slides.count; k++)
+        of[live->slides.at[k]] = k;
+    add_numbers(out, "int", "fmu_slide_of", of, live->sides.count);
+    add_numbers(out, "int", "fmu_slide", live->slides.at, live->slides.count);
+    text_add(out, "static const char *const fmu_slide_name[] = {");
+    for (int k = 0; k < live->slides.count; k++) {
+        const Expr h = live->sides.at[live->slides.at[k]].surface.condition;
+        const char *part = system_jumping_part(code->layout->system, h);
+
+        text_addf(out, "\"%s\", ", part != NULL ? part : "parts");
+    }
+    text_add(out, "0};\n");
+    mem_free(of);
+}
+
 static void add_tables(const Code *code, Text *out)
 {
     const CodeLive *live = &code->live;
@@ -119,12 +142,24 @@ static void add_tables(const Code *code, Text *out)
     add_output_names(code, out);
     add_events(code, out);
     add_targets(live, out);
+    add_slides(code, out);
     text_add(out, "#endif\n\n#endif\n");
 }
 
 /* whether time moves, not evenly or by signs alone, what anything else is compared with */
 static bool follows_time(const Code *code)
 {
+    static const char *const of_signs[] = {"slides", "accelerations"};
+
+    for (int i = 0; i < code->functions.count && code->live.slides.count > 0; i++) {
+        const CodeFunction *f = &code->functions.at[i];
+
+        if (strcmp(f->name, of_signs[0]) != 0 && strcmp(f->name, of_signs[1]) != 0)
+            continue;
+        for (int k = 0; k < f->rows; k++)
+            if ((expr_kinds(code->roots.at[f->first + k]) & 1U << SYMBOL_TIME) != 0)
+                return true;
+    }
     for (int i = 0; i < code->live.sides.count + code->modes.ideals.count; i++) {
         const CodeFunction *f = code->functions.at;
 
@@ -164,7 +199,8 @@ static void write_header(const Code *code, const Exported *what, const char *tok
         "enum {\n    FMU_MODEL_EXCHANGE = %d,\n    FMU_CO_SIMULATION = %d,\n"
         "    FMU_PARAMETERS = %d, /* the first ones, that have names */\n"
         "    FMU_FIRST_SIDE = %d, /* in p: signs of what is jumped at */\n"
-        "    FMU_SIDES = %d,\n    FMU_SWITCHES = %d, /* ideal ones */\n    FMU_TIMED = %d, "
+        "    FMU_SIDES = %d,\n    FMU_SLIDES = %d, /* of those, that a motion may slide along */\n"
+        "    FMU_SWITCHES = %d, /* ideal ones */\n    FMU_TIMED = %d, "
         "/* of those, that are of time alone */\n"
         "    FMU_EVENTS_COUNT = %d,\n    FMU_TARGETS = %d, /* that have new values or stay; */\n"
         "    FMU_GIVEN = %d, /* of them, the first: what events give values to */\n"
@@ -173,15 +209,17 @@ static void write_header(const Code *code, const Exported *what, const char *tok
         "FMU_ROWS = %d,\n    FMU_MAY_SHARE = %d, /* what nothing determines */\n",
         token, FMU_TOLERANCE, !what->only_simulation, !what->only_exchange,
         model_parameter_count(code->view->model), live->first, live->sides.count,
-        code->modes.ideals.count, live->timed, live->events.count, live->targets.count, live->given,
-        follows_time(code), live->samples.count, live->held.count, quaternions, rows,
-        code->is_redundant || code_has_modes(code));
+        live->slides.count, code->modes.ideals.count, live->timed, live->events.count,
+        live->targets.count, live->given, follows_time(code), live->samples.count, live->held.count,
+        quaternions, rows, code->is_redundant || code_has_modes(code));
     text_addf(out,
               "    FMU_SPACE = 2 * (FMU_ROWS + 2) * (FMU_ROWS + 2) + %d\n};\n"
               "enum { FMU_MARKS, FMU_STOPS, FMU_SETS };          /* what events do */\n"
               "enum { FMU_COORDINATE, FMU_SPEED, FMU_STATE };    /* what they give values to */\n"
               "enum { FMU_JOINT = 1, FMU_BODY, FMU_FRAME };      /* what may stay, 0: nothing */\n",
               2 * states * states + 16 * states + 1);
+    if (live->slides.count > 0)
+        text_add(out, "#define FMU_HAS_SLIDES\n");
     add_tables(code, out);
 }
 
@@ -221,20 +259,24 @@ static void make_token(const char *code, const Exported *what, char token[40])
 }
 
 /* which sources there are, of version 3 */
-static void write_build(Text *out)
+static void write_build(const Code *code, Text *out)
 {
-    text_add(out,
-             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-             "<fmiBuildDescription fmiVersion=\"3.0\">\n"
-             "  <BuildConfiguration modelIdentifier=\"" FMU_IDENTIFIER "\">\n"
-             "    <SourceFileSet language=\"C99\">\n"
-             "      <SourceFile name=\"model.c\"/>\n      <SourceFile name=\"fmu.c\"/>\n"
-             "      <SourceFile name=\"fmu_step.c\"/>\n      <SourceFile "
-             "name=\"fmu_ahead.c\"/>\n      <SourceFile name=\"fmu_open.c\"/>\n"
-             "      <SourceFile name=\"fmu_values.c\"/>\n"
-             "      <SourceFile name=\"row_closure.c\"/>\n      <SourceFile name=\"fmi3.c\"/>\n"
-             "    </SourceFileSet>\n    <Library name=\"m\"/>\n"
-             "  </BuildConfiguration>\n</fmiBuildDescription>\n");
+    text_add(out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                  "<fmiBuildDescription fmiVersion=\"3.0\">\n"
+                  "  <BuildConfiguration modelIdentifier=\"" FMU_IDENTIFIER "\">\n"
+                  "    <SourceFileSet language=\"C99\">\n"
+                  "      <SourceFile name=\"model.c\"/>\n      <SourceFile name=\"fmu.c\"/>\n"
+                  "      <SourceFile name=\"fmu_step.c\"/>\n      <SourceFile "
+                  "name=\"fmu_ahead.c\"/>\n      <SourceFile name=\"fmu_open.c\"/>\n"
+                  "      <SourceFile name=\"fmu_values.c\"/>\n"
+                  "      <SourceFile name=\"row_closure.c\"/>\n");
+    if (code->live.slides.count > 0)
+        text_add(out, "      <SourceFile name=\"fmu_slide.c\"/>\n"
+                      "      <SourceFile name=\"surface_sides.c\"/>\n"
+                      "      <SourceFile name=\"complementarity.c\"/>\n");
+    text_add(out, "      <SourceFile name=\"fmi3.c\"/>\n"
+                  "    </SourceFileSet>\n    <Library name=\"m\"/>\n"
+                  "  </BuildConfiguration>\n</fmiBuildDescription>\n");
 }
 
 /* The folder of a binary for this machine, named by the standard. */
@@ -251,23 +293,6 @@ static const char *binary_place(int version)
 #endif
 }
 
-/* An FMU follows the sides of diodes and of laws, but none that a motion is held between. */
-static Status check_friction(const Model *model, Diag *diag)
-{
-    for (int i = 0; i < model_count(model); i++) {
-        const Instance *part = model_instance(model, i);
-
-        if (!part->row->sticks)
-            continue;
-        (void)diag_set(diag, E_MODEL, "%s %s sticks at rest, which an FMU does not follow",
-                       part->row->name, part->name);
-        diag_hint(diag, "an actuator or a source with a steep but continuous law, such as "
-                        "-2*tanh(h1'/0.001), creeps instead");
-        return E_MODEL;
-    }
-    return OK;
-}
-
 static Status pack(const Exported *what, Archive **out, Diag *diag)
 {
     Code *code = NULL;
@@ -277,7 +302,6 @@ static Status pack(const Exported *what, Archive **out, Diag *diag)
 
     if (what->inverse != NULL)
         return diag_set(diag, E_MODEL, "an FMU goes forward: efforts of drivers come as code");
-    TRY(check_friction(what->view.model, diag));
     TRY(code_new(what, true, &code, diag));
     archive = NEW(Archive);
     archive->binary = binary_place(what->version);
@@ -296,12 +320,19 @@ static Status pack(const Exported *what, Archive **out, Diag *diag)
     take_lines(archive, "sources/fmu_values.c", shared_text_fmu_values_c);
     take_lines(archive, "sources/row_closure.h", shared_text_row_closure_h);
     take_lines(archive, "sources/row_closure.c", shared_text_row_closure_c);
+    if (code->live.slides.count > 0) {
+        take_lines(archive, "sources/fmu_slide.c", shared_text_fmu_slide_c);
+        take_lines(archive, "sources/surface_sides.h", shared_text_surface_sides_h);
+        take_lines(archive, "sources/surface_sides.c", shared_text_surface_sides_c);
+        take_lines(archive, "sources/complementarity.h", shared_text_complementarity_h);
+        take_lines(archive, "sources/complementarity.c", shared_text_complementarity_c);
+    }
     take_lines(archive, "sources/fmi.h", shared_text_fmi_h);
     if (what->version == 2)
         take_lines(archive, "sources/fmi2.c", shared_text_fmi2_c);
     else {
         take_lines(archive, "sources/fmi3.c", shared_text_fmi3_c);
-        write_build(&text);
+        write_build(code, &text);
         take_text(archive, "sources/buildDescription.xml", &text);
     }
     code_free(code);

@@ -36,14 +36,13 @@ static void changed(Fmu *fmu)
     fmu->now.is_changed = 1;
 }
 
-/* after parameters or signs have changed */
-static void prepare(Fmu *fmu)
+void fmu_prepare(Fmu *fmu)
 {
     FmuNumbers *now = &fmu->now;
     int i;
 
     for (i = 0; i < FMU_SIDES; i++)
-        now->p[FMU_FIRST_SIDE + i] = now->side[i];
+        now->p[FMU_FIRST_SIDE + i] = now->side[i] != 0 ? now->side[i] : now->sign[fmu_slide_of[i]];
     if (FMU_PARAMETERS > 0) {
         model_relations(now->p, now->t, now->y, now->s, fmu->work);
         memcpy(now->p, fmu->work, FMU_PARAMETERS * sizeof(double));
@@ -70,7 +69,7 @@ void fmu_reset(Fmu *fmu)
     for (i = 0; i < FMU_SWITCHES; i++)
         now->side[FMU_SIDES + i] = now->p[MODEL_CLOSED + i] > 0.5 ? 1 : -1;
 #endif
-    prepare(fmu);
+    fmu_prepare(fmu);
 }
 
 /* s at the time and state of now */
@@ -83,7 +82,11 @@ static FmuStatus solve(Fmu *fmu)
     if (now->is_solved)
         return FMU_OK;
     memcpy(was, now->s, MODEL_S * sizeof(double));
+#ifdef FMU_HAS_SLIDES
+    status = fmu_slide_solve(fmu);
+#else
     status = model_solve(now->p, now->t, now->y, now->s, fmu->work);
+#endif
     if (status != MODEL_OK)
         memcpy(now->s, was, MODEL_S * sizeof(double));
     if (status != MODEL_OK)
@@ -120,8 +123,11 @@ FmuStatus fmu_get(Fmu *fmu, unsigned reference, double *value)
             model_outputs(now->p, now->t, now->y, now->s, fmu->work);
             *value = fmu->work[at - FMU_FIRST_OUTPUT];
         } else {
-            model_indicators(now->p, now->t, now->y, now->s, fmu->work);
-            *value = fmu->work[FMU_TIMED + at - FMU_FIRST_INDICATOR];
+            double all[FMU_INDICATORS + 1];
+
+            status = fmu_indicators(fmu, all);
+            *value = all[at - FMU_FIRST_INDICATOR];
+            return status;
         }
     }
     return FMU_OK;
@@ -144,7 +150,7 @@ FmuStatus fmu_set(Fmu *fmu, unsigned reference, double value)
     }
     if (is_parameter && now->mode != FMU_CONTINUOUS && !fmu_depends[at - FMU_FIRST_PARAMETER]) {
         now->p[at - FMU_FIRST_PARAMETER] = value;
-        prepare(fmu);
+        fmu_prepare(fmu);
     } else if (is_input || (is_state && (now->mode & (FMU_INSTANTIATED | FMU_INITIALISING)) != 0))
         now->y[at - FMU_FIRST_STATE] = value;
     else
@@ -221,6 +227,23 @@ static FmuStatus measures(Fmu *fmu, double *out)
     return status;
 }
 
+int fmu_sense(const FmuNumbers *now, int i)
+{
+    return now->side[i] != 0 ? now->side[i] : 1;
+}
+
+/* a measure; or how far its sign is within bounds, while it is slid along */
+static double until_its_end(const FmuNumbers *now, int i, double v)
+{
+    const int k = i < FMU_SIDES ? fmu_slide_of[i] : -1;
+
+    if (k < 0)
+        return v;
+    if (now->side[i] == 0)
+        return (now->bound[k] - now->sign[k]) * (now->bound[k] + now->sign[k]);
+    return now->held[k] ? now->side[i] : v;
+}
+
 FmuStatus fmu_indicators(Fmu *fmu, double *out)
 {
     double all[FMU_MEASURES + 1];
@@ -233,10 +256,23 @@ FmuStatus fmu_indicators(Fmu *fmu, double *out)
 
         if (at >= FMU_SIDES)
             v += fmu->now.side[at] * fmu->now.error_floor[at - FMU_SIDES];
+        v = until_its_end(&fmu->now, at, v);
         /* exactly at a zero the sign is that of the side where the indicator remains */
-        out[i] = v > 0 || v < 0 ? v : fmu->now.side[at] * 1e-300;
+        out[i] = v > 0 || v < 0 ? v : fmu_sense(&fmu->now, at) * 1e-300;
     }
     return status;
+}
+
+void fmu_indicator_rates(Fmu *fmu, double *rates)
+{
+    FmuNumbers *now = &fmu->now;
+    int i;
+
+    model_tangent_indicators(now->p, now->t, now->y, now->s, rates);
+    for (i = 0; i < FMU_SIDES; i++)
+        if (now->side[i] == 0)
+            rates[i] = -2 * now->sign[fmu_slide_of[i]] *
+                       now->s[MODEL_S + FMU_SEEDS - FMU_SLIDES + fmu_slide_of[i]];
 }
 
 /* the same along parameters, too, of which those follow that do; NULL: none moves */
@@ -256,7 +292,11 @@ static FmuStatus direction(Fmu *fmu, double dt, const double *dy, const double *
         model_tangent_relations(now->p, now->t, now->y, now->s, fmu->work);
         memcpy(last, fmu->work, FMU_PARAMETERS * sizeof(double));
     }
+#ifdef FMU_HAS_SLIDES
+    if (fmu_slide_direction(fmu) != MODEL_OK)
+#else
     if (model_tangent(now->p, now->t, now->y, now->s, fmu->work) != MODEL_OK)
+#endif
         return fmu_fail(fmu, FMU_DISCARD, "the equations are singular", now->y[0]);
     return FMU_OK;
 }
@@ -298,7 +338,7 @@ static FmuStatus derivatives(Fmu *fmu, const unsigned *unknowns, size_t unknown_
         return status;
     model_tangent_derivative(now->p, now->t, now->y, now->s, rates);
     model_tangent_outputs(now->p, now->t, now->y, now->s, outputs);
-    if (moves) {
+    if (moves || FMU_SLIDES > 0) {
         model_tangent_p_derivative(now->p, now->t, now->y, now->s, fmu->work);
         for (k = 0; k < FMU_STATES; k++)
             rates[k] += fmu->work[k];
@@ -365,6 +405,9 @@ static double drift(Fmu *fmu)
         most = fmu_larger(most, far);
     }
 #endif
+#ifdef FMU_HAS_SLIDES
+    most = fmu_larger(most, fmu_slide_drift(fmu));
+#endif
     if (MODEL_M == 0)
         return most;
     model_constraints(now->p, now->t, now->y, now->s, rows);
@@ -409,6 +452,10 @@ static FmuStatus project(Fmu *fmu, int *moved)
         return fmu_fail(fmu, FMU_ERROR, "the constraints can't be met", drift(fmu));
     now->is_solved = 0;
     *moved = 1;
+#ifdef FMU_HAS_SLIDES
+    if (fmu_slide_project(fmu, moved) != FMU_OK)
+        return FMU_ERROR;
+#endif
     if (drift(fmu) > 1e-6)
         return fmu_fail(fmu, FMU_ERROR, "the constraints can't be met, which are off", drift(fmu));
     return FMU_OK;
@@ -454,6 +501,8 @@ static FmuStatus happen(Fmu *fmu, const int *happens, int *moved)
     if (!any)
         return FMU_OK;
     *moved = 1;
+    fmu->has_new_values = 1;
+    memset(fmu->is_decided, 0, sizeof fmu->is_decided);
     return fmu_set_values(fmu, chosen, values);
 }
 
@@ -470,11 +519,11 @@ static void find_rates(Fmu *fmu, double *rates)
         rates[i] = 0;
     model_derivative(now->p, now->t, now->y, now->s, dy);
     if (fmu_direction(fmu, 1, dy) == FMU_OK)
-        model_tangent_indicators(now->p, now->t, now->y, now->s, rates);
+        fmu_indicator_rates(fmu, rates);
 }
 
 /* The signs after this instant. *late: the delay with which a change was detected. */
-static FmuStatus find_sides(Fmu *fmu, double *late, int *changes)
+static FmuStatus find_sides(Fmu *fmu, double *late, int *changes, int *moved)
 {
     FmuNumbers *now = &fmu->now;
     double at[FMU_MEASURES + 1], rate[FMU_MEASURES + 1];
@@ -495,16 +544,26 @@ static FmuStatus find_sides(Fmu *fmu, double *late, int *changes)
         const int side = fabs(at[i]) <= close * fabs(rate[i]) ? goes : is;
         const double ago = fabs(at[i]) / fmu_larger(fabs(rate[i]), 1e-300);
 
-        if (side == now->side[i])
+        if (side == now->side[i] || now->side[i] == 0)
+            continue;
+        if (now->has_start && is == goes && ago < LATEST)
+            *late = fmu_larger(*late, ago);
+        if (fmu_slide_of[i] >= 0)
             continue;
         now->side[i] = side;
         *changes = 1;
-        if (now->has_start && is == goes && ago < LATEST)
-            *late = fmu_larger(*late, ago);
     }
-    if (*changes)
-        prepare(fmu);
+    if (*changes) {
+        memset(fmu->is_decided, 0, sizeof fmu->is_decided);
+        fmu_prepare(fmu);
+        return FMU_OK; /* what is slid along, by the equations that there are now */
+    }
+#ifdef FMU_HAS_SLIDES
+    return fmu_slide_sides(fmu, at, rate, fmu_larger(close, LATE * *late), changes, moved);
+#else
+    (void)moved;
     return FMU_OK;
+#endif
 }
 
 /* --- ideal switches --- */
@@ -707,6 +766,8 @@ FmuStatus fmu_events(Fmu *fmu, int *moved)
     int rounds, changes = 1, any = 1, is_new = !now->has_start, i;
     FmuStatus status = project(fmu, moved);
 
+    fmu->has_new_values = 0;
+    memset(fmu->is_decided, 0, sizeof fmu->is_decided);
     if (status == FMU_OK)
         status = take_samples(fmu, moved);
     for (rounds = 0; status == FMU_OK && (changes || any); rounds++) {
@@ -715,7 +776,7 @@ FmuStatus fmu_events(Fmu *fmu, int *moved)
 
         if (rounds == ROUNDS)
             return fmu_fail(fmu, FMU_ERROR, "events or signs change without end", now->y[0]);
-        status = find_sides(fmu, &late, &changes);
+        status = find_sides(fmu, &late, &changes, moved);
 #ifdef MODEL_HAS_MODES
         if (status == FMU_OK)
             status = exchange(fmu, &changes, moved);

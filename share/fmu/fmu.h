@@ -7,6 +7,9 @@
 #define FMU_H
 
 #include "model_fmu.h"
+#ifdef FMU_HAS_SLIDES
+#include "surface_sides.h"
+#endif
 
 #include <stddef.h>
 
@@ -27,7 +30,8 @@ typedef enum FmuMode {
 enum {                                           /* numbers in each array */
        FMU_STATES = MODEL_Q + MODEL_U + MODEL_X, /* with inputs, whose rates are 0 */
        FMU_CONTINUOUS_STATES = FMU_STATES - FMU_INPUTS,
-       FMU_SEEDS = 1 + MODEL_Y + MODEL_S + FMU_PARAMETERS, /* (dt, dy, ds, dp), after s */
+       /* (dt, dy, ds, dp, dsigns), after s */
+       FMU_SEEDS = 1 + MODEL_Y + MODEL_S + FMU_PARAMETERS + FMU_SLIDES,
        FMU_MEASURES = FMU_SIDES + FMU_SWITCHES, /* of what is jumped at, then margins of diodes */
        FMU_INDICATORS = FMU_MEASURES - FMU_TIMED,
        /* value references: time, then */
@@ -54,7 +58,16 @@ typedef struct FmuNumbers {
     double p[MODEL_P + 1];
     double y[MODEL_Y + 1];
     double s[MODEL_S + FMU_SEEDS + 1];
-    int side[FMU_MEASURES + 1];           /* of what is jumped at: -1 or 1; open or closed */
+    /* of what is jumped at: -1 or 1, 0 while the motion slides along it; open or closed */
+    int side[FMU_MEASURES + 1];
+    /* of what may be slid along: the sign, its bound; it is on a side, but kept on the surface by
+     * others */
+    double sign[FMU_SLIDES + 1], bound[FMU_SLIDES + 1];
+    int held[FMU_SLIDES + 1];
+    /* inverse of d slip/d sign of what is slid along: 0: not known, 1: of a state before, 2: here
+     */
+    double slopes[FMU_SLIDES * FMU_SLIDES + 1];
+    int has_slopes;
     double error_floor[FMU_SWITCHES + 1]; /* of a margin that has ended without effect */
     int holds[FMU_EVENTS_COUNT + 1];      /* which events' conditions do */
 } FmuNumbers;
@@ -63,14 +76,16 @@ typedef struct Fmu {
     FmuNumbers now;
     FmuNumbers kept; /* of fmu_look_behind() */
     int is_cosimulation, is_logging;
-    int may_return_early; /* from a step that an event ends, in version 3 */
-    int has_no_state;     /* an error has left no valid state */
+    int may_return_early;           /* from a step that an event ends, in version 3 */
+    int has_no_state;               /* an error has left no valid state */
+    int has_new_values;             /* an event has set some, at this instant */
+    int is_decided[FMU_SLIDES + 1]; /* at this instant, as long as nothing else changes */
     char *name;
     void (*logger)(void); /* of the version's type, called by fmu_log() */
     void *environment;
     void (*release)(void *);
     double work[3 * MODEL_WORK + 16 * (MODEL_Y + MODEL_S + FMU_MEASURES + FMU_TARGETS + 4) +
-                FMU_PARAMETERS];
+                FMU_PARAMETERS + 3 * FMU_SLIDES];
     double space[FMU_SPACE]; /* of the integrator, and of new values */
 } Fmu;
 
@@ -133,6 +148,30 @@ FmuStatus fmu_restore(Fmu *fmu);
 /* Brings the next event near enough for what time moves; `is_new`: that may be other than it was
  * (fmu_ahead.c). */
 void fmu_look_ahead(Fmu *fmu, int is_new);
+
+/* the sign of indicator i while nothing happens */
+int fmu_sense(const FmuNumbers *now, int i);
+/* derivatives of indicators along the direction of the last fmu_direction() */
+void fmu_indicator_rates(Fmu *fmu, double *rates);
+/* after parameters or signs have changed */
+void fmu_prepare(Fmu *fmu);
+
+/* --- surfaces that the motion slides along, as of what sticks (fmu_slide.c) --- */
+
+#ifdef FMU_HAS_SLIDES
+int fmu_slides(const FmuNumbers *now); /* how many it slides along */
+/* signs and s at the time and state of now; as model_solve() */
+int fmu_slide_solve(Fmu *fmu);
+/* After seeds are set and model_tangent(): signs move, too. As model_tangent(). */
+int fmu_slide_direction(Fmu *fmu);
+/* Sides after this instant, by measures and their rates: what is met, what ends. `close`: times
+ * that can't be distinguished */
+FmuStatus fmu_slide_sides(Fmu *fmu, const double *at, const double *rate, double close,
+                          int *changes, int *moved);
+/* how far the state is off what is slid along; onto that */
+double fmu_slide_drift(Fmu *fmu);
+FmuStatus fmu_slide_project(Fmu *fmu, int *moved);
+#endif
 
 /* --- co-simulation (fmu_step.c) --- */
 

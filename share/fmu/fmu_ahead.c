@@ -51,7 +51,7 @@ static double nearest_side(Fmu *fmu, double t, double ahead)
     if (!indicators_ahead(fmu, t, ahead, at))
         return HUGE_VAL;
     for (i = 0; i < FMU_INDICATORS; i++) {
-        const double v = at[i] * fmu->now.side[FMU_TIMED + i];
+        const double v = at[i] * fmu_sense(&fmu->now, FMU_TIMED + i);
 
         least = v < least ? v : least;
         largest = fmax(largest, fabs(v));

@@ -238,7 +238,7 @@ static int crossed(Fmu *fmu, double t, const double *y)
     if (FMU_INDICATORS > 0 && fmu_indicators(fmu, at) != FMU_OK)
         return -2;
     for (i = 0; i < FMU_INDICATORS; i++)
-        if (at[i] * fmu->now.side[FMU_TIMED + i] < 0)
+        if (at[i] * fmu_sense(&fmu->now, FMU_TIMED + i) < 0)
             return i;
     return -1;
 }
@@ -294,13 +294,13 @@ static int end_at_crossing(Fmu *fmu, const Step *step, double *h, double part)
         put(fmu, step->t + *h, step->y1);
         if (k < 0 || fmu_indicators(fmu, at) != FMU_OK)
             return k < 0;
-        v = at[k] * fmu->now.side[FMU_TIMED + k];
+        v = at[k] * fmu_sense(&fmu->now, FMU_TIMED + k);
         *(v < 0 ? &high : &low) = *h;
         model_derivative(fmu->now.p, fmu->now.t, fmu->now.y, fmu->now.s, dy);
         if (fmu_direction(fmu, 1, dy) != FMU_OK)
             return 0;
-        model_tangent_indicators(fmu->now.p, fmu->now.t, fmu->now.y, fmu->now.s, rates);
-        slope = rates[FMU_TIMED + k] * fmu->now.side[FMU_TIMED + k];
+        fmu_indicator_rates(fmu, rates);
+        slope = rates[FMU_TIMED + k] * fmu_sense(&fmu->now, FMU_TIMED + k);
         if (high - low <= instant || fabs(v) <= instant * fabs(slope)) {
             put(fmu, step->t + *h, step->y1);
             return 1;
@@ -389,7 +389,8 @@ FmuStatus fmu_advance(Fmu *fmu, double end)
         moved = 0;
         if (crossing || now->t >= now->next)
             status = fmu_events(fmu, &moved);
-        else if (MODEL_M > 0 || FMU_QUATERNIONS > 0 || MODEL_A > 0 || FMU_SWITCHES > 0)
+        else if (MODEL_M > 0 || FMU_QUATERNIONS > 0 || MODEL_A > 0 || FMU_SWITCHES > 0 ||
+                 FMU_SLIDES > 0)
             status = fmu_restore(fmu);
     }
     return status == FMU_OK || status == FMU_FATAL ? status : FMU_ERROR;
