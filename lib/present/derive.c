@@ -50,6 +50,8 @@ static void write_edges(Text *out, const View *view, const EdgeVariable *variabl
 }
 
 static const EdgeVariable translation = {"r", "r", true};
+static const EdgeVariable angle = {"theta", "\\theta", true};
+static const EdgeVariable angle_sign = {"θ", "\\theta", true};
 static const EdgeVariable angular_velocity = {"w", "\\omega", true};
 
 static void write_way(Text *out, const View *view, int chord, const Way *way)
@@ -112,7 +114,7 @@ void derive_way(Text *out, const View *view, int chord)
     LIST_FREE(way);
 }
 
-/* the rotation circuit, angles or angular velocities, in edges */
+/* the rotation circuit in edges: angles, which add in the plane, and angular velocities */
 void derive_turns(Text *out, const View *view, int chord)
 {
     const Tree *trees[TREE_KINDS];
@@ -130,6 +132,9 @@ void derive_turns(Text *out, const View *view, int chord)
 
     for (int k = 0; k < count; k++)
         LIST_PUSH(terms, (SignedEdge){edges[k], edges[room + k]});
+    if (model_is_planar(view->model))
+        write_edges(out, view, view->page.notation == NOTATION_UNICODE ? &angle_sign : &angle,
+                    chord, TREE_ROTATION, true, terms.at, count);
     write_edges(out, view, &angular_velocity, chord, TREE_ROTATION, true, terms.at, count);
     LIST_FREE(terms);
     mem_free(edges);

@@ -41,6 +41,7 @@ static void one_tree_gives_two_constraints(void)
     EXPECT_HOLDS(kit.text, "constraints(2) = (L6 + L7)*sin(h10) - (L4 + L5)*sin(h8)\n");
     /* equations 1 and 2 begin at ground */
     EXPECT_DONE(&kit, "show derivation m2");
+    EXPECT_HOLDS(kit.text, "theta(m2) = theta(s11) + theta(h10) - theta(r7), the circuit of m2");
     EXPECT_HOLDS(kit.text, "w(m2) = w(s11) + w(h10) - w(r7), the circuit of m2");
     /* equation 8 on paper */
     EXPECT_DONE(&kit, "show equations as latex");
