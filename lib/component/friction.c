@@ -42,7 +42,8 @@ static const Param oneway_params[] = {BOUNDS};
 #define FRICTION_MEMBERS                                                                            \
     {"bound", "N|N*m", "the most that its dry friction is at the present rate", 0},                 \
     {"hold",  "N|N*m", "the most that it holds at rest", 0},                                        \
-    {"loss",  "W",     "power lost in it", 0}
+    {"loss",  "W",     "power lost in it", 0},                                                      \
+    {"lost",  "J",     "energy lost in it since the run began", 0}
 /* clang-format on */
 
 static const Member terminal_members[] = {FRICTION_MEMBERS};

@@ -728,6 +728,11 @@ bool model_dimension(const Model *model, const Syntax *syntax, Dimension *out)
     return true;
 }
 
+bool model_is_integral(const Model *model, const char *name)
+{
+    return variable_is_integral(model->state, name);
+}
+
 bool model_text_dimension(const Model *model, const char *text, Dimension *out)
 {
     Pool *pool = pool_new(1024);

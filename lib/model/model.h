@@ -213,6 +213,8 @@ MUST_USE Status model_check_shown(const Model *model, const Syntax *item, Diag *
 /* the value of a key, "every", whose unit is `unit` */
 MUST_USE Status model_check_unit(const Model *model, const Syntax *syntax, const char *unit,
                                  const char *name, Diag *diag);
+/* f.lost, energy.lost: the integral of f.loss, energy.loss over a run */
+bool model_is_integral(const Model *model, const char *name);
 /* False where it is unknown. */
 bool model_dimension(const Model *model, const Syntax *syntax, Dimension *out);
 /* the same for an expression's text, as the name of a state or an item */

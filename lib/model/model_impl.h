@@ -274,6 +274,8 @@ const char *state_name_at(const State *state, int i);
 
 /* permitted names in addition to parts' variables */
 enum { ALLOW_MODEL = 1, ALLOW_RUNS = 2 };
+/* f.lost, energy.lost: an integral over a run, which no equation can have */
+bool variable_is_integral(const State *state, const char *name);
 /* The variable's own name ("J1" may be written for "theta1"), without primes. `own` is a part under
  * construction, or NULL. */
 MUST_USE Status variable_resolve(const State *state, const Instance *own, const char *path,

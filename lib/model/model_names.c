@@ -14,9 +14,10 @@
 static const struct {
     const char *name;
     const char *unit;
-} model_variables[] = {{"energy.kinetic", "J"},    {"energy.potential", "J"}, {"energy.total", "J"},
-                       {"constraint.error", NULL}, {"model.n", "1"},          {"model.m", "1"},
-                       {"model.dof", "1"}};
+} model_variables[] = {
+    {"energy.kinetic", "J"}, {"energy.potential", "J"}, {"energy.total", "J"},
+    {"energy.loss", "W"},    {"energy.lost", "J"},      {"constraint.error", NULL},
+    {"model.n", "1"},        {"model.m", "1"},          {"model.dof", "1"}};
 
 /* what count.NAME can count: blocks of equations */
 static const char *const blocks[] = {"constraints", "jacobian", "velocity", "acceleration", "mass",
@@ -479,6 +480,17 @@ static Status dotted_resolve(const State *state, const Instance *own, const char
     return status;
 }
 
+bool variable_is_integral(const State *state, const char *name)
+{
+    const char *member = "";
+    const Instance *part;
+
+    name += run_prefix(name);
+    part = state_owner(state, name, &member);
+    return strcmp(name, "energy.lost") == 0 ||
+           (part != NULL && part->row->sticks && strcmp(member, "lost") == 0);
+}
+
 Status variable_resolve(const State *state, const Instance *own, const char *path, int primes,
                         unsigned allow, Place place, Text *name, Diag *diag)
 {
@@ -504,6 +516,9 @@ Status variable_resolve(const State *state, const Instance *own, const char *pat
         CHECK(plain_resolve(state, path, primes, place, name, diag));
     else
         CHECK(dotted_resolve(state, own, path, dot, primes, place, name, diag));
+    if (!(allow & ALLOW_MODEL) && variable_is_integral(state, path))
+        status =
+            diag_at(diag, E_NAME, place, "%s can be printed, but nothing can depend on it", path);
 done:
     text_free(&rest);
     return status;

@@ -156,6 +156,7 @@ static void write_variables(Text *out)
         {"h9.fx  h9.tz", "force and moment of a joint on its tip; capitals: axes of its tail"},
         {"R1.v  R1.i  M7.torque", "of circuits and transducers; a.v is a terminal's potential"},
         {"energy.kinetic  .potential  .total", "of the whole model, J"},
+        {"f1.lost  energy.lost", "lost in dry friction since the run began, J; f1.loss: power"},
         {"constraint.error", "largest constraint residual"},
         {"model.n  model.m  model.dof", "coordinates, constraints, degrees of freedom"},
         {"count.mass.add  .mul  .fun", "operations of a block; count.shared.mass.add after sharing"},
@@ -243,9 +244,9 @@ const HelpTopic *help_topic_find(const char *name)
 /* what a model has as a whole, and its members; those of count are its blocks */
 static const struct {
     const char *base;
-    const char *members[5];
+    const char *members[6];
 } wholes[] = {
-    {"energy", {"kinetic", "potential", "total", NULL}},
+    {"energy", {"kinetic", "potential", "total", "loss", "lost", NULL}},
     {"model", {"n", "m", "dof", NULL}},
     {"constraint", {"error", NULL}},
     {"count", {NULL}},

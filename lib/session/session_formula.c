@@ -289,11 +289,47 @@ done:
     return status;
 }
 
+/* f.lost: the integral of f.loss */
+static Expr push_integral(Cut *cut, const char *name, int run)
+{
+    char *power = mem_text(name, strlen(name));
+    Expr symbol;
+
+    power[strlen(power) - 1] = 's';
+    symbol = expr_symbol(model_arena(cut->session->model), power, SYMBOL_VARIABLE);
+    mem_free(power);
+    return push_leaf(cut, (Leaf){.kind = LEAF_INTEGRAL, .expr = symbol, .run = run - 1});
+}
+
+/* Where e has integrals over the run each of its symbols becomes a leaf. *found: it has. */
+static Expr cut_integrals(Cut *cut, Expr e, int run, bool *found)
+{
+    const ct_session *session = cut->session;
+    Expr *symbols = NULL, *leaves;
+    const int count = expr_symbols(&e, 1, &symbols);
+    Expr out = e;
+
+    leaves = NEW_ARRAY(Expr, count);
+    *found = false;
+    for (int i = 0; i < count; i++)
+        *found = *found || model_is_integral(session->model, expr_name(symbols[i]));
+    for (int i = 0; i < count && *found; i++)
+        leaves[i] =
+            model_is_integral(session->model, expr_name(symbols[i]))
+                ? push_integral(cut, expr_name(symbols[i]), run)
+                : push_leaf(cut, (Leaf){.kind = LEAF_VARIABLE, .expr = symbols[i], .run = run - 1});
+    if (*found)
+        out = expr_substitute(model_arena(session->model), e, symbols, leaves, count);
+    MEM_FREE(symbols, leaves);
+    return out;
+}
+
 static Status cut_pure(Cut *cut, const Syntax *syntax, int run, Expr *out, Diag *diag)
 {
     ct_session *session = cut->session;
     Pool *pool = pool_new(4096);
     Status status = OK;
+    bool has_integral;
     Expr e;
 
     if (run > session->runs.count) {
@@ -309,9 +345,9 @@ static Status cut_pure(Cut *cut, const Syntax *syntax, int run, Expr *out, Diag 
     e = session_add_outputs(session->model, e);
     CHECK(put_sizes(session, &e, diag));
     CHECK(put_shown(session, run, &e, diag));
-    *out = expr_is_number(e)
-               ? e
-               : push_leaf(cut, (Leaf){.kind = LEAF_VARIABLE, .expr = e, .run = run - 1});
+    *out = cut_integrals(cut, e, run, &has_integral);
+    if (!has_integral && !expr_is_number(e))
+        *out = push_leaf(cut, (Leaf){.kind = LEAF_VARIABLE, .expr = e, .run = run - 1});
 done:
     pool_free(pool);
     return status;

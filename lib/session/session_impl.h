@@ -258,12 +258,12 @@ void session_unit(const ct_session *session, const char *name, Text *out);
 Expr session_add_outputs(const Model *model, Expr e);
 
 /* An expression of the user's over variables, runs and counts, ready to be evaluated. */
-typedef enum LeafKind { LEAF_CONSTANT, LEAF_VARIABLE } LeafKind;
+typedef enum LeafKind { LEAF_CONSTANT, LEAF_VARIABLE, LEAF_INTEGRAL } LeafKind;
 
 typedef struct Leaf {
     LeafKind kind;
     double value; /* of a constant */
-    Expr expr;    /* of a variable: over names of the user's */
+    Expr expr;    /* of a variable: over names of the user's; its integral from the run's start */
     int run;      /* place in session->runs, or -1 for what a bare name means */
     Expr symbol;  /* its placeholder in `whole` */
 } Leaf;

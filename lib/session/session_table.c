@@ -41,14 +41,15 @@ done:
 }
 
 /* of a value of that dimension work, where a torque has it too */
-static bool is_energy(const Syntax *syntax)
+static bool is_energy(const Model *model, const Syntax *syntax)
 {
     const char *name = strstr(syntax->text, "energy.");
 
     if (syntax->kind == SYNTAX_VARIABLE)
-        return name != NULL && (name == syntax->text || name[-1] == '.');
+        return (name != NULL && (name == syntax->text || name[-1] == '.')) ||
+               model_is_integral(model, syntax->text);
     for (int i = 0; i < syntax->count; i++)
-        if (is_energy(syntax->args[i]))
+        if (is_energy(model, syntax->args[i]))
             return true;
     return false;
 }
@@ -63,7 +64,7 @@ double session_shown_unit(const ct_session *session, const Syntax *syntax, const
         memcmp(&dimension, &none, sizeof none) == 0)
         return 1;
     dimension = dimension_without_angle(dimension);
-    if (memcmp(&dimension, &work, sizeof work) == 0 && is_energy(syntax))
+    if (memcmp(&dimension, &work, sizeof work) == 0 && is_energy(session->model, syntax))
         return energy_print_in(out, units);
     return dimension_print_in(out, dimension, units);
 }

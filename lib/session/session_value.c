@@ -63,7 +63,7 @@ static double run_end(const Run *run)
 /* a leaf of parameters and numbers alone needs no run */
 static bool needs_run(const Leaf *leaf)
 {
-    return leaf->kind == LEAF_VARIABLE && (expr_kinds(leaf->expr) & ~(1U << SYMBOL_PARAMETER)) != 0;
+    return leaf->kind != LEAF_CONSTANT && (expr_kinds(leaf->expr) & ~(1U << SYMBOL_PARAMETER)) != 0;
 }
 
 bool formula_needs_run(const Formula *formula)
@@ -121,6 +121,7 @@ static Status evaluate_leaf(ct_session *session, const Leaf *leaf, Run *run, con
                             double *out, Diag *diag)
 {
     const double *times;
+    double instant;
     Status status;
 
     if (leaf->kind == LEAF_CONSTANT) {
@@ -133,10 +134,11 @@ static Status evaluate_leaf(ct_session *session, const Leaf *leaf, Run *run, con
         return OK;
     }
     times = result_times(run->result);
-    status = result_reader_values_at(run->reader, &leaf->expr, 1,
-                                     at != NULL ? session_row_time(run->result, *at)
-                                                : times[result_rows(run->result) - 1],
-                                     out, diag);
+    instant = at != NULL ? session_row_time(run->result, *at) : times[result_rows(run->result) - 1];
+    status = leaf->kind == LEAF_INTEGRAL
+                 ? result_reader_integrals(run->reader, &leaf->expr, 1, &instant, 1,
+                                           &session->watch, out, diag)
+                 : result_reader_values_at(run->reader, &leaf->expr, 1, instant, out, diag);
     return status == E_VALUE && leaf->run >= 0 && at != NULL
                ? refuse_instant(leaf, run->result, *at, diag)
                : status;
@@ -192,6 +194,8 @@ static Status leaf_rounding(ct_session *session, const Leaf *leaf, Run *run, dou
 
         assert(run != NULL);
         TRY(result_reader_rounding(run->reader, leaf->expr, &at, 1, &open, diag));
+        if (leaf->kind == LEAF_INTEGRAL)
+            open *= at - result_times(run->result)[0];
         *out = fmax(*out, open);
         return OK;
     }
@@ -311,8 +315,11 @@ static Status leaf_along(ct_session *session, const Leaf *leaf, Run *run, const 
 
     for (int r = 0; r < rows; r++)
         snapped[r] = session_row_time(run->result, times[r]);
-    status = result_reader_values_along(run->reader, leaf->expr, snapped, rows, &session->watch,
-                                        out, diag);
+    status = leaf->kind == LEAF_INTEGRAL
+                 ? result_reader_integrals(run->reader, &leaf->expr, 1, snapped, rows,
+                                           &session->watch, out, diag)
+                 : result_reader_values_along(run->reader, leaf->expr, snapped, rows,
+                                              &session->watch, out, diag);
     mem_free(snapped);
     for (int r = 0; status == E_VALUE && r < rows; r++)
         TRY(evaluate_leaf(session, leaf, run, &times[r], &out[r], diag));
@@ -333,6 +340,11 @@ static Status other_rows(ct_session *session, const Formula *formulas, int count
 
             if (leaf->kind == LEAF_VARIABLE && run == own)
                 continue;
+            if (leaf->kind == LEAF_INTEGRAL) {
+                TRY(leaf_along(session, leaf, run, times, rows, columns[place], diag));
+                prepared = NULL; /* its own instants were prepared */
+                continue;
+            }
             if (leaf->kind == LEAF_VARIABLE && needs_run(leaf) && run != prepared) {
                 TRY(result_reader_prepare(run->reader, times, rows, &session->watch, diag));
                 prepared = run;

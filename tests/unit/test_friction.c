@@ -330,6 +330,74 @@ static void sides_at_an_instant(void)
     kit_free(&kit);
 }
 
+/* --- energy --- */
+
+/* 2 kg go up a slope of 0.2 with 1 m/s, and stay where they come to rest: friction takes F d */
+static void a_block_on_an_incline_loses_energy(void)
+{
+    const double force = 2 * 0.3 * 9.81 * cos(0.2), weight = 2 * 9.81 * sin(0.2);
+    const double rate = 2 / (force + weight); /* 1/deceleration */
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\nbody m mass=2 inertia=0\nprismatic s ground m axis=x\n"
+                      "gravity [-9.81*sin(0.2), -9.81*cos(0.2)]\n"
+                      "friction f s force=0.3*2*9.81*cos(0.2) static=1.3\n"
+                      "init s = 0, s' = 1\nsimulate 2\n");
+    EXPECT(is_near(kit_value(&kit, "f.lost"), force * rate / 2, 1e-10));
+    EXPECT(is_near(kit_value(&kit, "energy.lost"), force * rate / 2, 1e-10));
+    EXPECT(is_near(kit_value(&kit, "energy.total + energy.lost"), 1, 1e-10));
+    EXPECT(is_near(kit_value(&kit, "max(f.lost)"), force * rate / 2, 1e-10));
+    EXPECT_DONE(&kit, "expect f.lost ~ 0 within 1e-12 at 0\n");
+    kit_free(&kit);
+}
+
+/* Two discs lose 1/2 J1 J2/(J1 + J2) dw^2, whatever the clutch does. At 0.5 s, with 20 t N m and
+ * dw = 50 - 30 t^2, they have lost the integral of 20 t dw. */
+static void a_clutch_loses_energy(void)
+{
+    const double lost = 0.5 * 0.5 * 1 / 1.5 * 50 * 50;
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "flywheel J1 a 0 J=0.5\nflywheel J2 b 0 J=1\nT = 20\n"
+                      "clutch c1 a b torque=T*min(t, 1) static=1.1\n"
+                      "init J1.w = 50, J2.w = 0\nsimulate 1 every=0.1\n");
+    EXPECT(is_near(kit_value(&kit, "c1.lost"), 20 * (25 - 30 / 4.0), 1e-8));
+    EXPECT_DONE(&kit, "expect c1.lost ~ 20*(25*0.55^2 - 30/4*0.55^4) within 1e-8 at 0.55\n"
+                      "resume 2\n");
+    EXPECT(is_near(kit_value(&kit, "c1.lost"), lost, 1e-8));
+    EXPECT(is_near(kit_value(&kit, "run1.c1.lost"), 20 * (25 - 30 / 4.0), 1e-8));
+    EXPECT(is_near(kit_value(&kit, "energy.total + energy.lost"), 625, 1e-8));
+    EXPECT_DONE(&kit, "sweep T=[10, 30] keep=[c1.lost] : simulate 3\n");
+    EXPECT(is_near(kit_value(&kit, "sweep.value(1, c1.lost)"), lost, 1e-8));
+    EXPECT(is_near(kit_value(&kit, "sweep.value(2, c1.lost)"), lost, 1e-8));
+    EXPECT_FAILS(&kit, "show c1.lost", "c1.lost is an integral over a run");
+    EXPECT_FAILS(&kit, "torquesource T2 a 0 c1.lost", "nothing can depend on it");
+    kit_free(&kit);
+}
+
+/* by load and viscous, with Stribeck's curve, between two joints */
+static void frictions_of_all_kinds_lose_what_the_motion_had(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\ngravity [0, -9.81]\nbody b mass=2 inertia=0.1\n"
+                      "arm top b [0, 0.5]\nrevolute h ground top\n"
+                      "friction g h mu=0.3 radius=20 mm viscous=0.02\n"
+                      "body m mass=1\nbody n mass=3\nprismatic s ground m axis=x\n"
+                      "prismatic r ground n axis=x\nspring k s k=100\n"
+                      "friction f s force=5 static=1.4 stribeck=0.1\nclutch c s r force=1\n"
+                      "init h = 80 deg, h' = 0, s = 0.33, s' = 0, r = 0, r' = 1\n"
+                      "simulate 4\n");
+    EXPECT(is_near(kit_value(&kit, "energy.lost - g.lost - f.lost - c.lost"), 0, 1e-7));
+    EXPECT(kit_value(&kit, "g.lost") > 0 && kit_value(&kit, "c.lost") > 0);
+    EXPECT_DONE(&kit, "start = 50*0.33^2 + 1.5 - 2*9.81*0.5*cos(80 deg)\n"
+                      "simulate 4\n"
+                      "expect energy.total + energy.lost ~ start within 1e-7\n"
+                      "expect energy.total + energy.lost ~ start within 1e-7 at 0.7\n"
+                      "expect energy.total + energy.lost ~ start within 1e-7 at 3\n");
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(a_block_on_an_incline);
@@ -344,6 +412,9 @@ int main(void)
     RUN(parts_of_a_subsystem);
     RUN(what_sticks_is_marked_in_linearizations);
     RUN(sides_at_an_instant);
+    RUN(a_block_on_an_incline_loses_energy);
+    RUN(a_clutch_loses_energy);
+    RUN(frictions_of_all_kinds_lose_what_the_motion_had);
     RUN(wrong_uses_name_their_cure);
     return test_end();
 }

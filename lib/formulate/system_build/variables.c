@@ -5,7 +5,7 @@
 #include "component/equation_block.h"
 #include "formulate/dynamics/edge_power.h"
 #include "formulate/dynamics/efforts.h"
-#include "formulate/dynamics/laws.h"
+#include "formulate/dynamics/losses.h"
 #include "formulate/dynamics/reactions.h"
 #include "formulate/dynamics/sections.h"
 #include "formulate/expanded/block_entry.h"
@@ -259,41 +259,6 @@ static Status effort_variable(System *system, const Instance *instance, const ch
     return OK;
 }
 
-/* Members that parts with dry friction have wherever they act: bounds, and the power that is lost.
- * *found: it is one of these. */
-static Status friction_variable(System *system, const Instance *instance, const char *member,
-                                bool *found, Expr *out, Diag *diag)
-{
-    static const char *const members[] = {"bound", "hold", "loss"};
-    enum { BOUND, HOLD, LOSS, NONE } which = BOUND;
-    Expr rate, power;
-
-    while (which < NONE && (!instance->row->sticks || strcmp(members[which], member) != 0))
-        which++;
-    *found = which != NONE;
-    if (!*found)
-        return OK;
-    if (instance->row->effort != NULL) {
-        Effort effort;
-
-        TRY(effort_of(system, instance, &effort, diag));
-        rate = effort.rate;
-        power = expr_neg(system->arena, expr_mul(system->arena, effort.value, rate));
-    } else {
-        Branchlike *branch = scalar_branch(system, instance, 0);
-
-        TRY(network_across(system, branch, &rate, diag));
-        TRY(network_through(system, branch, &power, diag));
-        power = expr_mul(system->arena, power, rate);
-    }
-    if (which == LOSS) {
-        *out = power;
-        return OK;
-    }
-    return law_read(system, instance,
-                    instance->row->bound(instance, system->arena, rate, which == HOLD), out, diag);
-}
-
 static Status driver_variable(System *system, const Instance *driver, const char *member, Expr *out,
                               Diag *diag)
 {
@@ -532,6 +497,21 @@ static Expr largest_residual(const System *system)
     return largest;
 }
 
+/* power lost in all parts with dry friction */
+static Status power_lost(System *system, Expr *out, Diag *diag)
+{
+    *out = expr_int(system->arena, 0);
+    for (int i = 0; i < system->origin->instance_count; i++) {
+        bool found;
+        Expr loss;
+
+        TRY(loss_variable(system, &system->origin->instances[i], "loss", &found, &loss, diag));
+        if (found)
+            *out = expr_add(system->arena, *out, loss);
+    }
+    return OK;
+}
+
 static bool model_variable(System *system, const char *path, Expr *out)
 {
     Arena *arena = system->arena;
@@ -668,7 +648,7 @@ static Status member_variable(System *system, const char *path, Expr *out, Diag 
         return frame_variable(system, node, member, out, diag);
     if (edge_power_is_named(instance, member))
         return edge_power(system, instance, member, out, diag);
-    TRY(friction_variable(system, instance, member, &found, out, diag));
+    TRY(loss_variable(system, instance, member, &found, out, diag));
     if (found)
         return OK;
     if (instance->row->deforming != NULL && strchr(member, '(') != NULL)
@@ -736,6 +716,12 @@ Status system_variable(System *system, const char *path, int primes, Expr *out, 
         CHECK(free_speeds(system, out, diag));
         found = true;
     }
+    if (!found && strcmp(path, "energy.loss") == 0) {
+        CHECK(power_lost(system, out, diag));
+        found = true;
+    }
+    if (!found && strcmp(path, "energy.lost") == 0)
+        CHECK(loss_refuse_formula(path, diag));
     found = found || model_variable(system, path, out);
     for (int i = 0; i < system->origin->output_count && !found; i++)
         if (strcmp(system->origin->output_names[i], path) == 0) {

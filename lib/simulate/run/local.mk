@@ -56,6 +56,7 @@ libcore_la_SOURCES += \
   lib/simulate/run/result_reader_impl.h \
   lib/simulate/run/result.c lib/simulate/run/result_sticks.c \
   lib/simulate/run/result.h \
+  lib/simulate/run/result_integral.c \
   lib/simulate/run/result_impl.h \
   lib/simulate/run/run.h \
   lib/simulate/run/run_limits.h \

@@ -31,6 +31,12 @@ MUST_USE Status result_reader_values_along(ResultReader *reader, Expr item, cons
                                            int count, const CallMonitor *watch, double *values,
                                            Diag *diag);
 
+/* Integrals of expressions from the start of the run to each of these instants: out is time_count x
+ * count. The course between rows is taken as above, once for all instants. E_VALUE outside the run.
+ */
+MUST_USE Status result_reader_integrals(ResultReader *reader, const Expr *items, int count,
+                                        const double *times, int time_count,
+                                        const CallMonitor *watch, double *out, Diag *diag);
 /* Change of an item at several instants when states and time have rounding errors, those of the
  * largest state of a kind in the run: smaller values are 0 within rounding. 0 for driven runs. */
 MUST_USE Status result_reader_rounding(ResultReader *reader, Expr item, const double *times,

@@ -140,4 +140,14 @@
 /* of the size at the start: a variable beyond it may grow without bound */
 #define TERMINATION_BOUNDLESS 1e3
 
+/* of an integral over the run: halves of a piece give the same within it */
+#define INTEGRAL_AGREES 1e-11
+
+/* the same, of the relative tolerance of the run */
+#define INTEGRAL_TOLERANCE 1e-3
+
+/* of an integral over the run: what polynomials of degree 3 and 5 may differ by between two rows;
+ * the latter is off by far less */
+#define INTEGRAL_SMOOTH 1e-9
+
 #endif
