@@ -239,7 +239,7 @@ family_machine_jumps_SOURCES = tests/family/family_machine_jumps.c tests/family/
 family_machine_jumps_LDADD = libcotree.la $(unit_ldadd)
 
 FAMILIES += family_machine_fmu
-family_machine_fmu_SOURCES = tests/family/family_machine_fmu.c tests/family/machine.h \
+family_machine_fmu_SOURCES = tests/family/family_machine_fmu.c tests/family/machine.h tests/family/units.h \
 	tests/family/machine_draw.h tests/family/machine_hybrid.h tests/family/machine_hybrid_draw.h \
 	tests/family/machine_networks.h tests/family/machine_tableau.h tests/family/machine_whole.h \
 	tests/family/extrapolated.h tests/family/neville.h tests/family/family.h tests/family/script.h \
@@ -306,7 +306,7 @@ family_complementarity_SOURCES = tests/family/family_complementarity.c tests/fam
 family_complementarity_LDADD = $(unit_ldadd)
 
 FAMILIES += family_friction
-family_friction_SOURCES = tests/family/family_friction.c tests/family/family.h \
+family_friction_SOURCES = tests/family/family_friction.c tests/family/family.h tests/family/units.h \
 	tests/random.h tests/unit/session_kit.h tests/unit/test.h
 family_friction_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_journals

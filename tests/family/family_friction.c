@@ -14,6 +14,7 @@
 #include "base/memory.h"
 #include "base/text.h"
 #include "family.h"
+#include "units.h"
 
 #include <math.h>
 
@@ -247,11 +248,67 @@ static Verdict shafts_and_slides_that_rub(Member *member)
     return run_row(member, false);
 }
 
+/* The same as a Functional Mock-up Unit, against a run of small tolerances: both are exact between
+ * events, so that more can be asked than of the oracle. */
+static Verdict units_that_rub(Member *member)
+{
+    static const char *const ways[] = {"exchange", "simulation"};
+    const bool joints = chance(member, 2) == 0;
+    Row r;
+    Text text = {0}, items = {0};
+    Work w;
+    Verdict verdict = AGREES;
+    FILE *script;
+
+    draw(member, &r);
+    if (joints)
+        write_joints(member, &r, &text);
+    else
+        write_terminals(member, &r, &text);
+    for (int i = 0; i < r.count; i++)
+        if (joints)
+            text_addf(&items, " s%d s%d'", i, i);
+        else
+            text_addf(&items, " m%d.momentum", i);
+    tell(member, "%s", text.at);
+    if (!work_open(&w))
+        return REFUSED;
+    text_addf(&text,
+              "simulate %.17g every=%.17g rtol=1e-10 atol=1e-11\nexport csv%s > \"%s\"\n"
+              "export fmu%s version=%d > \"%s\"\n",
+              r.end, r.end / 8, items.at, w.numbers, items.at, 2 + chance(member, 2), w.unit);
+    script = fopen(w.script, "w");
+    if (script != NULL) {
+        char arguments[300];
+
+        (void)fputs(text.at, script);
+        (void)fclose(script);
+        (void)snprintf(arguments, sizeof arguments, "-q %s", w.script);
+        if (!does("cotree", arguments, &w))
+            verdict = REFUSED;
+        for (int i = 0; i < 2 && verdict == AGREES; i++) {
+            (void)snprintf(arguments, sizeof arguments, "%s %s %s 2e-6", w.unit, ways[i],
+                           w.numbers);
+            if (!does("fmu_master", arguments, &w)) {
+                tell(member, "%s\n", ways[i]);
+                verdict = DISAGREES;
+            }
+        }
+    }
+    if (verdict != AGREES)
+        report_said(member, &w);
+    work_close(&w);
+    text_free(&text);
+    text_free(&items);
+    return verdict;
+}
+
 int main(int argc, char **argv)
 {
     static const Family families[] = {
         {"joints_that_rub", 60, 0, 0, joints_that_rub},
         {"shafts_and_slides_that_rub", 60, 0, 0, shafts_and_slides_that_rub},
+        {"units_that_rub", 2, 0, 0, units_that_rub},
     };
 
     return family_main(families, (int)(sizeof families / sizeof families[0]), argc, argv);
