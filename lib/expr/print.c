@@ -169,6 +169,15 @@ static void sort_pi(Fraction *fraction)
         LIST_PUSH(fraction->below, pi);
 }
 
+/* Whether a factor is a named product whose factors can stand among those around it: one with a
+ * number, can't. */
+static bool is_merged(Expr factor)
+{
+    const Expr inside = held(factor);
+
+    return inside != factor && inside->kind == EXPR_PRODUCT && !is_number(node_args(inside)[0]);
+}
+
 /* a product, or a power below the line, without its sign; or a number, where e is NULL */
 static void lay_product(Printer *printer, Expr e, Number number)
 {
@@ -184,8 +193,14 @@ static void lay_product(Printer *printer, Expr e, Number number)
         fraction.number = number_neg(fraction.number);
     if (is_named(printer, fraction.number))
         sort_pi(&fraction);
-    for (int i = numbered; i < count; i++)
-        sort_factor(&fraction, factors[i]);
+    for (int i = numbered; i < count; i++) {
+        const Expr inside = is_merged(factors[i]) ? held(factors[i]) : NULL;
+
+        if (inside == NULL)
+            sort_factor(&fraction, factors[i]);
+        for (int k = 0; inside != NULL && k < inside->count; k++)
+            sort_factor(&fraction, node_args(inside)[k]);
+    }
     printer->dialect->fraction(printer, &fraction);
     LIST_FREE(fraction.above);
     LIST_FREE(fraction.below);
@@ -280,9 +295,10 @@ bool write_law(Printer *printer, Expr e)
         say(printer, "'");
     if (order > 0 && args[1]->kind == EXPR_SYMBOL && strcmp(expr_name(args[1]), curve->column) == 0)
         return true;
-    say(printer, printer->dialect->open);
+    /* brackets of TeX that grow have room around them */
+    say(printer, args[1]->kind == EXPR_SYMBOL ? "(" : printer->dialect->open);
     write_node(printer, args[1], LEVEL_ANY);
-    say(printer, printer->dialect->close);
+    say(printer, args[1]->kind == EXPR_SYMBOL ? ")" : printer->dialect->close);
     return true;
 }
 
