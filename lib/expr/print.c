@@ -194,12 +194,13 @@ static void lay_product(Printer *printer, Expr e, Number number)
     if (is_named(printer, fraction.number))
         sort_pi(&fraction);
     for (int i = numbered; i < count; i++) {
-        const Expr inside = is_merged(factors[i]) ? held(factors[i]) : NULL;
+        const Expr factor = factors[i];
 
-        if (inside == NULL)
-            sort_factor(&fraction, factors[i]);
-        for (int k = 0; inside != NULL && k < inside->count; k++)
-            sort_factor(&fraction, node_args(inside)[k]);
+        assert(factor != NULL);
+        if (!is_merged(factor))
+            sort_factor(&fraction, factor);
+        for (int k = 0; is_merged(factor) && k < held(factor)->count; k++)
+            sort_factor(&fraction, node_args(held(factor))[k]);
     }
     printer->dialect->fraction(printer, &fraction);
     LIST_FREE(fraction.above);
