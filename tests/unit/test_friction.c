@@ -107,6 +107,21 @@ static void a_pendulum_comes_to_rest(void)
     kit_free(&kit);
 }
 
+/* It slides for v^2/(2 T/m) = 0.8 m, and has the kinetic bound as soon as it has the speed. */
+static void an_event_moves_what_sticks(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, SLIDE "friction f s force=2.5 static=1.2\n"
+                            "event kick when=t > 1.5 s'=2\nsimulate 3 every=0.25\n");
+    EXPECT(is_near(kit_value(&kit, "s"), 0.8, 1e-9));
+    EXPECT(is_near(kit_value(&kit, "max(s')"), 2, 1e-12));
+    EXPECT(is_near(kit_value(&kit, "min(f.effort)"), -2.5, 1e-12));
+    EXPECT(is_near(kit_value(&kit, "f.effort at 1.6"), -2.5, 1e-12));
+    EXPECT(is_near(kit_value(&kit, "s at 1.9"), 2 * 0.4 - 1.25 * 0.16, 1e-9));
+    kit_free(&kit);
+}
+
 /* Three blocks pushed by 10 t N against 3 + 2 + 1 N to the ground, with 4 N and 2.5 N between
  * neighbours: all move from 0.6 s on, and the first leaves the others at 0.72 s. */
 static void blocks_in_a_row(void)
@@ -405,6 +420,7 @@ int main(void)
     RUN(a_belt_makes_stick_and_slip);
     RUN(a_pendulum_comes_to_rest);
     RUN(blocks_in_a_row);
+    RUN(an_event_moves_what_sticks);
     RUN(discs_and_clutches);
     RUN(a_one_way_clutch_drives_and_runs_free);
     RUN(stribeck_and_viscous_friction);

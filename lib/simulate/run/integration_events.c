@@ -11,6 +11,10 @@ static Status add_instant(Integration *m, double t, bool again, Diag *diag)
 {
     if (!again && integration_has_row(m, t))
         return OK;
+    if (again && m->eq->slide_count > 0) { /* a new speed may leave what is slid along */
+        integration_add_new_row(m, t);
+        return OK;
+    }
     if (!integration_add_row(m, t))
         return solver_failure(diag, t, "the constraints can't be met");
     return OK;

@@ -52,6 +52,7 @@ typedef struct Integration {
     int root;              /* condition whose surface is reached; or a MetSurface */
     double ahead;          /* s: time after which the reached margin's sign is certain; 0 */
     bool has_restarted;    /* the stepper, after a jump */
+    bool has_new_row;      /* the last row is of integration_add_new_row() */
     int switches;          /* in quick succession */
     double switched_since; /* s: time of the first of them */
     int slow_switches;     /* the same for a longer part of the run */
@@ -68,6 +69,10 @@ typedef struct Integration {
 /* --- rows (integration_rows.c) --- */
 
 bool integration_add_row(Integration *m, double t);
+/* The same of new values, which hold though they may leave what the motion slides along. Its phase
+ * is the one that is entered next. */
+void integration_add_new_row(Integration *m, double t);
+void integration_enter_row(Integration *m);
 /* whether the last row is at t within rounding */
 bool integration_has_row(const Integration *m, double t);
 /* add rows of the output grid up to the stepper's time */

@@ -8,12 +8,10 @@
 
 /* --- rows --- */
 
-bool integration_add_row(Integration *m, double t)
+static void add_row(Integration *m, double t)
 {
     double position = 0, velocity = 0;
 
-    if (!motion_project(m->segment.motion, t, m->y))
-        return false;
     motion_residuals(m->segment.motion, t, m->y, &position, &velocity);
     m->out->position_residual = fmax(m->out->position_residual, position);
     m->out->velocity_residual = fmax(m->out->velocity_residual, velocity);
@@ -22,7 +20,28 @@ bool integration_add_row(Integration *m, double t)
     m->out->reached = t;
     if (m->plan->see != NULL && m->plan->see(m->plan->context, m->segment.phase, t, m->y))
         m->is_stopped = true;
+    m->has_new_row = false;
+}
+
+bool integration_add_row(Integration *m, double t)
+{
+    if (!motion_project(m->segment.motion, t, m->y))
+        return false;
+    add_row(m, t);
     return true;
+}
+
+void integration_add_new_row(Integration *m, double t)
+{
+    add_row(m, t);
+    m->has_new_row = true;
+}
+
+void integration_enter_row(Integration *m)
+{
+    if (m->has_new_row)
+        m->grid->phase[m->grid->count - 1] = m->segment.phase;
+    m->has_new_row = false;
 }
 
 bool integration_has_row(const Integration *m, double t)

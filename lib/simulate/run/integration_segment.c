@@ -196,6 +196,7 @@ static Status slide(Integration *m, bool *entered, bool *changed, Diag *diag)
         m->plan->choose(m->plan->context, t, m->low, m->high, y, at, count, &next, entered, diag));
     if (*entered)
         CHECK(enter(m, &next, t, y, changed, diag));
+    integration_enter_row(m);
     motion_window(m->segment.motion, m->low, m->high);
     if (*entered)
         (void)motion_project(m->segment.motion, t, m->stepper->y);
