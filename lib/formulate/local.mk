@@ -65,4 +65,6 @@ libcore_la_SOURCES += \
 	lib/formulate/reduced/ratio.c lib/formulate/reduced/ratio.h \
 	lib/formulate/reduced/resistance.c lib/formulate/reduced/resistance.h \
 	lib/formulate/reduced/response.c lib/formulate/reduced/response.h \
-	lib/formulate/reduced/state_space.c lib/formulate/reduced/state_space.h
+	lib/formulate/reduced/port.c lib/formulate/reduced/port.h \
+	lib/formulate/reduced/state_space.c lib/formulate/reduced/state_space.h \
+	lib/formulate/reduced/symbolic_solve.c lib/formulate/reduced/symbolic_solve.h

@@ -14,6 +14,7 @@ libcore_la_SOURCES += \
   lib/model/model_define.c \
   lib/model/model_draft.h \
   lib/model/model_event.c \
+  lib/model/model_extract.c \
   lib/model/model_function.c \
   lib/model/model_given.c \
   lib/model/model_given.h \

@@ -42,28 +42,40 @@ Model *model_new(void)
     return model_around(arena, state_new(arena, overrides_new(), verb_apply));
 }
 
-static Status fork_of(const Model *model, bool named, Model **out, Diag *diag)
+static Model *fork_around(const Model *model, State *state)
 {
-    State *state = NULL;
+    Model *fork = model_around(model->arena, state);
 
-    TRY(named ? state_rebuild_named(model->state, &state, diag)
-              : state_rebuild(model->state, -1, &state, NULL, NULL, diag));
-    *out = model_around(model->arena, state);
-    (*out)->is_fork = true;
-    (*out)->finder = model->finder;
-    (*out)->finder.given = true;
-    (*out)->revision = model->revision;
-    return OK;
+    fork->is_fork = true;
+    fork->finder = model->finder;
+    fork->finder.given = true;
+    fork->revision = model->revision;
+    return fork;
 }
 
 Status model_fork(const Model *model, Model **out, Diag *diag)
 {
-    return fork_of(model, false, out, diag);
+    return model_extract(model, NULL, out, NULL, diag);
 }
 
 Status model_fork_named(const Model *model, Model **out, Diag *diag)
 {
-    return fork_of(model, true, out, diag);
+    State *state = NULL;
+
+    TRY(state_rebuild_named(model->state, &state, diag));
+    *out = fork_around(model, state);
+    return OK;
+}
+
+Status model_extract(const Model *model, const Extract *part, Model **out, ExtractedEnds *ends,
+                     Diag *diag)
+{
+    State *state = NULL;
+
+    TRY(part != NULL ? state_extract(model->state, part, &state, ends, diag)
+                     : state_rebuild(model->state, -1, &state, NULL, NULL, diag));
+    *out = fork_around(model, state);
+    return OK;
 }
 
 void model_open_insides(Model *fork)
@@ -507,16 +519,7 @@ static Status make_scene(const void *context, Scene *out, Diag *diag)
 
         LIST_PUSH(scene.parameters, (SceneParameter){symbol, model_parameter_value(model, symbol)});
     }
-    for (int i = 0; i < state->outputs.count; i++) {
-        const Definition *d = &state->definitions.at[state->outputs.at[i]];
-
-        LIST_PUSH(scene.outputs, (SceneOutput){d->name, d->body});
-    }
-    for (int i = 0; i < state->uses.count; i++) {
-        const Use *use = &state->uses.at[i];
-
-        LIST_PUSH(scene.uses, (SceneUse){use->name, use->subsystem->name, use->outer});
-    }
+    state_list_scene(state, &scene);
     *out = scene;
 done:
     return status;
@@ -530,13 +533,6 @@ Status model_scene(const Model *model, Scene *out, Diag *diag)
 SceneSource model_scene_source(const Model *model)
 {
     return (SceneSource){make_scene, model};
-}
-
-void scene_free(Scene *scene)
-{
-    LIST_FREE(scene->parameters);
-    LIST_FREE(scene->outputs);
-    LIST_FREE(scene->uses);
 }
 
 int model_output_count(const Model *model)
@@ -759,11 +755,6 @@ Status model_check_alike(const Model *model, const Syntax *left, const Syntax *r
     const Scope scope = ask(model);
 
     return unit_check_compared(&scope, left, right, diag);
-}
-
-bool model_call_takes_text(const Syntax *syntax)
-{
-    return syntax->kind == SYNTAX_CALL && function_takes_text(syntax->text);
 }
 
 Status model_check_variable(const Model *model, const char *path, int primes, Place place,

@@ -82,6 +82,40 @@ MUST_USE Status model_fork(const Model *model, Model **out, Diag *diag);
 /* The same, with laws of one argument that formulas call by name (arena_add_law()): for print only.
  */
 MUST_USE Status model_fork_named(const Model *model, Model **out, Diag *diag);
+/* A part of a model: components and instances of subsystems, with the arms on their bodies and on
+ * ground. */
+typedef struct Extract {
+    const char *const *names;
+    const Place *places;
+    int count;
+    const char *const *frames; /* that must be of the part, or such that it is attached to them */
+    const Place *frame_places;
+    int frame_count;
+} Extract;
+
+/* a terminal that the part shares with the rest */
+typedef struct ExtractedTerminal {
+    const char *node;
+    Domain domain;
+} ExtractedTerminal;
+
+/* Where a part was attached to the rest; names are borrowed from the model. */
+typedef struct ExtractedEnds {
+    LIST(const char *) frames; /* of massless bodies, which take the place of the rest's */
+    /* Terminal i has a source of the parameters EXTRACT_VALUE with (i, 0), (i, 1) and (i, 2): its
+     * value and the rates of it at the time EXTRACT_TIME. */
+    LIST(ExtractedTerminal) terminals;
+} ExtractedEnds;
+#define EXTRACT_VALUE "port__value%d_%d"
+#define EXTRACT_TIME  "port__time"
+
+/* New: the part by itself (NULL: all), a model over the same arena, which must outlive it. Adds to
+ * `ends`, whose lists the caller frees. E_NAME for an unknown name, E_MODEL where a frame isn't one
+ * of the part, or a component needs something outside of it. */
+MUST_USE Status model_extract(const Model *model, const Extract *part, Model **out,
+                              ExtractedEnds *ends, Diag *diag);
+/* The statement of a source, for printf() with its name, its two terminals and its value. */
+const char *model_source_statement(Domain domain, bool is_across);
 /* From now on statements of the fork may attach parts inside instances, to examine these. */
 void model_open_insides(Model *fork);
 

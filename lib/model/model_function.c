@@ -434,3 +434,8 @@ Status function_call(Scope *scope, const Syntax *syntax, const Expr *args, Expr 
         return call_deflection(scope, syntax, bent, member, args, out, diag);
     return call_unknown(scope->state, syntax, diag);
 }
+
+bool model_call_takes_text(const Syntax *syntax)
+{
+    return syntax->kind == SYNTAX_CALL && function_takes_text(syntax->text);
+}

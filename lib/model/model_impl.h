@@ -440,6 +440,11 @@ MUST_USE Status state_rebuild(const State *old, int without, State **out, NameLi
                               Text *remarks, Diag *diag);
 /* the same of all lines, with laws that formulas call by name */
 MUST_USE Status state_rebuild_named(const State *old, State **out, Diag *diag);
+/* (model_scene.c) outputs and instances of subsystems, of a scene that has none yet */
+void state_list_scene(const State *state, Scene *scene);
+/* (model_extract.c) see model_extract() */
+MUST_USE Status state_extract(const State *old, const Extract *part, State **out,
+                              ExtractedEnds *ends, Diag *diag);
 /* Applies each pair of a statement, all or none. */
 typedef MUST_USE Status ApplyPair(State **state, const Pair *pair, Outcome *outcome, Diag *diag);
 MUST_USE Status apply_pairs(State **state, const Statement *statement, ApplyPair *apply,

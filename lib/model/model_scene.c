@@ -422,3 +422,24 @@ done:
     text_free(&users);
     return status;
 }
+
+void state_list_scene(const State *state, Scene *scene)
+{
+    for (int i = 0; i < state->outputs.count; i++) {
+        const Definition *d = &state->definitions.at[state->outputs.at[i]];
+
+        LIST_PUSH(scene->outputs, (SceneOutput){d->name, d->body});
+    }
+    for (int i = 0; i < state->uses.count; i++) {
+        const Use *use = &state->uses.at[i];
+
+        LIST_PUSH(scene->uses, (SceneUse){use->name, use->subsystem->name, use->outer});
+    }
+}
+
+void scene_free(Scene *scene)
+{
+    LIST_FREE(scene->parameters);
+    LIST_FREE(scene->outputs);
+    LIST_FREE(scene->uses);
+}

@@ -258,6 +258,23 @@ static void offer_linear_inputs(TypedLine *line)
         offer(line, linear->input_names[i]);
 }
 
+/* frames or terminals; after `of` components and instances; `at`, `as` and keys come with any verb
+ */
+static void offer_ports(TypedLine *line)
+{
+    for (int i = 2; i < line->before.count; i++)
+        if (strcmp(line->before.at[i], "of") == 0) {
+            offer_showable(line);
+            return;
+        }
+    offer_terminals(line);
+    for (int i = 0; i < graph_node_count(model_graph(line->known->model)); i++)
+        if (graph_node(model_graph(line->known->model), i)->domain == DOMAIN_MECHANICAL)
+            offer(line, graph_node(model_graph(line->known->model), i)->name);
+    if (line->before.count > 2)
+        offer_alternatives(line, "translation|rotation|of");
+}
+
 static void offer_show(TypedLine *line)
 {
     const Topic *topic = line->before.count > 1 ? topic_find(line->before.at[1]) : NULL;
@@ -283,6 +300,9 @@ static void offer_show(TypedLine *line)
                 offer_linear_inputs(line);
             else if (line->before.count == 4)
                 offer(line, "symbolic");
+            break;
+        case OPERANDS_PORTS:
+            offer_ports(line);
             break;
         case OPERANDS_ITEMS:
             if (line->before.count < 4)

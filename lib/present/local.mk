@@ -57,6 +57,7 @@ libcore_la_SOURCES += \
   lib/present/show_linear.c \
   lib/present/show_response.c \
   lib/present/present_limits.h \
+  lib/present/show_port.c \
   lib/present/show_power.c \
   lib/present/show_program.c \
   lib/present/show_session.c \

@@ -39,8 +39,8 @@ static const Topic topics[] = {
     {"state",        "a linear network as x' = A x + B u",                 NEED_MODEL,  OPERANDS_NOTHING, AS_NUMBERS,  show_state},
     {"linear",       "matrices of the last linearisation",                 NEED_LINEAR, OPERANDS_NOTHING, AS_NUMBERS,  show_linear},
     {"transfer",     "transfer functions of the last linearisation",       NEED_LINEAR, OPERANDS_PAIR,    AS_NUMBERS,  show_transfer},
-    {"thevenin",     "a linear network between two terminals: source and impedance", NEED_MODEL, OPERANDS_ITEMS, AS_FORMULAS, show_thevenin},
-    {"norton",       "the same: source and admittance",                    NEED_MODEL,  OPERANDS_ITEMS,   AS_FORMULAS, show_norton},
+    {"thevenin",     "a linear network at two terminals, a mechanism at frames: source and impedance", NEED_MODEL, OPERANDS_PORTS, AS_FORMULAS, show_thevenin},
+    {"norton",       "the same: source and admittance or inertia",         NEED_MODEL,  OPERANDS_PORTS,   AS_FORMULAS, show_norton},
     {"derivation",   "how an equation came about, step by step",           NEED_SYSTEM, OPERANDS_ENTRY,   AS_NARRATIVE,    show_derivation},
     {"power",        "power of each edge, through times across, and their sums", NEED_INSTANT, OPERANDS_NOTHING, AS_TEXT, show_power},
     {"events",       "events, and when they happened in the last run",     NEED_MODEL,  OPERANDS_NOTHING, AS_TEXT,     show_events},
@@ -173,11 +173,13 @@ static Status read_notation(const Statement *statement, const Topic *topic, Nota
 static Status check_at(const Statement *statement, const Topic *topic, Diag *diag)
 {
     if (statement->at == NULL ||
-        (topic != NULL && (topic->need == NEED_INSTANT || topic->need == NEED_COURSE)))
+        (topic != NULL && (topic->need == NEED_INSTANT || topic->need == NEED_COURSE ||
+                           topic->operands == OPERANDS_PORTS)))
         return OK;
     (void)diag_at(diag, E_SYNTAX, statement->at->place, "'show%s%s' shows no values at an instant",
                   topic != NULL ? " " : "", topic != NULL ? topic->name : "");
-    diag_hint(diag, "'show power at 2' does, and 'print' prints values: print mass(1,1) at 2");
+    diag_hint(diag, "'show power', 'norton' and 'thevenin' do, and 'print' prints values: print "
+                    "mass(1,1) at 2");
     return E_SYNTAX;
 }
 
@@ -282,6 +284,47 @@ static Status take_item(const Topic *topic, const Statement *statement, int oper
     return OK;
 }
 
+/* frames or terminals, then those of the part after `of` */
+static void take_port(const Operand *operand, const Syntax **items, Selection *selection)
+{
+    const Syntax *value = operand->value;
+    const int at = selection->port_count + selection->of_count;
+
+    if (!selection->has_of && selection->port_count > 0 && value->kind == SYNTAX_VARIABLE &&
+        value->primes == 0 && strcmp(value->text, "of") == 0) {
+        selection->has_of = true;
+        selection->of = items + at;
+        return;
+    }
+    items[at] = value;
+    *(selection->has_of ? &selection->of_count : &selection->port_count) += 1;
+}
+
+/* networks=kept|eliminated, of what has ports */
+static Status read_keys(const Topic *topic, const Statement *statement, Selection *selection,
+                        Diag *diag)
+{
+    for (int i = 0; i < statement->pairs.count; i++) {
+        const Pair *pair = &statement->pairs.at[i];
+        const char *word = pair->value->kind == SYNTAX_VARIABLE ? pair->value->text : "";
+
+        if (topic == NULL || topic->operands != OPERANDS_PORTS) {
+            (void)diag_at(diag, E_SYNTAX, pair->name_place, "'show%s%s' takes no keys",
+                          topic != NULL ? " " : "", topic != NULL ? topic->name : "");
+            diag_hint(diag, "'%s=' goes with 'show norton' and 'show thevenin'", pair->name);
+            return E_SYNTAX;
+        }
+        if (strcmp(word, "kept") != 0 && strcmp(word, "eliminated") != 0) {
+            (void)diag_at(diag, E_VALUE, pair->value->place, "networks are kept or eliminated");
+            diag_hint(diag, "networks=kept leaves their unknowns in F0");
+            return E_VALUE;
+        }
+        selection->networks = word[0] == 'k' ? NETWORKS_KEPT : NETWORKS_ELIMINATED;
+    }
+    selection->at = statement->at;
+    return OK;
+}
+
 static Status take_name(const View *view, const Topic *topic, const Operand *operand,
                         Selection *selection, const char **names, Diag *diag)
 {
@@ -330,9 +373,11 @@ static Status show_topic(const View *view, const Topic *topic, const Statement *
     const char **names = NEW_ARRAY(const char *, statement->operands.count);
     Syntax **args = NEW_ARRAY(Syntax *, statement->operands.count);
     Syntax entry = {.kind = SYNTAX_NUMBER};
-    Selection selection = {.names = names};
+    const Syntax **ports = NEW_ARRAY(const Syntax *, statement->operands.count);
+    Selection selection = {.names = names, .ports = ports};
     Status status = OK;
 
+    CHECK(read_keys(topic, statement, &selection, diag));
     for (int i = 1; i < statement->operands.count; i++) {
         const Operand *operand = statement->operands.at + i;
 
@@ -346,6 +391,8 @@ static Status show_topic(const View *view, const Topic *topic, const Statement *
             status = diag_at(diag, E_SYNTAX, operand->place,
                              "'show %s' shows one name, row or entry at a time", topic->name);
             goto done;
+        } else if (topic->operands == OPERANDS_PORTS) {
+            take_port(operand, ports, &selection);
         } else if (topic->operands == OPERANDS_ITEMS) {
             CHECK(take_item(topic, statement, i, &selection, diag));
         } else if (operand->value->kind == SYNTAX_NUMBER) {
@@ -362,11 +409,11 @@ static Status show_topic(const View *view, const Topic *topic, const Statement *
     }
     status = topic->show(view, &selection, out, diag);
     if (status != OK && diag->place.line == 0)
-        diag->place = statement->at != NULL
+        diag->place = statement->at != NULL && topic->need == NEED_INSTANT
                           ? statement->at->place
                           : statement->operands.at[statement->operands.count > 1 ? 1 : 0].place;
 done:
-    MEM_FREE(names, args);
+    MEM_FREE(names, args, ports);
     return status;
 }
 
@@ -417,8 +464,11 @@ static Status show_operands(const View *view, const Topic *topic, const Statemen
 {
     Status status = OK;
 
+    Selection none = {.at = NULL};
+
     if (topic != NULL)
         return show_topic(view, topic, statement, out, diag);
+    TRY(read_keys(NULL, statement, &none, diag));
     for (int i = 0; status == OK && i < statement->operands.count; i++) {
         const Operand *operand = statement->operands.at + i;
 

@@ -25,7 +25,8 @@ typedef enum TopicOperands {
     OPERANDS_LEVEL,   /* velocity or acceleration, and rows */
     OPERANDS_ENTRY,   /* a name, a row, or an entry: mass(2,3) */
     OPERANDS_PAIR,    /* output and input of the linearisation, by number or name */
-    OPERANDS_ITEMS    /* two: terminals, or an output and an input */
+    OPERANDS_ITEMS,   /* two: an output and an input */
+    OPERANDS_PORTS    /* two terminals; or frames, `of` and a part of the model, `at` an instant */
 } TopicOperands;
 
 /* notations that a topic is written in, a bit each */
@@ -36,6 +37,13 @@ typedef enum Written {
     AS_FORMULAS = (1U << NOTATIONS) - 1
 } Written;
 
+/* unknowns of networks in what is shown of a mechanism */
+typedef enum ShownNetworks {
+    NETWORKS_AS_POSSIBLE, /* eliminated where their equations are linear */
+    NETWORKS_KEPT,
+    NETWORKS_ELIMINATED
+} ShownNetworks;
+
 typedef struct Selection {
     int numbers[2]; /* from 1 */
     int number_count;
@@ -45,6 +53,14 @@ typedef struct Selection {
     const char *level;      /* "velocity", "acceleration" or NULL */
     const Syntax *item;     /* OPERANDS_ENTRY; NULL: all */
     const Syntax *items[2]; /* OPERANDS_ITEMS; NULL: none */
+    /* OPERANDS_PORTS */
+    const Syntax *const *ports;
+    int port_count;
+    bool has_of;
+    const Syntax *const *of; /* after `of` */
+    int of_count;
+    const Syntax *at; /* NULL: in symbols */
+    ShownNetworks networks;
 } Selection;
 
 typedef struct Topic {
@@ -101,6 +117,11 @@ LinearMatrix linear_matrix(const Linear *linear, char letter);
 void linear_print(const View *view, const Linear *linear, Text *out);
 ShowFunction show_linear, show_transfer, show_state;
 ShowFunction show_symbolic_transfer, show_thevenin, show_norton;
+/* whether it is a frame, or has the form of a frame's member */
+bool port_is_frame(const View *view, const Syntax *syntax);
+/* the same topics for frames of mechanisms */
+MUST_USE Status show_port(const View *view, const Selection *selection, bool is_norton, Text *out,
+                          Diag *diag);
 /* E_MISSING without a linearisation, or without inputs or outputs of it */
 MUST_USE Status linear_check_pairs(const Linear *linear, Diag *diag);
 /* a number of which `error` is open: six digits, or those that are known, one at least */

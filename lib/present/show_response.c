@@ -224,17 +224,6 @@ Status show_symbolic_transfer(const View *view, const Selection *selection, Text
 
 /* --- equivalents of what is seen between two terminals --- */
 
-/* test sources: of a current (Thevenin) and a voltage (Norton), by domain */
-static const struct {
-    const char *through, *across;
-} test_sources[DOMAIN_COUNT] = {
-    [DOMAIN_ELECTRICAL] = {"isource %s %s %s 0", "vsource %s %s %s 0"},
-    [DOMAIN_HYDRAULIC] = {"pump %s %s %s flow=0", "pump %s %s %s pressure=0"},
-    [DOMAIN_SHAFT] = {"torquesource %s %s %s 0", "speedsource %s %s %s 0"},
-    [DOMAIN_SLIDE] = {"forcesource %s %s %s 0", "velocitysource %s %s %s 0"},
-    [DOMAIN_THERMAL] = {"heatsource %s %s %s 0", "tempsource %s %s %s 0"},
-};
-
 #define TEST_SOURCE "port__source"
 
 typedef struct TestPort {
@@ -277,12 +266,17 @@ static Status find_terminal(const View *view, const Syntax *syntax, Domain *doma
 
 static Status read_port(const View *view, const Selection *selection, TestPort *port, Diag *diag)
 {
-    const Syntax *const *items = selection->items;
+    const Syntax *const *items = selection->ports;
 
     port->domain = DOMAIN_MECHANICAL;
-    if (items[1] == NULL) {
-        (void)diag_set(diag, E_SYNTAX, "an equivalent is that of two terminals");
-        diag_hint(diag, "show %s out 0", port->is_norton ? "norton" : "thevenin");
+    if (selection->port_count != 2 || selection->has_of || selection->at != NULL ||
+        selection->networks != NETWORKS_AS_POSSIBLE) {
+        (void)diag_set(diag, E_SYNTAX,
+                       selection->port_count != 2
+                           ? "an equivalent is that of two terminals, or of frames"
+                           : "'of', 'at' and 'networks' go with frames; these are terminals");
+        diag_hint(diag, "show %s out 0; of a mechanism, show %s FRAME",
+                  port->is_norton ? "norton" : "thevenin", port->is_norton ? "norton" : "thevenin");
         return E_SYNTAX;
     }
     for (int i = 0; i < 2; i++)
@@ -301,10 +295,8 @@ static Status write_source(const View *view, const TestPort *port, Model **fork,
     Text text = {0};
     Status status;
 
-    text_addf(&text,
-              port->is_norton ? test_sources[port->domain].across
-                              : test_sources[port->domain].through,
-              TEST_SOURCE, port->plus, port->minus);
+    text_addf(&text, model_source_statement(port->domain, port->is_norton), TEST_SOURCE, port->plus,
+              port->minus, "0");
     CHECK(model_fork(view->model, fork, diag));
     model_open_insides(*fork);
     CHECK(statement_parse(text.at, 1, (SyntaxOptions){false}, NULL, &statement, diag));
@@ -401,12 +393,41 @@ done:
     return status;
 }
 
+static bool has_frames(const Graph *graph)
+{
+    for (int i = 0; i < graph_node_count(graph); i++)
+        if (graph_node(graph, i)->domain == DOMAIN_MECHANICAL && !graph_node(graph, i)->datum)
+            return true;
+    return false;
+}
+
+/* Whether frames are meant: one is named, or no terminal is where there are frames. */
+static bool is_mechanical_port(const View *view, const Selection *selection)
+{
+    const Graph *graph = model_graph(view->model);
+    bool has_terminal = selection->port_count == 0;
+
+    for (int i = 0; i < selection->port_count; i++) {
+        const char *name = selection->ports[i]->text;
+        const int node = graph_find_node(graph, name);
+
+        if (port_is_frame(view, selection->ports[i]))
+            return true;
+        has_terminal = has_terminal || is_datum(name) || node >= 0;
+    }
+    return !has_terminal && has_frames(graph);
+}
+
 Status show_thevenin(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
+    if (is_mechanical_port(view, selection))
+        return show_port(view, selection, false, out, diag);
     return show_equivalent(view, selection, false, out, diag);
 }
 
 Status show_norton(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
+    if (is_mechanical_port(view, selection))
+        return show_port(view, selection, true, out, diag);
     return show_equivalent(view, selection, true, out, diag);
 }

@@ -21,6 +21,13 @@ typedef struct ViewInstant {
     double time; /* s */
 } ViewInstant;
 
+/* Reads a variable of the model at an instant (NULL: at the end of the last run, or the start). */
+typedef struct ViewValues {
+    Status (*read)(void *context, const char *name, int primes, const Syntax *at, double *out,
+                   Diag *diag);
+    void *context;
+} ViewValues;
+
 typedef struct View {
     const Model *model;
     System *system;       /* of the model as it is; NULL unless equations are needed */
@@ -29,6 +36,7 @@ typedef struct View {
     const Result *(*run)(const void *session, int i);
     const void *session;
     int run_count;
+    ViewValues values;             /* `read` NULL: there are none */
     const Linear *linear;          /* the last linearisation; NULL */
     const SweepTable *sweep;       /* the last sweep; NULL */
     const TerminalGraph *terminal; /* the graph with instances as their ports; NULL: as it is */

@@ -40,6 +40,11 @@ family_response_SOURCES = tests/family/family_response.c tests/family/family.h \
 	tests/random.h tests/unit/session_kit.h tests/unit/test.h
 family_response_LDADD = libcotree.la $(unit_ldadd)
 
+FAMILIES += family_ports
+family_ports_SOURCES = tests/family/family_ports.c tests/family/family.h \
+	tests/random.h tests/unit/session_kit.h tests/unit/test.h
+family_ports_LDADD = libcotree.la $(unit_ldadd)
+
 FAMILIES += family_linear
 family_linear_SOURCES = tests/family/family_linear.c tests/unit/session_kit.h tests/unit/test.h
 family_linear_LDADD = $(unit_ldadd)
