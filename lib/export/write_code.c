@@ -1,12 +1,36 @@
 /* write_code.c: the formats that are code in a programming language */
 #include "export/code.h"
 
+#include "model/model.h"
+
+/* A step of constant length chatters about what sticks: it would creep. */
+static Status check_friction(const Exported *what, const char *language, Diag *diag)
+{
+    const Model *model = what->view.model;
+
+    for (int i = 0; i < model_count(model) && what->inverse == NULL; i++) {
+        const Instance *part = model_instance(model, i);
+
+        if (!part->row->sticks)
+            continue;
+        (void)diag_set(diag, E_MODEL,
+                       "%s %s sticks at rest, which a step of exported %s doesn't do",
+                       part->row->name, part->name, language);
+        diag_hint(diag,
+                  "export fmu does; or an actuator or a source with a steep but continuous law, "
+                  "such as -2*tanh(h1'/0.001), creeps instead");
+        return E_MODEL;
+    }
+    return OK;
+}
+
 static Status write_in(const Exported *what, const Language *language, const char *name, Text *out,
                        Diag *diag)
 {
     Code *code = NULL;
     Status status = OK;
 
+    CHECK(check_friction(what, name, diag));
     CHECK(code_new(what, false, &code, diag));
     if (code_has_modes(code) && !language->differentiates)
         CHECK(code_modes_check(code, name, diag));

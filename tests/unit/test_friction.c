@@ -317,6 +317,27 @@ static void wrong_uses_name_their_cure(void)
     }
 }
 
+/* but efforts of drivers are known, as their motion is */
+static void code_of_what_sticks_is_refused(void)
+{
+    static const char *const languages[] = {"c", "fortran", "matlab", "python"};
+
+    for (int i = 0; i < (int)(sizeof languages / sizeof languages[0]); i++) {
+        Kit kit = kit_new();
+        char text[60], message[80];
+
+        EXPECT_DONE(&kit, HINGE "brake f h torque=1\n");
+        (void)snprintf(text, sizeof text, "export %s h\n", languages[i]);
+        (void)snprintf(message, sizeof message,
+                       "brake f sticks at rest, which a step of exported %s", languages[i]);
+        EXPECT_FAILS(&kit, text, message);
+        EXPECT_HOLDS(kit.error.hint, "export fmu");
+        (void)snprintf(text, sizeof text, "driver d h = t\nexport %s inverse\n", languages[i]);
+        EXPECT_DONE(&kit, text);
+        kit_free(&kit);
+    }
+}
+
 /* Pulled by 2 t N against 5 N, at rest 6 N: it sticks until 3 s. A clutch of t N m slows a
  * flywheel. */
 static void sides_at_an_instant(void)
@@ -421,6 +442,7 @@ int main(void)
     RUN(a_pendulum_comes_to_rest);
     RUN(blocks_in_a_row);
     RUN(an_event_moves_what_sticks);
+    RUN(code_of_what_sticks_is_refused);
     RUN(discs_and_clutches);
     RUN(a_one_way_clutch_drives_and_runs_free);
     RUN(stribeck_and_viscous_friction);
