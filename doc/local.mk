@@ -1,6 +1,6 @@
 # manual, man page, and what in them is made from the program
 info_TEXINFOS = doc/cotree.texi
-doc_cotree_TEXINFOS = doc/cases.texi doc/machines.texi doc/beams.texi doc/teaching.texi doc/reference.texi doc/theory.texi doc/example.c doc/controller.c doc/loop.c doc/fit.c doc/swing.py
+doc_cotree_TEXINFOS = doc/cases.texi doc/machines.texi doc/beams.texi doc/ports.texi doc/teaching.texi doc/reference.texi doc/theory.texi doc/example.c doc/controller.c doc/loop.c doc/fit.c doc/swing.py
 AM_MAKEINFOFLAGS = --no-split -I doc
 dist_man_MANS += doc/cotree.1
 EXTRA_DIST += scripts/dev/docs doc/HACKING
