@@ -7,4 +7,5 @@ libcore_la_SOURCES += \
 	lib/base/text.c lib/base/text.h \
 	lib/base/threads.c lib/base/threads.h \
 	lib/base/transaction.c lib/base/transaction.h \
+	lib/base/worker_processes.c lib/base/worker_processes.h \
 	lib/base/call_monitor.h

@@ -659,9 +659,9 @@ Form model_form(const Model *model, const char *const **independent, int *count)
     return model->state->setup.form;
 }
 
-int model_setting_value(const Model *model, ModelSetting setting)
+const SettingValues *model_settings(const Model *model)
 {
-    return model->state->setup.settings.at[setting];
+    return &model->state->setup.settings;
 }
 
 void model_setting_text(const Model *model, ModelSetting setting, Text *out)

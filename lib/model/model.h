@@ -211,8 +211,16 @@ typedef enum ModelSetting {
     MODEL_SETTINGS
 } ModelSetting;
 const char *const *model_setting(int i);
-/* index of the value, from 0; for whole numbers the value minus 1 */
-int model_setting_value(const Model *model, ModelSetting setting);
+/* of each setting the index of its value, from 0; for whole numbers the value minus 1 */
+typedef struct SettingValues {
+    int at[MODEL_SETTINGS];
+    bool is_given[MODEL_SETTINGS]; /* by a statement */
+} SettingValues;
+const SettingValues *model_settings(const Model *model);
+static inline int model_setting_value(const Model *model, ModelSetting setting)
+{
+    return model_settings(model)->at[setting];
+}
 void model_setting_text(const Model *model, ModelSetting setting, Text *out); /* appends it */
 Form model_form(const Model *model, const char *const **independent,
                 int *count); /* names of coordinates; count 0: chosen by pivoting */

@@ -85,11 +85,6 @@ typedef struct Choice { /* for one tree */
     NameList excluded;
 } Choice;
 
-/* index of the value of each setting, from 0 */
-typedef struct SettingValues {
-    int at[MODEL_SETTINGS];
-} SettingValues;
-
 /* The contents of a State besides its lists. */
 typedef struct Setup {
     bool planar;

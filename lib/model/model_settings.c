@@ -91,6 +91,7 @@ Status setting_apply(State *state, ModelSetting setting, const Statement *statem
                                              : statement->pairs.at[0].name_place,
                               diag);
     state->setup.settings.at[setting] = value;
+    state->setup.settings.is_given[setting] = true;
     outcome->changes_equations = settings[setting].changes_equations;
     if (setting == SETTING_EVALUATOR && value == EVALUATOR_NATIVE && !code_memory_is_there())
         text_add(&outcome->remarks, "no native code can be run here: the interpreter evaluates\n");

@@ -80,7 +80,9 @@ void run_input_make(ct_session *session, const System *system, RunInput *input)
     const Model *model = session->model;
     const int count = model_start_count(model);
 
-    threads_set(session->threads, 1 + model_setting_value(model, SETTING_JOBS));
+    /* the runs of a sweep are shared among processes */
+    threads_set(session->threads,
+                session->is_sweeping ? 1 : 1 + model_setting_value(model, SETTING_JOBS));
     input->parameters = parameters_now(model, system);
     input->start.at = mem_array((size_t)count, sizeof *input->start.at);
     for (int i = 0; i < count; i++) {

@@ -77,6 +77,11 @@
 /* names of freedoms in a remark */
 #define MOST_NAMES 6
 
+/* --- session_sweep.c --- */
+
+/* s: sweeps that take no longer are not shared among processes, unless jobs is given */
+#define SWEEP_WORKERS 0.02
+
 /* --- session_trees.c --- */
 
 /* s; duration of a search for trees, after which the best one found is reported */

@@ -3,11 +3,14 @@
  * The parameters of a run are overrides of the model's (model_override.h), so that a changed number
  * forms no equations anew, and the model is afterwards what it was. What the session knows of its
  * last run, its start and its linearisation is laid aside meanwhile. Nothing that a run leaves is
- * seen by the next one: its row depends on its parameters alone. */
+ * seen by the next one: its row depends on its parameters alone, so that processes that share the
+ * runs make the same rows. */
 #include "session/session_sweep.h"
 
 #include "base/clock.h"
+#include "base/worker_processes.h"
 #include "language/verbs.h"
+#include "session/session_limits.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -152,57 +155,221 @@ static Status run_row(ct_session *session, const Statement *s, const SweepTable 
 
 /* --- all of them --- */
 
-static void note_failure(SweepTable *table, int row, Status status, const Diag *diag)
-{
-    const char *text =
-        diag->status == status && diag->message[0] != '\0' ? diag->message : status_text(status);
+/* The runs of a statement. Before the first they have the caller's process, then workers. */
+typedef struct SweepWork {
+    ct_session *session;
+    const Statement *statement;
+    SweepTable *table;
+    bool *is_made;        /* each row; planned */
+    int made;             /* rows */
+    int overrides, runs;  /* of the session, before */
+    int failed_row;       /* whose error is the statement's; -1: none */
+    Status failed_status; /* of it */
+    Diag first, fatal;    /* of the first row that failed; of failed_row */
+    int first_row;
+    bool is_stopped; /* by the user */
+} SweepWork;
 
+/* what a worker sends, before the figures */
+typedef struct RowResult {
+    Status status;
+    Diag diag;
+} RowResult;
+
+static void note_reason(SweepTable *table, int row, const char *text)
+{
+    mem_free(table->reasons[row]);
     table->reasons[row] = mem_text(text, strlen(text));
     table->failures++;
 }
 
-static void report_progress(const ct_session *session, const char *verb, int row, int planned)
+/* of a row that was made, with its figures in the table */
+static void take_row(SweepWork *work, int row, Status status, const Diag *diag)
 {
-    if (session->hooks.progress != NULL)
-        session->hooks.progress(session->hooks.context, verb, (double)row / planned);
+    if (status != OK && !is_of_one_run(status)) {
+        if (work->failed_row >= 0 && work->failed_row < row)
+            return;
+        work->failed_row = row;
+        work->failed_status = status;
+        work->fatal = *diag;
+        return;
+    }
+    if (status != OK) {
+        note_reason(work->table, row,
+                    diag->status == status && diag->message[0] != '\0' ? diag->message
+                                                                       : status_text(status));
+        if (work->first_row < 0 || row < work->first_row) {
+            work->first_row = row;
+            work->first = *diag;
+        }
+    }
+    work->is_made[row] = true;
+    work->made++;
 }
 
-/* Stops after the row at which it was requested; the rows before it are kept. */
-static Status run_rows(ct_session *session, const Statement *s, SweepTable *table, Diag *diag)
+static Status make_row(SweepWork *work, int row, Diag *diag)
 {
-    void (*progress)(void *, const char *, double) = session->watch.progress;
-    const int overrides = model_override_count(session->model), runs = session->runs.count;
-    const double began = clock_now();
-    Status status = OK;
+    Status status;
 
-    session->watch.progress = NULL; /* the phases of each run are of no interest */
-    while (status == OK && table->rows < table->planned) {
+    focus_clear(work->session, work->runs);
+    status = run_row(work->session, work->statement, work->table, row, diag);
+    model_drop_overrides(work->session->model, work->overrides);
+    return status;
+}
+
+static void report_progress(const SweepWork *work)
+{
+    const ct_hooks *hooks = &work->session->hooks;
+
+    if (hooks->progress != NULL)
+        hooks->progress(hooks->context, work->statement->verb,
+                        (double)work->made / work->table->planned);
+}
+
+/* rows that aren't made yet, one after another, until `end` */
+static Status make_rows_here(SweepWork *work, int end)
+{
+    for (int row = 0; row < end && work->failed_row < 0; row++) {
         Diag why = {0};
+        Status status;
 
-        report_progress(session, s->verb, table->rows, table->planned);
-        focus_clear(session, runs);
-        CHECK(monitor_poll(&session->watch));
-        status = run_row(session, s, table, table->rows, &why);
-        model_drop_overrides(session->model, overrides);
+        if (work->is_made[row])
+            continue;
+        report_progress(work);
+        TRY(monitor_poll(&work->session->watch));
+        status = make_row(work, row, &why);
+        if (status == E_STOPPED)
+            return status;
         /* from now on there is something to lose */
         transaction_stop_asking();
-        if (is_of_one_run(status)) {
-            note_failure(table, table->rows, status, &why);
-            if (table->failures == 1)
-                *diag = why;
-            status = OK;
-        } else if (status != OK) {
-            *diag = why;
-        }
-        table->rows += status == OK;
+        take_row(work, row, status, &why);
     }
-done:
-    model_drop_overrides(session->model, overrides);
-    focus_clear(session, runs);
-    if (status == E_STOPPED)
+    return OK;
+}
+
+/* --- workers --- */
+
+static void work_on_row(void *context, int row, void *result)
+{
+    SweepWork *work = context;
+    const SweepTable *table = work->table;
+    const int figures = table->columns.count - table->parameter_count;
+    RowResult *out = result;
+
+    work->session->watch.stop = NULL;
+    out->status = make_row(work, row, &out->diag);
+    memcpy((char *)result + sizeof *out, sweep_table_row(table, row) + table->parameter_count,
+           (size_t)figures * sizeof(double));
+}
+
+static void take_result(void *context, int row, const void *result)
+{
+    SweepWork *work = context;
+    const SweepTable *table = work->table;
+    const int figures = table->columns.count - table->parameter_count;
+    RowResult got;
+
+    memcpy(&got, result, sizeof got);
+    memcpy(sweep_table_row(table, row) + table->parameter_count, (const char *)result + sizeof got,
+           (size_t)figures * sizeof(double));
+    take_row(work, row, got.status, &got.diag);
+}
+
+static void lose_row(void *context, int row, const char *why)
+{
+    Diag diag = {0};
+
+    take_row(context, row, diag_set(&diag, E_SOLVER, "%s", why), &diag);
+}
+
+static bool has_to_stop(void *context)
+{
+    SweepWork *work = context;
+
+    report_progress(work);
+    work->is_stopped = monitor_poll(&work->session->watch) != OK;
+    return work->is_stopped || work->failed_row >= 0;
+}
+
+static void make_rows_in_workers(SweepWork *work, int jobs)
+{
+    const SweepTable *table = work->table;
+    const int figures = table->columns.count - table->parameter_count;
+    const WorkPlan plan = {
+        .first = work->made,
+        .end = table->planned,
+        .workers = jobs < table->planned - work->made ? jobs : table->planned - work->made,
+        .size = sizeof(RowResult) + (size_t)figures * sizeof(double),
+        .piece = work_on_row,
+        .take = take_result,
+        .lose = lose_row,
+        .stop = has_to_stop,
+        .context = work};
+
+    worker_processes_do(&plan);
+}
+
+/* whether the time that workers save is longer than it takes to start them */
+static bool is_worth_workers(const SweepWork *work, double wall, bool given)
+{
+#ifdef COTREE_FAULTS
+    return false;
+#endif
+    return given || wall * (work->table->planned - work->made) > SWEEP_WORKERS;
+}
+
+/* After a stop: the table ends with the last row that was made, and rows before it that were being
+ * made have no figures. */
+static void end_table(SweepWork *work)
+{
+    SweepTable *table = work->table;
+
+    table->rows = table->planned;
+    while (table->rows > 0 && !work->is_made[table->rows - 1])
+        table->rows--;
+    for (int row = 0; row < table->rows; row++)
+        if (!work->is_made[row])
+            table->reasons[row] = mem_text("stopped", strlen("stopped"));
+}
+
+/* The first run is made here: it forms the equations, which workers then share. Rows are kept after
+ * a stop. */
+static Status run_rows(ct_session *session, const Statement *s, SweepTable *table, int jobs,
+                       bool given, Diag *diag)
+{
+    void (*progress)(void *, const char *, double) = session->watch.progress;
+    SweepWork work = {.session = session,
+                      .statement = s,
+                      .table = table,
+                      .is_made = NEW_ARRAY(bool, table->planned),
+                      .overrides = model_override_count(session->model),
+                      .runs = session->runs.count,
+                      .failed_row = -1,
+                      .first_row = -1};
+    const double began = clock_now();
+    Status status;
+
+    session->watch.progress = NULL; /* the phases of each run are of no interest */
+    status = make_rows_here(&work, 1);
+    if (status == OK && jobs > 1 && work.failed_row < 0 && table->planned - work.made > 1 &&
+        is_worth_workers(&work, clock_now() - began, given))
+        make_rows_in_workers(&work, jobs);
+    if (status == OK)
+        status = work.is_stopped ? E_STOPPED : make_rows_here(&work, table->planned);
+    model_drop_overrides(session->model, work.overrides);
+    focus_clear(session, work.runs);
+    end_table(&work);
+    if (work.failed_row >= 0) {
+        status = work.failed_status;
+        *diag = work.fatal;
+    } else if (status == E_STOPPED) {
         status = diag_set(diag, status, "stopped in run %d of %d", table->rows + 1, table->planned);
+    } else if (work.first_row >= 0) {
+        *diag = work.first;
+    }
     session->watch.progress = progress;
     table->wall = clock_now() - began;
+    mem_free(work.is_made);
     return status;
 }
 
@@ -227,7 +394,7 @@ static void remark_failures(ct_session *session, const SweepTable *table)
 {
     Text line = {0};
 
-    for (int r = 0; r < table->rows && line.length == 0; r++)
+    for (int r = 0; table->failures > 0 && r < table->rows && line.length == 0; r++)
         if (table->reasons[r] != NULL)
             text_addf(&line, "warning: run %d failed: %s%s", r + 1, table->reasons[r],
                       table->failures > 1 ? "; 'show sweep' has the reasons of the others" : "");
@@ -253,13 +420,16 @@ Status session_sweep(ct_session *session, const Statement *s, Diag *diag)
 {
     SessionFocus focus;
     SweepTable *table = NULL;
+    int jobs;
+    bool given;
     Status status;
 
     CHECK(check_rest(s, diag));
+    CHECK(sweep_jobs(session, s, &jobs, &given, diag));
     CHECK(sweep_plan(session, s, &table, diag));
     focus_put_aside(session, &focus);
     session->is_sweeping = true;
-    status = run_rows(session, s, table, diag);
+    status = run_rows(session, s, table, jobs, given, diag);
     session->is_sweeping = false;
     focus_restore(session, &focus);
     if ((status != OK && status != E_STOPPED) || table->rows == 0)

@@ -4,6 +4,7 @@
  * varies slowest. Sets of a file vary before all of them. */
 #include "session/session_sweep.h"
 
+#include "base/worker_processes.h"
 #include "language/verbs.h"
 #include "simulate/sweep/distribution.h"
 #include "simulate/sweep/sampling.h"
@@ -292,6 +293,8 @@ static Status read_pair(SweepPlan *plan, const Pair *pair, bool is_random)
         plan->keep = pair->value;
         return OK;
     }
+    if (strcmp(pair->name, "jobs") == 0)
+        return OK; /* sweep_jobs() */
     if (strcmp(pair->name, is_random ? "points" : "sets") == 0) {
         if (is_random)
             return read_sampling(plan, pair->value);
@@ -415,6 +418,26 @@ static Status count_runs(const SweepPlan *plan, int *out)
         return diag_at(plan->diag, E_VALUE, plan->statement->verb_place,
                        "these are %.3g runs, and up to %.0f are possible", runs, most_runs);
     *out = (int)runs;
+    return OK;
+}
+
+Status sweep_jobs(ct_session *session, const Statement *s, int *out, bool *given, Diag *diag)
+{
+    const SweepPlan plan = {.session = session, .statement = s, .diag = diag};
+
+    *given = model_settings(session->model)->is_given[SETTING_JOBS];
+    *out = *given ? 1 + model_setting_value(session->model, SETTING_JOBS)
+                  : worker_processes_available();
+    for (int i = 0; i < s->pairs.count; i++) {
+        const Pair *pair = &s->pairs.at[i];
+
+        if (strcmp(pair->name, "jobs") != 0 || pair->primes > 0)
+            continue;
+        *given = true;
+        TRY(count_of(&plan, pair->value, "jobs", 1, out));
+        if (*out > MOST_WORKERS)
+            return diag_at(diag, E_VALUE, pair->value->place, "jobs is from 1 to %d", MOST_WORKERS);
+    }
     return OK;
 }
 

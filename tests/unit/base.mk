@@ -2,6 +2,10 @@ UNIT_TESTS += test_base
 test_base_SOURCES = tests/unit/test_base.c tests/unit/test.h tests/random.h
 test_base_LDADD = $(unit_ldadd)
 
+UNIT_TESTS += test_worker_processes
+test_worker_processes_SOURCES = tests/unit/test_worker_processes.c tests/unit/test.h
+test_worker_processes_LDADD = $(unit_ldadd)
+
 UNIT_TESTS += test_hessenberg_form
 test_hessenberg_form_SOURCES = tests/unit/test_hessenberg_form.c tests/unit/test.h tests/random.h
 test_hessenberg_form_LDADD = $(unit_ldadd)
