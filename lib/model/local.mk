@@ -1,6 +1,6 @@
 libcore_la_SOURCES += \
   lib/model/event.h \
-  lib/model/measure.c \
+  lib/model/model_text.c lib/model/measure.c \
   lib/model/measure.h \
   lib/model/measure_check.c \
   lib/model/model.c \

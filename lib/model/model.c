@@ -729,17 +729,6 @@ bool model_is_integral(const Model *model, const char *name)
     return variable_is_integral(model->state, name);
 }
 
-bool model_text_dimension(const Model *model, const char *text, Dimension *out)
-{
-    Pool *pool = pool_new(1024);
-    Syntax *syntax = NULL;
-    const bool found = syntax_parse_expression(text, pool, &syntax, NULL) == OK &&
-                       model_dimension(model, syntax, out);
-
-    pool_free(pool);
-    return found;
-}
-
 const char *model_member_unit(const Model *model, const Instance *part, const char *member)
 {
     return member_unit(ask(model).state, part, member);

@@ -13,4 +13,7 @@
  * determinants of up to three rows, which cancel where Phi_d is nearly singular. */
 #define COMPLEMENT_ROUNDING 1e-9
 
+/* of the energies of a run: a smaller loss consists of rounding errors, of a part that sticks */
+#define LOSS_NOISE 1e-12
+
 #endif

@@ -146,5 +146,8 @@ MUST_USE Status show_without_run(Diag *diag);
 void report_print(Text *out, const Result *result, const char *name);
 /* the same in one line: final time, work, drift */
 void report_line(Text *out, const Result *result, const char *name);
+/* A line for each part with dry friction in the last run: when it stuck, how often it slipped, the
+ * energy that it lost. Nothing where there are none. */
+MUST_USE Status report_friction(const View *view, Text *out, Diag *diag);
 
 #endif

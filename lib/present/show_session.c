@@ -221,19 +221,13 @@ void report_line(Text *out, const Result *result, const char *name)
     text_char(out, '\n');
 }
 
-Status show_without_run(Diag *diag)
-{
-    (void)diag_set(diag, E_MISSING, "there is no run yet");
-    diag_hint(diag, "'simulate 10' makes one");
-    return E_MISSING;
-}
-
 Status show_run(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
     (void)selection;
     if (view->result == NULL)
         return show_without_run(diag);
     report_print(out, view->result, "run");
+    TRY(report_friction(view, out, diag));
     remarks_write(result_remarks(view->result), out);
     return OK;
 }

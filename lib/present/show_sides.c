@@ -2,33 +2,149 @@
 #include "present/show.h"
 
 #include "component/component.h"
+#include "present/present_limits.h"
 
 #include <math.h>
+
+enum { REPORTED_PARTS = 8 }; /* in the report of a run */
 
 static const char *side_name(const StickRecord *record)
 {
     return record->is_held ? "held at its bound" : record->sticks ? "sticks" : "slips";
 }
 
-static Status show_course(const View *view, Text *out)
+/* --- over the run --- */
+
+/* parts that may stick in the last run */
+typedef struct Rubbing {
+    const Instance *part;
+    StickRecord record;
+    double lost; /* J */
+} Rubbing;
+typedef LIST(Rubbing) RubbingParts;
+
+static Status read_lost(const View *view, RubbingParts *parts, Diag *diag)
 {
-    Table table = table_for("llrr");
+    Expr *items = NEW_ARRAY(Expr, parts->count);
+    double *lost = NEW_ARRAY(double, parts->count);
+    Status status = OK;
 
-    for (int i = 0; i < model_count(view->model); i++) {
-        const Instance *part = model_instance(view->model, i);
-        StickRecord record;
+    for (int i = 0; i < parts->count; i++) {
+        Text name = {0};
 
-        if (!part->row->sticks || !result_stick(view->result, part->name, &record))
-            continue;
-        if (table.cells.count == 0)
-            table_cells(&table, "part\tat the end\tstuck [s]\tslips");
-        table_cells(&table, "%s\t%s\t%.6g\t%d", part->name, side_name(&record), record.stuck,
-                    record.slips);
+        text_addf(&name, "%s.loss", parts->at[i].part->name);
+        items[i] = expr_symbol(model_arena(view->model), name.at, SYMBOL_VARIABLE);
+        text_free(&name);
     }
-    if (table.cells.count == 0)
+    CHECK(view->integrals(view->session, items, parts->count, lost, diag));
+    for (int i = 0; i < parts->count; i++)
+        parts->at[i].lost = lost[i];
+done:
+    MEM_FREE(items, lost);
+    return status;
+}
+
+/* Fills a list that the caller frees, also on failure. */
+static Status find_rubbing(const View *view, RubbingParts *out, Diag *diag)
+{
+    for (int i = 0; i < model_count(view->model); i++) {
+        Rubbing rubbing = {.part = model_instance(view->model, i)};
+
+        if (rubbing.part->row->sticks && result_rows(view->result) > 0 &&
+            result_stick(view->result, rubbing.part->name, &rubbing.record))
+            LIST_PUSH(*out, rubbing);
+    }
+    return out->count > 0 ? read_lost(view, out, diag) : OK;
+}
+
+/* a size of the energies of the run, J */
+static double largest_energy(const View *view, const RubbingParts *parts)
+{
+    const double scale = result_report(view->result)->energy_scale;
+    double largest = isfinite(scale) ? scale : 0;
+
+    for (int i = 0; i < parts->count; i++)
+        largest = fmax(largest, fabs(parts->at[i].lost));
+    return largest;
+}
+
+static double shown_loss(const Rubbing *rubbing, double largest)
+{
+    return fabs(rubbing->lost) <= LOSS_NOISE * largest ? 0 : rubbing->lost;
+}
+
+static Status show_course(const View *view, Text *out, Diag *diag)
+{
+    Table table = table_for("llrrr");
+    RubbingParts parts = {0};
+    Status status = OK;
+
+    CHECK(find_rubbing(view, &parts, diag));
+    for (int i = 0; i < parts.count; i++) {
+        const Rubbing *at = &parts.at[i];
+
+        if (i == 0)
+            table_cells(&table, "part\tat the end\tstuck [s]\tslips\tlost [J]");
+        table_cells(&table, "%s\t%s\t%.6g\t%d\t%.6g", at->part->name, side_name(&at->record),
+                    at->record.stuck, at->record.slips,
+                    shown_loss(at, largest_energy(view, &parts)));
+    }
+    if (parts.count == 0)
         text_add(out, "nothing sticks or slips\n");
-    table_finish(out, &table, 0);
-    return OK;
+    table_print(out, &table, 0);
+done:
+    table_free(&table);
+    LIST_FREE(parts);
+    return status;
+}
+
+static void add_count(Text *out, const char *what, int count)
+{
+    if (count == 1)
+        text_addf(out, "%s once", what);
+    else if (count > 1)
+        text_addf(out, "%s %d times", what, count);
+    else
+        text_addf(out, "never %s", what);
+}
+
+/* "f1: stuck 0.71 to 0.79 s, slipped 3 times, lost 1.32 J" */
+static void report_part(const Rubbing *at, double largest, Text *out)
+{
+    const StickRecord *record = &at->record;
+
+    text_addf(out, "%s: ", at->part->name);
+    if (record->spans == 1)
+        text_addf(out, "stuck %.6g to %.6g s", record->from, record->to);
+    else
+        add_count(out, "stuck", record->spans);
+    if (record->spans > 1)
+        text_addf(out, " for %.6g s", record->stuck);
+    text_add(out, ", ");
+    add_count(out, "slipped", record->slips);
+    text_addf(out, ", lost %.6g J\n", shown_loss(at, largest));
+}
+
+Status report_friction(const View *view, Text *out, Diag *diag)
+{
+    RubbingParts parts = {0};
+    double lost = 0;
+    Status status = OK;
+
+    CHECK(find_rubbing(view, &parts, diag));
+    for (int i = 0; i < parts.count; i++) {
+        if (i < REPORTED_PARTS)
+            report_part(&parts.at[i], largest_energy(view, &parts), out);
+        lost += shown_loss(&parts.at[i], largest_energy(view, &parts));
+    }
+    if (parts.count > REPORTED_PARTS)
+        text_addf(out, "and %d more parts with friction: 'show sides' lists them\n",
+                  parts.count - REPORTED_PARTS);
+    if (parts.count > 1)
+        text_addf(out, "friction: lost %.6g J in all\n", lost);
+done:
+    LIST_FREE(parts);
+    return status;
 }
 
 /* --- at an instant --- */
@@ -126,10 +242,17 @@ done:
     return status;
 }
 
+Status show_without_run(Diag *diag)
+{
+    (void)diag_set(diag, E_MISSING, "there is no run yet");
+    diag_hint(diag, "'simulate 10' makes one");
+    return E_MISSING;
+}
+
 Status show_sides(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
     (void)selection;
     if (view->result == NULL)
         return show_without_run(diag);
-    return view->instant != NULL ? show_instant(view, out, diag) : show_course(view, out);
+    return view->instant != NULL ? show_instant(view, out, diag) : show_course(view, out, diag);
 }

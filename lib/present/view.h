@@ -34,6 +34,8 @@ typedef struct View {
     const Result *result; /* the last run; NULL */
     /* run i of run_count, from 0 */
     const Result *(*run)(const void *session, int i);
+    /* integrals of expressions over the user's variables over the last run */
+    Status (*integrals)(const void *session, const Expr *items, int count, double *out, Diag *diag);
     const void *session;
     int run_count;
     ViewValues values;             /* `read` NULL: there are none */

@@ -401,6 +401,7 @@ char *ct_report(ct_session *session)
     Text text = {0};
     const View view = session_view(session);
     const int count = session->runs.count;
+    Diag diag = {0};
     char name[32];
 
     if (session->reporter != NULL) {
@@ -410,6 +411,8 @@ char *ct_report(ct_session *session)
     } else if (count > 0) {
         (void)snprintf(name, sizeof name, "run%d", count);
         report_print(&text, session->runs.at[count - 1].result, name);
+        if (report_friction(&view, &text, &diag) != OK)
+            text_addf(&text, "friction: %s\n", diag.message);
     }
     return text_done(&text);
 }

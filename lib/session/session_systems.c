@@ -228,6 +228,16 @@ static const Result *run_result(const void *session, int i)
     return ((const ct_session *)session)->runs.at[i].result;
 }
 
+static Status run_integrals(const void *context, const Expr *items, int count, double *out,
+                            Diag *diag)
+{
+    const ct_session *session = context;
+    const Run *last = &session->runs.at[session->runs.count - 1];
+    const double end = result_times(last->result)[result_rows(last->result) - 1];
+
+    return result_reader_integrals(last->reader, items, count, &end, 1, &session->watch, out, diag);
+}
+
 View session_view(const ct_session *session)
 {
     const int runs = session->runs.count;
@@ -235,6 +245,7 @@ View session_view(const ct_session *session)
     return (View){.model = session->model,
                   .result = runs > 0 ? session->runs.at[runs - 1].result : NULL,
                   .run = run_result,
+                  .integrals = run_integrals,
                   .session = session,
                   .run_count = runs,
                   .linear = session->linear,

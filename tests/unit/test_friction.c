@@ -401,6 +401,10 @@ static void a_clutch_loses_energy(void)
     EXPECT_DONE(&kit, "expect c1.lost ~ 20*(25*0.55^2 - 30/4*0.55^4) within 1e-8 at 0.55\n"
                       "resume 2\n");
     EXPECT(is_near(kit_value(&kit, "c1.lost"), lost, 1e-8));
+    EXPECT_DONE(&kit, "show sides");
+    EXPECT_HOLDS(kit.text, "c1    sticks        1.66667      1   416.667");
+    EXPECT_DONE(&kit, "show run");
+    EXPECT_HOLDS(kit.text, "c1: stuck 1.33333 to 3 s, slipped once, lost 416.667 J\n");
     EXPECT(is_near(kit_value(&kit, "run1.c1.lost"), 20 * (25 - 30 / 4.0), 1e-8));
     EXPECT(is_near(kit_value(&kit, "energy.total + energy.lost"), 625, 1e-8));
     EXPECT_DONE(&kit, "sweep T=[10, 30] keep=[c1.lost] : simulate 3\n");

@@ -55,10 +55,12 @@ typedef struct EventRecord {
 
 /* What becomes of a part that sticks (Component.sticks) in a run, or at an instant. */
 typedef struct StickRecord {
-    bool sticks;  /* at the end, or then */
-    bool is_held; /* then at its bound, while other parts hold it */
-    double stuck; /* s: all in all */
-    int slips;    /* spans of time in which it slipped */
+    bool sticks;     /* at the end, or then */
+    bool is_held;    /* then at its bound, while other parts hold it */
+    double stuck;    /* s: all in all, */
+    int spans;       /* in so many spans of time, */
+    double from, to; /* s: of which the last begins and ends then */
+    int slips;       /* spans of time in which it slipped */
 } StickRecord;
 
 void result_free(Result *result); /* NULL is fine */

@@ -18,7 +18,7 @@ bool result_stick(const Result *result, const char *part, StickRecord *out)
     const Grid *corners = &result->corners, *grid = &result->grid;
     double since = grid->count > 0 ? grid->times[0] : 0;
     int phase = result->first;
-    bool slipped = false, found = false;
+    bool slipped = false, stuck = false, found = false;
 
     *out = (StickRecord){0};
     for (int k = 0; k <= corners->count; k++) {
@@ -34,6 +34,13 @@ bool result_stick(const Result *result, const char *part, StickRecord *out)
             out->stuck += out->sticks ? until - since : 0;
             out->slips += !out->sticks && !slipped;
             slipped = !out->sticks;
+            if (out->sticks && !stuck) {
+                out->spans++;
+                out->from = since;
+            }
+            if (out->sticks)
+                out->to = until;
+            stuck = out->sticks;
         }
         since = until;
         phase = k < corners->count ? corners->phase[k] : phase;
