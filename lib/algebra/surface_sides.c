@@ -41,12 +41,30 @@ static bool slip_at(const Search *s, double *out)
     return true;
 }
 
+static double low_of(const SurfaceSide *at)
+{
+    return at->is_unilateral ? 0 : -at->bound;
+}
+
+static double high_of(const SurfaceSide *at)
+{
+    return at->is_unilateral ? INFINITY : at->bound;
+}
+
+/* the sign where the surface is left to its side */
+static double left_sign(const SurfaceSide *at)
+{
+    return at->is_unilateral ? 0 : at->side;
+}
+
 /* column k of B from slip at two values of its sign; a where there is no other */
 static bool find_slope(Search *s, int k)
 {
     const int n = s->n;
-    const double kept = s->signs[k], end = s->at[k].bound;
-    const double low = n == 1 ? -end : kept - (kept > 0 ? 0.5 : 0), high = n == 1 ? end : low + 0.5;
+    const double kept = s->signs[k];
+    const bool is_all = n == 1 && !s->at[k].is_unilateral;
+    const double low = is_all ? low_of(&s->at[k]) : kept - (kept > 0 ? 0.5 : 0);
+    const double high = is_all ? high_of(&s->at[k]) : low + 0.5;
     bool sound;
 
     s->signs[k] = low;
@@ -57,7 +75,7 @@ static bool find_slope(Search *s, int k)
     for (int i = 0; i < n; i++)
         s->b[i * n + k] = (s->other[i] - s->slip[i]) / (high - low);
     if (n == 1)
-        s->a[0] = (s->other[0] + s->slip[0]) / 2;
+        s->a[0] = s->slip[0] - s->b[0] * low;
     return sound;
 }
 
@@ -113,13 +131,13 @@ static bool solve_sides(Search *s)
         if (!s->at[i].is_fixed)
             s->place[problem.n++] = i;
         else
-            s->signs[i] = s->at[i].side;
+            s->signs[i] = left_sign(&s->at[i]);
     for (int i = 0; i < problem.n; i++) {
         const SurfaceSide *at = &s->at[s->place[i]];
         const double *row = s->b + s->place[i] * n;
 
-        s->high[i] = at->bound;
-        s->low[i] = -at->bound;
+        s->high[i] = high_of(at);
+        s->low[i] = low_of(at);
         s->side[i] = at->side;
         s->q[i] = -s->a[s->place[i]];
         for (int k = 0; k < n; k++)
@@ -144,10 +162,10 @@ static bool leave(Search *s)
     for (int i = 0; i < s->n; i++) {
         SurfaceSide *at = &s->at[i];
 
-        if (at->is_fixed || at->side == 0 || at->bound == 1)
+        if (at->is_fixed || at->side == 0 || s->signs[i] == left_sign(at))
             continue;
         at->is_fixed = any = true;
-        s->signs[i] = at->side;
+        s->signs[i] = left_sign(at);
     }
     return any;
 }

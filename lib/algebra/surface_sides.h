@@ -1,6 +1,6 @@
 /* surface_sides.h: sides on the surfaces that a motion stands on
  *
- *     slip = a + B s,  -r <= s <= r
+ *     slip = a + B s,  -r <= s <= r, or where it is unilateral 0 <= s
  *
  * s: signs of the surfaces h = 0 in the equations; slip: how each is left, h' or what of it signs
  * affect. s = r: it is left to h > 0, slip >= 0; s = -r: to h < 0, slip <= 0; otherwise the motion
@@ -9,7 +9,9 @@
  * does. Where B_ii > 0 what jumps pushes away, and nothing slides there.
  *
  * r is above 1 where static friction is larger than kinetic: a surface that is left then has the
- * sign +-1, and the others are solved for again. At most as many rounds as surfaces.
+ * sign +-1, and the others are solved for again. At most as many rounds as surfaces. Where a
+ * surface is unilateral s is the effort that keeps h from being positive: 0 where it is left to h <
+ * 0.
  *
  * Freestanding: no allocation, no library but math. The file is also part of FMUs. */
 #ifndef COTREE_ALGEBRA_SURFACE_SIDES_H
@@ -21,7 +23,8 @@
 
 /* a surface that the motion stands on */
 typedef struct SurfaceSide {
-    double bound; /* r */
+    double bound; /* r; of what is unilateral no number */
+    bool is_unilateral;
     double off;   /* h where slip is h', or h' where it is h'': 0 if the motion stands on it */
     int side;     /* given: to which it is left, 0 where that is not known; found: 0: slid along */
     bool ends;    /* given: its sign has reached its bound on that side */

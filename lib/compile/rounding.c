@@ -82,6 +82,7 @@ static bool is_decision(int code)
     switch (code - CODE_CALL) {
     case OP_SIGN:
     case OP_STICK:
+    case OP_UNILATERAL:
     case OP_STEP:
     case OP_FLOOR:
     case OP_LT:

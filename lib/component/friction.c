@@ -177,12 +177,14 @@ static void load_relation(const Instance *instance, Arena *arena, int which, con
                       .value = expr_sub(arena, instance_across(instance, arena, 0), load)};
 }
 
-/* v > 0 is driven along, with at most T; v < 0 runs free */
+/* v > 0 is driven along, with at most T, or with as much as it takes; v < 0 runs free */
 static Expr carried(const Instance *instance, Arena *arena, Expr v)
 {
     const Expr half = expr_rational(arena, 1, 2), one = expr_int(arena, 1);
     const Expr share = expr_mul(arena, half, expr_add(arena, one, expr_call1(arena, OP_SIGN, v)));
 
+    if (!instance_value(instance, bound_name(instance))->given)
+        return expr_call2(arena, OP_UNILATERAL, v, expr_int(arena, 0));
     return expr_mul(arena, bound_of(instance, arena), share);
 }
 
@@ -201,19 +203,27 @@ static void oneway_relation(const Instance *instance, Arena *arena, int which,
 
 /* --- checks --- */
 
-static Status check_bound(const Instance *instance, Diag *diag)
+/* the bound that doesn't belong to its coordinate */
+static Status check_unit(const Instance *instance, Diag *diag)
 {
-    const char *right = bound_name(instance);
     const char *wrong = instance->on_angle ? "force" : "torque";
     Status status;
 
-    if (instance_value(instance, wrong)->given) {
-        status = diag_set(diag, E_VALUE, "%s= does not fit: %s acts on %s", wrong, instance->name,
-                          instance->on_angle ? "an angle" : "a length");
-        diag_hint(diag, "use %s=", right);
-        diag_about(diag, "%s", wrong);
-        return status;
-    }
+    if (!instance_value(instance, wrong)->given)
+        return OK;
+    status = diag_set(diag, E_VALUE, "%s= does not fit: %s acts on %s", wrong, instance->name,
+                      instance->on_angle ? "an angle" : "a length");
+    diag_hint(diag, "use %s=", bound_name(instance));
+    diag_about(diag, "%s", wrong);
+    return status;
+}
+
+static Status check_bound(const Instance *instance, Diag *diag)
+{
+    const char *right = bound_name(instance);
+    Status status;
+
+    TRY(check_unit(instance, diag));
     if (instance_value(instance, right)->given)
         return check_not_negative(instance, right, diag);
     if (has_param(instance, "viscous") && instance_value(instance, "viscous")->given)
@@ -318,7 +328,10 @@ static Status oneway_check(const Instance *instance, Arena *arena, bool planar, 
 {
     (void)arena;
     (void)planar;
-    return check_bound(instance, diag);
+    TRY(check_unit(instance, diag));
+    return instance_value(instance, bound_name(instance))->given
+               ? check_not_negative(instance, bound_name(instance), diag)
+               : OK;
 }
 
 /* --- rows --- */
@@ -464,8 +477,8 @@ const Component component_oneway = {
     .member_count = COUNT(joint_members),
     .check = oneway_check,
     .help = "The first of two joints, shafts or slides drives the second along and never runs "
-            "ahead of it; the second may run ahead freely. torque= or force= is the most that it "
-            "carries; beyond, it slips.",
+            "ahead of it; the second may run ahead freely. It is rigid; with torque= or force= it "
+            "slips where it would carry more.",
     .example = "flywheel J1 a 0 J=0.5\nflywheel J2 b 0 J=1\ntorquesource T1 a 0 10*sin(t)\n"
                "shaft d1 b 0 d=0.3\noneway o1 a b torque=1000\n"
                "init J1.w = 0, J2.w = 0\nsimulate 10\nprint J1.w, J2.w, o1.torque",

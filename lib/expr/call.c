@@ -9,6 +9,8 @@
 #include <math.h>
 #include <string.h>
 
+#define UNILATERAL_CLOSED 1e-9 /* m or rad: further beyond a bound no force holds */
+
 /* --- values --- */
 
 /* clang-format off */
@@ -34,6 +36,8 @@ static double v_log(const double *x)   { return elementary_log(x[0]); }
 static double v_sqrt(const double *x)  { return sqrt(x[0]); }
 static double v_abs(const double *x)   { return fabs(x[0]); }
 static double v_sign(const double *x)  { return (x[0] > 0) - (x[0] < 0); }
+/* beyond 0, by more than rounding, it has no value */
+static double v_unilateral(const double *x) { return x[0] > UNILATERAL_CLOSED ? (double)NAN : 0; }
 static double v_min(const double *x)   { return x[1] < x[0] ? x[1] : x[0]; }
 static double v_max(const double *x)   { return x[1] > x[0] ? x[1] : x[0]; }
 static double v_step(const double *x)  { return x[0] >= 0; }
@@ -238,6 +242,11 @@ static Expr exact_stick(Arena *arena, const Expr *args)
                : NULL;
 }
 
+static Expr exact_unilateral(Arena *arena, const Expr *args)
+{
+    return is_number(args[0]) && expr_value(args[0]) < 0 ? expr_int(arena, 0) : NULL;
+}
+
 static Expr exact_named_temporary(Arena *arena, const Expr *args)
 {
     (void)arena;
@@ -263,6 +272,7 @@ static const Exact exact[OP_COUNT] = {
     [OP_ABS] = {.parity = EVEN, .picks = true, .rule = exact_abs},
     [OP_SIGN] = {.parity = ODD, .picks = true},
     [OP_STICK] = {.rule = exact_stick},
+    [OP_UNILATERAL] = {.rule = exact_unilateral},
     [OP_MIN] = {.commutes = true, .picks = true, .rule = exact_pick},
     [OP_MAX] = {.commutes = true, .picks = true, .rule = exact_pick},
     [OP_STEP] = {.picks = true},

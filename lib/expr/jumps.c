@@ -38,6 +38,7 @@ Expr switch_condition(Arena *arena, Expr e)
     case OP_RAMP:
     case OP_SIGN:
     case OP_STICK:
+    case OP_UNILATERAL:
     case OP_ABS:
         return expr_arg(e, 0);
     case OP_FLOOR: /* at whole numbers */

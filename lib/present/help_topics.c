@@ -57,7 +57,9 @@ static void write_functions(Text *out)
     layout_words(
         out, TOPIC_WIDTH, "",
         "Angles are in radians. stick(x, r) is the sign of x; while a run holds x at 0 it is "
-        "between -r and r, as static friction is. step(x) is 0 for x < 0 and 1 otherwise, ramp(x) "
+        "between -r and r, as static friction is. unilateral(x, e) is the effort that holds x at 0 "
+        "or below, with impacts of the coefficient of restitution e. step(x) is 0 for x < 0 and 1 "
+        "otherwise, ramp(x) "
         "is x*step(x), "
         "and if(c, a, b) is a if c holds and b otherwise. unwrap(y, x, a) is the angle atan2(y, "
         "x) plus the full turns that bring it nearest to a. Functions of time: pulse(t, low, "

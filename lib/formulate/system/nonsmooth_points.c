@@ -64,14 +64,34 @@ bool surface_is_same(Expr surface, Expr condition, int *way)
 
 Expr surface_ratio(Expr call)
 {
-    return expr_op(call) == OP_STICK ? expr_arg(call, 1) : NULL;
+    return expr_op(call) == OP_STICK || expr_op(call) == OP_UNILATERAL ? expr_arg(call, 1) : NULL;
+}
+
+bool surface_is_unilateral(Expr call)
+{
+    return expr_op(call) == OP_UNILATERAL;
+}
+
+Expr surface_of_call(Arena *arena, Expr call, int *way)
+{
+    const Expr condition = switch_condition(arena, call);
+    Expr surface;
+
+    if (condition == NULL || expr_is_number(condition))
+        return NULL;
+    surface = surface_of(arena, condition, way);
+    if (!surface_is_unilateral(call) || *way > 0)
+        return surface;
+    *way = 1;
+    return expr_neg(arena, surface);
 }
 
 bool switch_jumps(Expr e)
 {
     return expr_kind(e) == EXPR_CALL &&
            (expr_op(e) == OP_LT || expr_op(e) == OP_LE || expr_op(e) == OP_STEP ||
-            expr_op(e) == OP_SIGN || expr_op(e) == OP_STICK || expr_op(e) == OP_FLOOR);
+            expr_op(e) == OP_SIGN || expr_op(e) == OP_STICK || expr_op(e) == OP_UNILATERAL ||
+            expr_op(e) == OP_FLOOR);
 }
 
 typedef struct Over {

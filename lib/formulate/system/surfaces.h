@@ -4,7 +4,10 @@
  * (Filippov 1988). What jumps there has a value between its two: the sign of h is an unknown
  * between -1 and 1 (Utkin's equivalent control), such that h remains 0. Of stick(h, r), which
  * static friction is, it is between -r and r: such a surface is another one than that of sign(h).
- */
+ *
+ * Of unilateral(h, e) it is the effort itself, 0 where h < 0 and 0 or more where h = 0, such that
+ * h is never positive. What meets h = 0 with h' > 0 has an impact there: h' behind it is -e times
+ * what it was. */
 #ifndef COTREE_FORMULATE_SYSTEM_SURFACES_H
 #define COTREE_FORMULATE_SYSTEM_SURFACES_H
 
@@ -14,7 +17,8 @@
 typedef struct Surface {
     int number;     /* of system_surface(); -1: of none */
     Expr condition; /* h, as system_surface() returns it */
-    Expr ratio;     /* r; NULL: 1 */
+    Expr ratio;     /* r; NULL: 1; of unilateral() its coefficient of restitution */
+    bool is_unilateral;
     bool may_slide; /* the sign may be between -1 and 1 */
     Expr sign;      /* symbol of the sign of h */
     Expr measure;   /* h, with the surfaces' signs substituted */
@@ -26,8 +30,12 @@ Expr surface_of(Arena *arena, Expr condition, int *way);
  * points, where their terms are written differently, as a velocity in other axes. *way as above.
  * O(nodes). */
 bool surface_is_same(Expr surface, Expr condition, int *way);
-/* r of a call that jumps; NULL: 1 */
+/* r of a call that jumps; NULL: 1; of unilateral() its coefficient of restitution */
 Expr surface_ratio(Expr call);
+bool surface_is_unilateral(Expr call);
+/* h of a call that jumps, as surface_of(); of unilateral() with its own sign: *way is 1. NULL: it
+ * is a number. */
+Expr surface_of_call(Arena *arena, Expr call, int *way);
 /* whether a call jumps where its condition is 0 */
 bool switch_jumps(Expr e);
 /* whether anything in e jumps with symbols of these kinds (bits as of expr_kinds()); O(nodes) */

@@ -345,6 +345,7 @@ int system_switches(System *system, const Switch **switches, int *time_only);
  * stick(), in parameters; NULL: 1. Each pair is there once. */
 typedef struct SystemSurface {
     Expr condition, ratio;
+    bool is_unilateral; /* the ratio is its coefficient of restitution */
 } SystemSurface;
 bool system_surface(System *system, int i, SystemSurface *out); /* false at the end */
 /* The surface on which a part that sticks (Component.sticks) rests; -1: none. O(its law). */

@@ -37,24 +37,32 @@ static bool may_be_between(const Putting *put, Expr e)
     return false;
 }
 
+static bool is_of_law(Expr ratio, bool is_unilateral, Expr call)
+{
+    return ratio == surface_ratio(call) && is_unilateral == surface_is_unilateral(call);
+}
+
 /* the replacement for the sign of the condition of a call that jumps; NULL: it is not replaced */
 static Expr sign_on(Arena *arena, const Putting *put, Expr call)
 {
-    const Expr condition = switch_condition(arena, call), ratio = surface_ratio(call);
     int way;
-    Expr surface;
+    const Expr condition = surface_of_call(arena, call, &way);
 
-    if (expr_is_number(condition))
+    if (condition == NULL)
         return NULL;
-    surface = surface_of(arena, condition, &way);
     for (int i = 0; i < put->count; i++)
-        if (put->surfaces[i].ratio == ratio &&
-            (put->surfaces[i].condition == surface || put->surfaces[i].measure == surface))
+        if (is_of_law(put->surfaces[i].ratio, put->surfaces[i].is_unilateral, call) &&
+            (put->surfaces[i].condition == condition || put->surfaces[i].measure == condition))
             return way > 0 ? put->surfaces[i].sign : expr_neg(arena, put->surfaces[i].sign);
-    for (int i = 0; i < put->count; i++)
-        if (put->surfaces[i].ratio == ratio &&
-            surface_is_same(put->surfaces[i].condition, condition, &way))
-            return way > 0 ? put->surfaces[i].sign : expr_neg(arena, put->surfaces[i].sign);
+    for (int i = 0; i < put->count; i++) {
+        int other;
+
+        if (!is_of_law(put->surfaces[i].ratio, put->surfaces[i].is_unilateral, call) ||
+            !surface_is_same(put->surfaces[i].condition, condition, &other) ||
+            (other < 0 && surface_is_unilateral(call)))
+            continue;
+        return way * other > 0 ? put->surfaces[i].sign : expr_neg(arena, put->surfaces[i].sign);
+    }
     return NULL;
 }
 
@@ -84,7 +92,7 @@ static Expr put_jump(Arena *arena, const Putting *put, Expr e)
 
     if (sign == NULL)
         return e;
-    if (expr_op(e) == OP_SIGN || expr_op(e) == OP_STICK)
+    if (expr_op(e) == OP_SIGN || expr_op(e) == OP_STICK || expr_op(e) == OP_UNILATERAL)
         return sign;
     if (expr_op(e) == OP_FLOOR)
         return put_floor(arena, expr_arg(e, 0), sign);
@@ -288,15 +296,17 @@ static bool is_of_time(System *system, Expr condition)
 /* finds the surface on which the equations jump, among those in the state, each once */
 static void find_surface(System *system, Switch *entry)
 {
-    SystemSurface surface = {.ratio = surface_ratio(entry->call)};
+    SystemSurface surface = {.ratio = surface_ratio(entry->call),
+                             .is_unilateral = surface_is_unilateral(entry->call)};
     int way;
 
     if (is_of_time(system, entry->condition))
         return;
-    surface.condition = surface_of(system->arena, entry->condition, &way);
+    surface.condition = surface_of_call(system->arena, entry->call, &way);
     for (int i = 0; i < system->shown->surfaces.count && entry->surface < 0; i++)
         if (system->shown->surfaces.at[i].condition == surface.condition &&
-            system->shown->surfaces.at[i].ratio == surface.ratio)
+            is_of_law(system->shown->surfaces.at[i].ratio,
+                      system->shown->surfaces.at[i].is_unilateral, entry->call))
             entry->surface = i;
     if (entry->surface < 0) {
         entry->surface = system->shown->surfaces.count;
@@ -441,19 +451,15 @@ bool system_hint_locking(System *system, Diag *diag)
 }
 
 /* a call of a part's law that jumps on a surface of the equations; -1: none */
-static int surface_of_call(System *system, Expr call)
+static int number_of_surface(System *system, Expr call)
 {
-    const Expr condition = switch_condition(system->arena, call);
-    const Expr ratio = switch_jumps(call) ? surface_ratio(call) : NULL;
     int way;
-    Expr surface;
+    const Expr condition = switch_jumps(call) ? surface_of_call(system->arena, call, &way) : NULL;
 
-    if (condition == NULL || expr_is_number(condition) || !switch_jumps(call))
-        return -1;
-    surface = surface_of(system->arena, condition, &way);
-    for (int i = 0; i < system->shown->surfaces.count; i++)
-        if (system->shown->surfaces.at[i].ratio == ratio &&
-            (system->shown->surfaces.at[i].condition == surface ||
+    for (int i = 0; i < system->shown->surfaces.count && condition != NULL; i++)
+        if (is_of_law(system->shown->surfaces.at[i].ratio,
+                      system->shown->surfaces.at[i].is_unilateral, call) &&
+            (system->shown->surfaces.at[i].condition == condition ||
              surface_is_same(system->shown->surfaces.at[i].condition, condition, &way)))
             return i;
     return -1;
@@ -473,7 +479,7 @@ int system_surface_of_part(System *system, const char *part)
     while (stack.count > 0 && found < 0) {
         const Expr e = stack.at[--stack.count];
 
-        found = surface_of_call(system, e);
+        found = number_of_surface(system, e);
         for (int i = 0; i < expr_arg_count(e); i++)
             LIST_PUSH(stack, expr_arg(e, i));
     }

@@ -2,6 +2,7 @@
  * of its equations */
 #include "simulate/assemble/initial_impl.h"
 
+#include "simulate/equations/failure_diagnosis.h"
 #include "simulate/equations/netsolve.h"
 
 #include <math.h>
@@ -152,8 +153,12 @@ Status initial_find_network(Assembly *a, Diag *diag)
     memcpy(a->y + l->n + l->nu, v, (size_t)l->nx * sizeof(double));
     memcpy(a->out->network, v + l->nx, (size_t)(l->nx + l->nz) * sizeof(double));
     /* until the switch states are determined there may be no solution */
-    if (!a->has_modes)
-        CHECK(initial_solve(l, a->numbers, a->y, a->out->network, a->out->network, diag));
+    if (!a->has_modes &&
+        initial_solve(l, a->numbers, a->y, a->out->network, a->out->network, diag) != OK) {
+        (void)failure_beyond(l, a->parameters, 0, a->y, "the network has no solution at the start",
+                             diag);
+        CHECK(E_SINGULAR);
+    }
 done:
     initial_close_problem(&p);
     MEM_FREE(v, held, residual);

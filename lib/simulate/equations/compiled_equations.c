@@ -176,7 +176,7 @@ void compiled_free(CompiledEquations *nb)
     mem_free(nb->network_places);
     MEM_FREE(nb->magnitude_bound, nb->unit);
     probe_free(nb->slip);
-    MEM_FREE(nb->guards, nb->shown_guards, nb->of_surface, nb->sign_bounds, nb->eliminated_rows,
+    MEM_FREE(nb->guards, nb->shown_guards, nb->of_surface, nb->sign_ranges, nb->eliminated_rows,
              nb);
 }
 

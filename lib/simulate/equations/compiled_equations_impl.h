@@ -42,7 +42,7 @@ struct CompiledEquations {
      * indicators */
     bool has_rates_of_q;
     int rates_excess, rates_pivots;
-    double *sign_bounds;       /* of the signs of surfaces that the motion slides along */
+    SignRange *sign_ranges;    /* of the signs of surfaces that the motion slides along */
     Probe *slip;               /* of all surfaces: slip of each, then `off` of each */
     SurfaceGuards *of_surface; /* of each surface */
     Guard *guards;             /* of the conditions, in the current mode; */

@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 
+#include <math.h>
 #include <string.h>
 
 static void slide(void *context, const double *signs)
@@ -35,12 +36,12 @@ static void put_sign_conditions(const CompiledEquations *nb, double *out)
     const VariableIndex *l = nb->layout;
 
     for (int k = 0; k < l->slides; k++) {
-        const double sign = l->sign_values[l->slid[k]], bound = nb->sign_bounds[k];
-
+        const double sign = l->sign_values[l->slid[k]];
+        const SignRange *range = &nb->sign_ranges[k];
         double *both = out + nb->of_surface[l->slid[k]].first;
 
-        both[0] = bound - sign;
-        both[1] = bound + sign;
+        both[0] = isfinite(range->high) ? range->high - sign : 1;
+        both[1] = sign - range->low;
     }
 }
 
@@ -298,7 +299,7 @@ Status compiled_slide(CompiledEquations *nb, const OnSurface *on, Diag *diag)
 }
 
 /* the two conditions of a surface that is on that side, or slid along */
-static void set_guards(Guard *both, const OnSurface *on, SurfaceGuards own)
+static void set_guards(Guard *both, const OnSurface *on, SurfaceGuards own, bool is_unilateral)
 {
     const Guard none = {.surface = on->surface, .is_idle = true};
 
@@ -310,9 +311,22 @@ static void set_guards(Guard *both, const OnSurface *on, SurfaceGuards own)
     both[0] = is_measured(own) ? (Guard){.surface = on->surface,
                                          .side = on->side,
                                          .held = on->held,
-                                         .solved = own.stage == STAGE_NETWORK}
+                                         .solved = own.stage == STAGE_NETWORK,
+                                         .is_unilateral = is_unilateral}
                                : none;
     both[1] = none;
+}
+
+/* Sign: -1 to 1. Stick: -r to r, with 1 where it slips. Unilateral: 0 and above. */
+static SignRange range_of(const CompiledEquations *nb, const Surface *surface)
+{
+    const double ratio = surface->ratio != NULL
+                             ? expr_evaluate(surface->ratio, parameters_value_in, nb->parameters)
+                             : 1;
+
+    if (surface->is_unilateral)
+        return (SignRange){.high = INFINITY, .is_unilateral = true, .restitution = ratio};
+    return (SignRange){.low = -ratio, .high = ratio, .below = -1, .above = 1};
 }
 
 void compiled_enter_mode(CompiledEquations *nb)
@@ -324,16 +338,13 @@ void compiled_enter_mode(CompiledEquations *nb)
     nb->eq.slide_count = l->slides;
     nb->eq.slide = slide;
     nb->eq.slip = slip;
-    if (nb->sign_bounds == NULL)
-        nb->eq.sign_bounds = nb->sign_bounds = NEW_ARRAY(double, l->surface_count);
-    for (int k = 0; k < l->slides; k++) {
-        const Expr ratio = l->surfaces[l->slid[k]].ratio;
-
-        nb->sign_bounds[k] =
-            ratio != NULL ? expr_evaluate(ratio, parameters_value_in, nb->parameters) : 1;
-    }
+    if (nb->sign_ranges == NULL)
+        nb->eq.sign_ranges = nb->sign_ranges = NEW_ARRAY(SignRange, l->surface_count);
+    for (int k = 0; k < l->slides; k++)
+        nb->sign_ranges[k] = range_of(nb, &l->surfaces[l->slid[k]]);
     for (int i = 0; i < l->surface_count && nb->guards != NULL; i++)
-        set_guards(nb->guards + nb->of_surface[i].first, &l->on[i], nb->of_surface[i]);
+        set_guards(nb->guards + nb->of_surface[i].first, &l->on[i], nb->of_surface[i],
+                   l->surfaces[i].is_unilateral);
     nb->eq.switches_read_network = nb->guards_read_network || slides;
     nb->eq.switches_follow_time =
         nb->guards_follow_time || (slides && variable_index_signs_follow_time(l));

@@ -331,10 +331,35 @@ void failure_leading(const VariableIndex *l, const Equations *equations, int dri
     MEM_FREE(named, parts);
 }
 
+bool failure_beyond(const VariableIndex *l, Parameters *parameters, double t, const double *y,
+                    const char *what, Diag *diag)
+{
+    const Switch *switches;
+    SystemSurface surface;
+    int time_only;
+
+    (void)system_switches(l->system, &switches, &time_only);
+    for (int i = 0; system_surface(l->system, i, &surface); i++) {
+        const char *part;
+        double beyond;
+
+        if (!surface.is_unilateral || !value_at(l, parameters, surface.condition, t, y, &beyond) ||
+            !(beyond > FAILURE_SAME_POINT))
+            continue;
+        part = system_jumping_part(l->system, surface.condition);
+        (void)diag_set(diag, E_SINGULAR, "%s: %s is %.6g beyond its limit", what,
+                       part != NULL ? part : "unilateral()", beyond);
+        diag_hint(diag, "start on the other side of it, with 'init' or 'guess'");
+        return true;
+    }
+    return false;
+}
+
 bool failure_diagnose(const VariableIndex *layout, Parameters *parameters, double t,
                       const double *y, const char *what, Diag *diag)
 {
-    return failure_meeting(layout, parameters, t, y, what, diag) ||
+    return failure_beyond(layout, parameters, t, y, what, diag) ||
+           failure_meeting(layout, parameters, t, y, what, diag) ||
            report_massless(layout, what, diag) ||
            report_massless_here(layout, parameters, t, y, what, diag);
 }

@@ -4,10 +4,14 @@
 
 #include "simulate/equations/compiled_equations.h"
 
-/* Find a cause at y: a part whose two frames coincide, or a coordinate that moves no mass. Where
- * there is one, set the message (`what` and the cause) and the hint. Borrows all. */
+/* Find a cause at y: what is beyond a limit, a part whose two frames coincide, or a coordinate that
+ * moves no mass. Where there is one, set the message (`what` and the cause) and the hint. Borrows
+ * all. */
 bool failure_diagnose(const VariableIndex *layout, Parameters *parameters, double t,
                       const double *y, const char *what, Diag *diag);
+/* A unilateral part beyond its limit at y: it has no effort there. */
+bool failure_beyond(const VariableIndex *layout, Parameters *parameters, double t, const double *y,
+                    const char *what, Diag *diag);
 /* only the first of these causes */
 bool failure_meeting(const VariableIndex *layout, Parameters *parameters, double t, const double *y,
                      const char *what, Diag *diag);

@@ -49,7 +49,7 @@ void motion_enter_mode(Motion *mo)
 {
     set_projection(mo);
     if (mo->eq->slide_count > 0)
-        signs_begin(mo->signs, mo->eq->slide_count, mo->eq->sign_bounds);
+        signs_begin(mo->signs, mo->eq->slide_count, mo->eq->sign_ranges);
 }
 
 static void describe_ode(Motion *mo)

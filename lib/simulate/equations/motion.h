@@ -18,6 +18,7 @@
 #include "algebra/pattern.h"
 #include "base/call_monitor.h"
 #include "base/diag.h"
+#include "simulate/equations/signs.h"
 #include "simulate/integrate/ode.h"
 
 #include <stddef.h>
@@ -32,6 +33,7 @@ typedef struct Guard {
     bool held;    /* on a side, and other parts keep it on its surface: its sign tells nothing */
     bool solved;  /* its measure is solved for with the jump: always on one side */
     bool is_idle; /* it tells nothing in the current mode */
+    bool is_unilateral; /* what meets its surface has an impact */
 } Guard;
 
 /* What a program has eliminated in closed form, for these constraint rows in use. */
@@ -133,7 +135,7 @@ typedef struct Equations {
     int surface_count; /* whose signs are inputs: a mode changes guards and what follows */
     /* surfaces that the motion slides along: signs are solved for such that slip is 0 */
     int slide_count;
-    const double *sign_bounds;                         /* slide_count: largest size of each sign */
+    const SignRange *sign_ranges;                      /* slide_count */
     void (*slide)(void *context, const double *signs); /* before velocity() */
     /* at a solved state: slip of each, and its distance `off` from the surface (slide_count
      * each) */
@@ -208,6 +210,14 @@ void motion_enter_mode(Motion *motion);
 /* Slip for given signs (slide_count each). */
 bool motion_drift(Motion *motion, double t, const double *y, const double *signs, double *slip,
                   double *off);
+/* What sign k changes: of y' by one unit of it (length of y, 0 but for u' and x'), of each slip
+ * (slide_count), and of the power of what isn't conservative. By a difference of so much; the signs
+ * are as before. False: it can't be evaluated. */
+typedef struct SignEffect {
+    double *way, *slip, power;
+} SignEffect;
+bool motion_sign_effect(Motion *motion, double t, const double *y, double *signs, int k,
+                        double difference, SignEffect *out);
 
 /* Set whether the state to project has drifted for many steps, as far as the error test allows, or
  * for one step. */

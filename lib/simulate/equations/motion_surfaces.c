@@ -73,6 +73,37 @@ static void keep_way(const Motion *mo, double *way)
     memcpy(way + eq->n + eq->nu, mo->solved, (size_t)eq->nx * sizeof(double));
 }
 
+bool motion_sign_effect(Motion *mo, double t, const double *y, double *signs, int k,
+                        double difference, SignEffect *out)
+{
+    const Where at = {mo, t, y};
+    const double kept = signs[k];
+    const int count = mo->eq->slide_count, length = motion_length(mo);
+    double *base = mo->way;
+    double power;
+
+    if (!try_signs((void *)&at, signs, mo->slip))
+        return false;
+    keep_way(mo, base);
+    motion_bring_power(mo, mo->du);
+    power = mo->eq->power != NULL ? *mo->eq->power : 0;
+    memcpy(out->slip, mo->slip, (size_t)count * sizeof(double));
+    signs[k] = kept + difference;
+    if (!try_signs((void *)&at, signs, mo->slip)) {
+        signs[k] = kept;
+        return false;
+    }
+    signs[k] = kept;
+    keep_way(mo, out->way);
+    motion_bring_power(mo, mo->du);
+    out->power = mo->eq->power != NULL ? (*mo->eq->power - power) / difference : 0;
+    for (int i = 0; i < length; i++)
+        out->way[i] = (out->way[i] - base[i]) / difference;
+    for (int i = 0; i < count; i++)
+        out->slip[i] = (mo->slip[i] - out->slip[i]) / difference;
+    return true;
+}
+
 /* One move along the effect of unit signs on the rates, which changes the distance from the
  * surfaces as the signs change slip. */
 static bool sweep_surfaces(Motion *mo, const Where *at, double *y)

@@ -181,6 +181,13 @@ static void write_happened(const Remark *r, Text *out)
                   "second, the motion is taken to stay there",
                   r->what, r->t, r->size);
         break;
+    case REMARK_IMPACTS:
+        text_addf(out, "%s: %d impact%s", r->what, r->count, r->count == 1 ? "" : "s");
+        if (isfinite(r->size))
+            text_addf(out, ", %.6g J lost", r->size);
+        if (isfinite(r->t))
+            text_addf(out, "; at rest from t = %.9g s on", r->t);
+        break;
     case REMARK_SHARED:
         text_addf(out, "%s at t = %.9g s: %s", r->what, fabs(r->t) < DBL_MIN ? 0 : r->t, r->others);
         if (isfinite(r->size))

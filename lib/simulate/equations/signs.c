@@ -16,7 +16,8 @@
 
 struct Signs {
     int count;
-    double *values, *bounds, *slip, *matrix, *move, *kept;
+    SignRange *ranges;
+    double *values, *slip, *matrix, *move, *kept;
     Lu *factors; /* of the matrix, */
     bool is_factored;
 };
@@ -26,7 +27,7 @@ Signs *signs_new(int room)
     Signs *s = NEW(Signs);
 
     s->values = NEW_ARRAY(double, room);
-    s->bounds = NEW_ARRAY(double, room);
+    s->ranges = NEW_ARRAY(SignRange, room);
     s->slip = NEW_ARRAY(double, room);
     s->move = NEW_ARRAY(double, room);
     s->kept = NEW_ARRAY(double, room);
@@ -35,13 +36,13 @@ Signs *signs_new(int room)
     return s;
 }
 
-void signs_begin(Signs *s, int count, const double *bounds)
+void signs_begin(Signs *s, int count, const SignRange *ranges)
 {
     lu_resize(s->factors, count);
     s->count = count;
     s->is_factored = false;
     memset(s->values, 0, (size_t)count * sizeof(double));
-    memcpy(s->bounds, bounds, (size_t)count * sizeof(double));
+    memcpy(s->ranges, ranges, (size_t)count * sizeof(SignRange));
 }
 
 void signs_free(Signs *s)
@@ -49,7 +50,7 @@ void signs_free(Signs *s)
     if (s == NULL)
         return;
     lu_free(s->factors);
-    MEM_FREE(s->values, s->bounds, s->slip, s->move, s->kept, s->matrix, s);
+    MEM_FREE(s->values, s->ranges, s->slip, s->move, s->kept, s->matrix, s);
 }
 
 double *signs_values(Signs *s)
@@ -64,7 +65,8 @@ bool signs_slopes(Signs *s, SignsTrial trial, void *context, double *slip)
         return false;
     for (int k = 0; k < s->count; k++) {
         double kept = s->values[k];
-        double step = kept > 0 ? -SIGNS_DIFFERENCE : SIGNS_DIFFERENCE;
+        const double size = SIGNS_DIFFERENCE * fmax(1, fabs(kept));
+        double step = kept > 0 ? -size : size;
         bool sound;
 
         s->values[k] = kept + step;
@@ -167,6 +169,17 @@ static bool iterate_with_factors(Signs *s, SignsTrial trial, void *context)
     return false;
 }
 
+/* the largest move of those whose ranges are finite */
+static double largest_in_ranges(const Signs *s, const double *move)
+{
+    double largest = 0;
+
+    for (int k = 0; k < s->count; k++)
+        if (isfinite(s->ranges[k].high))
+            largest = fmax(largest, fabs(move[k]));
+    return largest;
+}
+
 static bool newton(Signs *s, SignsTrial trial, void *context)
 {
     double before = INFINITY;
@@ -184,7 +197,7 @@ static bool newton(Signs *s, SignsTrial trial, void *context)
             (turn > 2 && moved > 0.5 * before && moved < 1e-6))
             return trial(context, s->values, s->move);
         before = moved;
-        if (!(fabs(moved) < SIGNS_FAR))
+        if (!isfinite(moved) || !(largest_in_ranges(s, s->slip) < SIGNS_FAR))
             return false;
     }
     return false;
@@ -194,9 +207,11 @@ static bool newton(Signs *s, SignsTrial trial, void *context)
  * there. */
 static bool bisect(Signs *s, int k, SignsTrial trial, void *context, bool *sound)
 {
-    double ends[2] = {-s->bounds[k], s->bounds[k]}, slip[2];
+    double ends[2] = {s->ranges[k].low, s->ranges[k].high}, slip[2];
 
     *sound = true;
+    if (!isfinite(ends[1]))
+        return false;
     for (int i = 0; i < 2 && *sound; i++) {
         s->values[k] = ends[i];
         *sound = trial(context, s->values, s->slip);
@@ -212,6 +227,16 @@ static bool bisect(Signs *s, int k, SignsTrial trial, void *context, bool *sound
     return *sound;
 }
 
+/* outside its range, by more than rounding; never where that has no end */
+static bool is_outside(const Signs *s, int k)
+{
+    const SignRange *range = &s->ranges[k];
+    const double more = SIGNS_OUTSIDE * range->high;
+
+    return isfinite(range->high) &&
+           (s->values[k] > range->high + more || s->values[k] < range->low - more);
+}
+
 /* Look for signs within their intervals when some are outside, which is where the motion leaves. */
 static bool look_between(Signs *s, SignsTrial trial, void *context)
 {
@@ -220,7 +245,7 @@ static bool look_between(Signs *s, SignsTrial trial, void *context)
 
     memcpy(kept, s->values, (size_t)s->count * sizeof(double));
     for (int k = 0; k < s->count && sound; k++)
-        if (fabs(kept[k]) > (1 + SIGNS_OUTSIDE) * s->bounds[k]) {
+        if (is_outside(s, k)) {
             if (bisect(s, k, trial, context, &sound))
                 moved = true;
             else
@@ -237,7 +262,7 @@ static bool look_between(Signs *s, SignsTrial trial, void *context)
 static bool is_beyond(const Signs *s)
 {
     for (int i = 0; i < s->count; i++)
-        if (fabs(s->values[i]) > (1 + SIGNS_OUTSIDE) * s->bounds[i])
+        if (is_outside(s, i))
             return true;
     return false;
 }
@@ -249,9 +274,10 @@ static bool lies_beyond(Signs *s, SignsTrial trial, void *context)
 {
     bool sound;
 
-    if (s->count != 1 || bisect(s, 0, trial, context, &sound) || !sound || s->slip[0] == 0)
+    if (s->count != 1 || !isfinite(s->ranges[0].high) || bisect(s, 0, trial, context, &sound) ||
+        !sound || s->slip[0] == 0)
         return false;
-    s->values[0] = (s->slip[0] > 0 ? SIGNS_LEFT : -SIGNS_LEFT) * s->bounds[0];
+    s->values[0] = (s->slip[0] > 0 ? SIGNS_LEFT : -SIGNS_LEFT) * s->ranges[0].high;
     return trial(context, s->values, s->move);
 }
 

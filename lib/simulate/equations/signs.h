@@ -8,13 +8,21 @@
 
 typedef struct Signs Signs;
 
+/* What replaces a jump on its surface h = 0: a sign, or of what is unilateral the effort. */
+typedef struct SignRange {
+    double low, high;    /* between them the motion stays on the surface; high may be INFINITY */
+    double below, above; /* its value where h < 0 and where h > 0 */
+    bool is_unilateral;  /* h > 0 can't be: there is an impact on h = 0, with this coefficient: */
+    double restitution;
+} SignRange;
+
 /* slip at these signs; false: it can't be evaluated there */
 typedef bool (*SignsTrial)(void *context, const double *signs, double *slip);
 
 /* New, with room for so many; free with signs_free(). */
 Signs *signs_new(int room);
-/* Begin with `count` signs, all 0. Sign i is between -bounds[i] and bounds[i]; copied. */
-void signs_begin(Signs *signs, int count, const double *bounds);
+/* Begin with `count` signs, all 0. The ranges are copied. */
+void signs_begin(Signs *signs, int count, const SignRange *ranges);
 void signs_free(Signs *signs);      /* NULL is fine */
 double *signs_values(Signs *signs); /* of the last search; the next one starts there */
 /* The matrix d slip_i / d sign_k at the values; slip there is stored in `slip`. */

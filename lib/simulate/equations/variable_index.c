@@ -74,6 +74,7 @@ static void place_surfaces(VariableIndex *l, const OnSurface *on, int count)
         *surface = (Surface){.number = on[i].surface,
                              .condition = known.condition,
                              .ratio = known.ratio,
+                             .is_unilateral = known.is_unilateral,
                              .may_slide = true,
                              .sign = expr_symbol(system_arena(l->system), name.at, SYMBOL_STATE),
                              .measure = known.condition};
@@ -107,7 +108,7 @@ void variable_index_set_on(VariableIndex *l, const OnSurface *on)
     l->slides = 0;
     for (int i = 0; i < l->surface_count; i++) {
         l->on[i] = on[i];
-        l->sign_values[i] = on[i].side;
+        l->sign_values[i] = l->surfaces[i].is_unilateral ? 0 : on[i].side;
         if (on[i].side == 0)
             l->slid[l->slides++] = i;
     }

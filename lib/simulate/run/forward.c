@@ -75,6 +75,8 @@ Status forward_integrate(ActiveRun *r, const SimulationInput *setting, const Int
         through.in_time = compiled_equations(phases_whole(r->phases)->numbers);
     }
     status = integrate(&through, r->begin, grid, out, diag);
+    impact_tallies_report(&switching.impacts, &out->remarks);
+    impact_tallies_free(&switching.impacts);
     mode_switching_free(&switching);
     return status;
 }

@@ -55,11 +55,19 @@ typedef struct Meeting {
     bool settles; /* it crosses so often that it counts as at rest on it */
 } Meeting;
 
+/* what was chosen */
+typedef struct SurfaceChoice {
+    bool entered; /* another segment goes on */
+    bool jumps;   /* y is another one: there was an impact */
+} SurfaceChoice;
+
 /* Returns the segment that continues from (t, y), on surfaces on which its equations jump: across
- * them, off them or along them. `low` and `high` bound the time that rates use. Where it is another
- * one, it is stored in *segment, and *entered is set. Fails where none continues. */
-typedef Status (*Choose)(void *context, double t, double low, double high, const double *y,
-                         const Meeting *at, int count, Segment *segment, bool *entered, Diag *diag);
+ * them, off them or along them, and behind impacts on them, which change y. `low` and `high` bound
+ * the time that rates use. Where it is another one, it is stored in *segment. Fails where none
+ * continues. */
+typedef Status (*Choose)(void *context, double t, double low, double high, double *y,
+                         const Meeting *at, int count, Segment *segment, SurfaceChoice *out,
+                         Diag *diag);
 
 /* s: between two successive floating-point numbers (or around one at which a condition is 0) */
 typedef struct Jump {

@@ -177,6 +177,33 @@ static int find_meetings(Integration *m, Meeting *at, bool *on)
     return count;
 }
 
+/* what is near a unilateral surface behind an impact is measured by the motion from there on */
+static void forget_reach(Integration *m)
+{
+    for (int i = 0; i < m->eq->switch_count; i++) {
+        const Guard guard = equations_guard(m->eq, i);
+
+        if (!guard.is_unilateral || guard.is_idle)
+            continue;
+        m->largest[i] = fabs(m->conditions[i]);
+        m->reach[guard.surface] = 0;
+    }
+}
+
+/* y after an impact, with a row before it and one after it */
+static void take_impact(Integration *m, double t, const double *y)
+{
+    const size_t bytes = (size_t)m->length * sizeof(double);
+
+    if (!integration_has_row(m, t)) {
+        memcpy(m->y, m->stepper->y, bytes);
+        integration_add_new_row(m, t);
+    }
+    memcpy(m->stepper->y, y, bytes);
+    memcpy(m->y, y, bytes);
+    integration_add_new_row(m, t);
+}
+
 static Status slide(Integration *m, bool *entered, bool *changed, Diag *diag)
 {
     Meeting *at = NEW_ARRAY(Meeting, m->eq->switch_count);
@@ -185,6 +212,7 @@ static Status slide(Integration *m, bool *entered, bool *changed, Diag *diag)
     Segment next = m->segment;
     bool on = false;
     int count = m->root != ROOT_NONE ? find_meetings(m, at, &on) : 0;
+    SurfaceChoice chosen = {0};
     Status status = OK;
 
     *entered = *changed = false;
@@ -193,7 +221,12 @@ static Status slide(Integration *m, bool *entered, bool *changed, Diag *diag)
     memcpy(y, m->stepper->y, (size_t)m->length * sizeof(double));
     integration_reach(m); /* the guards are those of the segment until another one is chosen */
     CHECK(
-        m->plan->choose(m->plan->context, t, m->low, m->high, y, at, count, &next, entered, diag));
+        m->plan->choose(m->plan->context, t, m->low, m->high, y, at, count, &next, &chosen, diag));
+    *entered = chosen.entered;
+    if (chosen.jumps) {
+        forget_reach(m);
+        take_impact(m, t, y);
+    }
     if (*entered)
         CHECK(enter(m, &next, t, y, changed, diag));
     integration_enter_row(m);

@@ -2,6 +2,8 @@ libcore_la_SOURCES += \
   lib/simulate/run/begin.c \
   lib/simulate/run/begin.h \
   lib/simulate/run/dense_output.c \
+  lib/simulate/run/impact.c \
+  lib/simulate/run/impact.h \
   lib/simulate/run/mode_margins.c \
   lib/simulate/run/mode_margins.h \
   lib/simulate/run/mode_entry.c \

@@ -3,6 +3,7 @@
 #define COTREE_SIMULATE_RUN_MODE_SWITCH_H
 
 #include "simulate/run/active_run.h"
+#include "simulate/run/impact.h"
 
 typedef struct ModeSwitching {
     ActiveRun *run;
@@ -12,7 +13,8 @@ typedef struct ModeSwitching {
     bool changed;    /* whether something changed there, */
     double again;    /* how much further it was looked there, */
     double told;     /* and past what was told */
-    double *y;       /* of the last phase that was entered; free it with mode_switching_free() */
+    ImpactTallies impacts;
+    double *y; /* of the last phase that was entered; free it with mode_switching_free() */
 } ModeSwitching;
 void mode_switching_free(ModeSwitching *switching);
 /* the NextSegment of a plan; `context` is a ModeSwitching */

@@ -4,6 +4,7 @@
 #include "algebra/linear.h"
 #include "algebra/surface_sides.h"
 #include "base/memory.h"
+#include "simulate/run/impact.h"
 #include "simulate/run/mode_phases.h"
 
 #include <math.h>
@@ -52,13 +53,14 @@ static bool slip_at(void *context, const double *signs, double *out)
 /* Sides from how the surfaces were met. */
 static bool find_sides(Slides *s)
 {
-    const double *bounds = compiled_equations(s->phase->numbers)->sign_bounds;
+    const SignRange *ranges = compiled_equations(s->phase->numbers)->sign_ranges;
     const double size = fmax(1, vector_largest(s->y, s->phase->length - 1));
 
     memset(s->room, 0, (size_t)s->count * sizeof(double)); /* signs of 0 */
     (void)motion_drift(s->phase->motion, s->t, s->y, s->room, s->slip, s->off);
     for (int i = 0; i < s->count; i++)
-        s->side[i] = (SurfaceSide){.bound = bounds[i],
+        s->side[i] = (SurfaceSide){.bound = ranges[i].high,
+                                   .is_unilateral = ranges[i].is_unilateral,
                                    .off = s->off[i],
                                    .side = s->at[i].side,
                                    .ends = s->at[i].ends,
@@ -204,17 +206,30 @@ static Status choose_phase(const ModeSwitching *c, Phase *now, const Meeting *al
     return phase_on(c, now, all, count, s, out, diag);
 }
 
-Status slide_choose(void *context, double t, double low, double high, const double *y,
-                    const Meeting *at, int count, Segment *segment, bool *entered, Diag *diag)
+static Status take_impact(ModeSwitching *c, const Slides *s, double low, double high, double *y,
+                          bool *any, Diag *diag)
 {
-    const ModeSwitching *c = context;
+    const ImpactAt here = {
+        .phase = s->phase, .t = s->t, .span = c->control.span, .at = s->at, .count = s->count};
+    Status status;
+
+    motion_window(s->phase->motion, low, high);
+    status = impact_take(&here, y, &c->impacts, any, diag);
+    motion_window(s->phase->motion, -INFINITY, INFINITY);
+    return status;
+}
+
+Status slide_choose(void *context, double t, double low, double high, double *y, const Meeting *at,
+                    int count, Segment *segment, SurfaceChoice *chosen, Diag *diag)
+{
+    ModeSwitching *c = context;
     Phase *now = c->run->phases->at[segment->phase], *next = NULL;
     Meeting *all = NEW_ARRAY(Meeting, count), *near = NEW_ARRAY(Meeting, count);
     Slides s = {.at = near, .t = t, .soon = t, .y = y};
     Events *events = segment->events;
     Status status = OK;
 
-    *entered = false;
+    *chosen = (SurfaceChoice){0};
     for (int i = 0; i < count; i++)
         all[i] = at[i];
     sort_meetings(all, count);
@@ -228,6 +243,7 @@ Status slide_choose(void *context, double t, double low, double high, const doub
         phase_enter(s.phase);
         slides_make_room(&s);
         motion_partition(s.phase->motion, t, y);
+        CHECK(take_impact(c, &s, low, high, y, &chosen->jumps, diag));
         CHECK(choose_phase(c, now, all, count, &s, low, high, &next, diag));
     } else {
         CHECK(phase_on(c, now, all, count, NULL, &next, diag));
@@ -236,7 +252,7 @@ Status slide_choose(void *context, double t, double low, double high, const doub
         goto done;
     CHECK(mode_phases_events(c->run, now, next, c->setting, &events, diag));
     *segment = phases_segment(next, events);
-    *entered = true;
+    chosen->entered = true;
 done:
     phase_enter(c->run->phases->at[segment->phase]);
     slides_free(&s);

@@ -9,8 +9,8 @@
 #include "simulate/run/mode_switch.h"
 
 /* the Choose of a plan; `context` is a ModeSwitching */
-MUST_USE Status slide_choose(void *context, double t, double low, double high, const double *y,
-                             const Meeting *at, int count, Segment *segment, bool *entered,
+MUST_USE Status slide_choose(void *context, double t, double low, double high, double *y,
+                             const Meeting *at, int count, Segment *segment, SurfaceChoice *chosen,
                              Diag *diag);
 /* what a condition of a segment is about: "s' (actuator f)"; `context` is a ModeSwitching */
 void sliding_report(void *context, const Segment *segment, int condition, Text *out);

@@ -1,0 +1,255 @@
+/* test_stops.c: rigid and compliant stops, backlash, rigid one-way clutches, against closed forms
+ */
+#include "session_kit.h"
+
+#define G 9.81
+#define BALL                                                                                       \
+    "scene planar; gravity [0, -9.81]\nbody m mass=1 inertia=0.1\nprismatic s ground m axis=y\n"
+#define PAIR                                                                                       \
+    "scene planar\nbody a mass=%g inertia=0.1\nbody b mass=%g inertia=0.1\n"                       \
+    "prismatic s1 ground a axis=x\nprismatic s2 ground b axis=x\n"
+
+static bool is_near(double got, double expected, double within)
+{
+    return fabs(got - expected) <= within * (1 + fabs(expected));
+}
+
+/* a ball falls from 1 m: it is at rest after t1 (1 + e)/(1 - e) */
+static void a_ball_comes_to_rest(void)
+{
+    static const double e[] = {0, 0.5, 0.8, 0.95};
+    const double fall = sqrt(2 / G);
+
+    for (int i = 0; i < 4; i++) {
+        const double rest = fall * (1 + e[i]) / (1 - e[i]);
+        Kit kit = kit_new();
+        char text[400];
+
+        (void)snprintf(text, sizeof text,
+                       BALL "stop floor s low=0 e=%g\ninit s = 1, s' = 0\nsimulate %.17g\n", e[i],
+                       rest + 1);
+        EXPECT_DONE(&kit, text);
+        if (e[i] > 0) {
+            const char *report = strstr(ct_remarks(kit.session), "at rest from t = ");
+
+            EXPECT(report != NULL);
+            if (report != NULL)
+                EXPECT(is_near(strtod(report + strlen("at rest from t = "), NULL), rest, 1e-8));
+        }
+        EXPECT(is_near(kit_value(&kit, "s"), 0, 1e-10));
+        EXPECT(kit_value(&kit, "s'") == 0);
+        EXPECT(is_near(kit_value(&kit, "floor.effort"), G, 1e-12));
+        kit_free(&kit);
+    }
+}
+
+/* the height of each flight is e^2 of the one before */
+static void flights_become_lower(void)
+{
+    const double fall = sqrt(2 / G), e = 0.8;
+    double start = fall, flight = 2 * e * fall;
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, BALL "stop floor s low=0 e=0.8\ninit s = 1, s' = 0\nsimulate 3 rtol=1e-10\n");
+    for (int k = 1; k < 5; k++) {
+        char text[80];
+
+        (void)snprintf(text, sizeof text, "s at %.17g", start + flight / 2);
+        EXPECT(is_near(kit_value(&kit, text), pow(e, 2 * k), 1e-8));
+        (void)snprintf(text, sizeof text, "s' at %.17g", start + flight / 4);
+        EXPECT(is_near(kit_value(&kit, text), G * flight / 4, 1e-7));
+        start += flight;
+        flight *= e;
+    }
+    kit_free(&kit);
+}
+
+/* between two walls it goes to and fro: place by reflection */
+static void between_two_walls(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\nbody m mass=2 inertia=0\nprismatic s ground m axis=x\n"
+                      "stop w s low=-0.3 high=0.5 e=1\ninit s = 0.1, s' = 3\n"
+                      "simulate 7.13 rtol=1e-10\n");
+    /* 21.39 m of way, 1.6 m a period; the first 0.4 m to the right */
+    EXPECT(is_near(kit_value(&kit, "s"),
+                   0.5 - (fmod(21.39 - 0.4, 1.6) > 0.8 ? 1.6 - fmod(21.39 - 0.4, 1.6)
+                                                       : fmod(21.39 - 0.4, 1.6)),
+                   1e-9));
+    EXPECT(is_near(fabs(kit_value(&kit, "s'")), 3, 1e-12));
+    EXPECT(is_near(kit_value(&kit, "energy.kinetic"), 9, 1e-12));
+    kit_free(&kit);
+}
+
+/* two masses with play: momentum is kept, the relative speed reversed by e */
+static void masses_meet_over_backlash(void)
+{
+    static const double e[] = {0, 0.4, 1};
+
+    for (int i = 0; i < 3; i++) {
+        const double m1 = 1.5, m2 = 4, v = 2, gap = 0.1;
+        const double mean = m1 * v / (m1 + m2);
+        const double v1 = mean - e[i] * v * m2 / (m1 + m2), v2 = mean + e[i] * v * m1 / (m1 + m2);
+        const double t = gap / 2 / v;
+        Kit kit = kit_new();
+        char text[600];
+
+        (void)snprintf(text, sizeof text,
+                       PAIR "backlash g s1 s2 gap=0.1 e=%g\n"
+                            "init s1 = 0, s2 = 0, s1' = 2, s2' = 0\nsimulate 0.04 rtol=1e-10\n",
+                       m1, m2, e[i]);
+        EXPECT_DONE(&kit, text);
+        EXPECT(is_near(kit_value(&kit, "s1'"), v1, 1e-10));
+        EXPECT(is_near(kit_value(&kit, "s2'"), v2, 1e-10));
+        EXPECT(is_near(kit_value(&kit, "s1"), v * t + v1 * (0.04 - t), 1e-9));
+        EXPECT(is_near(kit_value(&kit, "s2"), v2 * (0.04 - t), 1e-9));
+        kit_free(&kit);
+    }
+}
+
+/* a rod that hangs is turned against a stop at angle `at`; the tree doesn't matter */
+static void a_rod_in_two_trees(void)
+{
+    static const char *const trees[] = {"", "tree absolute\n", "tree absolute\nform embedded\n"};
+    const double length = 0.8, at = 0.35, from = 1.2, e = 0.6;
+    const double weight = 1.3 * G * length / 2, inertia = 1.3 * length * length / 3;
+    const double speed = sqrt(2 * weight * (cos(at) - cos(from)) / inertia);
+    const double back = acos(cos(at) - inertia * e * e * speed * speed / (2 * weight));
+
+    for (int i = 0; i < 3; i++) {
+        Kit kit = kit_new();
+        char text[600];
+
+        (void)snprintf(text, sizeof text,
+                       "scene planar; gravity [0, -9.81]\n"
+                       "body r mass=1.3 inertia=1.3*0.8^2/12\narm top r [0, 0.4]\n"
+                       "revolute h ground top\nstop w h low=%.17g e=0.6\n%s"
+                       "init h = 1.2, h' = 0\nsimulate 1.1 rtol=1e-10 atol=1e-12\n",
+                       at, trees[i]);
+        EXPECT_DONE(&kit, text);
+        /* it turns at `back` behind the first impact */
+        EXPECT(is_near(kit_value(&kit, "max(if(t > 0.5, h, 0))"), back, 1e-7));
+        kit_free(&kit);
+    }
+}
+
+/* A mass on a rope in free fall is stopped by the rope and swings: the rope is a stop of the
+ * distance, and its force that of a pendulum. */
+static void a_rope_becomes_tight(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar; gravity [0, -9.81]\nbody m mass=2 inertia=0.1\n"
+                      "planarjoint j ground m\nstop rope ground m high=1 e=0\n"
+                      "init j.s1 = 0.6, j.s2 = 0, j.s1' = 0, j.s2' = 0, j.theta = 0, j.theta' = 0\n"
+                      "simulate 0.6 rtol=1e-10 atol=1e-12\n");
+    {
+        /* it falls to y = -0.8, and keeps the speed across the rope; then a pendulum */
+        const double v = sqrt(2 * G * 0.8) * 0.6;
+        const double x = kit_value(&kit, "j.s1"), y = kit_value(&kit, "j.s2");
+        const double vx = kit_value(&kit, "j.s1'"), vy = kit_value(&kit, "j.s2'");
+        const double speed = v * v + 2 * G * (-0.8 - y);
+
+        EXPECT(is_near(hypot(x, y), 1, 1e-9));
+        EXPECT(is_near(vx * vx + vy * vy, speed, 1e-8));
+        EXPECT(is_near(kit_value(&kit, "-rope.effort"), 2 * (speed - G * y), 1e-7));
+    }
+    kit_free(&kit);
+}
+
+/* pulled back by a spring it leaves a stop where the spring no longer presses */
+static void it_leaves_a_stop(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\nbody m mass=1 inertia=0\nprismatic s ground m axis=x\n"
+                      "stop w s low=0\nactuator f s force=-1 + t\ninit s = 0, s' = 0\n"
+                      "simulate 2.5 rtol=1e-10\n");
+    EXPECT(is_near(kit_value(&kit, "s"), pow(1.5, 3) / 6, 1e-9));
+    EXPECT(is_near(kit_value(&kit, "w.effort at 0.25"), 0.75, 1e-10));
+    kit_free(&kit);
+}
+
+/* a spring of the stop, half a period of contact */
+static void a_compliant_stop(void)
+{
+    const double k = 400, w = 20, v = 3;
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\nbody m mass=1 inertia=0\nprismatic s ground m axis=x\n"
+                      "stop w s high=0.3 k=400\ninit s = 0, s' = 3\nsimulate 0.5 rtol=1e-10\n");
+    EXPECT(is_near(kit_value(&kit, "max(s)"), 0.3 + v / w, 1e-8));
+    EXPECT(is_near(kit_value(&kit, "-min(w.effort)"), k * v / w, 1e-7));
+    EXPECT(is_near(kit_value(&kit, "s"), 0.3 - v * (0.5 - 0.1 - M_PI / w), 1e-8));
+    kit_free(&kit);
+}
+
+/* With damping it leaves where the force would pull: at d/2m = a, frequency n, that is where
+ * tan(n t) = 2 a n/(a^2 - n^2). */
+static void a_compliant_stop_with_damping(void)
+{
+    const double k = 400, d = 8, a = d / 2, n = sqrt(k - a * a), v = 3;
+    const double t = (M_PI - atan2(2 * a * n, n * n - a * a)) / n;
+    const double speed = v * exp(-a * t) * (cos(n * t) - a / n * sin(n * t));
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\nbody m mass=1 inertia=0\nprismatic s ground m axis=x\n"
+                      "stop w s high=0.3 k=400 d=8\ninit s = 0, s' = 3\nsimulate 0.5 rtol=1e-10\n");
+    EXPECT(is_near(kit_value(&kit, "s'"), speed, 1e-8));
+    EXPECT(is_near(kit_value(&kit, "min(-w.effort)"), 0, 1e-8));
+    kit_free(&kit);
+}
+
+/* J1 driven by 10 sin(t) drives J2 along, and runs slower where the torque turns */
+static void a_rigid_one_way_clutch(void)
+{
+    const double J1 = 0.5, J = 1.5, T = 10;
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "flywheel J1 a 0 J=0.5\nflywheel J2 b 0 J=1\ntorquesource T1 a 0 10*sin(t)\n"
+                      "oneway o1 a b\ninit J1.w = 0, J2.w = 0\nsimulate 4 rtol=1e-10\n");
+    /* together until T is 0 at pi */
+    EXPECT(is_near(kit_value(&kit, "J2.w at 2"), T * (1 - cos(2)) / J, 1e-9));
+    EXPECT(is_near(kit_value(&kit, "J2.w"), 2 * T / J, 1e-9));
+    EXPECT(is_near(kit_value(&kit, "J1.w"), 2 * T / J - T * (1 + cos(4)) / J1, 1e-8));
+    EXPECT(is_near(kit_value(&kit, "o1.torque at 1"), T * sin(1) / J * 1, 1e-8));
+    kit_free(&kit);
+}
+
+static void values_are_checked(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, BALL);
+    EXPECT_FAILS(&kit, "stop w s\n", "w has no limit");
+    EXPECT_FAILS(&kit, "stop w s low=0 e=2\n", "is not between 0 and 1");
+    EXPECT_FAILS(&kit, "stop w s low=0 e=0.5 k=3\n", "takes e= or k=, not both");
+    EXPECT_FAILS(&kit, "stop w s low=0 d=3\n", "d= has no effect without k=");
+    EXPECT_FAILS(&kit, "stop w s low=1 high=0\n", "low= is not below high=");
+    EXPECT_DONE(&kit, "stop w s low=0.1\n");
+    EXPECT_FAILS(&kit, "init s = 0, s' = 0\nsimulate 1\n", "w is 0.1 beyond its limit");
+    kit_free(&kit);
+    kit = kit_new();
+    EXPECT_FAILS(&kit,
+                 "flywheel J1 a 0 J=0.5\nflywheel J2 b 0 J=1\noneway o1 a b\n"
+                 "init J1.w = 6, J2.w = 0\nsimulate 1\n",
+                 "o1 is 6 beyond its limit");
+    kit_free(&kit);
+}
+
+int main(void)
+{
+    RUN(a_ball_comes_to_rest);
+    RUN(flights_become_lower);
+    RUN(between_two_walls);
+    RUN(masses_meet_over_backlash);
+    RUN(a_rod_in_two_trees);
+    RUN(a_rope_becomes_tight);
+    RUN(it_leaves_a_stop);
+    RUN(a_compliant_stop);
+    RUN(a_compliant_stop_with_damping);
+    RUN(a_rigid_one_way_clutch);
+    RUN(values_are_checked);
+    return test_end();
+}
