@@ -5,11 +5,13 @@
  * spatial. With F = F0 - L a of A and a = a0 + Y F of B the acceleration of P follows. The oracle
  * is the solver of runs: it has the whole mechanism; B alone with the force F and moment at P as
  * numbers; and A alone on a body P that is pushed to the acceleration a. All accelerations have to
- * agree. Formulas are printed as text and evaluated again as expressions of the whole mechanism. */
+ * agree. Between two frames P and Q a link A is replaced, and the accelerations of both are
+ * compared. Formulas are printed as text and evaluated again as expressions of the whole mechanism.
+ */
 #include "../unit/session_kit.h"
 #include "family.h"
 
-enum { MOST = 6, ROOM = 6000, PARTS = 40 };
+enum { MOST = 12, ROOM = 6000, PARTS = 40 };
 
 typedef struct Side {
     char text[ROOM], init[ROOM], names[ROOM];
@@ -22,9 +24,10 @@ typedef struct Side {
 
 typedef struct Cut {
     bool planar;
-    int count; /* components: 3 or 6 */
+    int count; /* components: 3 or 6 of each frame */
     Side a, b;
-    char scene[200];
+    Side c; /* of cuts at two frames: carries the second one */
+    char scene[300];
 } Cut;
 
 typedef struct Relation {
@@ -238,11 +241,12 @@ static void read_relation(const char *text, Relation *out)
     }
 }
 
-static bool ask(Member *member, Kit *kit, const char *topic, const char *of, Relation *out)
+static bool ask(Member *member, Kit *kit, const char *topic, const char *frames, const char *of,
+                Relation *out)
 {
     char line[ROOM];
 
-    (void)snprintf(line, sizeof line, "show %s P%s%s as matlab at 0", topic,
+    (void)snprintf(line, sizeof line, "show %s %s%s%s as matlab at 0", topic, frames,
                    of[0] != '\0' ? " of " : "", of);
     if (kit_do(kit, line) != CT_OK) {
         tell(member, "%s\n%s\n", line, kit->error.message);
@@ -483,9 +487,9 @@ static Verdict cuts_agree(Member *member)
 
     draw_cut(member, &cut, false);
     if (!build_whole(member, &cut, &whole) ||
-        !ask(member, &whole, "norton", cut.a.names, &norton) ||
-        !ask(member, &whole, "thevenin", cut.b.names, &thevenin) ||
-        !ask(member, &whole, "thevenin", "", &all))
+        !ask(member, &whole, "norton", "P", cut.a.names, &norton) ||
+        !ask(member, &whole, "thevenin", "P", cut.b.names, &thevenin) ||
+        !ask(member, &whole, "thevenin", "P", "", &all))
         goto done;
     join(&cut, &norton, &thevenin, a, force);
     scale = fmax(read_watched(&whole, &cut.a, at_a), read_watched(&whole, &cut.b, at_b));
@@ -517,6 +521,100 @@ done:
     return verdict;
 }
 
+/* --- cuts at two frames --- */
+
+/* B carries frame P, C frame Q; two bodies A8 and A9 join them, perhaps with a spring */
+static void draw_link(Member *member, Cut *cut)
+{
+    Side *a = &cut->a;
+    const char *joint;
+
+    cut->planar = member_one_of(member, 2) == 0;
+    cut->count = cut->planar ? 6 : 12;
+    joint = cut->planar ? "revolute" : "spherical";
+    (void)snprintf(cut->scene, sizeof cut->scene, "%s\nvsource E supply 0 %.6g\n%s",
+                   cut->planar ? "scene planar\ngravity [0.3, -9.81]"
+                               : "scene spatial\ngravity [0.3, 0.2, -9.81]",
+                   u(member, -9, 9),
+                   cut->planar ? "arm Bg ground [0.5, 0.7]\narm Cg ground [1.1, -0.8]\n"
+                               : "arm Bg ground [0.5, 0.7, 0.2]\narm Cg ground [1.1, -0.8, 0.1]\n");
+    draw_side(member, cut, &cut->b, 'B', "ground", 2);
+    draw_side(member, cut, &cut->c, 'C', "Cg", 2);
+    memset(a, 0, sizeof *a);
+    a->letter = 'A';
+    PUT(a, text, "arm P B0 %s\narm Q C0 %s\n",
+        cut->planar ? "[0.2, 0.3]" : "[0.2, 0.3, 0.1] rotation=y(0.4)",
+        cut->planar ? "[0.1, -0.2]" : "[0.1, -0.2, 0.1] rotation=x(0.3)");
+    for (int i = 8; i <= 9; i++) {
+        PUT(a, text, "body A%d mass=%.6g ", i, u(member, 0.2, 0.9));
+        if (cut->planar)
+            PUT(a, text, "inertia=%.6g\narm At%d A%d [-0.9, 0.05]\narm Ah%d A%d [1, 0]\n",
+                u(member, 0.02, 0.05), i, i, i, i);
+        else
+            PUT(a, text,
+                "inertia=[0.02, 0.03, %.6g]\narm At%d A%d [-0.9, 0.05, 0.1]\n"
+                "arm Ah%d A%d [1, 0, 0.02]\n",
+                u(member, 0.02, 0.04), i, i, i, i);
+    }
+    PUT(a, text, "%s Aj7 P At8\n%s Aj8 Ah8 At9\n%s Aj9 Q Ah9\n", joint, joint, joint);
+    name_part(a, "A8, A9, Aj7, Aj8, Aj9");
+    if (member_one_of(member, 2) == 0) {
+        PUT(a, text, "spring AS P Ah8 k=5 length=0.2\ndamper AD P Q d=0.5\n");
+        name_part(a, "AS, AD");
+    }
+    if (cut->planar && member_one_of(member, 2) == 0) {
+        PUT(a, text, "resistor AR supply An 2\nmotor AM Aj7 An 0 R=1 L=0 Kt=0.5 Kv=0.5\n");
+        name_part(a, "AR, AM");
+    }
+}
+
+static Verdict links_agree(Member *member)
+{
+    static Cut cut;
+    static char others[2 * ROOM + 8];
+    Kit whole = wide_kit();
+    Relation norton, thevenin, all;
+    double a[MOST] = {0}, force[MOST] = {0}, expected[MOST], scale = 1;
+    Verdict verdict = REFUSED;
+    bool same = true;
+    int half;
+
+    draw_link(member, &cut);
+    half = cut.planar ? 3 : 6;
+    (void)snprintf(others, sizeof others, "%s, %s", cut.b.names, cut.c.names);
+    if (kit_do(&whole, cut.scene) != CT_OK || kit_do(&whole, cut.b.text) != CT_OK ||
+        kit_do(&whole, cut.c.text) != CT_OK || kit_do(&whole, cut.a.text) != CT_OK ||
+        kit_do(&whole, cut.b.init) != CT_OK || kit_do(&whole, cut.c.init) != CT_OK ||
+        isnan(kit_value(&whole, "P.ax")) ||
+        !ask(member, &whole, "norton", "P Q", cut.a.names, &norton) ||
+        !ask(member, &whole, "thevenin", "P Q", others, &thevenin) ||
+        !ask(member, &whole, "thevenin", "P Q", "", &all)) {
+        tell(member, "%s\n", whole.error.message);
+        goto done;
+    }
+    join(&cut, &norton, &thevenin, a, force);
+    for (int i = 0; i < cut.count; i++) {
+        char name[40];
+
+        (void)snprintf(name, sizeof name, "%c.%s", i < half ? 'P' : 'Q',
+                       member_name(&cut, i % half));
+        expected[i] = kit_value(&whole, name);
+        scale = fmax(scale, fabs(expected[i]));
+    }
+    for (int i = 0; i < cut.count; i++) {
+        same = keeps(member, "joined", fabs(a[i] - expected[i]) / scale, 1e-10) && same;
+        same = keeps(member, "of the whole", fabs(all.constant[i] - expected[i]) / scale, 1e-10) &&
+               same;
+    }
+    verdict = same ? AGREES : DISAGREES;
+done:
+    if (verdict != AGREES || member->told)
+        tell(member, "%s%s%s%s%s%s\nof %s | %s\n", cut.scene, cut.b.text, cut.c.text, cut.a.text,
+             cut.b.init, cut.c.init, cut.a.names, others);
+    kit_free(&whole);
+    return verdict;
+}
+
 /* each printed formula, evaluated as an expression of the whole mechanism */
 static Verdict formulas_agree(Member *member, Kit *kit, const char *topic, const char *of)
 {
@@ -526,7 +624,7 @@ static Verdict formulas_agree(Member *member, Kit *kit, const char *topic, const
     bool same = true;
     double scale = 1;
 
-    if (!ask(member, kit, topic, of, &numbers))
+    if (!ask(member, kit, topic, "P", of, &numbers))
         return REFUSED;
     (void)snprintf(line, sizeof line, "show %s P%s%s", topic, of[0] != '\0' ? " of " : "", of);
     if (kit_do(kit, line) != CT_OK) {
@@ -591,7 +689,8 @@ static Verdict formulas_and_numbers_agree(Member *member)
 int main(int argc, char **argv)
 {
     static const Family families[] = {
-        {"cuts_agree", 45, 0.1, 0, cuts_agree},
+        {"cuts_agree", 40, 0.1, 0, cuts_agree},
+        {"links_agree", 15, 0.2, 0, links_agree},
         {"formulas_and_numbers_agree", 6, 0.1, 0, formulas_and_numbers_agree},
     };
 
