@@ -6,6 +6,7 @@
 
 #include "base/worker_processes.h"
 #include "language/verbs.h"
+#include "simulate/sweep/correlation.h"
 #include "simulate/sweep/distribution.h"
 #include "simulate/sweep/sampling.h"
 
@@ -24,7 +25,8 @@ typedef struct SweepPlan {
     const Statement *statement;
     LIST(SweepAxis) axes;
     SweepSets sets;
-    const Syntax *keep, *file;
+    const Syntax *keep, *file, *correlation;
+    double *factor; /* of the correlation; NULL: none */
     Sampling sampling;
     Diag *diag;
 } SweepPlan;
@@ -36,6 +38,7 @@ static void plan_free(SweepPlan *plan)
     for (int i = 0; i < plan->axes.count; i++)
         LIST_FREE(plan->axes.at[i].values);
     LIST_FREE(plan->axes);
+    mem_free(plan->factor);
     sweep_sets_free(&plan->sets);
 }
 
@@ -295,6 +298,10 @@ static Status read_pair(SweepPlan *plan, const Pair *pair, bool is_random)
     }
     if (strcmp(pair->name, "jobs") == 0)
         return OK; /* sweep_jobs() */
+    if (is_random && strcmp(pair->name, "correlation") == 0) {
+        plan->correlation = pair->value;
+        return OK;
+    }
     if (strcmp(pair->name, is_random ? "points" : "sets") == 0) {
         if (is_random)
             return read_sampling(plan, pair->value);
@@ -334,6 +341,34 @@ static Status check_sets(const SweepPlan *plan)
                            plan->file->text, name);
     }
     return OK;
+}
+
+/* the rows of the matrix are lists, in the order of the parameters */
+static Status read_correlation(SweepPlan *plan)
+{
+    const Syntax *matrix = plan->correlation;
+    const int n = plan->axes.count;
+    bool is_square = matrix->kind == SYNTAX_VECTOR && matrix->count == n;
+    Status status;
+
+    for (int i = 0; is_square && i < n; i++)
+        is_square = matrix->args[i]->kind == SYNTAX_VECTOR && matrix->args[i]->count == n;
+    if (!is_square) {
+        (void)diag_at(
+            plan->diag, E_VALUE, matrix->place,
+            "correlation= is a matrix with a row and a column for each of the %d parameters", n);
+        diag_hint(plan->diag, "correlation=[[1, 0.5], [0.5, 1]]");
+        return E_VALUE;
+    }
+    plan->factor = mem_array((size_t)n * (size_t)n, sizeof *plan->factor);
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < n; k++)
+            TRY(session_number(plan->session, matrix->args[i]->args[k],
+                               &plan->factor[(size_t)i * (size_t)n + (size_t)k], plan->diag));
+    status = correlation_factor(plan->factor, n, plan->diag);
+    if (status != OK && plan->diag != NULL)
+        plan->diag->place = matrix->place;
+    return status;
 }
 
 static Status check_keep(const SweepPlan *plan)
@@ -399,6 +434,8 @@ static Status fill_random(const SweepPlan *plan, SweepTable *table)
 
     CHECK(sampling_fill(plan->sampling, plan->session->seed, table->planned, columns, points,
                         plan->diag));
+    for (int r = 0; plan->factor != NULL && r < table->planned; r++)
+        correlation_apply(plan->factor, columns, points + (ptrdiff_t)r * columns);
     for (int r = 0; r < table->planned; r++)
         for (int i = 0; i < columns; i++)
             sweep_table_row(table, r)[i] = distribution_quantile(
@@ -453,6 +490,8 @@ Status sweep_plan(ct_session *session, const Statement *s, SweepTable **out, Dia
         CHECK(count_of(&plan, s->operands.at[0].value, "the number of runs", 1, &runs));
     for (int i = 0; i < s->pairs.count; i++)
         CHECK(read_pair(&plan, &s->pairs.at[i], is_random));
+    if (plan.correlation != NULL)
+        CHECK(read_correlation(&plan));
     CHECK(check_sets(&plan));
     CHECK(check_keep(&plan));
     if (plan.axes.count + plan.sets.names.count == 0) {

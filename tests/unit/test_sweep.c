@@ -1,4 +1,5 @@
 /* test_sweep.c: random numbers, distributions and points of many runs, held against closed forms */
+#include "simulate/sweep/correlation.h"
 #include "simulate/sweep/distribution.h"
 #include "simulate/sweep/random_stream.h"
 #include "simulate/sweep/sampling.h"
@@ -206,6 +207,64 @@ static void quantiles_leave_out_failures(void)
     sweep_table_free(table);
 }
 
+static double deviate_of(double u)
+{
+    const Distribution normal = distribution_of("normal", 0, 1, 0);
+
+    return distribution_quantile(&normal, u);
+}
+
+/* products of the deviates have the matrix as their means, up to 4 standard errors; the share below
+ * each value stays uniform */
+static void points_have_their_correlation(void)
+{
+    static const double wanted[9] = {1, 0.8, -0.3, 0.8, 1, 0.1, -0.3, 0.1, 1};
+    static double points[3 * RUNS];
+    double factor[9], sums[9] = {0}, shares[3] = {0};
+    Diag diag = {0};
+
+    memcpy(factor, wanted, sizeof factor);
+    EXPECT(correlation_factor(factor, 3, &diag) == OK);
+    EXPECT(sampling_fill(SAMPLING_RANDOM, 1, RUNS, 3, points, &diag) == OK);
+    for (int r = 0; r < RUNS; r++) {
+        double *u = points + (size_t)3 * (size_t)r;
+
+        correlation_apply(factor, 3, u);
+        for (int i = 0; i < 3; i++) {
+            shares[i] += u[i] / RUNS;
+            for (int k = 0; k < 3; k++)
+                sums[3 * i + k] += deviate_of(u[i]) * deviate_of(u[k]) / RUNS;
+        }
+    }
+    for (int i = 0; i < 9; i++)
+        EXPECT_NEAR(sums[i], wanted[i], 4 * sqrt((1 + wanted[i] * wanted[i]) / RUNS));
+    for (int i = 0; i < 3; i++)
+        EXPECT_NEAR(shares[i], 0.5, 4 / sqrt(12.0 * RUNS));
+}
+
+static void no_correlation_changes_nothing(void)
+{
+    double factor[4] = {1, 0, 0, 1}, point[2] = {1e-300, 0.75};
+    Diag diag = {0};
+
+    EXPECT(correlation_factor(factor, 2, &diag) == OK);
+    correlation_apply(factor, 2, point);
+    EXPECT_NEAR(point[0] / 1e-300, 1, 1e-9);
+    EXPECT_NEAR(point[1], 0.75, 1e-14);
+}
+
+static void wrong_correlations_are_refused(void)
+{
+    double cases[3][4] = {{1, 0.5, 0.4, 1}, {1, 0.5, 0.5, 2}, {1, -1, -1, 1}};
+    static const char *const messages[] = {"symmetric", "diagonal", "positive definite"};
+    Diag diag = {0};
+
+    for (int i = 0; i < 3; i++) {
+        EXPECT(correlation_factor(cases[i], 2, &diag) == E_VALUE);
+        EXPECT(strstr(diag.message, messages[i]) != NULL);
+    }
+}
+
 int main(void)
 {
     RUN(blocks_are_those_of_philox);
@@ -215,5 +274,8 @@ int main(void)
     RUN(moments_are_those_of_ishigami);
     RUN(streams_are_counted);
     RUN(quantiles_leave_out_failures);
+    RUN(points_have_their_correlation);
+    RUN(no_correlation_changes_nothing);
+    RUN(wrong_correlations_are_refused);
     return test_end();
 }

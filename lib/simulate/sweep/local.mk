@@ -1,4 +1,6 @@
 libcore_la_SOURCES += \
+  lib/simulate/sweep/correlation.c \
+  lib/simulate/sweep/correlation.h \
   lib/simulate/sweep/distribution.c \
   lib/simulate/sweep/distribution.h \
   lib/simulate/sweep/random_stream.c \
