@@ -2,7 +2,7 @@
 check_PROGRAMS += fmu_master
 fmu_master_SOURCES = tests/fmu/master.c tests/fmu/importer.c tests/fmu/importer.h
 fmu_master_LDADD = $(ZIP_LIBS) $(EXPAT_LIBS) -ldl -lm
-EXTRA_DIST += tests/fmu/description_rules.py tests/fmu/public_validators \
+EXTRA_DIST += tests/fmu/description_rules.py tests/fmu/public_validators tests/fmu/quick_cc \
 	tests/fmu/random_network.py
 
 # validators of others, where they are installed

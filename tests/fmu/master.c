@@ -10,8 +10,9 @@
  *     master FILE.fmu crude|drifting REFERENCE.csv TOLERANCE
  *         model exchange by even steps of the midpoint rule, which leave the constraints: puts
  *         states back when it is asked to, or never does
- *     master FILE.fmu rules SEED
- *         calls it in orders at random that the standard allows, and some that it doesn't
+ *     master FILE.fmu rules SEED [END]
+ *         calls it in orders at random that the standard allows, and some that it doesn't, in steps
+ *         of at most a twentieth of the time END
  *
  * Model exchange is by the pair of Dormand and Prince, which knows nothing of what is inside. */
 #include "importer.h"
@@ -443,6 +444,7 @@ static void simulation(Unit *unit, const Reference *r, double tolerance, bool is
 /* --- rules --- */
 
 static unsigned long long seed;
+static double longest_step = 0.02; /* s */
 
 static double random_number(void) /* 0 ... 1 */
 {
@@ -475,13 +477,14 @@ static void interleaved(Unit *unit)
         expect_ok(instance_initialised(in), in, "ExitInitializationMode");
     }
     for (int i = 0; i < 30; i++) {
-        const double step = 0.02 * random_number();
+        const double step = longest_step * random_number();
         void *kept = NULL;
         bool ends_a, ends_b;
         double reached;
 
         expect_ok(instance_keep(&a, &kept), &a, "GetFMUstate");
-        expect_ok(instance_do_step(&a, t, 0.05 * random_number(), &ends_a, &reached), &a, "DoStep");
+        expect_ok(instance_do_step(&a, t, 2.5 * longest_step * random_number(), &ends_a, &reached),
+                  &a, "DoStep");
         if (random_number() < 0.5)
             expect_ok(instance_through_bytes(&a, &kept), &a, "SerializeFMUstate");
         expect_ok(instance_go_back(&a, kept), &a, "SetFMUstate");
@@ -590,14 +593,14 @@ static void disturbed(Unit *unit)
     run_begin(&run);
     run_begin(&other);
     for (int i = 0; i < 60 && !run.ends; i++) {
-        const double to = run.t + 0.02 * random_number();
+        const double to = run.t + longest_step * random_number();
         void *kept = NULL;
 
         expect_ok(instance_keep(&run.in, &kept), &run.in, "GetFMUstate");
         for (int k = 0; k < 4; k++) {
             for (int j = 0; j < run.n; j++)
                 run.at[j] = run.x[j] + 0.01 * (random_number() - 0.5);
-            rates(&run, run.t + 0.01 * random_number(), run.at, run.rate);
+            rates(&run, run.t + 0.5 * longest_step * random_number(), run.at, run.rate);
             if (run.indicators > 0)
                 (void)instance_indicators(&run.in, run.sign_next);
         }
@@ -714,13 +717,15 @@ int main(int argc, char **argv)
     if (argc < 4) {
         fputs("usage: master FILE.fmu exchange|simulation|behind|crude|drifting REFERENCE "
               "TOLERANCE | "
-              "FILE.fmu rules SEED | FILE.fmu marked OUTPUT,...\n",
+              "FILE.fmu rules SEED [END] | FILE.fmu marked OUTPUT,...\n",
               stderr);
         return 2;
     }
     unit = unit_open(argv[1]);
     if (strcmp(argv[2], "rules") == 0) {
         seed = strtoull(argv[3], NULL, 10);
+        if (argc > 4)
+            longest_step = fmin(longest_step, strtod(argv[4], NULL) / 20);
         variables(unit);
         refused(unit);
         if (unit->has_simulation)
