@@ -25,6 +25,16 @@ char *param_unit(const Param *param, bool on_angle)
     return mem_text(unit, bar != NULL ? (size_t)(bar - unit) : strlen(unit));
 }
 
+bool instance_is_rigid(const Instance *instance)
+{
+    return instance->row->is_rigid != NULL && instance->row->is_rigid(instance);
+}
+
+bool instance_sticks(const Instance *instance)
+{
+    return instance->row->sticks || instance_is_rigid(instance);
+}
+
 bool instance_takes_angle(const Instance *instance, const Param *param)
 {
     return instance->on_angle || (instance->is_geared && (param->use & GEARS) == 0);

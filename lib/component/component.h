@@ -63,6 +63,9 @@ typedef struct Param {
 char *param_unit(const Param *param, bool on_angle);
 /* which of the two units applies to a part */
 bool instance_takes_angle(const Instance *instance, const Param *param);
+/* whether it holds without a bound, as a stop; and whether a run may hold it at rest at all */
+bool instance_is_rigid(const Instance *instance);
+bool instance_sticks(const Instance *instance);
 /* the param whose value applies: that param or, where it is PAIRED and not given, the other one */
 int instance_in_force(const Instance *instance, int param);
 
@@ -336,6 +339,8 @@ struct Component {
     /* of a part that sticks: the most that its dry friction is at this rate, or at rest the most
      * that it holds */
     Expr (*bound)(const Instance *instance, Arena *arena, Expr rate, bool at_rest);
+    /* whether it holds without a bound, on one side; NULL: never */
+    bool (*is_rigid)(const Instance *instance);
     Expr (*potential)(const Instance *instance, Arena *arena,
                       const Motion1 *motion); /* energy stored; NULL: none */
     Expr (*rotor)(const Instance *instance,

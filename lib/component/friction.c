@@ -177,13 +177,18 @@ static void load_relation(const Instance *instance, Arena *arena, int which, con
                       .value = expr_sub(arena, instance_across(instance, arena, 0), load)};
 }
 
+static bool oneway_is_rigid(const Instance *instance)
+{
+    return !instance_value(instance, bound_name(instance))->given;
+}
+
 /* v > 0 is driven along, with at most T, or with as much as it takes; v < 0 runs free */
 static Expr carried(const Instance *instance, Arena *arena, Expr v)
 {
     const Expr half = expr_rational(arena, 1, 2), one = expr_int(arena, 1);
     const Expr share = expr_mul(arena, half, expr_add(arena, one, expr_call1(arena, OP_SIGN, v)));
 
-    if (!instance_value(instance, bound_name(instance))->given)
+    if (oneway_is_rigid(instance))
         return expr_call2(arena, OP_UNILATERAL, v, expr_int(arena, 0));
     return expr_mul(arena, bound_of(instance, arena), share);
 }
@@ -337,18 +342,19 @@ static Status oneway_check(const Instance *instance, Arena *arena, bool planar, 
 /* --- rows --- */
 
 /* a part on terminals of a shaft or slide */
-#define ON_TERMINALS(row, domain_of, law, check_of)                                                \
+#define ON_TERMINALS(row, domain_of, law, check_of, rigid)                                         \
     {                                                                                              \
-        .name = #row, .sticks = true, .family = FAMILY_SCALAR, .domain = domain_of,                \
-        .places = PLACES_TERMINALS, .params = row##_params, .param_count = COUNT(row##_params),    \
-        .translation = BRANCH_MAY, .preference = 30, .relation = law, .bound = friction_bound,     \
-        .members = terminal_members, .member_count = COUNT(terminal_members), .check = check_of    \
+        .name = #row, .sticks = true, .is_rigid = rigid, .family = FAMILY_SCALAR,                  \
+        .domain = domain_of, .places = PLACES_TERMINALS, .params = row##_params,                   \
+        .param_count = COUNT(row##_params), .translation = BRANCH_MAY, .preference = 30,           \
+        .relation = law, .bound = friction_bound, .members = terminal_members,                     \
+        .member_count = COUNT(terminal_members), .check = check_of                                 \
     }
-#define ROWS(row, law, check_of)                                                                   \
-    static const Component row##_shaft = ON_TERMINALS(row, DOMAIN_SHAFT, law, check_of);           \
-    static const Component row##_slide = ON_TERMINALS(row, DOMAIN_SLIDE, law, check_of);
-#define VARIANTS(row, law, check_of)                                                               \
-    ROWS(row, law, check_of)                                                                       \
+#define ROWS(row, law, check_of, rigid)                                                            \
+    static const Component row##_shaft = ON_TERMINALS(row, DOMAIN_SHAFT, law, check_of, rigid);    \
+    static const Component row##_slide = ON_TERMINALS(row, DOMAIN_SLIDE, law, check_of, rigid);
+#define VARIANTS(row, law, check_of, rigid)                                                        \
+    ROWS(row, law, check_of, rigid)                                                                \
     static const Component *const row##_variants[] = {&row##_shaft, &row##_slide, NULL};
 
 /* on a joint, by its load */
@@ -373,12 +379,12 @@ static const Component friction_by_load = {
 };
 
 #define clutch_params brake_params
-ROWS(friction, friction_relation, friction_check)
+ROWS(friction, friction_relation, friction_check, NULL)
 static const Component *const friction_variants[] = {&friction_shaft, &friction_slide,
                                                      &friction_by_load, NULL};
-VARIANTS(brake, friction_relation, friction_check)
-VARIANTS(clutch, friction_relation, friction_check)
-VARIANTS(oneway, oneway_relation, oneway_check)
+VARIANTS(brake, friction_relation, friction_check, NULL)
+VARIANTS(clutch, friction_relation, friction_check, NULL)
+VARIANTS(oneway, oneway_relation, oneway_check, oneway_is_rigid)
 
 const Component component_friction = {
     .name = "friction",
@@ -464,6 +470,7 @@ const Component component_clutch = {
 const Component component_oneway = {
     .name = "oneway",
     .sticks = true,
+    .is_rigid = oneway_is_rigid,
     .family = FAMILY_FORCE,
     .domain = DOMAIN_MECHANICAL,
     .places = PLACES_JOINTS,

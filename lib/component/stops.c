@@ -37,13 +37,18 @@ static bool is_given(const Instance *instance, const char *name)
     return instance_value(instance, name)->given;
 }
 
+static bool is_rigid(const Instance *instance)
+{
+    return !is_given(instance, "k");
+}
+
 /* the effort against g > 0; rate: g' */
 static Expr limit_effort(const Instance *instance, Arena *arena, Expr g, Expr rate)
 {
     const Expr zero = expr_int(arena, 0);
     Expr push;
 
-    if (!is_given(instance, "k"))
+    if (is_rigid(instance))
         return expr_call2(arena, OP_UNILATERAL, g, instance_scalar(instance, "e"));
     push = expr_mul(arena, instance_scalar(instance, "k"), g);
     if (!is_given(instance, "d"))
@@ -90,7 +95,7 @@ static Expr backlash_effort(const Instance *instance, Arena *arena, const Motion
 static Status check_law(const Instance *instance, Diag *diag)
 {
     const Expr e = instance_scalar(instance, "e");
-    const bool is_compliant = is_given(instance, "k");
+    const bool is_compliant = !is_rigid(instance);
     Status status;
 
     if (is_compliant && is_given(instance, "e")) {
@@ -151,7 +156,7 @@ static Status backlash_check(const Instance *instance, Arena *arena, bool planar
 
 const Component component_stop = {
     .name = "stop",
-    .sticks = true,
+    .is_rigid = is_rigid,
     .family = FAMILY_FORCE,
     .domain = DOMAIN_MECHANICAL,
     .places = PLACES_LINK,
@@ -177,7 +182,7 @@ const Component component_stop = {
 
 const Component component_backlash = {
     .name = "backlash",
-    .sticks = true,
+    .is_rigid = is_rigid,
     .family = FAMILY_FORCE,
     .domain = DOMAIN_MECHANICAL,
     .places = PLACES_JOINTS,

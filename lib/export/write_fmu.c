@@ -293,6 +293,29 @@ static const char *binary_place(int version)
 #endif
 }
 
+/* An FMU follows friction that sticks, but has no impacts. */
+static Status check_limits(System *system, Diag *diag)
+{
+    const Switch *switches;
+    SystemSurface surface;
+    int time_only;
+
+    (void)system_switches(system, &switches, &time_only);
+    for (int i = 0; system_surface(system, i, &surface); i++) {
+        const char *part;
+
+        if (!surface.is_unilateral)
+            continue;
+        part = system_jumping_part(system, surface.condition);
+        (void)diag_set(diag, E_MODEL, "%s is rigid, and an FMU has no impacts",
+                       part != NULL ? part : "unilateral()");
+        diag_hint(diag, "k= makes a stop or a backlash compliant, torque= or force= bounds a "
+                        "one-way clutch");
+        return E_MODEL;
+    }
+    return OK;
+}
+
 static Status pack(const Exported *what, Archive **out, Diag *diag)
 {
     Code *code = NULL;
@@ -302,6 +325,7 @@ static Status pack(const Exported *what, Archive **out, Diag *diag)
 
     if (what->inverse != NULL)
         return diag_set(diag, E_MODEL, "an FMU goes forward: efforts of drivers come as code");
+    TRY(check_limits(what->view.system, diag));
     TRY(code_new(what, true, &code, diag));
     archive = NEW(Archive);
     archive->binary = binary_place(what->version);

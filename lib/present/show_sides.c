@@ -1,4 +1,5 @@
-/* show_sides.c: parts with dry friction, over the last run or at an instant of it */
+/* show_sides.c: parts with dry friction and rigid limits, over the last run or at an instant of it
+ */
 #include "present/show.h"
 
 #include "component/component.h"
@@ -8,8 +9,10 @@
 
 enum { REPORTED_PARTS = 8 }; /* in the report of a run */
 
-static const char *side_name(const StickRecord *record)
+static const char *side_name(const Instance *part, const StickRecord *record)
 {
+    if (instance_is_rigid(part))
+        return record->sticks ? "holds" : "free";
     return record->is_held ? "held at its bound" : record->sticks ? "sticks" : "slips";
 }
 
@@ -19,7 +22,7 @@ static const char *side_name(const StickRecord *record)
 typedef struct Rubbing {
     const Instance *part;
     StickRecord record;
-    double lost; /* J */
+    double lost; /* J; of what is rigid 0 */
 } Rubbing;
 typedef LIST(Rubbing) RubbingParts;
 
@@ -33,7 +36,9 @@ static Status read_lost(const View *view, RubbingParts *parts, Diag *diag)
         Text name = {0};
 
         text_addf(&name, "%s.loss", parts->at[i].part->name);
-        items[i] = expr_symbol(model_arena(view->model), name.at, SYMBOL_VARIABLE);
+        items[i] = instance_is_rigid(parts->at[i].part)
+                       ? expr_int(model_arena(view->model), 0)
+                       : expr_symbol(model_arena(view->model), name.at, SYMBOL_VARIABLE);
         text_free(&name);
     }
     CHECK(view->integrals(view->session, items, parts->count, lost, diag));
@@ -44,13 +49,14 @@ done:
     return status;
 }
 
-/* Fills a list that the caller frees, also on failure. */
-static Status find_rubbing(const View *view, RubbingParts *out, Diag *diag)
+/* Fills a list that the caller frees, also on failure; what is rigid where that is wanted too. */
+static Status find_rubbing(const View *view, bool with_rigid, RubbingParts *out, Diag *diag)
 {
     for (int i = 0; i < model_count(view->model); i++) {
         Rubbing rubbing = {.part = model_instance(view->model, i)};
 
-        if (rubbing.part->row->sticks && result_rows(view->result) > 0 &&
+        if (instance_sticks(rubbing.part) && (with_rigid || !instance_is_rigid(rubbing.part)) &&
+            result_rows(view->result) > 0 &&
             result_stick(view->result, rubbing.part->name, &rubbing.record))
             LIST_PUSH(*out, rubbing);
     }
@@ -79,14 +85,14 @@ static Status show_course(const View *view, Text *out, Diag *diag)
     RubbingParts parts = {0};
     Status status = OK;
 
-    CHECK(find_rubbing(view, &parts, diag));
+    CHECK(find_rubbing(view, true, &parts, diag));
     for (int i = 0; i < parts.count; i++) {
         const Rubbing *at = &parts.at[i];
 
         if (i == 0)
             table_cells(&table, "part\tat the end\tstuck [s]\tslips\tlost [J]");
-        table_cells(&table, "%s\t%s\t%.6g\t%d\t%.6g", at->part->name, side_name(&at->record),
-                    at->record.stuck, at->record.slips,
+        table_cells(&table, "%s\t%s\t%.6g\t%d\t%.6g", at->part->name,
+                    side_name(at->part, &at->record), at->record.stuck, at->record.slips,
                     shown_loss(at, largest_energy(view, &parts)));
     }
     if (parts.count == 0)
@@ -131,7 +137,7 @@ Status report_friction(const View *view, Text *out, Diag *diag)
     double lost = 0;
     Status status = OK;
 
-    CHECK(find_rubbing(view, &parts, diag));
+    CHECK(find_rubbing(view, false, &parts, diag));
     for (int i = 0; i < parts.count; i++) {
         if (i < REPORTED_PARTS)
             report_part(&parts.at[i], largest_energy(view, &parts), out);
@@ -180,7 +186,8 @@ static Status read_side(const View *view, const Instance *part, ShownSide *side,
         side->names[i] = text_done(&name);
         items[i] = expr_symbol(model_arena(view->model), side->names[i], SYMBOL_VARIABLE);
     }
-    return view->instant->read(view->instant->context, items, SHOWN, side->values, diag);
+    return view->instant->read(view->instant->context, items, instance_is_rigid(part) ? 1 : SHOWN,
+                               side->values, diag);
 }
 
 static void add_value(const View *view, Table *table, const ShownSide *side, int which)
@@ -194,16 +201,21 @@ static void add_value(const View *view, Table *table, const ShownSide *side, int
 
 /* At rest the bound is that of static friction. What slips is at its bound, with viscous friction
  * beside it. */
-static void add_row(const View *view, Table *table, const char *part, const StickRecord *record,
+static void add_row(const View *view, Table *table, const Instance *part, const StickRecord *record,
                     const ShownSide *side)
 {
     const int bound = record->sticks && !record->is_held ? HOLD : BOUND;
     const double effort = fabs(side->values[EFFORT]), most = side->values[bound];
     const bool is_at_rest = record->sticks || record->is_held;
 
-    table_cell(table, part);
-    table_cell(table, !is_at_rest && effort == 0 ? "free" : side_name(record));
+    table_cell(table, part->name);
+    table_cell(table, !is_at_rest && effort == 0 ? "free" : side_name(part, record));
     add_value(view, table, side, EFFORT);
+    if (instance_is_rigid(part)) {
+        table_cell(table, "none");
+        table_cell(table, "");
+        return;
+    }
     add_value(view, table, side, bound);
     if (is_at_rest && most > 0)
         table_cells(table, "%.4g %%", 100 * effort / most);
@@ -221,7 +233,7 @@ static Status show_instant(const View *view, Text *out, Diag *diag)
         StickRecord record;
         ShownSide side = {0};
 
-        if (!part->row->sticks ||
+        if (!instance_sticks(part) ||
             !result_stick_at(view->result, part->name, view->instant->time, &record))
             continue;
         if (table.cells.count == 0) {
@@ -230,7 +242,7 @@ static Status show_instant(const View *view, Text *out, Diag *diag)
         }
         status = read_side(view, part, &side, diag);
         if (status == OK)
-            add_row(view, &table, part->name, &record, &side);
+            add_row(view, &table, part, &record, &side);
         side_free(&side);
         CHECK(status);
     }

@@ -38,7 +38,7 @@ static void remark_friction(ct_session *session)
     for (int i = 0; i < model_count(session->model); i++) {
         const Instance *part = model_instance(session->model, i);
 
-        if (part->row->sticks && count++ < MOST_NAMES)
+        if (instance_sticks(part) && count++ < MOST_NAMES)
             text_addf(&line, "%s%s", line.length > 0 ? ", " : "", part->name);
     }
     if (count == 0)

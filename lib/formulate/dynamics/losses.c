@@ -76,6 +76,11 @@ Status loss_variable(System *system, const Instance *part, const char *member, b
     }
     if (*found)
         TRY(find_slip(system, part, &rate, out, diag));
+    if ((which == LOSS_BOUND || which == LOSS_HOLD) && instance_is_rigid(part)) {
+        (void)diag_set(diag, E_MISSING, "%s has no bound: it is rigid", part->name);
+        diag_hint(diag, "torque= or force= bounds it");
+        return E_MISSING;
+    }
     return which == LOSS_BOUND || which == LOSS_HOLD
                ? law_read(system, part,
                           part->row->bound(part, system->arena, rate, which == LOSS_HOLD), out,

@@ -348,8 +348,9 @@ typedef struct SystemSurface {
     bool is_unilateral; /* the ratio is its coefficient of restitution */
 } SystemSurface;
 bool system_surface(System *system, int i, SystemSurface *out); /* false at the end */
-/* The surface on which a part that sticks (Component.sticks) rests; -1: none. O(its law). */
-int system_surface_of_part(System *system, const char *part);
+/* The surfaces on which a part (instance_sticks()) may rest, one or, of two limits, two: their
+ * number. O(its law). */
+int system_surfaces_of_part(System *system, const char *part, int *out, int room);
 /* The part whose values jump or have a kink where that is 0, for messages; NULL: unknown. */
 const char *system_jumping_part(System *system, Expr condition);
 /* Hints, where no acceleration fits, at the parts whose friction is bounded by the load of their

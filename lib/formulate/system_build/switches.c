@@ -386,7 +386,7 @@ static void push_law(System *system, const Instance *instance, SwitchesExprs *st
     Effort effort;
     Expr value;
 
-    if (!instance->row->sticks)
+    if (!instance_sticks(instance))
         return;
     if (instance->row->effort != NULL && effort_of(system, instance, &effort, NULL) == OK)
         LIST_PUSH(*stack, effort.value);
@@ -465,21 +465,23 @@ static int number_of_surface(System *system, Expr call)
     return -1;
 }
 
-int system_surface_of_part(System *system, const char *part)
+int system_surfaces_of_part(System *system, const char *part, int *out, int room)
 {
     SwitchesExprs stack = {0};
     const Switch *switches;
-    int time_only, found = -1;
+    int time_only, found = 0;
 
     system_touch(system);
     (void)system_switches(system, &switches, &time_only);
     for (int i = 0; i < system->origin->instance_count; i++)
         if (strcmp(system->origin->instances[i].name, part) == 0)
             push_law(system, &system->origin->instances[i], &stack);
-    while (stack.count > 0 && found < 0) {
+    while (stack.count > 0 && found < room) {
         const Expr e = stack.at[--stack.count];
+        const int number = number_of_surface(system, e);
 
-        found = number_of_surface(system, e);
+        if (number >= 0)
+            out[found++] = number;
         for (int i = 0; i < expr_arg_count(e); i++)
             LIST_PUSH(stack, expr_arg(e, i));
     }

@@ -1,16 +1,25 @@
 /* result_sticks.c: when parts with dry friction stick in a run, by the modes of its segments */
 #include "simulate/run/result_impl.h"
 
-/* whether a surface is stuck to in a phase; *held: its part is at its bound */
-static bool is_stuck(const PhaseKey *key, int surface, bool *held)
+enum { LIMITS = 2 }; /* surfaces of a part */
+
+/* Whether a part is held on a surface in a phase; *held: it is at its bound there. *any: it has
+ * one. */
+static bool is_stuck(const PhaseKey *key, const char *part, bool *held, bool *any)
 {
+    int surfaces[LIMITS];
+    const int count = system_surfaces_of_part(key->system, part, surfaces, LIMITS);
+    bool sticks = false;
+
     *held = false;
+    *any = count > 0;
     for (int i = 0; i < key->on_count; i++)
-        if (key->on[i].surface == surface) {
-            *held = key->on[i].held;
-            return key->on[i].side == 0 || *held;
-        }
-    return false;
+        for (int k = 0; k < count; k++)
+            if (key->on[i].surface == surfaces[k]) {
+                *held = *held || key->on[i].held;
+                sticks = sticks || key->on[i].side == 0 || key->on[i].held;
+            }
+    return sticks;
 }
 
 bool result_stick(const Result *result, const char *part, StickRecord *out)
@@ -23,13 +32,13 @@ bool result_stick(const Result *result, const char *part, StickRecord *out)
     *out = (StickRecord){0};
     for (int k = 0; k <= corners->count; k++) {
         const PhaseKey *key = &result->phases.at[phase];
-        const int surface = system_surface_of_part(key->system, part);
+        bool any;
         const double until = k < corners->count ? corners->times[k]
                              : grid->count > 0  ? grid->times[grid->count - 1]
                                                 : since;
 
-        found = found || surface >= 0;
-        out->sticks = is_stuck(key, surface, &out->is_held);
+        out->sticks = is_stuck(key, part, &out->is_held, &any);
+        found = found || any;
         if (until > since) {
             out->stuck += out->sticks ? until - since : 0;
             out->slips += !out->sticks && !slipped;
@@ -51,14 +60,12 @@ bool result_stick(const Result *result, const char *part, StickRecord *out)
 bool result_stick_at(const Result *result, const char *part, double t, StickRecord *out)
 {
     const Grid *corners = &result->corners;
-    const PhaseKey *key;
-    int phase = result->first, surface;
+    int phase = result->first;
+    bool any;
 
     for (int k = 0; k < corners->count && corners->times[k] <= t; k++)
         phase = corners->phase[k];
-    key = &result->phases.at[phase];
-    surface = system_surface_of_part(key->system, part);
     *out = (StickRecord){0};
-    out->sticks = is_stuck(key, surface, &out->is_held);
-    return surface >= 0;
+    out->sticks = is_stuck(&result->phases.at[phase], part, &out->is_held, &any);
+    return any;
 }
