@@ -179,7 +179,9 @@ static Status add_entries(Text *out, const View *view, Block block, const char *
             if (!is_chosen(selection, r, c))
                 continue;
             CHECK(monitor_poll(view->watch));
-            CHECK(system_show(view->system, block, r, c, &e, diag));
+            CHECK(selection->number_count == 2
+                      ? system_show_alone(view->system, block, r, c, &e, diag)
+                      : system_show(view->system, block, r, c, &e, diag));
             if (expr_is_zero(e) && !vector && selection->number_count < 2)
                 continue;
             view_value(&equations,
@@ -720,7 +722,7 @@ Status show_expression(const View *view, const Syntax *syntax, int number, Text 
     TRY(model_expression(view->model, syntax, &user, diag));
     TRY(system_resolve(view->system, user, &e, diag));
     view_value(&equations, left_side(view, syntax, user, e, number),
-               expr_fold(model_arena(view->model), system_plain(view->system, e)));
+               system_written(view->system, system_plain(view->system, e)));
     view_block(out, view, &equations);
     return OK;
 }

@@ -2,6 +2,7 @@
 #include "formulate/expanded/block_entry.h"
 #include "formulate/expanded/embedded.h"
 #include "formulate/expanded/expanded.h"
+#include "formulate/system/dynamics.h"
 #include "formulate/system/system_impl.h"
 
 Status show_entry(System *system, Block block, int row, int column, Expr *out, Diag *diag)
@@ -28,4 +29,12 @@ Status system_show(System *system, Block block, int row, int column, Expr *out, 
     if (status == OK)
         *out = system_plain(system, *out);
     return status;
+}
+
+Status system_show_alone(System *system, Block block, int row, int column, Expr *out, Diag *diag)
+{
+    TRY(system_show(system, block, row, column, out, diag));
+    if (!system->dynamics->writes_out)
+        *out = system_written(system, *out);
+    return OK;
 }

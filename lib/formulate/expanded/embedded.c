@@ -210,7 +210,7 @@ static Expr follow(System *system, const Partition *part, int which, int indepen
     memcpy(swapped, part->dependent, sizeof swapped);
     swapped[which] = independent;
     minor = determinant(system, part, swapped, diag, status);
-    minor = expr_collect(arena, expr_fold(arena, minor));
+    minor = expanded_tidy(system, minor);
     return expr_neg(arena, expr_div(arena, minor, part->determinant));
 }
 

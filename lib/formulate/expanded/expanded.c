@@ -35,7 +35,7 @@ static Expr shorter(Arena *arena, Expr best, Expr e)
 
 /* as built, or multiplied out first where folding then gives less, all of it or with sums of
  * constants kept together; products of long sums are not multiplied out */
-static Expr tidy(System *system, Expr e)
+Expr expanded_tidy(System *system, Expr e)
 {
     enum { MOST_TERMS = 200 };
     Arena *arena = system->arena;
@@ -50,6 +50,15 @@ static Expr tidy(System *system, Expr e)
     if (varying != whole && varying != open)
         best = shorter(arena, best, varying);
     return best;
+}
+
+Expr system_written(System *system, Expr e)
+{
+    enum { MOST_OPERATIONS = 1000 }; /* shared; a longer one is written over named subexpressions */
+
+    return op_count_total(expr_count_shared(&e, 1)) <= MOST_OPERATIONS
+               ? expanded_tidy(system, e)
+               : expr_fold(system->arena, e);
 }
 
 /* the coordinate that a rotor turns with, as an expression; NULL where the part has no rotor */
@@ -320,7 +329,7 @@ static Status show_sum(System *system, TermsFunction *terms_of, int row, int col
     CHECK(terms_of(system, row, column, &terms, diag));
     for (int i = 0; i < terms.count; i++)
         LIST_PUSH(values, terms.at[i].value);
-    *out = tidy(system, expr_sum(system->arena, values.at, values.count));
+    *out = expanded_tidy(system, expr_sum(system->arena, values.at, values.count));
 done:
     LIST_FREE(values);
     LIST_FREE(terms);
@@ -348,7 +357,7 @@ static Status show_constraint(System *system, int k, int column, Expr *out, Diag
 static Status show_jacobian(System *system, int k, int j, Expr *out, Diag *diag)
 {
     (void)diag;
-    *out = tidy(system, speed_partial(system, system->constraints->rows.at[k].phi, j));
+    *out = expanded_tidy(system, speed_partial(system, system->constraints->rows.at[k].phi, j));
     return OK;
 }
 
@@ -356,9 +365,10 @@ static Status show_velocity(System *system, int k, int column, Expr *out, Diag *
 {
     (void)column;
     (void)diag;
-    *out = tidy(system, expr_neg(system->arena,
-                                 expr_diff(system->arena, system->constraints->rows.at[k].phi,
-                                           expr_symbol(system->arena, "t", SYMBOL_TIME))));
+    *out =
+        expanded_tidy(system, expr_neg(system->arena,
+                                       expr_diff(system->arena, system->constraints->rows.at[k].phi,
+                                                 expr_symbol(system->arena, "t", SYMBOL_TIME))));
     return OK;
 }
 
@@ -368,14 +378,14 @@ static Status show_acceleration(System *system, int k, int column, Expr *out, Di
 
     (void)column;
     TRY(second_rate_at_rest(system, system->constraints->rows.at[k].phi, &second, diag));
-    *out = tidy(system, expr_neg(system->arena, second));
+    *out = expanded_tidy(system, expr_neg(system->arena, second));
     return OK;
 }
 
 static Status show_network(System *system, int row, int column, Expr *out, Diag *diag)
 {
     (void)diag;
-    *out = tidy(system, system_network_entry(system, row, column));
+    *out = expanded_tidy(system, system_network_entry(system, row, column));
     return OK;
 }
 
@@ -383,7 +393,7 @@ static Status show_network_rhs(System *system, int row, int column, Expr *out, D
 {
     (void)column;
     (void)diag;
-    *out = tidy(system, system->run.network_rhs[row]);
+    *out = expanded_tidy(system, system->run.network_rhs[row]);
     return OK;
 }
 
@@ -571,7 +581,7 @@ Status system_terms(System *system, Block block, int row, int column, Terms *out
         return OK;
     CHECK(blocks[block].terms(system, row, column, out, diag));
     for (int i = 0; i < out->count; i++) {
-        out->at[i].value = system_plain(system, tidy(system, out->at[i].value));
+        out->at[i].value = system_plain(system, expanded_tidy(system, out->at[i].value));
         CHECK(monitor_poll(system->watch));
     }
 done:

@@ -9,6 +9,9 @@ typedef Status EntryFunction(System *system, int row, int column, Expr *out, Dia
 /* false: by an estimate, entries of M and F would be too long to be expanded */
 bool expanded_fits(const System *system);
 int embedded_rows(const System *system); /* they exclude drivers */
+/* The expression without named subexpressions, multiplied out, folded and collected, whatever is
+ * shortest. */
+Expr expanded_tidy(System *system, Expr e);
 /* an entry as shown, of a block that isn't embedded, with symbols for full turns */
 MUST_USE Status expanded_entry(System *system, Block block, int row, int column, Expr *out,
                                Diag *diag);

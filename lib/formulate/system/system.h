@@ -146,6 +146,9 @@ void system_show_turns(System *view, const int *turns);
 /* The same expression for a reader: full turns as in system_show_turns(), lifted constants as
  * numbers. */
 Expr system_plain(const System *system, Expr e);
+/* An expression for a reader: without named subexpressions, multiplied out, folded and collected
+ * where that is shorter; folded only, where it is long. */
+Expr system_written(System *system, Expr e);
 
 /* An angle that a constraint compares by its sine alone, which is also 0 at half a turn: its
  * deviation, within half a turn, in q, t and parameters. NULL at the end */
@@ -251,6 +254,10 @@ void system_block_size(const System *system, Block block, int *rows, int *column
 const char *block_name(Block block); /* "mass", "forces" ... */
 MUST_USE Status system_show(System *system, Block block, int row, int column, Expr *out,
                             Diag *diag);
+/* The same entry without the others of its block: written out also where those are too long to be.
+ */
+MUST_USE Status system_show_alone(System *system, Block block, int row, int column, Expr *out,
+                                  Diag *diag);
 /* Coordinate partitioning of the embedded form (theory 6): speeds, the dependent ones first, and
  * the number of these. A new array, mem_free(). Fails as system_show() of embedded blocks does. */
 MUST_USE Status system_partition(System *system, int **speeds, int *dependent, Diag *diag);
