@@ -163,8 +163,10 @@ static Status add_member(PortRequest *r, const Syntax *item, const char *dot, Di
             continue;
         if (strcmp(dot + 1, components[k].acceleration) == 0)
             return add_component(r, frame, k, item->place, diag);
-        layout_item(&list, components[k].acceleration);
     }
+    for (int k = 0; k < COUNT(components); k++)
+        if (!is_planar || components[k].is_planar)
+            layout_item(&list, components[k].acceleration);
     (void)diag_at(diag, E_NAME, item->place, "'%s' is no acceleration of frame %s", dot + 1, frame);
     diag_hint(diag, "a frame alone has all components; single ones are %s", list.at);
     text_free(&list);
