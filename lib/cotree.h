@@ -293,6 +293,8 @@ typedef struct ct_column {
 ct_status ct_columns(ct_session *session, const ct_expression *const *items, int count,
                      double every, ct_column **out, int *columns, int *rows, ct_error *error);
 void ct_columns_free(ct_column *columns); /* NULL is fine */
+/* The statement that `plot fit` is: data, signals and residuals of the last fit; new, or NULL. */
+char *ct_fit_plot(ct_session *session, ct_error *error);
 /* The table of the last sweep or Monte Carlo, in units of a list (NULL: SI): *parameters columns of
  * parameters, then figures, NAN where a run failed. ct_columns_free() */
 ct_status ct_sweep_columns(ct_session *session, const char *units, ct_column **out, int *columns,

@@ -312,16 +312,11 @@ static ct_status plot(Call *call, const char *path, ct_error *error)
     return status;
 }
 
-/* `plot last`: the same again, of the model as it is now */
-static ct_status plot_again(Call *call, const char *path, ct_error *error)
+/* as if that statement had been typed */
+static ct_status plot_text_of(Call *call, const char *text, const char *path, ct_error *error)
 {
     ct_statement *last = NULL;
-    ct_cursor cursor = {.text = call->shell->last_plot, .line = 1};
-
-    if (call->shell->last_plot == NULL)
-        return ct_error_at(call->statement, ct_operand(call->statement, 0), error,
-                           "nothing was plotted yet");
-
+    ct_cursor cursor = {.text = text, .line = 1};
     ct_error why;
     ct_status status = ct_parse(&cursor, true, &last, &why);
     Call again = *call;
@@ -339,6 +334,29 @@ static ct_status plot_again(Call *call, const char *path, ct_error *error)
     return status;
 }
 
+/* `plot last`: the same again, of the model as it is now */
+static ct_status plot_again(Call *call, const char *path, ct_error *error)
+{
+    if (call->shell->last_plot == NULL)
+        return ct_error_at(call->statement, ct_operand(call->statement, 0), error,
+                           "nothing was plotted yet");
+    return plot_text_of(call, call->shell->last_plot, path, error);
+}
+
+static ct_status plot_fit(Call *call, const char *path, ct_error *error)
+{
+    ct_error why;
+    char *text = ct_fit_plot(call->session, &why);
+    ct_status status;
+
+    if (text == NULL)
+        return ct_error_at(call->statement, ct_operand(call->statement, 0), error, "%s",
+                           why.message);
+    status = plot_text_of(call, text, path, error);
+    ct_free(text);
+    return status;
+}
+
 static ct_status command_plot(Call *call, ct_error *error)
 {
     const ct_statement *statement = call->statement;
@@ -353,6 +371,8 @@ static ct_status command_plot(Call *call, ct_error *error)
         return status;
     if (word != NULL && strcmp(word, "last") == 0 && ct_operand_count(statement) == 1)
         return plot_again(call, path, error);
+    if (word != NULL && strcmp(word, "fit") == 0 && ct_operand_count(statement) == 1)
+        return plot_fit(call, path, error);
 
     status = plot(call, path, error);
     if (status == CT_OK) {

@@ -60,6 +60,7 @@ libcore_la_SOURCES += \
   lib/present/show_port.c \
   lib/present/show_power.c \
   lib/present/show_program.c \
+  lib/present/show_fit.c \
   lib/present/show_session.c \
   lib/present/show_sides.c \
   lib/present/show_structure.c \

@@ -11,6 +11,10 @@ libcore_la_SOURCES += \
   lib/session/session_figure_course.c \
   lib/session/session_figure_course.h \
   lib/session/session_figures.c \
+  lib/session/session_fit.c \
+  lib/session/session_fit.h \
+  lib/session/session_fit_entry.c \
+  lib/session/session_fit_plan.c \
   lib/session/session_formula.c \
   lib/session/session_freedoms.c \
   lib/session/session_help.c \

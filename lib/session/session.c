@@ -83,6 +83,8 @@ static void drop_runs(ct_session *session)
     session->modes = NULL;
     sweep_table_free(session->sweep);
     session->sweep = NULL;
+    fit_result_free(session->fit);
+    session->fit = NULL;
     session->reporter = NULL;
     for (int i = 0; i < session->systems.count; i++)
         system_free(session->systems.at[i]);

@@ -104,7 +104,10 @@ done:
 static const struct {
     const char *prefix;
     Status (*value)(ct_session *session, const char *path, double *out, Diag *diag);
-} sizes[] = {{"model.", model_size}, {"count.", count_size}, {"sweep.", sweep_size}};
+} sizes[] = {{"model.", model_size},
+             {"count.", count_size},
+             {"sweep.", sweep_size},
+             {"fit.", fit_size_value}};
 
 static int find_size(const char *path)
 {
@@ -134,7 +137,8 @@ static int run_prefix(const char *path, const char **rest)
 static bool is_entry(const Syntax *syntax)
 {
     return syntax->kind == SYNTAX_CALL &&
-           (session_entry(syntax->text) >= 0 || sweep_entry_is_called(syntax));
+           (session_entry(syntax->text) >= 0 || sweep_entry_is_called(syntax) ||
+            fit_entry_is_called(syntax));
 }
 
 /* whether the model understands the whole subtree; run: the one that all its names have, 0: none */
@@ -440,6 +444,20 @@ done:
     return status;
 }
 
+/* fit.value(k) */
+static Status cut_fit(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
+{
+    double value = 0;
+    Status status;
+
+    CHECK(fit_entry_value(cut->session, syntax, &value, diag));
+    *out = push_leaf(cut, (Leaf){.kind = LEAF_CONSTANT, .value = value, .run = -1});
+done:
+    if (status != OK && diag->place.line == 0)
+        diag->place = syntax->place;
+    return status;
+}
+
 /* a function or law of leaves; the parameters that a law brings are leaves more */
 static Status cut_call(Cut *cut, const Syntax *syntax, const Expr *args, Expr *out, Diag *diag)
 {
@@ -509,6 +527,8 @@ static Status cut_any(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
         return cut_size(cut, syntax, out, diag);
     if (sweep_entry_is_called(syntax))
         return cut_sweep(cut, syntax, out, diag);
+    if (fit_entry_is_called(syntax))
+        return cut_fit(cut, syntax, out, diag);
     if (is_entry(syntax))
         return cut_entry(cut, syntax, out, diag);
     if (is_pure(syntax, &run, &bare))

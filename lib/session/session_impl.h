@@ -13,6 +13,7 @@
 #include "present/count.h"
 #include "present/show.h"
 #include "simulate/analyse/linearize.h"
+#include "simulate/fit/fit_result.h"
 #include "simulate/run/run.h"
 #include "simulate/sweep/sweep_table.h"
 
@@ -51,6 +52,7 @@ struct ct_session {
     bool linear_is_old;     /* the model has changed since */
     Modes *modes;           /* and modes */
     SweepTable *sweep;      /* of the last sweep or Monte Carlo; NULL */
+    FitResult *fit;         /* the last one; NULL */
     uint64_t seed;          /* of random numbers */
     bool is_sweeping;       /* a run is one of many, which leave the model as it is */
     Report *reporter;       /* for ct_report(); NULL: as in runs */
@@ -248,6 +250,13 @@ MUST_USE Status sweep_entry_value(const ct_session *session, const Syntax *call,
                                   double *out, Diag *diag);
 MUST_USE Status sweep_size(ct_session *session, const char *path, double *out, Diag *diag);
 bool sweep_entry_dimension(const ct_session *session, const Syntax *call, Dimension *out);
+
+/* the same of the last fit, fit.value(k) and fit.points (session_fit_entry.c) */
+bool fit_entry_is_called(const Syntax *syntax);
+MUST_USE Status fit_entry_value(const ct_session *session, const Syntax *call, double *out,
+                                Diag *diag);
+MUST_USE Status fit_size_value(ct_session *session, const char *path, double *out, Diag *diag);
+bool fit_entry_dimension(const ct_session *session, const Syntax *call, Dimension *out);
 
 /* --- values --- */
 

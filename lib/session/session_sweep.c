@@ -15,18 +15,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* what a run changes in the session */
-typedef struct SessionFocus {
-    Run start;
-    Linear *linear;
-    Modes *modes;
-    Report *reporter;
-    bool linear_is_old, start_is_later, changed;
-    uint64_t covered, freed;
-    int freedoms;
-} SessionFocus;
-
-static void focus_put_aside(ct_session *session, SessionFocus *out)
+void focus_put_aside(ct_session *session, SessionFocus *out)
 {
     *out = (SessionFocus){.start = session->start,
                           .linear = session->linear,
@@ -43,8 +32,7 @@ static void focus_put_aside(ct_session *session, SessionFocus *out)
     session->modes = NULL;
 }
 
-/* as before any run of the model with these parameters */
-static void focus_clear(ct_session *session, int runs)
+void focus_clear(ct_session *session, int runs)
 {
     while (session->runs.count > runs)
         run_free(&session->runs.at[--session->runs.count]);
@@ -58,7 +46,7 @@ static void focus_clear(ct_session *session, int runs)
     session_begin(session);
 }
 
-static void focus_restore(ct_session *session, const SessionFocus *focus)
+void focus_restore(ct_session *session, const SessionFocus *focus)
 {
     session->start = focus->start;
     session->linear = focus->linear;
@@ -74,7 +62,7 @@ static void focus_restore(ct_session *session, const SessionFocus *focus)
 
 /* --- one run --- */
 
-static Analysis *analysis_of(const Statement *s)
+Analysis *sweep_analysis(const Statement *s)
 {
     static Analysis *const verbs[VERB_COUNT] = {
         [VERB_simulate] = session_simulate,       [VERB_kinematics] = session_kinematics,
@@ -90,7 +78,7 @@ static Analysis *analysis_of(const Statement *s)
 
 static Status check_rest(const Statement *s, Diag *diag)
 {
-    if (analysis_of(s->rest) != NULL)
+    if (sweep_analysis(s->rest) != NULL)
         return OK;
     (void)diag_at(diag, E_VALUE, s->rest->place, "'%s' computes nothing that could be kept",
                   s->rest->verb != NULL ? s->rest->verb : s->rest->text);
@@ -99,8 +87,7 @@ static Status check_rest(const Statement *s, Diag *diag)
     return E_VALUE;
 }
 
-/* whether it is the fault of the parameters of one run; else the statement is wrong */
-static bool is_of_one_run(Status status)
+bool sweep_is_of_one_run(Status status)
 {
     return status == E_VALUE || status == E_ASSEMBLE || status == E_SINGULAR ||
            status == E_SOLVER || status == E_DOMAIN || status == E_MODEL || status == E_BRANCH;
@@ -137,7 +124,7 @@ static Status keep_figures(ct_session *session, const Statement *s, const SweepT
             *diag = why;
             first = status;
         }
-        if (!is_of_one_run(status)) {
+        if (!sweep_is_of_one_run(status)) {
             *diag = why;
             return status;
         }
@@ -149,7 +136,7 @@ static Status run_row(ct_session *session, const Statement *s, const SweepTable 
                       Diag *diag)
 {
     TRY(set_parameters(session, table, row, diag));
-    TRY(analysis_of(s->rest)(session, s->rest, diag));
+    TRY(sweep_analysis(s->rest)(session, s->rest, diag));
     return keep_figures(session, s, table, row, diag);
 }
 
@@ -186,7 +173,7 @@ static void note_reason(SweepTable *table, int row, const char *text)
 /* of a row that was made, with its figures in the table */
 static void take_row(SweepWork *work, int row, Status status, const Diag *diag)
 {
-    if (status != OK && !is_of_one_run(status)) {
+    if (status != OK && !sweep_is_of_one_run(status)) {
         if (work->failed_row >= 0 && work->failed_row < row)
             return;
         work->failed_row = row;

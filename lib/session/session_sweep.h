@@ -28,4 +28,25 @@ MUST_USE Status sweep_jobs(ct_session *session, const Statement *statement, int 
 /* the figure i of keep=; NULL: there are no more */
 const Syntax *sweep_kept(const Statement *statement, int i);
 
+/* --- runs of many --- */
+
+/* what a run changes in the session */
+typedef struct SessionFocus {
+    Run start;
+    Linear *linear;
+    Modes *modes;
+    Report *reporter;
+    bool linear_is_old, start_is_later, changed;
+    uint64_t covered, freed;
+    int freedoms;
+} SessionFocus;
+void focus_put_aside(ct_session *session, SessionFocus *out);
+/* as before any run of the model: frees all but the first `runs` */
+void focus_clear(ct_session *session, int runs);
+void focus_restore(ct_session *session, const SessionFocus *focus);
+/* of a statement that may stand behind the colon; else NULL */
+Analysis *sweep_analysis(const Statement *statement);
+/* whether it is the fault of the parameters of one run; else the statement is wrong */
+bool sweep_is_of_one_run(Status status);
+
 #endif

@@ -250,6 +250,7 @@ View session_view(const ct_session *session)
                   .run_count = runs,
                   .linear = session->linear,
                   .sweep = session->sweep,
+                  .fit = session->fit,
                   .freedoms = session_freedoms(session),
                   .page = {.columns = session->hooks.columns,
                            .unicode = session->hooks.unicode,

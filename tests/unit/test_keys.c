@@ -177,7 +177,7 @@ static bool comes_later(const char *text)
 /* words of the language that this version doesn't act on say so, however they are used */
 static void later_words_say_that_they_are(void)
 {
-    static const char *const lines[] = {"stop s1 h", "fit k to=\"a.csv\" : simulate 1"};
+    static const char *const lines[] = {"bushing B a b"};
 
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
         Kit kit = kit_new();

@@ -113,7 +113,7 @@ static void a_verb_of_a_later_version_says_so(void)
 {
     Kit kit = kit_new();
 
-    EXPECT(kit_do(&kit, "fit k to=\"a.csv\" : simulate 1") == CT_FAILED);
+    EXPECT(kit_do(&kit, "bushing B a b") == CT_FAILED);
     EXPECT_HOLDS(kit.error.message, "later");
     kit_free(&kit);
 }

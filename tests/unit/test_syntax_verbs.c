@@ -139,8 +139,7 @@ static void what_comes_later_says_so(void)
     static const struct {
         const char *text;
         int column;
-    } lines[] = {
-        {"stop s1 h", 1}, {"time stop s1 h", 6}, {"time fit k to=\"a.csv\" : simulate 1", 6}};
+    } lines[] = {{"bushing B a b", 1}, {"time bushing B a b", 6}};
 
     for (int i = 0; i < COUNT(lines); i++) {
         Statement *s = NULL;

@@ -1,0 +1,8 @@
+libcore_la_SOURCES += \
+  lib/simulate/fit/fit_result.c \
+  lib/simulate/fit/fit_result.h \
+  lib/simulate/fit/fit_solve.c \
+  lib/simulate/fit/fit_solve.h \
+  lib/simulate/fit/fit_statistics.c \
+  lib/simulate/fit/loss.c \
+  lib/simulate/fit/loss.h
