@@ -223,34 +223,90 @@ static void add_row(const View *view, Table *table, const Instance *part, const 
         table_cell(table, effort > 0 ? "100 %" : "");
 }
 
-static Status show_instant(const View *view, Text *out, Diag *diag)
+/* parts that may stick, as they are at the instant */
+typedef struct ShownParts {
+    LIST(const char *) names;
+    LIST(const Instance *) parts;
+    LIST(StickRecord) records;
+    LIST(ShownSide) sides;
+    bool *shares; /* parts x parts */
+} ShownParts;
+
+static void parts_free(ShownParts *parts)
 {
-    Table table = table_for("llrrr");
-    Status status = OK;
+    for (int i = 0; i < parts->sides.count; i++)
+        side_free(&parts->sides.at[i]);
+    LIST_FREE(parts->names);
+    LIST_FREE(parts->parts);
+    LIST_FREE(parts->records);
+    LIST_FREE(parts->sides);
+    mem_free(parts->shares);
+}
+
+static Status read_parts(const View *view, ShownParts *parts, Diag *diag)
+{
+    const ViewInstant *instant = view->instant;
 
     for (int i = 0; i < model_count(view->model); i++) {
         const Instance *part = model_instance(view->model, i);
         StickRecord record;
         ShownSide side = {0};
+        Status status;
 
         if (!instance_sticks(part) ||
-            !result_stick_at(view->result, part->name, view->instant->time, &record))
+            !result_stick_at(view->result, part->name, instant->time, &record))
             continue;
-        if (table.cells.count == 0) {
-            text_addf(out, "at t = %.6g s\n", view->instant->time);
-            table_cells(&table, "part\tside\teffort\tbound\tshare");
-        }
         status = read_side(view, part, &side, diag);
-        if (status == OK)
-            add_row(view, &table, part, &record, &side);
-        side_free(&side);
-        CHECK(status);
+        LIST_PUSH(parts->names, part->name);
+        LIST_PUSH(parts->parts, part);
+        LIST_PUSH(parts->records, record);
+        LIST_PUSH(parts->sides, side);
+        TRY(status);
     }
-    if (table.cells.count == 0)
+    parts->shares = NEW_ARRAY(bool, parts->names.count * parts->names.count);
+    return parts->names.count > 0 ? instant->shares(instant->context, parts->names.at,
+                                                    parts->names.count, parts->shares, diag)
+                                  : OK;
+}
+
+/* Where more parts stick than there are motions, who holds whom: "b1 sticks with b2, and its effort
+ * is one of many". */
+static void add_shares(const ShownParts *parts, Text *out)
+{
+    for (int i = 0; i < parts->names.count; i++) {
+        const bool is_held = parts->records.at[i].is_held;
+        Text others = {0};
+
+        for (int k = 0; k < parts->names.count; k++)
+            if (parts->shares[i * parts->names.count + k] && parts->sides.at[k].values[HOLD] > 0)
+                layout_item(&others, parts->names.at[k]);
+        if (others.length > 0 && parts->sides.at[i].values[HOLD] > 0)
+            text_addf(out, "%s %s %s: its effort is one of many\n", parts->names.at[i],
+                      is_held ? "is at its limit, held by" : "sticks together with", others.at);
+        text_free(&others);
+    }
+}
+
+static Status show_instant(const View *view, Text *out, Diag *diag)
+{
+    Table table = table_for("llrrr");
+    ShownParts parts = {0};
+    Status status = OK;
+
+    CHECK(read_parts(view, &parts, diag));
+    if (parts.names.count > 0) {
+        text_addf(out, "at t = %.6g s\n", view->instant->time);
+        table_cells(&table, "part\tside\teffort\tbound\tshare");
+    } else {
         text_add(out, "nothing sticks or slips\n");
+    }
+    for (int i = 0; i < parts.names.count; i++)
+        add_row(view, &table, parts.parts.at[i], &parts.records.at[i], &parts.sides.at[i]);
     table_print(out, &table, 0);
+    add_shares(&parts, out);
 done:
     table_free(&table);
+    parts_free(&parts);
     return status;
 }
 

@@ -18,6 +18,9 @@
  * more than rounding */
 typedef struct ViewInstant {
     Status (*read)(const void *context, const Expr *items, int count, double *out, Diag *diag);
+    /* which parts with dry friction share a load: count x count */
+    Status (*shares)(const void *context, const char *const *parts, int count, bool *out,
+                     Diag *diag);
     const void *context;
     double time; /* s */
 } ViewInstant;

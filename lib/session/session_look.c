@@ -92,6 +92,14 @@ static Status read_variable(void *context, const char *name, int primes, const S
     return session_value_at(session, &variable, &instant, out, diag);
 }
 
+static Status instant_shares(const void *context, const char *const *parts, int count, bool *out,
+                             Diag *diag)
+{
+    const InstantReader *instant = context;
+
+    return result_reader_shares(instant->run->reader, instant->time, parts, count, out, diag);
+}
+
 ct_status ct_show(ct_session *session, const ct_statement *statement, char **text, ct_error *error)
 {
     SESSION_WORK(session, error);
@@ -112,7 +120,7 @@ ct_status ct_show(ct_session *session, const ct_statement *statement, char **tex
     CHECK(show_need(&view, s, &need, &diag));
     if (need == NEED_INSTANT) {
         CHECK(instant_reader_find(session, s->at, &reader, &diag));
-        instant = (ViewInstant){instant_read, &reader, reader.time};
+        instant = (ViewInstant){instant_read, instant_shares, &reader, reader.time};
         view.instant = &instant;
     }
     CHECK(session_prepare_formulas(session, need, &view, &diag));

@@ -1,6 +1,8 @@
 /* test_friction.c: friction, brakes, clutches and one-way clutches, against closed forms */
 #include "session_kit.h"
 
+#include <string.h>
+
 #define SLIDE "scene planar\nbody m mass=1 inertia=0\nprismatic s ground m axis=x\n"
 #define HINGE "scene planar\nbody m mass=1 inertia=0.1\nrevolute h ground m\n"
 
@@ -366,6 +368,43 @@ static void sides_at_an_instant(void)
     kit_free(&kit);
 }
 
+/* Two brakes on one shaft, and on another one two of different static ratio: only the sum of two
+ * efforts is determined. The blocks in a row have five efforts on three motions at rest, and two on
+ * three when all move together. */
+static void who_holds_what(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "flywheel J1 a 0 J=0.5\ntorquesource T a 0 1\nbrake b1 a 0 torque=5\n"
+                      "brake b2 a 0 torque=5\nbrake b3 a 0 torque=0\n"
+                      "flywheel J2 b 0 J=0.5\ntorquesource T2 b 0 1\nbrake b4 b 0 torque=5\n"
+                      "brake b5 b 0 torque=4 static=1.5\nflywheel J3 c 0 J=1\n"
+                      "torquesource T3 c 0 1\nbrake b6 c 0 torque=2\n"
+                      "init J1.w = 3, J2.w = 0, J3.w = 0\nsimulate 4\nshow sides at 2\n");
+    EXPECT_HOLDS(kit.text, "b1 sticks together with b2: its effort is one of many\n"
+                           "b2 sticks together with b1: its effort is one of many\n");
+    EXPECT_HOLDS(kit.text, "b5: its effort is one of many\n");
+    EXPECT_HOLDS(kit.text, "b4: its effort is one of many\n");
+    EXPECT(strstr(kit.text, "b3 sticks") == NULL && strstr(kit.text, "b3:") == NULL);
+    EXPECT(strstr(kit.text, "b6 sticks") == NULL && strstr(kit.text, "b6:") == NULL);
+    kit_free(&kit);
+    kit = kit_new();
+    EXPECT_DONE(&kit, "scene planar\nbody b1 mass=1\nbody b2 mass=2\nbody b3 mass=3\n"
+                      "prismatic s1 ground b1 axis=x\nprismatic s2 ground b2 axis=x\n"
+                      "prismatic s3 ground b3 axis=x\nactuator l s1 force=10*t\n"
+                      "friction g1 s1 force=3\nfriction g2 s2 force=2\nfriction g3 s3 force=1\n"
+                      "clutch p1 s1 s2 force=4\nclutch p2 s2 s3 force=2.5\n"
+                      "init s1 = 0, s1' = 0, s2 = 0, s2' = 0, s3 = 0, s3' = 0\n"
+                      "simulate 2\nshow sides at 0.3\n");
+    EXPECT_HOLDS(kit.text, "g1 is at its limit, held by ");
+    EXPECT_HOLDS(kit.text, "p2 sticks together with ");
+    EXPECT_DONE(&kit, "show sides at 0.65");
+    EXPECT(strstr(kit.text, "one of many") == NULL);
+    EXPECT_DONE(&kit, "show sides at 1");
+    EXPECT(strstr(kit.text, "one of many") == NULL);
+    kit_free(&kit);
+}
+
 /* --- energy --- */
 
 /* 2 kg go up a slope of 0.2 with 1 m/s, and stay where they come to rest: friction takes F d */
@@ -454,6 +493,7 @@ int main(void)
     RUN(parts_of_a_subsystem);
     RUN(what_sticks_is_marked_in_linearizations);
     RUN(sides_at_an_instant);
+    RUN(who_holds_what);
     RUN(a_block_on_an_incline_loses_energy);
     RUN(a_clutch_loses_energy);
     RUN(frictions_of_all_kinds_lose_what_the_motion_had);

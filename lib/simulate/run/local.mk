@@ -59,6 +59,7 @@ libcore_la_SOURCES += \
   lib/simulate/run/result.c lib/simulate/run/result_sticks.c \
   lib/simulate/run/result.h \
   lib/simulate/run/result_integral.c \
+  lib/simulate/run/result_shares.c \
   lib/simulate/run/result_impl.h \
   lib/simulate/run/run.h \
   lib/simulate/run/run_limits.h \

@@ -37,6 +37,10 @@ MUST_USE Status result_reader_values_along(ResultReader *reader, Expr item, cons
 MUST_USE Status result_reader_integrals(ResultReader *reader, const Expr *items, int count,
                                         const double *times, int time_count,
                                         const CallMonitor *watch, double *out, Diag *diag);
+/* Which of these parts with dry friction share a load at t, so that only the sum of their efforts
+ * is determined: shares[i*count + k]. O(surfaces^3). */
+MUST_USE Status result_reader_shares(ResultReader *reader, double t, const char *const *parts,
+                                     int count, bool *shares, Diag *diag);
 /* Change of an item at several instants when states and time have rounding errors, those of the
  * largest state of a kind in the run: smaller values are 0 within rounding. 0 for driven runs. */
 MUST_USE Status result_reader_rounding(ResultReader *reader, Expr item, const double *times,

@@ -150,4 +150,7 @@
  * the latter is off by far less */
 #define INTEGRAL_SMOOTH 1e-9
 
+/* of a matrix with unit diagonal: what is left of rows that depend on others */
+#define SHARES_DEPENDENT 1e-9
+
 #endif
