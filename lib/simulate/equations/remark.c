@@ -183,6 +183,8 @@ static void write_happened(const Remark *r, Text *out)
         break;
     case REMARK_IMPACTS:
         text_addf(out, "%s: %d impact%s", r->what, r->count, r->count == 1 ? "" : "s");
+        if (r->of > 0)
+            text_addf(out, ", %d together with others, by Poisson's hypothesis", r->of);
         if (isfinite(r->size))
             text_addf(out, ", %.6g J lost", r->size);
         if (isfinite(r->t))

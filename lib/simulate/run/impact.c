@@ -207,11 +207,16 @@ static ImpactTally *tally_of(ImpactTallies *tallies, const ImpactAt *here, int i
 
 static void count_impact(const Impact *m, double lost, ImpactTallies *tallies)
 {
+    int taking_part = 0;
+
+    for (int k = 0; k < m->count; k++)
+        taking_part += m->impulse[k] > 0;
     for (int k = 0; k < m->count; k++)
         if (m->impulse[k] > 0) {
             ImpactTally *tally = tally_of(tallies, m->here, m->place[k]);
 
             tally->count++;
+            tally->together += taking_part > 1;
             tally->lost += lost;
         }
 }
@@ -313,6 +318,7 @@ void impact_tallies_report(const ImpactTallies *tallies, Remarks *out)
         remarks_add(out, (Remark){.kind = REMARK_IMPACTS,
                                   .what = tallies->at[k].part,
                                   .count = tallies->at[k].count,
+                                  .of = tallies->at[k].together,
                                   .size = tallies->at[k].lost,
                                   .t = tallies->at[k].rests});
 }

@@ -9,6 +9,7 @@
 typedef struct ImpactTally {
     char *part; /* or its condition */
     int count;
+    int together; /* of them: while others had one, too */
     double lost;  /* J, of impacts that it took part in */
     double rests; /* s: when it came to rest last, after ever shorter flights; NAN */
 } ImpactTally;

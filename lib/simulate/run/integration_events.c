@@ -32,6 +32,7 @@ Status integration_take_events(Integration *m, double t, int *sides, bool *chang
         if (*changed)
             TRY(add_instant(m, t, true, diag));
     }
+    m->depths_at = NAN;
     for (int i = first; i < m->count; i++)
         m->mode[i] = sides[i - first];
     integration_evaluate(m, t, m->y);

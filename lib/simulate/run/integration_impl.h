@@ -44,6 +44,7 @@ typedef struct Integration {
     double *noise;                /* and anywhere: of margins */
     double *band_ends;            /* s: time from which on `noise` applies; INFINITY */
     double *depth, *depth_low, *depth_high; /* of conditions times modes, while a zero is located */
+    double depths_at; /* s: where depth_high is known: the end of the last step; NAN */
     int next_row, rows;
     double scanned;        /* time in the last step up to which conditions are followed */
     double *reach;         /* largest absolute value of each surface's measure in the segment, */

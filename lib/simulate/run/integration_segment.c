@@ -78,6 +78,7 @@ void integration_open_segment(Integration *m, const Segment *segment)
     m->depth = NEW_ARRAY(double, conditions);
     m->depth_low = NEW_ARRAY(double, conditions);
     m->depth_high = NEW_ARRAY(double, conditions);
+    m->depths_at = NAN;
     m->mode = NEW_ARRAY(int, conditions);
     m->looked_at = NEW_ARRAY(int, conditions);
     for (int i = 0; i < conditions; i++)

@@ -226,6 +226,7 @@ void integration_begin_modes(Integration *m)
         m->band[i] = 0;
         m->band_ends[i] = INFINITY;
     }
+    m->depths_at = NAN;
     find_noise(m);
     integration_let_margins_rise(m);
     integration_begin_surfaces(m);
@@ -358,18 +359,19 @@ static int locate_first(Integration *m, double low, double *high, int found)
 }
 
 /* Of parabolas through the depths at three points in a row, the vertex that lies deepest where one
- * may reach 0, in spacings behind the middle point; NAN: none may. */
-static double dip_between(const Integration *m)
+ * may reach 0, in spacings after the middle point, between `from` and `to`; NAN: none may. */
+static double dip_between(const Integration *m, double from, double to)
 {
     double deepest = 0, where = NAN;
 
     for (int k = 0; k < m->looked_count; k++) {
         double a = m->depth_low[k], b = m->depth[k], c = m->depth_high[k], bend = a - 2 * b + c;
+        double vertex = (a - c) / (2 * bend);
 
-        if (!(isfinite(bend) && b <= a && b <= c && bend > 0 && b - bend < deepest))
+        if (!(isfinite(bend) && vertex >= from && vertex <= to && bend > 0 && b - bend < deepest))
             continue;
         deepest = b - bend;
-        where = (a - c) / (2 * bend);
+        where = vertex;
     }
     return where;
 }
@@ -396,14 +398,26 @@ static void next_depths(Integration *m, double t)
     find_depths(m, t, m->depth_high);
 }
 
+/* The depths where the last step begins, which those at the end of the one before are. */
+static void begin_depths(Integration *m)
+{
+    if (m->depths_at == m->stepper->before)
+        return;
+    integration_conditions_at(m, m->stepper->before);
+    next_depths(m, m->stepper->before);
+}
+
 /* The first point of the last step at which a condition has switched, *at, and a point *low before
  * it where none has. -1: there is none. Between three points a condition may dip and come back. */
 static int find_switched(Integration *m, double *low, double *at)
 {
     double length = m->stepper->t - m->stepper->before;
-    int points = points_in(m, length), looked = 0, found = -1;
+    const bool is_whole = m->scanned == m->stepper->before;
+    int points = points_in(m, length), looked = is_whole, found = -1;
 
     *low = m->scanned;
+    if (is_whole)
+        begin_depths(m);
     for (int k = 1; k <= points && found < 0; k++) {
         const double t = k == points ? m->stepper->t : m->stepper->before + length * k / points;
         double dip;
@@ -413,7 +427,9 @@ static int find_switched(Integration *m, double *low, double *at)
         *at = t;
         found = switched_at(m, t);
         next_depths(m, t);
-        dip = ++looked >= 3 && found < 0 ? dip_between(m) : NAN;
+        dip = ++looked >= 3 && found < 0
+                  ? dip_between(m, looked == 3 ? -1 : -0.5, k == points ? 1 : 0.5)
+                  : NAN;
         if (!isnan(dip)) {
             *low = t - 2 * length / points;
             *at = t + (dip - 1) * length / points;
@@ -426,6 +442,7 @@ static int find_switched(Integration *m, double *low, double *at)
             forget_bands(m);
         }
     }
+    m->depths_at = found < 0 ? m->stepper->t : NAN;
     return found;
 }
 
