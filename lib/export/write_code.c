@@ -11,7 +11,7 @@ static Status check_friction(const Exported *what, const char *language, Diag *d
     for (int i = 0; i < model_count(model) && what->inverse == NULL; i++) {
         const Instance *part = model_instance(model, i);
 
-        if (!part->row->sticks)
+        if (!instance_sticks(part))
             continue;
         (void)diag_set(diag, E_MODEL,
                        "%s %s sticks at rest, which a step of exported %s doesn't do",

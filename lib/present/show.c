@@ -40,7 +40,7 @@ static const Topic topics[] = {
     {"state",        "a linear network as x' = A x + B u",                 NEED_MODEL,  OPERANDS_NOTHING, AS_NUMBERS,  show_state},
     {"linear",       "matrices of the last linearisation",                 NEED_LINEAR, OPERANDS_NOTHING, AS_NUMBERS,  show_linear},
     {"transfer",     "transfer functions of the last linearisation",       NEED_LINEAR, OPERANDS_PAIR,    AS_NUMBERS,  show_transfer},
-    {"thevenin",     "a linear network at two terminals, a mechanism at frames: source and impedance", NEED_MODEL, OPERANDS_PORTS, AS_FORMULAS, show_thevenin},
+    {"thevenin",     "of a network or a mechanism: source and impedance", NEED_MODEL, OPERANDS_PORTS, AS_FORMULAS, show_thevenin},
     {"norton",       "the same: source and admittance or inertia",         NEED_MODEL,  OPERANDS_PORTS,   AS_FORMULAS, show_norton},
     {"derivation",   "how an equation came about, step by step",           NEED_SYSTEM, OPERANDS_ENTRY,   AS_NARRATIVE,    show_derivation},
     {"power",        "power of each edge, through times across, and their sums", NEED_INSTANT, OPERANDS_NOTHING, AS_TEXT, show_power},

@@ -41,10 +41,14 @@ static Status read_lost(const View *view, RubbingParts *parts, Diag *diag)
                        : expr_symbol(model_arena(view->model), name.at, SYMBOL_VARIABLE);
         text_free(&name);
     }
-    CHECK(view->integrals(view->session, items, parts->count, lost, diag));
+    status = view->integrals(view->session, items, parts->count, lost, diag);
+    if (status == E_SINGULAR || status == E_SOLVER) { /* between rows something has no solution */
+        for (int i = 0; i < parts->count; i++)
+            lost[i] = NAN;
+        status = OK;
+    }
     for (int i = 0; i < parts->count; i++)
         parts->at[i].lost = lost[i];
-done:
     MEM_FREE(items, lost);
     return status;
 }
@@ -91,9 +95,12 @@ static Status show_course(const View *view, Text *out, Diag *diag)
 
         if (i == 0)
             table_cells(&table, "part\tat the end\tstuck [s]\tslips\tlost [J]");
-        table_cells(&table, "%s\t%s\t%.6g\t%d\t%.6g", at->part->name,
-                    side_name(at->part, &at->record), at->record.stuck, at->record.slips,
-                    shown_loss(at, largest_energy(view, &parts)));
+        table_cells(&table, "%s\t%s\t%.6g\t%d", at->part->name, side_name(at->part, &at->record),
+                    at->record.stuck, at->record.slips);
+        if (isnan(at->lost))
+            table_cell(&table, "unknown");
+        else
+            table_cells(&table, "%.6g", shown_loss(at, largest_energy(view, &parts)));
     }
     if (parts.count == 0)
         text_add(out, "nothing sticks or slips\n");
@@ -128,7 +135,10 @@ static void report_part(const Rubbing *at, double largest, Text *out)
         text_addf(out, " for %.6g s", record->stuck);
     text_add(out, ", ");
     add_count(out, "slipped", record->slips);
-    text_addf(out, ", lost %.6g J\n", shown_loss(at, largest));
+    if (isnan(at->lost))
+        text_add(out, ", lost an unknown energy\n");
+    else
+        text_addf(out, ", lost %.6g J\n", shown_loss(at, largest));
 }
 
 Status report_friction(const View *view, Text *out, Diag *diag)
@@ -146,7 +156,7 @@ Status report_friction(const View *view, Text *out, Diag *diag)
     if (parts.count > REPORTED_PARTS)
         text_addf(out, "and %d more parts with friction: 'show sides' lists them\n",
                   parts.count - REPORTED_PARTS);
-    if (parts.count > 1)
+    if (parts.count > 1 && !isnan(lost))
         text_addf(out, "friction: lost %.6g J in all\n", lost);
 done:
     LIST_FREE(parts);

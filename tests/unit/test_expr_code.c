@@ -75,6 +75,8 @@ static void compare_values(const Language *language, World *w, const Expr *es, F
     for (; i < MOST && fscanf(output, "%lf", &got) == 1; i++) {
         double wanted = value_in(w, es[i]);
 
+        if (isnan(wanted) && isnan(got)) /* unilateral() beyond its limit */
+            continue;
         EXPECT_NEAR(got, wanted, 1e-13 * size_of(wanted));
         if (!(fabs(got - wanted) <= 1e-13 * size_of(wanted)))
             printf("    %s, expression %d\n", language->name, i);

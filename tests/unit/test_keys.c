@@ -98,7 +98,8 @@ static void try_key(const Verb *verb, const char *key)
             test_faults++;
             printf("%s: passes\n", spoiled.line.at);
         } else if (kit.error.column != spoiled.column &&
-                   strstr(kit.error.message, "given twice") == NULL) {
+                   strstr(kit.error.message, "given twice") == NULL &&
+                   strstr(kit.error.message, "takes no keys") == NULL) { /* of another topic */
             test_faults++;
             printf("%s: column %d, wanted %d: %s\n", spoiled.line.at, kit.error.column,
                    spoiled.column, kit.error.message);

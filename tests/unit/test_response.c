@@ -176,14 +176,15 @@ static void what_has_no_answer_is_refused_with_the_way_out(void)
                    "linearize");
     expect_refused(diode, "show transfer b.v V symbolic",
                    "the network is not linear: see the equation of D", "linearize");
-    expect_refused(DIVIDER, "show thevenin", "an equivalent is that of two terminals",
+    expect_refused(DIVIDER, "show thevenin", "an equivalent is that of two terminals, or of frames",
                    "show thevenin out 0");
-    expect_refused(DIVIDER, "show norton out", "an equivalent is that of two terminals",
-                   "show norton out 0");
+    expect_refused(DIVIDER, "show norton out",
+                   "an equivalent is that of two terminals, or of frames", "show norton out 0");
     expect_refused(DIVIDER, "show thevenin out out", "an equivalent is that of two terminals", "");
     expect_refused(DIVIDER, "show thevenin ot 0", "no terminal is called 'ot'",
                    "did you mean 'out'?");
-    expect_refused(DIVIDER, "show thevenin out 0 in", "'show thevenin' takes two names", "");
+    expect_refused(DIVIDER, "show thevenin out 0 in",
+                   "an equivalent is that of two terminals, or of frames", "");
     expect_refused(DIVIDER, "show norton in 0",
                    "the v between in and 0 is given, whatever flows: there is no Norton equivalent",
                    "show thevenin in 0");

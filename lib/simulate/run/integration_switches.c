@@ -398,13 +398,28 @@ static void next_depths(Integration *m, double t)
     find_depths(m, t, m->depth_high);
 }
 
-/* The depths where the last step begins, which those at the end of the one before are. */
-static void begin_depths(Integration *m)
+static bool has_unilateral(const Integration *m)
 {
+    for (int k = 0; k < m->looked_count; k++)
+        if (!integration_is_of_event(m, m->looked_at[k]) &&
+            equations_guard(m->eq, m->looked_at[k]).is_unilateral)
+            return true;
+    return false;
+}
+
+/* The depths where the last step begins, which those at the end of the one before are. After a
+ * switch they are evaluated where something must not be passed. False: they are not known. */
+static bool begin_depths(Integration *m)
+{
+    if (m->scanned != m->stepper->before)
+        return false;
     if (m->depths_at == m->stepper->before)
-        return;
+        return true;
+    if (!has_unilateral(m))
+        return false;
     integration_conditions_at(m, m->stepper->before);
     next_depths(m, m->stepper->before);
+    return true;
 }
 
 /* The first point of the last step at which a condition has switched, *at, and a point *low before
@@ -412,12 +427,10 @@ static void begin_depths(Integration *m)
 static int find_switched(Integration *m, double *low, double *at)
 {
     double length = m->stepper->t - m->stepper->before;
-    const bool is_whole = m->scanned == m->stepper->before;
+    const bool is_whole = begin_depths(m);
     int points = points_in(m, length), looked = is_whole, found = -1;
 
     *low = m->scanned;
-    if (is_whole)
-        begin_depths(m);
     for (int k = 1; k <= points && found < 0; k++) {
         const double t = k == points ? m->stepper->t : m->stepper->before + length * k / points;
         double dip;
@@ -428,7 +441,7 @@ static int find_switched(Integration *m, double *low, double *at)
         found = switched_at(m, t);
         next_depths(m, t);
         dip = ++looked >= 3 && found < 0
-                  ? dip_between(m, looked == 3 ? -1 : -0.5, k == points ? 1 : 0.5)
+                  ? dip_between(m, is_whole && looked == 3 ? -1 : -0.5, k == points ? 1 : 0.5)
                   : NAN;
         if (!isnan(dip)) {
             *low = t - 2 * length / points;
@@ -439,7 +452,9 @@ static int find_switched(Integration *m, double *low, double *at)
         }
         if (found < 0) {
             *low = t;
-            forget_bands(m);
+            if (!is_whole ||
+                looked != 2) /* else the way from the first point on is looked at once more */
+                forget_bands(m);
         }
     }
     m->depths_at = found < 0 ? m->stepper->t : NAN;
