@@ -151,7 +151,7 @@ static void note_size(Motion *mo, int n)
  *
  * Ends where w doesn't change, or changes by rounding alone: a small difference of large terms has
  * fewer digits. */
-static bool solve_together(Motion *mo)
+static bool iterate_together(Motion *mo)
 {
     const Equations *eq = mo->eq;
     const int n = eq->nx + eq->nz;
@@ -182,6 +182,21 @@ static bool solve_together(Motion *mo)
         if (eq->loads != NULL)
             eq->loads(eq->context);
     }
+    return false;
+}
+
+/* Where it fails its values have no meaning: the next search begins at 0, and the network reads u'
+ * = 0 and lambda = 0. */
+static bool solve_together(Motion *mo)
+{
+    const Equations *eq = mo->eq;
+
+    if (iterate_together(mo))
+        return true;
+    memset(netsolve_values(mo->network), 0, (size_t)(eq->nx + eq->nz) * sizeof(double));
+    memset(mo->du, 0, (size_t)eq->nu * sizeof(double));
+    memset(mo->lambda_all, 0, (size_t)eq->m * sizeof(double));
+    eq->network_reads(eq->context, mo->du, mo->lambda_all);
     return false;
 }
 
