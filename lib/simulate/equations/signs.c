@@ -281,7 +281,7 @@ static bool lies_beyond(Signs *s, SignsTrial trial, void *context)
     return trial(context, s->values, s->move);
 }
 
-static bool find(Signs *s, SignsTrial trial, void *context)
+bool signs_find(Signs *s, SignsTrial trial, void *context)
 {
     bool found = iterate_with_factors(s, trial, context) || newton(s, trial, context);
 
@@ -300,16 +300,4 @@ static bool find(Signs *s, SignsTrial trial, void *context)
     if (!found)
         return lies_beyond(s, trial, context);
     return !is_beyond(s) || look_between(s, trial, context);
-}
-
-/* Where a search fails its values have no meaning: the next one begins at 0. */
-bool signs_find(Signs *s, SignsTrial trial, void *context)
-{
-    const bool found = find(s, trial, context);
-
-    if (!found) {
-        memset(s->values, 0, (size_t)s->count * sizeof(double));
-        s->is_factored = false;
-    }
-    return found;
 }
