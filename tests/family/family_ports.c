@@ -640,7 +640,8 @@ static Verdict formulas_agree(Member *member, Kit *kit, const char *topic, const
     }
     text = kit->text;
     kit->text = NULL;
-    for (char *at = strtok(text, "\n"); at != NULL && same; at = strtok(NULL, "\n")) {
+    for (char *rest = NULL, *at = strtok_r(text, "\n", &rest); at != NULL && same;
+         at = strtok_r(NULL, "\n", &rest)) {
         const char *right = strstr(at, " = ");
         int i, j;
         double expected, got;

@@ -348,7 +348,8 @@ static void add_limiting(RunEnd *e, Stepper *stepper, const char *hardest, Diag 
         return;
     if (hardest != NULL)
         add_cause(diag, ", ", hardest, "pushes hardest");
-    if (diag->hint[0] != '\0')
+    /* a load that grows without bound limits steps before it has no value */
+    if (diag->hint[0] != '\0' || system_hint_locking(e->phase->system, diag))
         return;
     if (stepper->method->has_fixed_step)
         (void)snprintf(other, sizeof other, "a shorter step= or ");
