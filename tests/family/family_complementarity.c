@@ -23,7 +23,7 @@ static Problem problem;
 
 static void draw_rows(Member *member, Problem *p, int motions)
 {
-    double rows[MOST][MOST], mass[MOST];
+    double rows[MOST][MOST] = {{0}}, mass[MOST] = {0};
 
     p->motions = motions;
     for (int j = 0; j < motions; j++)
@@ -147,7 +147,7 @@ static bool sweep(const Problem *p, double *w)
 static Verdict friction_has_one_motion(Member *member)
 {
     Problem *p = &problem;
-    double w[MOST], off = 0;
+    double w[MOST] = {0}, off = 0;
 
     p->n = 2 + (int)member_between(member, 0, member_between(member, 0, 1) < 0.7 ? 8 : MOST - 2);
     draw_rows(member, p, 1 + (int)member_between(member, 0, p->n + 3 < MOST ? p->n + 3 : MOST - 1));

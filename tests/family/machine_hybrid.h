@@ -457,7 +457,7 @@ static inline bool smooth_part(Hybrid *h, double *at, double to, Real *y)
 static inline bool sample_now(Hybrid *h, double at, Real *y)
 {
     static Instant now;
-    double value[BLOCKS];
+    double value[BLOCKS] = {0};
     bool due = false;
 
     if (!look(h, y, &now))
