@@ -61,6 +61,9 @@ int worker_processes_available(void)
 
 /* --- in a worker --- */
 
+/* in a record: its number is before it, and any type may stand there */
+enum { RESULT_AT = _Alignof(max_align_t) };
+
 static bool send_all(int to, const char *bytes, size_t length)
 {
     while (length > 0) {
@@ -91,7 +94,7 @@ static int worker_main(const Workers *workers, int number, int to)
         atomic_store(current, which);
         memset(record, 0, workers->record);
         memcpy(record, &which, sizeof which);
-        plan->piece(plan->context, which, record + sizeof which);
+        plan->piece(plan->context, which, record + RESULT_AT);
         if (!send_all(to, record, workers->record))
             _exit(1);
         atomic_store(current, -1);
@@ -180,7 +183,7 @@ static bool read_some(const Workers *workers, Worker *worker)
         return true;
     worker->length = 0;
     memcpy(&worker->last, worker->record, sizeof worker->last);
-    plan->take(plan->context, worker->last, worker->record + sizeof worker->last);
+    plan->take(plan->context, worker->last, worker->record + RESULT_AT);
     return true;
 }
 
@@ -256,7 +259,7 @@ void worker_processes_do(const WorkPlan *plan)
                         MAP_SHARED | MAP_ANONYMOUS, -1, 0);
 
     workers->plan = plan;
-    workers->record = sizeof(int) + plan->size;
+    workers->record = RESULT_AT + plan->size;
     for (int i = 0; i < plan->workers && i < MOST_WORKERS; i++)
         workers->at[i].record = mem_new(workers->record);
     workers->shared = shared != MAP_FAILED ? shared : NULL;
