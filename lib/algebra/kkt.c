@@ -379,6 +379,7 @@ void kkt_return_sizes(Kkt *kkt)
 
 static void open_exchanging(Kkt *kkt)
 {
+    const bool before = mem_scratch(true); /* numbers that each call computes anew */
     int *row = NEW_ARRAY(int, 2 * kkt->entries + kkt->m);
     int *column = NEW_ARRAY(int, 2 * kkt->entries + kkt->m), count = 0;
 
@@ -393,6 +394,7 @@ static void open_exchanging(Kkt *kkt)
     kkt->exchanging = sparse_new(kkt->size, count + kkt->m, row, column);
     kkt->values = NEW_ARRAY(double, count + kkt->m);
     MEM_FREE(row, column);
+    (void)mem_scratch(before);
 }
 
 /* Unknowns are scaled to unit mass, rows of G to unit mass-norm at its largest so far. */
