@@ -168,11 +168,10 @@ const Component component_stop = {
     .member_count = COUNT(effort_members),
     .check = stop_check,
     .help =
-        "A coordinate stays between low= and high=. Without k= the limits are rigid: what meets "
-        "one "
-        "has an impact with the coefficient of restitution e=, and bounces that become ever "
-        "shorter "
-        "end at rest. With k= a limit is a spring, with d= and a damper, that pushes and never "
+        "A coordinate is kept between low= and high=. Without k= the limits are rigid: what meets "
+        "one has an impact with the coefficient of restitution e=, and bounces that become ever "
+        "shorter end at rest. With k= a limit is a spring, with d= and a damper, that pushes and "
+        "never "
         "pulls. Between two frames the limits are those of their distance: high= alone is a rope.",
     .example = "scene planar; gravity [0, -9.81]\nbody m mass=1 inertia=0.1\n"
                "prismatic s ground m axis=y\nstop floor s low=0 e=0.5\n"
@@ -193,7 +192,7 @@ const Component component_backlash = {
     .members = effort_members,
     .member_count = COUNT(effort_members),
     .check = backlash_check,
-    .help = "The first joint's coordinate less the second's stays within half the gap on either "
+    .help = "The first joint's coordinate less the second's is kept within half the gap on either "
             "side of 0. The limits are rigid, with the coefficient of restitution e=, or compliant "
             "with k= and d=, as those of a stop.",
     .example = "scene planar\nbody a mass=1 inertia=0.1\nbody b mass=1 inertia=0.2\n"

@@ -6,7 +6,7 @@
  * static friction is, it is between -r and r: such a surface is another one than that of sign(h).
  *
  * Of unilateral(h, e) it is the effort itself, 0 where h < 0 and 0 or more where h = 0, such that
- * h is never positive. What meets h = 0 with h' > 0 has an impact there: h' behind it is -e times
+ * h is never positive. What meets h = 0 with h' > 0 has an impact there: h' after it is -e times
  * what it was. */
 #ifndef COTREE_FORMULATE_SYSTEM_SURFACES_H
 #define COTREE_FORMULATE_SYSTEM_SURFACES_H

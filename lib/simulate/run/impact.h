@@ -22,7 +22,7 @@ typedef struct ImpactAt {
     int count;
 } ImpactAt;
 
-/* Let what meets unilateral surfaces at (t, y) with h' > 0 have an impact: y is then behind it.
+/* Let what meets unilateral surfaces at (t, y) with h' > 0 have an impact: y is then after it.
  * *any: there was one. E_SOLVER where none is found. O(surfaces) solutions of the equations. */
 MUST_USE Status impact_take(const ImpactAt *here, double *y, ImpactTallies *tallies, bool *any,
                             Diag *diag);

@@ -62,7 +62,7 @@ typedef struct SurfaceChoice {
 } SurfaceChoice;
 
 /* Returns the segment that continues from (t, y), on surfaces on which its equations jump: across
- * them, off them or along them, and behind impacts on them, which change y. `low` and `high` bound
+ * them, off them or along them, and after impacts on them, which change y. `low` and `high` bound
  * the time that rates use. Where it is another one, it is stored in *segment. Fails where none
  * continues. */
 typedef Status (*Choose)(void *context, double t, double low, double high, double *y,

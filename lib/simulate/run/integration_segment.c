@@ -178,7 +178,7 @@ static int find_meetings(Integration *m, Meeting *at, bool *on)
     return count;
 }
 
-/* what is near a unilateral surface behind an impact is measured by the motion from there on */
+/* what is near a unilateral surface after an impact is measured by the motion from there on */
 static void forget_reach(Integration *m)
 {
     for (int i = 0; i < m->eq->switch_count; i++) {
