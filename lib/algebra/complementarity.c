@@ -79,20 +79,18 @@ static double bound_on(const Scaled *s, int i, int side)
     return side == AT_LOW ? s->low[i] : s->high[i];
 }
 
-/* Solve A x = b by elimination with row exchanges; x replaces b. False: A is singular within
- * REGULAR. */
-static bool solve_rows(double *a, int n, double *b)
+bool complementarity_eliminate(double *a, int n, double *b, double regular, double least)
 {
     for (int k = 0; k < n; k++) {
         int best = k;
-        double size = 0;
+        double size = least;
 
         for (int i = k + 1; i < n; i++)
             if (fabs(a[i * n + k]) > fabs(a[best * n + k]))
                 best = i;
-        for (int i = 0; i < n; i++) /* scaled rows have a diagonal of 1 */
+        for (int i = 0; i < n; i++)
             size = fmax(size, fabs(a[i * n + k]));
-        if (!(fabs(a[best * n + k]) > REGULAR * fmax(size, 1)))
+        if (!(fabs(a[best * n + k]) > regular * size))
             return false;
         for (int j = 0; j < n && best != k; j++) {
             const double kept = a[k * n + j];
@@ -145,7 +143,7 @@ static bool solve_sides(const Scaled *s, const int *side)
                 s->factor[between * column + at++] = s->matrix[i * n + k];
         between++;
     }
-    if (between > 0 && !solve_rows(s->factor, between, s->w))
+    if (between > 0 && !complementarity_eliminate(s->factor, between, s->w, REGULAR, 1))
         return false;
     for (int i = 0, at = 0; i < n; i++)
         if (side[i] == BETWEEN)

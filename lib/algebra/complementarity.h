@@ -30,6 +30,9 @@ typedef struct Complementarity {
 /* numbers of workspace for n unknowns */
 #define COMPLEMENTARITY_ROOM(n) ((n) * (10 * (n) + 14))
 
+/* Solves A x = b by elimination with row exchanges (A: n x n): x replaces b, and A is lost. False:
+ * a pivot is no more than `regular` times the largest of `least` and its column. O(n^3). */
+bool complementarity_eliminate(double *a, int n, double *b, double regular, double least);
 /* Solves the problem: `side` (n, a BoundSide each) are first guesses and become the sides of the
  * solution, z becomes its values. Unknowns BETWEEN have independent rows: M restricted to them is
  * regular, and no unknown

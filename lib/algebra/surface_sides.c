@@ -182,42 +182,6 @@ static bool solve_problem(Search *s)
     return found;
 }
 
-/* A x = b by elimination with row exchanges, x in place of b; false: A is singular */
-static bool eliminate(double *a, int n, double *b)
-{
-    const double least = REGULAR * largest_of(a, n * n);
-
-    for (int k = 0; k < n; k++) {
-        int best = k;
-
-        for (int i = k + 1; i < n; i++)
-            if (fabs(a[i * n + k]) > fabs(a[best * n + k]))
-                best = i;
-        if (!(fabs(a[best * n + k]) > least))
-            return false;
-        for (int j = 0; j <= n && best != k; j++) {
-            double *one = j < n ? &a[k * n + j] : &b[k], *two = j < n ? &a[best * n + j] : &b[best];
-            const double kept = *one;
-
-            *one = *two;
-            *two = kept;
-        }
-        for (int i = k + 1; i < n; i++) {
-            const double factor = a[i * n + k] / a[k * n + k];
-
-            for (int j = k; j < n; j++)
-                a[i * n + j] -= factor * a[k * n + j];
-            b[i] -= factor * b[k];
-        }
-    }
-    for (int i = n - 1; i >= 0; i--) {
-        for (int j = i + 1; j < n; j++)
-            b[i] -= a[i * n + j] * b[j];
-        b[i] /= a[i * n + i];
-    }
-    return true;
-}
-
 /* Whether surface i can't be left while the motion slides along all surfaces of side 0: B_ii less
  * what these take of it, B_iS B_SS^-1 B_Si, is 0. */
 static bool is_held(const Search *s, int i)
@@ -234,7 +198,8 @@ static bool is_held(const Search *s, int i)
             if (s->at[j].side == 0)
                 s->matrix[at++] = s->b[k * n + j];
     }
-    if (between == 0 || !eliminate(s->matrix, between, s->z))
+    if (between == 0 || !complementarity_eliminate(s->matrix, between, s->z, REGULAR,
+                                                   largest_of(s->matrix, between * between)))
         return false;
     for (int k = 0, at = 0; k < n; k++)
         if (s->at[k].side == 0)
