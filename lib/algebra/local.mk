@@ -4,6 +4,8 @@ libcore_la_SOURCES += \
   lib/algebra/block_triangular.h \
   lib/algebra/complementarity.c \
   lib/algebra/complementarity.h \
+  lib/algebra/norm_complementarity.c \
+  lib/algebra/norm_complementarity.h \
   lib/algebra/surface_sides.c \
   lib/algebra/surface_sides.h \
   lib/algebra/dense.c \

@@ -10,6 +10,7 @@
 #define REGULAR   1e-13 /* least pivot over the largest entry */
 #define REFINED   8     /* where slip isn't linear in the signs */
 #define STILL     1e-8  /* of the state: what is 0 on a surface and so is its rate */
+#define SAME      1e-9  /* a change of a cone's sign that is none */
 
 typedef struct Search {
     SurfaceSide *at;
@@ -18,8 +19,9 @@ typedef struct Search {
     void *context;
     bool insists;
     double size, largest; /* of the state; of a and B */
-    double *a, *b, *slip, *other, *signs, *matrix, *q, *low, *high, *z, *room;
-    int *place, *side, *before;
+    double *a, *b, *slip, *other, *signs, *matrix, *q, *low, *high, *z, *earlier, *room;
+    int *place, *side, *before, *rows, *slips;
+    bool has_cones;
 } Search;
 
 static double largest_of(const double *v, int n)
@@ -98,27 +100,110 @@ static bool find_slopes(Search *s)
     return sound;
 }
 
+static void begin_surface(Search *s, int i)
+{
+    SurfaceSide *at = &s->at[i];
+    const double own = s->b[i * s->n + i];
+
+    at->is_known = at->side != 0 && (s->insists || !at->ends);
+    at->is_unaffected = false;
+    if (at->is_known)
+        return;
+    if (fabs(at->off) > STILL * s->size && !at->settles) { /* it is on its way through */
+        at->side = at->off > 0 ? 1 : -1;
+        at->is_known = true;
+    } else if (fabs(own) <= FLAT * s->largest) {
+        at->side = s->a[i] < 0 ? -1 : 1;
+        at->is_known = true;
+        at->is_unaffected = fabs(s->a[i]) <= WRONG * s->largest;
+    } else if (own > 0)
+        at->side = s->a[i] < 0 ? -1 : 1;
+}
+
+/* signs of a cone that is left along v */
+static void point_along(Search *s, int first, const double *v)
+{
+    const int count = s->at[first].cone;
+    double norm = 0;
+
+    for (int i = first; i < first + count; i++)
+        norm = hypot(norm, v[i]);
+    for (int i = first; i < first + count; i++)
+        s->signs[i] = norm > 0 ? v[i] / norm : i == first;
+}
+
+/* The same of a cone: its side is known with a direction, or is 1 with one that is to be found. */
+static void begin_cone(Search *s, int first)
+{
+    SurfaceSide *at = &s->at[first];
+    double off = 0, own = 0, left = 0;
+
+    for (int i = first; i < first + at->cone; i++) {
+        off = hypot(off, s->at[i].off);
+        left = hypot(left, s->a[i]);
+        own = fmax(own, fabs(s->b[i * s->n + i]));
+        s->earlier[i] = s->at[i].off;
+    }
+    at->is_known = at->is_unaffected = false;
+    at->leaves = at->side != 0 && (s->insists || !at->ends);
+    if (off > STILL * s->size) {
+        at->is_known = true;
+        point_along(s, first, s->earlier);
+    } else if (own <= FLAT * s->largest) {
+        at->is_known = true;
+        at->is_unaffected = left <= WRONG * s->largest;
+        point_along(s, first, s->a);
+    }
+    if (at->is_known)
+        at->side = 1;
+}
+
 /* what is known before: which sides, and where no sign matters */
 static void begin_sides(Search *s)
 {
     for (int i = 0; i < s->n; i++) {
-        SurfaceSide *at = &s->at[i];
-        const double own = s->b[i * s->n + i];
-
-        at->is_known = at->side != 0 && (s->insists || !at->ends);
-        at->is_unaffected = false;
-        if (at->is_known)
-            continue;
-        if (fabs(at->off) > STILL * s->size && !at->settles) { /* it is on its way through */
-            at->side = at->off > 0 ? 1 : -1;
-            at->is_known = true;
-        } else if (fabs(own) <= FLAT * s->largest) {
-            at->side = s->a[i] < 0 ? -1 : 1;
-            at->is_known = true;
-            at->is_unaffected = fabs(s->a[i]) <= WRONG * s->largest;
-        } else if (own > 0)
-            at->side = s->a[i] < 0 ? -1 : 1;
+        if (s->at[i].cone == 0)
+            begin_surface(s, i);
+        else if (s->at[i].cone > 0)
+            begin_cone(s, i);
     }
+    for (int i = 1; i < s->n; i++)
+        if (s->at[i].cone < 0) {
+            s->at[i].is_known = s->at[i - 1].is_known;
+            s->at[i].is_unaffected = s->at[i - 1].is_unaffected;
+            s->at[i].side = s->at[i - 1].side;
+        }
+}
+
+/* Those that aren't fixed, into `place`; the others have their signs. How many. */
+static int place_free(Search *s)
+{
+    int count = 0;
+
+    for (int i = 0; i < s->n; i++) {
+        if (!s->at[i].is_fixed)
+            s->place[count++] = i;
+        else if (s->at[i].cone == 0)
+            s->signs[i] = left_sign(&s->at[i]);
+    }
+    return count;
+}
+
+/* With bounds on norms: the signs as they are are first guesses. */
+static bool solve_cones(Search *s, const Complementarity *box)
+{
+    const NormComplementarity problem = {*box, s->rows, s->slips};
+
+    for (int i = 0; i < box->n; i++) {
+        const SurfaceSide *at = &s->at[s->place[i]];
+
+        s->rows[i] = at->cone == 0 ? 1 : at->cone > 0 ? at->cone : 0;
+        s->slips[i] = at->is_left;
+        if (at->is_left)
+            s->high[i] = 1;
+        s->z[i] = s->signs[s->place[i]];
+    }
+    return norm_complementarity_solve(&problem, s->side, s->z, s->room);
 }
 
 /* the sides and signs of those that aren't fixed, with the others as they are; false: none */
@@ -127,11 +212,7 @@ static bool solve_sides(Search *s)
     const int n = s->n;
     Complementarity problem = {0, s->matrix, s->q, s->low, s->high};
 
-    for (int i = 0; i < n; i++)
-        if (!s->at[i].is_fixed)
-            s->place[problem.n++] = i;
-        else
-            s->signs[i] = left_sign(&s->at[i]);
+    problem.n = place_free(s);
     for (int i = 0; i < problem.n; i++) {
         const SurfaceSide *at = &s->at[s->place[i]];
         const double *row = s->b + s->place[i] * n;
@@ -145,7 +226,8 @@ static bool solve_sides(Search *s)
         for (int k = 0; k < problem.n; k++)
             s->matrix[i * problem.n + k] = -row[s->place[k]];
     }
-    if (!complementarity_solve(&problem, s->side, s->z, s->room))
+    if (!(s->has_cones ? solve_cones(s, &problem)
+                       : complementarity_solve(&problem, s->side, s->z, s->room)))
         return false;
     for (int i = 0; i < problem.n; i++) {
         s->at[s->place[i]].side = s->side[i];
@@ -162,10 +244,15 @@ static bool leave(Search *s)
     for (int i = 0; i < s->n; i++) {
         SurfaceSide *at = &s->at[i];
 
-        if (at->is_fixed || at->side == 0 || s->signs[i] == left_sign(at))
+        if (at->is_fixed || at->side == 0 || at->cone < 0)
             continue;
-        at->is_fixed = any = true;
-        s->signs[i] = left_sign(at);
+        if (at->cone > 0) { /* its direction is solved for again */
+            any = any || (!at->is_left && at->bound != 1);
+            at->is_left = true;
+        } else if (s->signs[i] != left_sign(at)) {
+            at->is_fixed = any = true;
+            s->signs[i] = left_sign(at);
+        }
     }
     return any;
 }
@@ -174,8 +261,11 @@ static bool solve_problem(Search *s)
 {
     bool found;
 
-    for (int i = 0; i < s->n; i++)
+    for (int i = 0; i < s->n; i++) {
         s->at[i].is_fixed = s->at[i].is_known;
+        if (s->at[i].cone > 0)
+            s->at[i].is_left = s->at[i].is_known || s->at[i].leaves;
+    }
     do
         found = solve_sides(s);
     while (found && leave(s));
@@ -207,13 +297,24 @@ static bool is_held(const Search *s, int i)
     return fabs(left) <= DEPENDENT * fabs(s->b[i * n + i]);
 }
 
+/* likewise of a cone: none of its surfaces can be left */
+static bool is_cone_held(const Search *s, int first)
+{
+    const int count = s->at[first].cone > 0 ? s->at[first].cone : 1;
+
+    for (int i = first; i < first + count; i++)
+        if (!(s->b[i * s->n + i] < 0) ||
+            (!s->at[i].settles && fabs(s->at[i].off) > STILL * s->size) || !is_held(s, i))
+            return false;
+    return true;
+}
+
 static void find_held(const Search *s)
 {
     for (int i = 0; i < s->n; i++) {
         SurfaceSide *at = &s->at[i];
 
-        at->held = at->side != 0 && s->b[i * s->n + i] < 0 &&
-                   (at->settles || fabs(at->off) <= STILL * s->size) && is_held(s, i);
+        at->held = at->cone < 0 ? s->at[i - 1].held : at->side != 0 && is_cone_held(s, i);
     }
 }
 
@@ -239,10 +340,13 @@ static Search search_in(int n, double *room, int *integers)
     s.low = take(&room, n);
     s.high = take(&room, n);
     s.z = take(&room, n);
+    s.earlier = take(&room, n);
     s.room = room;
     s.place = integers;
     s.side = integers + n;
     s.before = integers + 2 * n;
+    s.rows = integers + 3 * n;
+    s.slips = integers + 4 * n;
     return s;
 }
 
@@ -257,8 +361,10 @@ bool surface_sides_find(SurfaceSide *at, int n, SurfaceSlip slip, void *context,
     s.context = context;
     s.insists = insists;
     s.size = size;
-    for (int i = 0; i < n; i++)
+    for (int i = 0; i < n; i++) {
         s.signs[i] = 0;
+        s.has_cones = s.has_cones || at[i].cone > 0;
+    }
     /* the linear problem is formed anew around the signs, until the sides stay */
     for (int turn = 0; turn < REFINED && !is_same; turn++) {
         if (!find_slopes(&s))
@@ -266,12 +372,15 @@ bool surface_sides_find(SurfaceSide *at, int n, SurfaceSlip slip, void *context,
         if (turn == 0)
             begin_sides(&s);
         is_same = turn > 0;
-        for (int i = 0; i < n; i++)
+        for (int i = 0; i < n; i++) {
             s.before[i] = at[i].side;
+            s.earlier[i] = s.signs[i];
+        }
         if (!solve_problem(&s))
             return false;
         for (int i = 0; i < n; i++)
-            is_same = is_same && s.before[i] == at[i].side;
+            is_same = is_same && s.before[i] == at[i].side &&
+                      (at[i].cone == 0 || fabs(s.earlier[i] - s.signs[i]) <= SAME);
         is_same = is_same || n == 1;
     }
     for (int i = 0; i < n; i++)

@@ -13,11 +13,15 @@
  * surface is unilateral s is the effort that keeps h from being positive: 0 where it is left to h <
  * 0.
  *
+ * Surfaces in a row may be a cone, as friction in a plane is: r bounds the norm of their signs, and
+ * they are all slid along or all left, with slip = c s, c >= 0, |s| = r. The side of what is left
+ * is 1, and s the direction (norm_complementarity.h).
+ *
  * Freestanding: no allocation, no library but math. The file is also part of FMUs. */
 #ifndef COTREE_ALGEBRA_SURFACE_SIDES_H
 #define COTREE_ALGEBRA_SURFACE_SIDES_H
 
-#include "algebra/complementarity.h"
+#include "algebra/norm_complementarity.h"
 
 #include <stdbool.h>
 
@@ -25,11 +29,13 @@
 typedef struct SurfaceSide {
     double bound; /* r; of what is unilateral no number */
     bool is_unilateral;
-    double off;   /* h where slip is h', or h' where it is h'': 0 if the motion stands on it */
-    int side;     /* given: to which it is left, 0 where that is not known; found: 0: slid along */
-    bool ends;    /* given: its sign has reached its bound on that side */
-    bool settles; /* given: the motion counts as at rest on it, however far it is off */
-    bool is_known, is_fixed; /* within the search: its side is, beforehand or by now */
+    int cone;   /* at the first surface of a cone how many it has; -1: at its others; 0: of none */
+    double off; /* h where slip is h', or h' where it is h'': 0 if the motion stands on it */
+    int side;   /* given: to which it is left, 0 where that is not known; found: 0: slid along */
+    bool ends;  /* given: its sign has reached its bound on that side */
+    bool settles;            /* given: the motion counts as at rest on it, however far it is off */
+    bool is_known, is_fixed; /* within the search: its side is, beforehand or by now; */
+    bool leaves, is_left;    /* and a cone is left in a direction that is to be found, likewise */
     bool held; /* found: on a side, while those that are slid along keep it on its surface */
     bool is_unaffected; /* found: no sign changes how it is left: its side is left to the equations
                          */
@@ -40,8 +46,8 @@ typedef struct SurfaceSide {
 typedef bool (*SurfaceSlip)(void *context, const double *signs, double *slip);
 
 /* room in numbers and in integers for n surfaces */
-#define SURFACE_SIDES_ROOM(n)     (COMPLEMENTARITY_ROOM(n) + 2 * (n) * (n) + 8 * (n))
-#define SURFACE_SIDES_INTEGERS(n) (3 * (n))
+#define SURFACE_SIDES_ROOM(n)     (COMPLEMENTARITY_ROOM(n) + 2 * (n) * (n) + 9 * (n))
+#define SURFACE_SIDES_INTEGERS(n) (5 * (n))
 
 /* Finds sides, signs, and what is held or loose. insists: a sign that has reached its bound leaves
  * there, whatever the problem's solution is; size: of the state, by which `off` is judged. False:

@@ -357,6 +357,7 @@ static void write_sources(const Description *d)
         if (d->code->live.slides.count > 0)
             text_add(d->out, "      <File name=\"fmu_slide.c\"/>\n"
                              "      <File name=\"surface_sides.c\"/>\n"
+                             "      <File name=\"norm_complementarity.c\"/>\n"
                              "      <File name=\"complementarity.c\"/>\n");
         text_add(d->out, "      <File name=\"fmi2.c\"/>\n    </SourceFiles>\n");
     }

@@ -50,6 +50,7 @@ libcore_la_SOURCES += \
 shared_parts = share/fmu/fmu.h share/fmu/fmu.c share/fmu/fmu_step.c share/fmu/fmu_ahead.c \
 	share/fmu/fmu_open.c share/fmu/fmu_values.c lib/algebra/row_closure.h lib/algebra/row_closure.c \
 	share/fmu/fmu_slide.c lib/algebra/complementarity.h lib/algebra/complementarity.c \
+	lib/algebra/norm_complementarity.h lib/algebra/norm_complementarity.c \
 	lib/algebra/surface_sides.h lib/algebra/surface_sides.c \
 	share/fmu/fmi.h share/fmu/fmi2.c share/fmu/fmi3.c \
 	share/code/modes.c share/code/modes_step.c share/code/open.c

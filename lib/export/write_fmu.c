@@ -273,6 +273,7 @@ static void write_build(const Code *code, Text *out)
     if (code->live.slides.count > 0)
         text_add(out, "      <SourceFile name=\"fmu_slide.c\"/>\n"
                       "      <SourceFile name=\"surface_sides.c\"/>\n"
+                      "      <SourceFile name=\"norm_complementarity.c\"/>\n"
                       "      <SourceFile name=\"complementarity.c\"/>\n");
     text_add(out, "      <SourceFile name=\"fmi3.c\"/>\n"
                   "    </SourceFileSet>\n    <Library name=\"m\"/>\n"
@@ -348,6 +349,8 @@ static Status pack(const Exported *what, Archive **out, Diag *diag)
         take_lines(archive, "sources/fmu_slide.c", shared_text_fmu_slide_c);
         take_lines(archive, "sources/surface_sides.h", shared_text_surface_sides_h);
         take_lines(archive, "sources/surface_sides.c", shared_text_surface_sides_c);
+        take_lines(archive, "sources/norm_complementarity.h", shared_text_norm_complementarity_h);
+        take_lines(archive, "sources/norm_complementarity.c", shared_text_norm_complementarity_c);
         take_lines(archive, "sources/complementarity.h", shared_text_complementarity_h);
         take_lines(archive, "sources/complementarity.c", shared_text_complementarity_c);
     }

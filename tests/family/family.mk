@@ -310,6 +310,11 @@ family_complementarity_SOURCES = tests/family/family_complementarity.c tests/fam
 	tests/random.h
 family_complementarity_LDADD = $(unit_ldadd)
 
+FAMILIES += family_norm_bounds
+family_norm_bounds_SOURCES = tests/family/family_norm_bounds.c tests/family/family.h \
+	tests/random.h
+family_norm_bounds_LDADD = $(unit_ldadd)
+
 FAMILIES += family_friction
 family_friction_SOURCES = tests/family/family_friction.c tests/family/family.h tests/family/units.h \
 	tests/random.h tests/unit/session_kit.h tests/unit/test.h

@@ -14,6 +14,10 @@ UNIT_TESTS += test_transaction
 test_transaction_SOURCES = tests/unit/test_transaction.c tests/unit/test.h
 test_transaction_LDADD = $(unit_ldadd)
 
+UNIT_TESTS += test_surface_sides
+test_surface_sides_SOURCES = tests/unit/test_surface_sides.c tests/unit/test.h
+test_surface_sides_LDADD = $(unit_ldadd)
+
 UNIT_TESTS += test_multinomial
 test_multinomial_SOURCES = tests/unit/test_multinomial.c tests/random.h tests/unit/test.h
 test_multinomial_LDADD = $(unit_ldadd) $(FLINT_LIBS) $(GMP_LIBS)
