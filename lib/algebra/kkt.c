@@ -412,6 +412,9 @@ static void choose_scale(Kkt *kkt)
     }
     kkt_borrow_masses(&places, kkt->place, entries, KKT_LEAST_MASS * heaviest, kkt->answer,
                       kkt->residual, size);
+    for (int i = 0; i < kkt->nu; i++) /* a mass borrowed over a lever near 0 is no scale */
+        if (size[i] > 0)
+            size[i] = fmax(size[i], KKT_LEAST_MASS * heaviest);
     for (int e = kkt->mass_entries; e < kkt->entries; e++) {
         const double entry = entries[kkt->place[e]], mass = size[kkt->row[e]];
 

@@ -454,6 +454,29 @@ static void a_clutch_loses_energy(void)
     kit_free(&kit);
 }
 
+/* A rotation without inertia, which rows alone determine, where the lever of one of them grows from
+ * 0: the blocks move together from 8/30 s on, one on the other from 16/30 s on. */
+static void blocks_without_inertia_in_absolute_coordinates(void)
+{
+    static const char *const methods[] = {"dop853", "radau", "bdf"};
+
+    for (int i = 0; i < 3; i++) {
+        Kit kit = kit_new();
+        char text[400];
+
+        (void)snprintf(text, sizeof text,
+                       "scene planar\nbody b0 mass=1\nbody b1 mass=1\n"
+                       "prismatic s0 ground b0 axis=x\nprismatic s1 b0 b1 axis=x\n"
+                       "friction f0 s0 force=8\nfriction f1 s1 force=4\nforce F b0 [30*t, 0]\n"
+                       "tree absolute\ninit s0 = 0, s1 = 0\nsimulate 1 method=%s rtol=1e-9\n",
+                       methods[i]);
+        EXPECT_DONE(&kit, text);
+        EXPECT(is_near(kit_value(&kit, "s0"), 31.0 / 25, 1e-6));
+        EXPECT(is_near(kit_value(&kit, "s1"), -343.0 / 675, 1e-6));
+        kit_free(&kit);
+    }
+}
+
 /* by load and viscous, with Stribeck's curve, between two joints */
 static void frictions_of_all_kinds_lose_what_the_motion_had(void)
 {
@@ -497,6 +520,7 @@ int main(void)
     RUN(a_block_on_an_incline_loses_energy);
     RUN(a_clutch_loses_energy);
     RUN(frictions_of_all_kinds_lose_what_the_motion_had);
+    RUN(blocks_without_inertia_in_absolute_coordinates);
     RUN(wrong_uses_name_their_cure);
     return test_end();
 }
