@@ -477,6 +477,30 @@ static void blocks_without_inertia_in_absolute_coordinates(void)
     }
 }
 
+/* A wheel still sticks where the current that drove it ends, and a diode blocks. */
+static void a_wheel_sticks_while_a_diode_turns_off(void)
+{
+    static const char *const methods[] = {"dop853", "radau", "bdf", "ida"};
+
+    for (int i = 0; i < 4; i++) {
+        Kit kit = kit_new();
+        char text[500];
+
+        (void)snprintf(text, sizeof text,
+                       "scene planar\nbody wheel mass=1 inertia=0.05\nrevolute h ground wheel\n"
+                       "vsource V a 0 38*sin(240*t)\ndiode D a b\ninductor L b c 10 mH\n"
+                       "motor M h c 0 R=0.15 L=36 mH Kt=0.064\nfriction f h torque=2.5\n"
+                       "init h = 0, h' = 0\nsimulate 0.2 method=%s rtol=1e-8\n",
+                       methods[i]);
+        EXPECT_DONE(&kit, text);
+        EXPECT(kit_value(&kit, "max(M.i)") > 5);
+        EXPECT(is_near(kit_value(&kit, "h"), 0, 1e-14));
+        EXPECT(is_near(kit_value(&kit, "h'"), 0, 1e-14));
+        EXPECT(is_near(kit_value(&kit, "f.lost"), 0, 1e-12));
+        kit_free(&kit);
+    }
+}
+
 /* by load and viscous, with Stribeck's curve, between two joints */
 static void frictions_of_all_kinds_lose_what_the_motion_had(void)
 {
@@ -521,6 +545,7 @@ int main(void)
     RUN(a_clutch_loses_energy);
     RUN(frictions_of_all_kinds_lose_what_the_motion_had);
     RUN(blocks_without_inertia_in_absolute_coordinates);
+    RUN(a_wheel_sticks_while_a_diode_turns_off);
     RUN(wrong_uses_name_their_cure);
     return test_end();
 }

@@ -285,6 +285,7 @@ Status integration_go_on(Integration *m, double t, const double *y, bool *entere
         m->reach = NULL;
         m->chatters = NULL;
         CHECK(enter(m, &next, t, behind, &changed, diag));
+        m->root = ROOT_ANY; /* what stuck on the last mode's surfaces is on its own */
         memcpy(m->y, m->stepper->y, (size_t)m->length * sizeof(double));
     }
     motion_window(m->segment.motion, m->low, m->high);

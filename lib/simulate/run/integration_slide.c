@@ -11,7 +11,7 @@
 
 double integration_on_surface(const Integration *m, int i)
 {
-    double size = vector_largest(m->stepper->y, m->length - 1);
+    const double size = fmax(1, vector_largest(m->stepper->y, m->length - 1)); /* as projected */
 
     return fmax(NEAR * m->largest[i], ROUNDING * size);
 }
