@@ -1,6 +1,8 @@
 /* show_session.c: parameters, outputs, settings and the last run */
 #include "present/show.h"
 
+#include "base/worker_processes.h"
+
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -49,6 +51,18 @@ Status show_outputs(const View *view, const Selection *selection, Text *out, Dia
     return OK;
 }
 
+/* what the number of jobs means where nobody has set it, too */
+static void add_processes(const Model *model, Text *out)
+{
+    const int available = worker_processes_available();
+
+    if (model_settings(model)->is_given[SETTING_JOBS])
+        text_add(out, "  (threads of a run, processes that share many runs)");
+    else
+        text_addf(out, "  (threads of a run; many runs share %d process%s, one for each processor)",
+                  available < MOST_WORKERS ? available : MOST_WORKERS, available == 1 ? "" : "es");
+}
+
 Status show_settings(const View *view, const Selection *selection, Text *out, Diag *diag)
 {
     const char *const *independent;
@@ -79,6 +93,8 @@ Status show_settings(const View *view, const Selection *selection, Text *out, Di
     for (ModelSetting i = 0; i < MODEL_SETTINGS; i++) {
         table_cell(&table, model_setting((int)i)[0]);
         model_setting_text(view->model, i, &text);
+        if (i == SETTING_JOBS)
+            add_processes(view->model, &text);
         table_cell(&table, text.at);
         text_free(&text);
     }

@@ -1,67 +1,38 @@
 /* session_fit.c: `fit`
  *
- * Parameters of each run are overrides of the model's, as in a sweep. The values found become
- * definitions of the model, one step of its history, and the statement is executed once more with
- * them: its run is the last one. Runs have a finer tolerance than by default, for difference
- * quotients of them. */
+ * The statement is executed once more with the values found, so that its run is the last one. */
 #include "session/session_fit.h"
 
 #include "base/clock.h"
-#include "language/verbs.h"
 
 #include <gsl/gsl_cdf.h>
 #include <math.h>
 #include <stdio.h>
 
-/* of the runs, where the statement has no rtol= */
-#define FIT_RTOL "1e-10"
-/* relative steps of difference quotients: their error is then that of the square of 1e-4, and of
- * the runs' tolerance over 1e-4 */
-static const double difference_step = 1e-4;
-/* of residuals in the spread of their data */
-static const double run_noise = 1e-9;
+static const char hint[] = "fit k d to=table(\"data.csv\", t, \"h\") by=h : simulate 5";
+
 /* the least standard deviation of a signal among several, in its spread */
 static const double least_sigma = 1e-6;
 /* relative changes of two unknowns that count as equal */
 static const double equal_changes = 0.01;
 
 typedef struct FitWork {
-    ct_session *session;
-    const Statement *statement;
-    Statement rest; /* with the tolerance of the runs */
+    ParameterSearch search;
     FitPlan plan;
-    int overrides, runs; /* before */
-    int evaluations, left;
-    Diag why; /* of the first run that failed; status OK: none has */
+    int left;
 } FitWork;
 
+static const FitWork *work_of(const ParameterSearch *search)
+{
+    return (const FitWork *)search;
+}
+
 /* --- one run --- */
-
-static Status set_unknowns(const FitWork *work, const double *x, Diag *diag)
-{
-    Model *model = work->session->model;
-
-    for (int i = 0; i < work->plan.unknowns.count; i++)
-        model_override(model, work->plan.unknowns.at[i].name, x[i]);
-    for (int i = 0; i < work->plan.unknowns.count; i++)
-        TRY(model_check_parameter(model, work->plan.unknowns.at[i].name, diag));
-    return OK;
-}
-
-static Status run_with(FitWork *work, const double *x, Diag *diag)
-{
-    ct_session *session = work->session;
-
-    focus_clear(session, work->runs);
-    TRY(monitor_poll(&session->watch));
-    TRY(set_unknowns(work, x, diag));
-    return sweep_analysis(work->statement->rest)(session, &work->rest, diag);
-}
 
 /* what the run has in the place of the data */
 static Status read_signal(const FitWork *work, const FitTarget *target, double *out, Diag *diag)
 {
-    ct_session *session = work->session;
+    ct_session *session = work->search.session;
     Formula formula = {0};
     Run *run;
     Status status;
@@ -82,11 +53,11 @@ static double sigma_of(const FitTarget *target)
     return target->sigma > 0 ? target->sigma : target->spread;
 }
 
-static Status find_residuals(FitWork *work, const double *x, double *out, Diag *diag)
+static Status read_residuals(const ParameterSearch *search, double *out, Diag *diag)
 {
+    const FitWork *work = work_of(search);
     int first = 0;
 
-    TRY(run_with(work, x, diag));
     for (int i = 0; i < work->plan.targets.count; i++) {
         const FitTarget *target = &work->plan.targets.at[i];
 
@@ -98,54 +69,31 @@ static Status find_residuals(FitWork *work, const double *x, double *out, Diag *
     return OK;
 }
 
-/* a run that fails has no residuals */
-static Status residuals(void *context, const double *x, double *out, Diag *diag)
-{
-    FitWork *work = context;
-    Diag why = {0};
-    Status status = find_residuals(work, x, out, &why);
-
-    model_drop_overrides(work->session->model, work->overrides);
-    transaction_stop_asking(); /* there is something to lose */
-    if (work->session->hooks.progress != NULL)
-        work->session->hooks.progress(work->session->hooks.context, "fit", -1);
-    work->evaluations++;
-    if (sweep_is_of_one_run(status)) {
-        if (work->why.status == OK)
-            work->why = why;
-        out[0] = NAN;
-        return OK;
-    }
-    if (status != OK)
-        *diag = why;
-    return status;
-}
-
 /* --- the search --- */
 
 static FitProblem problem_of(FitWork *work, double *numbers)
 {
-    const int n = work->plan.unknowns.count;
+    const int n = work->search.unknowns.count;
     FitProblem problem = {.unknowns = n,
                           .start = numbers,
                           .low = numbers + n,
                           .high = numbers + (ptrdiff_t)2 * n,
                           .loss = work->plan.loss,
                           .sigma_is_known = work->plan.has_sigma,
-                          .step = difference_step,
-                          .function = residuals,
-                          .context = work};
+                          .step = SEARCH_STEP,
+                          .function = parameter_search_evaluate,
+                          .context = &work->search};
 
     for (int i = 0; i < n; i++) {
-        numbers[i] = work->plan.unknowns.at[i].start;
-        numbers[n + i] = work->plan.unknowns.at[i].low;
-        numbers[2 * n + i] = work->plan.unknowns.at[i].high;
+        numbers[i] = work->search.unknowns.at[i].start;
+        numbers[n + i] = work->search.unknowns.at[i].low;
+        numbers[2 * n + i] = work->search.unknowns.at[i].high;
     }
     for (int i = 0; i < work->plan.targets.count; i++) {
         const FitTarget *target = &work->plan.targets.at[i];
 
         problem.residuals += target->count;
-        problem.noise = fmax(problem.noise, run_noise * target->spread / sigma_of(target));
+        problem.noise = fmax(problem.noise, SEARCH_NOISE * target->spread / sigma_of(target));
     }
     return problem;
 }
@@ -176,12 +124,13 @@ static bool weigh_signals(FitPlan *plan, const FitSolution *solution)
 /* from the values of the last solution, if there is one */
 static Status search(FitWork *work, FitSolution **solution, Diag *diag)
 {
-    const int n = work->plan.unknowns.count;
+    const int n = work->search.unknowns.count;
     double *numbers = NEW_ARRAY(double, 3 * n);
     const FitProblem problem = problem_of(work, numbers);
     FitSolution *found = NULL;
     Status status;
 
+    work->search.values = problem.residuals;
     for (int i = 0; *solution != NULL && i < n; i++)
         numbers[i] = (*solution)->x[i];
     status = fit_solve(&problem, &found, diag);
@@ -197,14 +146,14 @@ static Status search(FitWork *work, FitSolution **solution, Diag *diag)
 /* the first run fails where the user can see why; it shows which data are used */
 static Status first_run(FitWork *work, Diag *diag)
 {
-    const int n = work->plan.unknowns.count;
+    const int n = work->search.unknowns.count;
     double *x = NEW_ARRAY(double, n);
     Status status;
 
     for (int i = 0; i < n; i++)
-        x[i] = work->plan.unknowns.at[i].start;
-    CHECK(run_with(work, x, diag));
-    CHECK(fit_plan_data(work->session, &work->plan, &work->left, diag));
+        x[i] = work->search.unknowns.at[i].start;
+    CHECK(parameter_search_run(&work->search, x, diag));
+    CHECK(fit_plan_data(work->search.session, &work->plan, &work->left, diag));
     for (int i = 0; i < work->plan.targets.count; i++) {
         const FitTarget *target = &work->plan.targets.at[i];
         double *values = NEW_ARRAY(double, target->count);
@@ -214,29 +163,24 @@ static Status first_run(FitWork *work, Diag *diag)
         CHECK(status);
     }
 done:
-    model_drop_overrides(work->session->model, work->overrides);
+    parameter_search_forget(&work->search);
     mem_free(x);
     return status;
 }
 
 static Status search_all(FitWork *work, FitSolution **solution, Diag *diag)
 {
-    ct_session *session = work->session;
-    void (*progress)(void *, const char *, double) = session->watch.progress;
     Status status;
 
-    session->watch.progress = NULL; /* the phases of each run are of no interest */
-    session->is_sweeping = true;
+    parameter_search_begin(&work->search);
     CHECK(first_run(work, diag));
     CHECK(search(work, solution, diag));
     if (*solution != NULL && weigh_signals(&work->plan, *solution))
         CHECK(search(work, solution, diag));
 done:
-    focus_clear(session, work->runs);
-    session->is_sweeping = false;
-    session->watch.progress = progress;
-    if (status == E_SOLVER && *solution == NULL && work->why.status != OK)
-        *diag = work->why;
+    parameter_search_end(&work->search);
+    if (status == E_SOLVER && *solution == NULL && work->search.why.status != OK)
+        *diag = work->search.why;
     return status;
 }
 
@@ -257,7 +201,7 @@ static void add_parameters(const FitWork *work, const FitSolution *solution, Fit
 
     out->correlations = NEW_ARRAY(double, n *n);
     for (int i = 0; i < n; i++) {
-        const FitUnknown *unknown = &work->plan.unknowns.at[i];
+        const SearchUnknown *unknown = &work->search.unknowns.at[i];
         FitParameter parameter = {.name = mem_text(unknown->name, strlen(unknown->name)),
                                   .start = unknown->start,
                                   .value = solution->x[i],
@@ -266,7 +210,7 @@ static void add_parameters(const FitWork *work, const FitSolution *solution, Fit
                                   .is_at_bound = solution->is_held[i]};
         Text unit = {0};
 
-        session_unit(work->session, unknown->name, &unit);
+        session_unit(work->search.session, unknown->name, &unit);
         text_add(&unit, "");
         parameter.unit = text_done(&unit);
         LIST_PUSH(out->parameters, parameter);
@@ -293,7 +237,7 @@ static void add_signals(const FitWork *work, const FitSolution *solution, FitRes
                             .sigma = target->sigma > 0 ? target->sigma : NAN};
         Text unit = {0};
 
-        (void)session_shown_unit(work->session, target->by, "", &unit);
+        (void)session_shown_unit(work->search.session, target->by, "", &unit);
         text_add(&unit, "");
         signal.unit = text_done(&unit);
         for (int k = 0; k < target->count; k++) {
@@ -388,37 +332,11 @@ static FitResult *result_of(const FitWork *work, const FitSolution *solution, bo
     out->points = solution->residuals;
     out->residual = sqrt(solution->squares / solution->residuals);
     out->iterations = solution->iterations;
-    out->runs = work->evaluations + 1;
+    out->runs = work->search.evaluations + 1;
     out->is_converged = solution->is_converged;
     out->is_stopped = is_stopped;
     add_notes(work, solution, out);
     return out;
-}
-
-/* "k = 0.25 [N/m]" of each: one step of the model's history */
-static Status define_all(ct_session *session, const Statement *s, const FitResult *result,
-                         Diag *diag)
-{
-    const uint64_t revision = model_revision(session->model);
-    const int group = model_begin_group(session->model);
-    Text text = {0};
-    int count;
-    Status status;
-
-    for (int i = 0; i < result->parameters.count; i++) {
-        const FitParameter *parameter = &result->parameters.at[i];
-
-        text_addf(&text, "%s = %.17g", parameter->name, parameter->value);
-        if (parameter->unit[0] != '\0')
-            text_addf(&text, " [%s]", parameter->unit);
-        text_char(&text, '\n');
-    }
-    status = session_apply_text(session->model, text.at, &count, diag);
-    session_end_group(session, group, s->verb, revision, status == OK);
-    if (status != OK)
-        diag->place = s->verb_place;
-    text_free(&text);
-    return status;
 }
 
 static void report_fit(const ct_session *session, Text *out)
@@ -428,83 +346,32 @@ static void report_fit(const ct_session *session, Text *out)
     fit_print(&view, session->fit, out);
 }
 
-static Status check_rest(const Statement *s, Diag *diag)
-{
-    if (sweep_analysis(s->rest) != NULL)
-        return OK;
-    (void)diag_at(diag, E_VALUE, s->rest->place, "'%s' computes nothing that could match data",
-                  s->rest->verb != NULL ? s->rest->verb : s->rest->text);
-    diag_hint(diag, "simulate, kinematics, inverse, assemble, equilibrium, op, linearize and modes "
-                    "may stand behind the colon");
-    return E_VALUE;
-}
-
-/* the statement of the runs: finer than by default where it says nothing of it */
-static void make_rest(FitWork *work, Syntax *number)
-{
-    const Statement *rest = work->statement->rest;
-    bool is_run = false, has_rtol = false;
-
-    work->rest = *rest;
-    work->rest.pairs.at = NULL;
-    work->rest.pairs.count = work->rest.pairs.room = 0;
-    for (int i = 0; i < rest->pairs.count; i++) {
-        LIST_PUSH(work->rest.pairs, rest->pairs.at[i]);
-        has_rtol = has_rtol || strcmp(rest->pairs.at[i].name, "rtol") == 0;
-    }
-    for (int i = 0; verb_key(&rest->row, i) != NULL; i++)
-        is_run = is_run || strcmp(verb_key(&rest->row, i), "rtol") == 0;
-    *number = (Syntax){.kind = SYNTAX_NUMBER,
-                       .text = FIT_RTOL,
-                       .unit_text = "",
-                       .height = 1,
-                       .place = rest->place};
-    if (is_run && !has_rtol)
-        LIST_PUSH(work->rest.pairs, (Pair){.name = "rtol", .value = number});
-}
-
-/* once more, with the values found, as if it had been typed */
-static Status run_last(ct_session *session, const Statement *s, const FitResult *result, Diag *diag)
-{
-    const Status status = sweep_analysis(s->rest)(session, s->rest, diag);
-
-    if (status != OK)
-        return status;
-    if (!result->is_converged)
-        session_remark(session, "warning: the fit did not converge");
-    return OK;
-}
-
 Status session_fit(ct_session *session, const Statement *s, Diag *diag)
 {
-    FitWork work = {.session = session,
-                    .statement = s,
-                    .overrides = model_override_count(session->model),
-                    .runs = session->runs.count};
+    FitWork work = {0};
     const double began = clock_now();
     FitSolution *solution = NULL;
     FitResult *result = NULL;
-    SessionFocus focus;
-    Syntax number;
     Status status, stopped = OK;
 
-    CHECK(check_rest(s, diag));
+    CHECK(parameter_search_read(&work.search, session, s, "match data", hint, diag));
+    CHECK(parameter_search_read_unknowns(&work.search, diag));
     CHECK(fit_plan(session, s, &work.plan, diag));
-    make_rest(&work, &number);
-    focus_put_aside(session, &focus);
+    work.search.read = read_residuals;
     status = search_all(&work, &solution, diag);
-    focus_restore(session, &focus);
     if (solution == NULL)
         goto done;
     if (status == E_STOPPED)
         stopped = diag_set(diag, status, "stopped in run %d: the best values so far are kept",
-                           work.evaluations);
+                           work.search.evaluations);
     else if (status != OK)
         goto done;
     result = result_of(&work, solution, stopped != OK);
-    CHECK(define_all(session, s, result, diag));
+    CHECK(parameter_search_define(&work.search, solution->x, diag));
     if (stopped == OK)
-        status = run_last(session, s, result, diag);
+        status = parameter_search_run_last(&work.search, diag);
+    if (status == OK && !result->is_converged && stopped == OK)
+        session_remark(session, "warning: the fit did not converge");
     result->wall = clock_now() - began;
     fit_result_free(session->fit);
     session->fit = result;
@@ -515,7 +382,7 @@ done:
     fit_result_free(result);
     fit_solution_free(solution);
     fit_plan_free(&work.plan);
-    LIST_FREE(work.rest.pairs);
+    parameter_search_free(&work.search);
     return status;
 }
 

@@ -2,17 +2,11 @@
 #ifndef COTREE_SESSION_SESSION_FIT_H
 #define COTREE_SESSION_SESSION_FIT_H
 
-#include "session/session_sweep.h"
+#include "session/session_parameter_search.h"
 
 #include "expr/curve.h"
 #include "simulate/fit/fit_result.h"
 #include "simulate/fit/fit_solve.h"
-
-typedef struct FitUnknown {
-    const char *name;
-    Place place;
-    double start, low, high; /* SI; infinite: no bound */
-} FitUnknown;
 
 /* what is measured, and what it is compared with */
 typedef struct FitTarget {
@@ -25,7 +19,6 @@ typedef struct FitTarget {
 } FitTarget;
 
 typedef struct FitPlan {
-    LIST(FitUnknown) unknowns;
     LIST(FitTarget) targets;
     Loss loss;
     bool has_sigma;

@@ -22,6 +22,9 @@ void sweep_sets_free(SweepSets *sets);
  * it keeps: new. */
 MUST_USE Status sweep_plan(ct_session *session, const Statement *statement, SweepTable **out,
                            Diag *diag);
+/* a number in the unit of a parameter */
+MUST_USE Status sweep_number(ct_session *session, const char *name, const Syntax *syntax,
+                             double *out, Diag *diag);
 /* how many processes share the runs: jobs=, what is set, or all processors; *given: not the last */
 MUST_USE Status sweep_jobs(ct_session *session, const Statement *statement, int *out, bool *given,
                            Diag *diag);

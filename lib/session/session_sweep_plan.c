@@ -92,21 +92,28 @@ static bool has_axis(const SweepPlan *plan, const char *name)
 
 /* --- numbers --- */
 
-/* a number in the parameter's unit */
-static Status number_for(const SweepPlan *plan, const char *name, const Syntax *syntax, double *out)
+Status sweep_number(ct_session *session, const char *name, const Syntax *syntax, double *out,
+                    Diag *diag)
 {
     Text unit = {0};
     Status status;
 
-    CHECK(session_number(plan->session, syntax, out, plan->diag));
-    session_unit(plan->session, name, &unit);
+    CHECK(session_number(session, syntax, out, diag));
+    session_unit(session, name, &unit);
     if (unit.length > 0)
-        CHECK(model_check_unit(plan->session->model, syntax, unit.at, name, plan->diag));
-    if (!isfinite(*out))
-        status = diag_at(plan->diag, E_VALUE, syntax->place, "%s has no finite value here", name);
+        CHECK(model_check_unit(session->model, syntax, unit.at, name, diag));
 done:
     text_free(&unit);
     return status;
+}
+
+/* the same, of a run */
+static Status number_for(const SweepPlan *plan, const char *name, const Syntax *syntax, double *out)
+{
+    TRY(sweep_number(plan->session, name, syntax, out, plan->diag));
+    if (!isfinite(*out))
+        return diag_at(plan->diag, E_VALUE, syntax->place, "%s has no finite value here", name);
+    return OK;
 }
 
 /* how many: a whole number, at least `least` */

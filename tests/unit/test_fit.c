@@ -13,23 +13,25 @@ enum { MOST = 200, UNKNOWNS = 4 };
 
 /* data, and a model of them */
 typedef struct Case {
-    int count;
+    int count, unknowns;
     double x[MOST], y[MOST];
     double (*model)(const double *p, double x);
     double limit; /* the model has no values where p[0] is above; 0: it always has */
     int calls, stops_at;
 } Case;
 
-static Status residuals(void *context, const double *p, double *out, Diag *diag)
+static Status residuals(void *context, int count, const double *points, double *out, Diag *diag)
 {
     Case *c = context;
 
-    if (++c->calls == c->stops_at)
-        return diag_set(diag, E_STOPPED, "stopped");
-    for (int i = 0; i < c->count; i++)
-        out[i] = c->model(p, c->x[i]) - c->y[i];
-    if (c->limit > 0 && p[0] > c->limit)
-        out[0] = NAN;
+    for (int k = 0; k < count; k++, points += c->unknowns, out += c->count) {
+        if (++c->calls == c->stops_at)
+            return diag_set(diag, E_STOPPED, "stopped");
+        for (int i = 0; i < c->count; i++)
+            out[i] = c->model(points, c->x[i]) - c->y[i];
+        if (c->limit > 0 && points[0] > c->limit)
+            out[0] = NAN;
+    }
     return OK;
 }
 
@@ -75,6 +77,7 @@ static FitSolution *solve(Case *c, int unknowns, const double *start, const doub
     FitSolution *out = NULL;
     Diag diag = {0};
 
+    c->unknowns = unknowns;
     EXPECT(fit_solve(&problem, &out, &diag) == expected);
     return out;
 }

@@ -56,7 +56,7 @@ static Status evaluate(FitSearch *search, const double *x, double *z, bool *has,
     const FitProblem *problem = search->problem;
 
     search->at->evaluations++;
-    TRY(problem->function(problem->context, x, z, diag));
+    TRY(problem->function(problem->context, 1, x, z, diag));
     *has = true;
     for (int i = 0; i < problem->residuals; i++)
         *has = *has && isfinite(z[i]);
@@ -65,59 +65,22 @@ static Status evaluate(FitSearch *search, const double *x, double *z, bool *has,
 
 /* --- derivatives --- */
 
-/* the residuals where an unknown alone is another one, in search->z; *has is false beyond a bound
- */
-static Status evaluate_shifted(FitSearch *search, int i, double value, bool *has, Diag *diag)
+static Status find_jacobian(FitSearch *search, Diag *diag)
 {
-    const FitProblem *problem = search->problem;
-
-    *has = value >= problem->low[i] && value <= problem->high[i];
-    if (!*has)
-        return OK;
-    memcpy(search->x, search->at->x, (size_t)problem->unknowns * sizeof *search->x);
-    search->x[i] = value;
-    return evaluate(search, search->x, search->z, has, diag);
-}
-
-/* A column: (f(h) - f(-h))/2h; (4 f(h) - f(2h) - 3 f(0))/2h where the other side has no values, or
- * (f(h) - f(0))/h where f(2h) isn't there either. */
-static Status column(FitSearch *search, int i, Diag *diag)
-{
-    static const double steps[4] = {1, -1, 2, -2};
     const FitProblem *problem = search->problem;
     FitSolution *at = search->at;
-    const int m = problem->residuals, n = problem->unknowns;
-    const double h =
-        fmin(problem->step * fit_size(problem, at->x, i), (problem->high[i] - problem->low[i]) / 2);
-    double *change = NEW_ARRAY(double, m + 1); /* of the residuals, summed with their factors */
-    bool has[4] = {false};
-    int sides;
-    Status status = OK;
+    const Differences differences = {.unknowns = problem->unknowns,
+                                     .values = problem->residuals,
+                                     .low = problem->low,
+                                     .high = problem->high,
+                                     .steps = search->step,
+                                     .function = problem->function,
+                                     .context = problem->context};
 
-    for (int k = 0; k < 4; k++) {
-        const bool is_alone = has[0] != has[1], is_far = k >= 2;
-        double factor = steps[k] / 2;
-
-        if (is_far && !(is_alone && has[k - 2]))
-            continue;
-        CHECK(evaluate_shifted(search, i, at->x[i] + steps[k] * h, &has[k], diag));
-        if (is_far)
-            factor = steps[k] > 0 ? -0.5 : 0.5;
-        for (int r = 0; has[k] && r < m; r++)
-            change[r] = is_far ? 4 * change[r] + factor * (search->z[r] - at->z[r])
-                               : change[r] + factor * (search->z[r] - at->z[r]);
-    }
-    sides = has[0] + has[1];
-    if (sides == 0) {
-        status = diag_set(diag, E_SOLVER, "the model has no values near the point");
-        goto done;
-    }
-    for (int r = 0; r < m; r++)
-        at->jacobian[(ptrdiff_t)r * n + i] =
-            change[r] / h * (sides == 1 && !has[2] && !has[3] ? 2 : 1);
-done:
-    mem_free(change);
-    return status;
+    for (int i = 0; i < problem->unknowns; i++)
+        search->step[i] = fmin(problem->step * fit_size(problem, at->x, i),
+                               (problem->high[i] - problem->low[i]) / 2);
+    return differences_find(&differences, at->x, at->z, at->jacobian, &at->evaluations, diag);
 }
 
 /* the jacobian, the gradient, and what is free */
@@ -127,8 +90,7 @@ static Status differentiate(FitSearch *search, Diag *diag)
     FitSolution *at = search->at;
     const int m = problem->residuals, n = problem->unknowns;
 
-    for (int i = 0; i < n; i++)
-        TRY(column(search, i, diag));
+    TRY(find_jacobian(search, diag));
     search->free_count = 0;
     for (int i = 0; i < n; i++) {
         double gradient = 0, squares = 0;

@@ -2,29 +2,25 @@
  *
  * Levenberg and Marquardt's method (Marquardt 1963, with the damping of Nielsen 1999) between
  * bounds: unknowns at a bound from which the losses would decrease outwards are held. Derivatives
- * are central difference quotients. Each residual is z = (model - data)/sigma. A point at which the
- * model has no values is as if its losses were infinite. */
+ * are difference quotients (differences.h). Each residual is z = (model - data)/sigma. A point at
+ * which the model has no values is as if its losses were infinite. */
 #ifndef COTREE_SIMULATE_FIT_FIT_SOLVE_H
 #define COTREE_SIMULATE_FIT_FIT_SOLVE_H
 
-#include "base/diag.h"
+#include "simulate/fit/differences.h"
 #include "simulate/fit/loss.h"
 
 #include <stdbool.h>
-
-/* residuals at x; NAN in out[0]: the model has no values there. Any other status than OK ends the
- * search. */
-typedef Status FitResiduals(void *context, const double *x, double *out, Diag *diag);
 
 typedef struct FitProblem {
     int unknowns, residuals;
     const double *start;
     const double *low, *high; /* infinite: no bound */
     Loss loss;
-    bool sigma_is_known; /* else the scale of the losses is that of the residuals */
-    double step;         /* of difference quotients, relative */
-    double noise;        /* of a residual, from the accuracy of the model */
-    FitResiduals *function;
+    bool sigma_is_known;      /* else the scale of the losses is that of the residuals */
+    double step;              /* of difference quotients, relative */
+    double noise;             /* of a residual, from the accuracy of the model */
+    PointsFunction *function; /* residuals */
     void *context;
 } FitProblem;
 

@@ -1,4 +1,6 @@
 libcore_la_SOURCES += \
+  lib/simulate/fit/differences.c \
+  lib/simulate/fit/differences.h \
   lib/simulate/fit/fit_result.c \
   lib/simulate/fit/fit_result.h \
   lib/simulate/fit/fit_solve.c \
