@@ -305,9 +305,17 @@ static Status check_limits(System *system, Diag *diag)
     for (int i = 0; system_surface(system, i, &surface); i++) {
         const char *part;
 
-        if (!surface.is_unilateral)
+        if (!surface.is_unilateral && surface.part_count == 0)
             continue;
         part = system_jumping_part(system, surface.condition);
+        if (surface.part_count > 0) {
+            (void)diag_set(diag, E_MODEL,
+                           "%s sticks in %d directions with one bound, which an FMU lacks",
+                           part != NULL ? part : "direction()", surface.part_count);
+            diag_hint(diag, "friction on each coordinate has a bound of its own: friction f p.s1 "
+                            "force=2");
+            return E_MODEL;
+        }
         (void)diag_set(diag, E_MODEL, "%s is rigid, and an FMU has no impacts",
                        part != NULL ? part : "unilateral()");
         diag_hint(diag, "k= makes a stop or a backlash compliant, torque= or force= bounds a "

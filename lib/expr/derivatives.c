@@ -49,6 +49,12 @@ static Expr d_atan2(Arena *arena, Expr e, const Expr *rates)
                     expr_add(arena, expr_square(arena, x), expr_square(arena, y)));
 }
 
+/* (v' - v/n n')/n */
+static Expr d_direction(Arena *arena, Expr e, const Expr *rates)
+{
+    return expr_div(arena, expr_sub(arena, rates[0], expr_mul(arena, e, rates[1])), arg(e, 1));
+}
+
 /* the same data, one order higher */
 static Expr d_table(Arena *arena, Expr e, const Expr *rates)
 {

@@ -41,6 +41,8 @@ Expr switch_condition(Arena *arena, Expr e)
     case OP_UNILATERAL:
     case OP_ABS:
         return expr_arg(e, 0);
+    case OP_DIRECTION:
+        return expr_arg(e, 1);
     case OP_FLOOR: /* at whole numbers */
         return expr_sin(arena, expr_mul(arena, expr_pi(arena, 1), expr_arg(e, 0)));
     default:

@@ -57,7 +57,10 @@ static void write_functions(Text *out)
     layout_words(
         out, TOPIC_WIDTH, "",
         "Angles are in radians. stick(x, r) is the sign of x; while a run holds x at 0 it is "
-        "between -r and r, as static friction is. unilateral(x, e) is the effort that holds x at 0 "
+        "between -r and r, as static friction is. direction(v, n, r) is the component v of a "
+        "vector "
+        "over its norm n; while a run holds the vector at rest it is one of a vector whose norm is "
+        "up to r. unilateral(x, e) is the effort that holds x at 0 "
         "or below, with impacts of the coefficient of restitution e. step(x) is 0 for x < 0 and 1 "
         "otherwise, ramp(x) "
         "is x*step(x), "

@@ -524,6 +524,54 @@ static void frictions_of_all_kinds_lose_what_the_motion_had(void)
     kit_free(&kit);
 }
 
+#define PUCK                                                                                       \
+    "gravity [0, 0, -9.81]\nbody b mass=1 inertia=[0.1, 0.1, 0.1]\nplanarjoint p ground b\n"       \
+    "init p.s1 = 0, p.s2 = 0, p.theta = 0, p.theta' = 0\n"
+#define RUBS(x, y, bound, ratio)                                                                   \
+    "actuator ax p.s1 force=" x "-" bound "*direction(p.s1', sqrt(p.s1'^2 + p.s2'^2), " ratio      \
+    ")\n"                                                                                          \
+    "actuator ay p.s2 force=" y "-" bound "*direction(p.s2', sqrt(p.s1'^2 + p.s2'^2), " ratio      \
+    ")\n"
+
+/* it goes straight on, and stops after v^2/(2 T/m) */
+static void a_puck_stops_on_a_straight_line(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, PUCK RUBS("0", "0", "2", "1") "init p.s1' = 3, p.s2' = 4\nsimulate 4\n");
+    EXPECT(is_near(kit_value(&kit, "p.s1"), 3.75, 1e-9));
+    EXPECT(is_near(kit_value(&kit, "p.s2"), 5, 1e-9));
+    EXPECT(kit_value(&kit, "sqrt(p.s1'^2 + p.s2'^2)") <= 1e-15);
+    EXPECT(is_near(kit_value(&kit, "first(sqrt(p.s1'^2 + p.s2'^2) < 0.01)"), 2.495, 1e-6));
+    kit_free(&kit);
+}
+
+/* On a slope of tan(a) = mu, v (1 + cos of its angle to the fall line) is constant. */
+static void a_puck_on_a_slope_turns_down(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, PUCK RUBS("3", "0", "3", "1") "init p.s1' = 0, p.s2' = 2\n"
+                                                    "simulate 3 rtol=1e-11 atol=1e-12\n");
+    EXPECT(is_near(kit_value(&kit, "sqrt(p.s1'^2 + p.s2'^2) + p.s1'"), 2, 1e-9));
+    EXPECT_DONE(&kit, "resume 17\n");
+    EXPECT(is_near(kit_value(&kit, "p.s1'"), 1, 1e-9));
+    kit_free(&kit);
+}
+
+/* A load that grows along a line: it is left where that meets the static bound, along the load. */
+static void a_puck_leaves_along_its_load(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, PUCK RUBS("1.2*t", "1.6*t", "2.5", "1.2") "init p.s1' = 0, p.s2' = 0\n"
+                                                                "simulate 3\n");
+    EXPECT(is_near(kit_value(&kit, "p.s1'"), 1.8, 1e-8));
+    EXPECT(is_near(kit_value(&kit, "p.s2'"), 2.4, 1e-8));
+    EXPECT(is_near(kit_value(&kit, "p.s1"), 1.0125, 1e-8));
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(a_block_on_an_incline);
@@ -547,5 +595,8 @@ int main(void)
     RUN(blocks_without_inertia_in_absolute_coordinates);
     RUN(a_wheel_sticks_while_a_diode_turns_off);
     RUN(wrong_uses_name_their_cure);
+    RUN(a_puck_stops_on_a_straight_line);
+    RUN(a_puck_on_a_slope_turns_down);
+    RUN(a_puck_leaves_along_its_load);
     return test_end();
 }

@@ -64,7 +64,14 @@ bool surface_is_same(Expr surface, Expr condition, int *way)
 
 Expr surface_ratio(Expr call)
 {
+    if (expr_op(call) == OP_DIRECTION)
+        return expr_arg(call, 2);
     return expr_op(call) == OP_STICK || expr_op(call) == OP_UNILATERAL ? expr_arg(call, 1) : NULL;
+}
+
+Expr surface_part(Expr call)
+{
+    return expr_op(call) == OP_DIRECTION ? expr_arg(call, 0) : NULL;
 }
 
 bool surface_is_unilateral(Expr call)
@@ -79,6 +86,9 @@ Expr surface_of_call(Arena *arena, Expr call, int *way)
 
     if (condition == NULL || expr_is_number(condition))
         return NULL;
+    *way = 1;
+    if (expr_op(call) == OP_DIRECTION)
+        return condition;
     surface = surface_of(arena, condition, way);
     if (!surface_is_unilateral(call) || *way > 0)
         return surface;
@@ -91,7 +101,7 @@ bool switch_jumps(Expr e)
     return expr_kind(e) == EXPR_CALL &&
            (expr_op(e) == OP_LT || expr_op(e) == OP_LE || expr_op(e) == OP_STEP ||
             expr_op(e) == OP_SIGN || expr_op(e) == OP_STICK || expr_op(e) == OP_UNILATERAL ||
-            expr_op(e) == OP_FLOOR);
+            expr_op(e) == OP_DIRECTION || expr_op(e) == OP_FLOOR);
 }
 
 typedef struct Over {

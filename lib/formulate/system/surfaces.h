@@ -5,6 +5,11 @@
  * between -1 and 1 (Utkin's equivalent control), such that h remains 0. Of stick(h, r), which
  * static friction is, it is between -r and r: such a surface is another one than that of sign(h).
  *
+ * Of direction(v, n, r) the surface is that where n, the norm of a vector of two or three
+ * components, is 0. Off it the equations are smooth; on it the motion is at rest, and each
+ * component has a sign, with r a bound on the norm of theirs. Sign 1 of the surface itself is off
+ * it, 0 on it.
+ *
  * Of unilateral(h, e) it is the effort itself, 0 where h < 0 and 0 or more where h = 0, such that
  * h is never positive. What meets h = 0 with h' > 0 has an impact there: h' after it is -e times
  * what it was. */
@@ -14,6 +19,8 @@
 #include "expr/expr.h"
 #include "expr/jumps.h" /* IWYU pragma: export */
 
+enum { SURFACE_PARTS = 3 }; /* components of a vector */
+
 typedef struct Surface {
     int number;     /* of system_surface(); -1: of none */
     Expr condition; /* h, as system_surface() returns it */
@@ -22,6 +29,8 @@ typedef struct Surface {
     bool may_slide; /* the sign may be between -1 and 1 */
     Expr sign;      /* symbol of the sign of h */
     Expr measure;   /* h, with the surfaces' signs substituted */
+    int part_count; /* of direction(): components of its vector; 0: it is of no vector */
+    Expr part[SURFACE_PARTS], part_sign[SURFACE_PARTS];
 } Surface;
 
 /* h of a condition, whatever its scale; *way -1: with the opposite sign */
@@ -33,6 +42,8 @@ bool surface_is_same(Expr surface, Expr condition, int *way);
 /* r of a call that jumps; NULL: 1; of unilateral() its coefficient of restitution */
 Expr surface_ratio(Expr call);
 bool surface_is_unilateral(Expr call);
+/* the component of a vector that direction() has; NULL: it is another call */
+Expr surface_part(Expr call);
 /* h of a call that jumps, as surface_of(); of unilateral() with its own sign: *way is 1. NULL: it
  * is a number. */
 Expr surface_of_call(Arena *arena, Expr call, int *way);

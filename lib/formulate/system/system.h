@@ -353,6 +353,8 @@ int system_switches(System *system, const Switch **switches, int *time_only);
 typedef struct SystemSurface {
     Expr condition, ratio;
     bool is_unilateral; /* the ratio is its coefficient of restitution */
+    int part_count;     /* components of the vector whose norm the condition is; 0: it is none */
+    Expr part[3];
 } SystemSurface;
 bool system_surface(System *system, int i, SystemSurface *out); /* false at the end */
 /* The surfaces on which a part (instance_sticks()) may rest, one or, of two limits, two: their

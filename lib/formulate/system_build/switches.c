@@ -37,9 +37,44 @@ static bool may_be_between(const Putting *put, Expr e)
     return false;
 }
 
-static bool is_of_law(Expr ratio, bool is_unilateral, Expr call)
+/* whether a call may jump on a surface with such a law, of a vector or not */
+static bool is_of_law(Expr ratio, bool is_unilateral, bool is_norm, Expr call)
 {
-    return ratio == surface_ratio(call) && is_unilateral == surface_is_unilateral(call);
+    return ratio == surface_ratio(call) && is_unilateral == surface_is_unilateral(call) &&
+           is_norm == (surface_part(call) != NULL);
+}
+
+static bool is_of_surface(const Surface *surface, Expr call)
+{
+    return is_of_law(surface->ratio, surface->is_unilateral, surface->part_count > 0, call);
+}
+
+/* v/n off the surface of a vector, the sign of its component on it; NULL: none of its components is
+ * that of the call */
+static Expr direction_on(Arena *arena, const Surface *surface, Expr call)
+{
+    const Expr part = surface_part(call);
+    int way = 1, found = -1;
+
+    for (int k = 0; k < surface->part_count && found < 0; k++)
+        if (surface->part[k] == part)
+            found = k;
+    for (int k = 0; k < surface->part_count && found < 0; k++)
+        if (surface_is_same(surface->part[k], part, &way))
+            found = k;
+    if (found < 0)
+        return NULL;
+    return expr_if(arena, surface->sign, call,
+                   way > 0 ? surface->part_sign[found]
+                           : expr_neg(arena, surface->part_sign[found]));
+}
+
+/* what replaces a call on its surface, whose condition is `way` times that of the call */
+static Expr put_sign(Arena *arena, const Surface *surface, Expr call, int way)
+{
+    if (surface->part_count > 0)
+        return direction_on(arena, surface, call);
+    return way > 0 ? surface->sign : expr_neg(arena, surface->sign);
 }
 
 /* the replacement for the sign of the condition of a call that jumps; NULL: it is not replaced */
@@ -51,17 +86,17 @@ static Expr sign_on(Arena *arena, const Putting *put, Expr call)
     if (condition == NULL)
         return NULL;
     for (int i = 0; i < put->count; i++)
-        if (is_of_law(put->surfaces[i].ratio, put->surfaces[i].is_unilateral, call) &&
+        if (is_of_surface(&put->surfaces[i], call) &&
             (put->surfaces[i].condition == condition || put->surfaces[i].measure == condition))
-            return way > 0 ? put->surfaces[i].sign : expr_neg(arena, put->surfaces[i].sign);
+            return put_sign(arena, &put->surfaces[i], call, way);
     for (int i = 0; i < put->count; i++) {
         int other;
 
-        if (!is_of_law(put->surfaces[i].ratio, put->surfaces[i].is_unilateral, call) ||
+        if (!is_of_surface(&put->surfaces[i], call) ||
             !surface_is_same(put->surfaces[i].condition, condition, &other) ||
             (other < 0 && surface_is_unilateral(call)))
             continue;
-        return way * other > 0 ? put->surfaces[i].sign : expr_neg(arena, put->surfaces[i].sign);
+        return put_sign(arena, &put->surfaces[i], call, way * other);
     }
     return NULL;
 }
@@ -92,7 +127,8 @@ static Expr put_jump(Arena *arena, const Putting *put, Expr e)
 
     if (sign == NULL)
         return e;
-    if (expr_op(e) == OP_SIGN || expr_op(e) == OP_STICK || expr_op(e) == OP_UNILATERAL)
+    if (expr_op(e) == OP_SIGN || expr_op(e) == OP_STICK || expr_op(e) == OP_UNILATERAL ||
+        expr_op(e) == OP_DIRECTION)
         return sign;
     if (expr_op(e) == OP_FLOOR)
         return put_floor(arena, expr_arg(e, 0), sign);
@@ -293,6 +329,22 @@ static bool is_of_time(System *system, Expr condition)
     return false;
 }
 
+/* a component of a vector whose norm is 0 on the surface, each once */
+static void add_part(SystemSurface *surface, Expr part)
+{
+    for (int k = 0; k < surface->part_count; k++)
+        if (surface->part[k] == part)
+            return;
+    if (part != NULL && surface->part_count < COUNT(surface->part))
+        surface->part[surface->part_count++] = part;
+}
+
+static bool is_surface(const SystemSurface *surface, Expr condition, Expr call)
+{
+    return surface->condition == condition &&
+           is_of_law(surface->ratio, surface->is_unilateral, surface->part_count > 0, call);
+}
+
 /* finds the surface on which the equations jump, among those in the state, each once */
 static void find_surface(System *system, Switch *entry)
 {
@@ -304,14 +356,13 @@ static void find_surface(System *system, Switch *entry)
         return;
     surface.condition = surface_of_call(system->arena, entry->call, &way);
     for (int i = 0; i < system->shown->surfaces.count && entry->surface < 0; i++)
-        if (system->shown->surfaces.at[i].condition == surface.condition &&
-            is_of_law(system->shown->surfaces.at[i].ratio,
-                      system->shown->surfaces.at[i].is_unilateral, entry->call))
+        if (is_surface(&system->shown->surfaces.at[i], surface.condition, entry->call))
             entry->surface = i;
     if (entry->surface < 0) {
         entry->surface = system->shown->surfaces.count;
         LIST_PUSH(system->shown->surfaces, surface);
     }
+    add_part(&system->shown->surfaces.at[entry->surface], surface_part(entry->call));
 }
 
 static void gather_all(System *system)
@@ -458,7 +509,8 @@ static int number_of_surface(System *system, Expr call)
 
     for (int i = 0; i < system->shown->surfaces.count && condition != NULL; i++)
         if (is_of_law(system->shown->surfaces.at[i].ratio,
-                      system->shown->surfaces.at[i].is_unilateral, call) &&
+                      system->shown->surfaces.at[i].is_unilateral,
+                      system->shown->surfaces.at[i].part_count > 0, call) &&
             (system->shown->surfaces.at[i].condition == condition ||
              surface_is_same(system->shown->surfaces.at[i].condition, condition, &way)))
             return i;
@@ -480,7 +532,11 @@ int system_surfaces_of_part(System *system, const char *part, int *out, int room
         const Expr e = stack.at[--stack.count];
         const int number = number_of_surface(system, e);
 
-        if (number >= 0)
+        bool known = number < 0;
+
+        for (int i = 0; i < found; i++)
+            known = known || out[i] == number;
+        if (!known)
             out[found++] = number;
         for (int i = 0; i < expr_arg_count(e); i++)
             LIST_PUSH(stack, expr_arg(e, i));

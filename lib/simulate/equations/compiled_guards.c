@@ -13,7 +13,7 @@ static void slide(void *context, const double *signs)
 
     for (int k = 0; k < l->slides; k++)
         l->sign_values[l->slid[k]] = signs[k];
-    inputs_set(probe_inputs(nb->main), l->signs, l->sign_values, l->surface_count);
+    inputs_set(probe_inputs(nb->main), l->signs, l->sign_values, l->sign_count);
 }
 
 static void slip(void *context, double t, const double *y, const Solved *solved, double *slip,
@@ -26,8 +26,17 @@ static void slip(void *context, double t, const double *y, const Solved *solved,
 
     for (int k = 0; k < l->slides; k++) {
         slip[k] = values[l->slid[k]];
-        off[k] = values[l->surface_count + l->slid[k]];
+        off[k] = values[l->sign_count + l->slid[k]];
     }
+}
+
+static double norm_of(const double *v, int count)
+{
+    double norm = 0;
+
+    for (int i = 0; i < count; i++)
+        norm = hypot(norm, v[i]);
+    return norm;
 }
 
 /* how far the signs of surfaces that the motion slides along are from their bounds */
@@ -36,12 +45,16 @@ static void put_sign_conditions(const CompiledEquations *nb, double *out)
     const VariableIndex *l = nb->layout;
 
     for (int k = 0; k < l->slides; k++) {
+        const int i = l->slid_surface[k];
         const double sign = l->sign_values[l->slid[k]];
         const SignRange *range = &nb->sign_ranges[k];
-        double *both = out + nb->of_surface[l->slid[k]].first;
+        double *both = out + nb->of_surface[i].first;
 
-        both[0] = isfinite(range->high) ? range->high - sign : 1;
-        both[1] = sign - range->low;
+        if (range->cone == 0) {
+            both[0] = isfinite(range->high) ? range->high - sign : 1;
+            both[1] = sign - range->low;
+        } else if (range->cone > 0)
+            both[0] = range->norm - norm_of(l->sign_values + l->slid[k], range->cone);
     }
 }
 
@@ -57,7 +70,7 @@ static void switches(void *context, double t, const double *q, const double *u, 
     inputs_set(inputs, l->q, q, l->n);
     inputs_set(inputs, l->u, u, l->nu);
     inputs_set(inputs, l->x, x, l->nx);
-    inputs_set(inputs, l->signs, l->sign_values, l->surface_count);
+    inputs_set(inputs, l->signs, l->sign_values, l->sign_count);
     if (nb->eq.switches_read_network)
         memcpy(inputs + l->rates, probe_inputs(nb->main) + l->rates,
                (size_t)(l->nx + l->nz) * sizeof(double));
@@ -185,7 +198,7 @@ static void push_conditions(CompiledEquations *nb, Conditions *c)
             push_surface(nb, c, on);
         else if (number >= 0 && system_surface(l->system, number, &surface))
             push_condition(nb, c, variable_index_on_surfaces(l, surface.condition),
-                           (Guard){.surface = number});
+                           (Guard){.surface = number, .is_norm = surface.part_count > 0});
         else if (on < 0) /* else a surface monitors its kink */
             push_condition(nb, c, variable_index_on_surfaces(l, switches[i].condition),
                            (Guard){.surface = -1});
@@ -248,7 +261,33 @@ done:
     return status;
 }
 
-/* slip of all surfaces, then `off` of each; 0 where slip can't be determined */
+/* the expressions that remain 0 while the motion slides along surface i: h, or the components of a
+ * vector; how many */
+static int measures_of(const VariableIndex *l, int i, Expr out[SURFACE_PARTS])
+{
+    const Surface *surface = &l->surfaces[i];
+
+    out[0] = surface->measure;
+    for (int k = 0; k < surface->part_count; k++)
+        out[k] = variable_index_on_surfaces(l, surface->part[k]);
+    return surface->part_count > 0 ? surface->part_count : 1;
+}
+
+static Status push_slip(const VariableIndex *l, Expr measure, CompiledRoots *slip,
+                        CompiledRoots *off, Diag *diag)
+{
+    const Expr zero = expr_int(system_arena(l->system), 0);
+    Expr both[2] = {zero, zero};
+    const Status status = slip_of(l, measure, &both[0], &both[1], NULL);
+
+    if (status != OK && status != E_MISSING)
+        return diag_set(diag, status, "the slip of a surface can't be formed");
+    LIST_PUSH(*slip, status == OK ? both[0] : zero);
+    LIST_PUSH(*off, status == OK ? both[1] : zero);
+    return OK;
+}
+
+/* slip at each sign, then `off` at each; 0 where slip can't be determined */
 static Status compile_slip(CompiledEquations *nb, Diag *diag)
 {
     const VariableIndex *l = nb->layout;
@@ -257,14 +296,15 @@ static Status compile_slip(CompiledEquations *nb, Diag *diag)
     CompiledRoots off = {0};
     Status status = OK;
 
+    for (int i = 0; i < l->surface_count; i++)
+        CHECK(push_slip(l, l->surfaces[i].part_count > 0 ? zero : l->surfaces[i].measure, &roots,
+                        &off, diag));
     for (int i = 0; i < l->surface_count; i++) {
-        Expr both[2] = {zero, zero};
+        Expr measures[SURFACE_PARTS];
+        const int count = measures_of(l, i, measures);
 
-        status = slip_of(l, l->surfaces[i].measure, &both[0], &both[1], NULL);
-        if (status != OK && status != E_MISSING)
-            CHECK(diag_set(diag, status, "the slip of a surface can't be formed"));
-        LIST_PUSH(roots, status == OK ? both[0] : zero);
-        LIST_PUSH(off, status == OK ? both[1] : zero);
+        for (int k = 0; k < count && l->surfaces[i].part_count > 0; k++)
+            CHECK(push_slip(l, measures[k], &roots, &off, diag));
     }
     for (int i = 0; i < off.count; i++)
         LIST_PUSH(roots, off.at[i]);
@@ -282,11 +322,13 @@ Status compiled_slide(CompiledEquations *nb, const OnSurface *on, Diag *diag)
     Status status;
 
     for (int i = 0; i < l->surface_count; i++) {
-        Expr slip, off;
+        Expr slip, off, measures[SURFACE_PARTS];
+        const int count = measures_of(l, i, measures);
 
         if (on[i].side != 0)
             continue;
-        TRY(slip_of(l, l->surfaces[i].measure, &slip, &off, diag));
+        for (int k = 0; k < count; k++)
+            TRY(slip_of(l, measures[k], &slip, &off, diag));
         any = true;
     }
     if (!any || nb->slip != NULL)
@@ -299,33 +341,44 @@ Status compiled_slide(CompiledEquations *nb, const OnSurface *on, Diag *diag)
 }
 
 /* the two conditions of a surface that is on that side, or slid along */
-static void set_guards(Guard *both, const OnSurface *on, SurfaceGuards own, bool is_unilateral)
+static void set_guards(Guard *both, const OnSurface *on, SurfaceGuards own, const Surface *surface)
 {
     const Guard none = {.surface = on->surface, .is_idle = true};
+    const bool is_norm = surface->part_count > 0;
 
     if (on->side == 0) {
-        both[0] = (Guard){.surface = on->surface, .end = 1};
-        both[1] = (Guard){.surface = on->surface, .end = -1};
+        both[0] = (Guard){.surface = on->surface, .end = 1, .is_norm = is_norm};
+        both[1] = is_norm ? none : (Guard){.surface = on->surface, .end = -1};
         return;
     }
     both[0] = is_measured(own) ? (Guard){.surface = on->surface,
                                          .side = on->side,
                                          .held = on->held,
                                          .solved = own.stage == STAGE_NETWORK,
-                                         .is_unilateral = is_unilateral}
+                                         .is_unilateral = surface->is_unilateral,
+                                         .is_norm = is_norm}
                                : none;
     both[1] = none;
 }
 
-/* Sign: -1 to 1. Stick: -r to r, with 1 where it slips. Unilateral: 0 and above. */
-static SignRange range_of(const CompiledEquations *nb, const Surface *surface)
+/* Sign: -1 to 1. Stick: -r to r, with 1 where it slips. Unilateral: 0 and above. Of a vector the
+ * signs of components have a bound on their norm alone. */
+static SignRange range_of(const CompiledEquations *nb, int slid)
 {
+    const int i = nb->layout->slid_surface[slid];
+    const Surface *surface = &nb->layout->surfaces[i];
     const double ratio = surface->ratio != NULL
                              ? expr_evaluate(surface->ratio, parameters_value_in, nb->parameters)
                              : 1;
 
     if (surface->is_unilateral)
         return (SignRange){.high = INFINITY, .is_unilateral = true, .restitution = ratio};
+    if (surface->part_count > 0)
+        return (SignRange){
+            .low = -INFINITY,
+            .high = INFINITY,
+            .cone = nb->layout->slid[slid] == nb->layout->first_part[i] ? surface->part_count : -1,
+            .norm = ratio};
     return (SignRange){.low = -ratio, .high = ratio, .below = -1, .above = 1};
 }
 
@@ -334,17 +387,17 @@ void compiled_enter_mode(CompiledEquations *nb)
     const VariableIndex *l = nb->layout;
     const bool slides = l->slides > 0;
 
-    nb->eq.surface_count = l->surface_count;
+    nb->eq.sign_count = l->sign_count;
     nb->eq.slide_count = l->slides;
     nb->eq.slide = slide;
     nb->eq.slip = slip;
     if (nb->sign_ranges == NULL)
-        nb->eq.sign_ranges = nb->sign_ranges = NEW_ARRAY(SignRange, l->surface_count);
+        nb->eq.sign_ranges = nb->sign_ranges = NEW_ARRAY(SignRange, l->sign_count);
     for (int k = 0; k < l->slides; k++)
-        nb->sign_ranges[k] = range_of(nb, &l->surfaces[l->slid[k]]);
+        nb->sign_ranges[k] = range_of(nb, k);
     for (int i = 0; i < l->surface_count && nb->guards != NULL; i++)
         set_guards(nb->guards + nb->of_surface[i].first, &l->on[i], nb->of_surface[i],
-                   l->surfaces[i].is_unilateral);
+                   &l->surfaces[i]);
     nb->eq.switches_read_network = nb->guards_read_network || slides;
     nb->eq.switches_follow_time =
         nb->guards_follow_time || (slides && variable_index_signs_follow_time(l));

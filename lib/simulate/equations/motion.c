@@ -122,7 +122,7 @@ Motion *motion_new(const Equations *eq, const MotionOptions *options)
     mo->by_groups = mo->by_all = (Trend){.at = NAN, .before_at = NAN};
     if (mo->used > 0)
         open_projection(mo);
-    if (eq->surface_count > 0)
+    if (eq->sign_count > 0)
         motion_open_surfaces(mo);
     describe_ode(mo);
     motion_enter_mode(mo);

@@ -34,6 +34,8 @@ typedef struct Guard {
     bool solved;  /* its measure is solved for with the jump: always on one side */
     bool is_idle; /* it tells nothing in the current mode */
     bool is_unilateral; /* what meets its surface has an impact */
+    bool is_norm;       /* its condition is the norm of a vector, or of the vector's signs: never
+                           negative */
 } Guard;
 
 /* What a program has eliminated in closed form, for these constraint rows in use. */
@@ -132,7 +134,7 @@ typedef struct Equations {
     const Guard *guards;        /* switch_count; NULL: all are kinks at most */
     void (*switches)(void *context, double t, const double *q, const double *u, const double *x,
                      double *out);
-    int surface_count; /* whose signs are inputs: a mode changes guards and what follows */
+    int sign_count; /* of surfaces, inputs: a mode changes guards and what follows */
     /* surfaces that the motion slides along: signs are solved for such that slip is 0 */
     int slide_count;
     const SignRange *sign_ranges;                      /* slide_count */
@@ -210,6 +212,9 @@ void motion_enter_mode(Motion *motion);
 /* Slip for given signs (slide_count each). */
 bool motion_drift(Motion *motion, double t, const double *y, const double *signs, double *slip,
                   double *off);
+/* Move y along the effect of signs on the rates, until its distance from each surface is `off`
+ * (slide_count). */
+bool motion_leave_surfaces(Motion *motion, double t, double *y, const double *off);
 /* What sign k changes: of y' by one unit of it (length of y, 0 but for u' and x'), of each slip
  * (slide_count), and of the power of what isn't conservative. By a difference of so much; the signs
  * are as before. False: it can't be evaluated. */

@@ -14,7 +14,7 @@
 
 void motion_open_surfaces(Motion *mo)
 {
-    int count = mo->eq->surface_count;
+    int count = mo->eq->sign_count;
 
     mo->signs = signs_new(count);
     mo->slip = NEW_ARRAY(double, count);
@@ -106,7 +106,7 @@ bool motion_sign_effect(Motion *mo, double t, const double *y, double *signs, in
 
 /* One move along the effect of unit signs on the rates, which changes the distance from the
  * surfaces as the signs change slip. */
-static bool sweep_surfaces(Motion *mo, const Where *at, double *y)
+static bool sweep_surfaces(Motion *mo, const Where *at, const double *wanted, double *y)
 {
     int count = mo->eq->slide_count, length = motion_length(mo);
     double *values = signs_values(mo->signs);
@@ -116,7 +116,8 @@ static bool sweep_surfaces(Motion *mo, const Where *at, double *y)
         !try_signs((void *)at, values, mo->slip))
         return false;
     keep_way(mo, base);
-    memcpy(mo->slip, mo->off, (size_t)count * sizeof(double));
+    for (int k = 0; k < count; k++)
+        mo->slip[k] = mo->off[k] - (wanted != NULL ? wanted[k] : 0);
     for (int k = 0; k < count; k++) {
         /* a sign beyond its interval may have no solution, as of friction by a load that it makes
          */
@@ -139,7 +140,17 @@ static bool sweep_surfaces(Motion *mo, const Where *at, double *y)
     return true;
 }
 
-bool motion_project_surfaces(Motion *mo, double t, double *y)
+/* the largest distance from where y is wanted; NULL: on the surfaces */
+static double largest_left(const Motion *mo, const double *wanted)
+{
+    double left = 0;
+
+    for (int k = 0; k < mo->eq->slide_count; k++)
+        left = fmax(left, fabs(mo->off[k] - (wanted != NULL ? wanted[k] : 0)));
+    return left;
+}
+
+static bool move_to_surfaces(Motion *mo, double t, const double *wanted, double *y)
 {
     Where at = {mo, t, y};
     double size = fmax(1, vector_largest(y, motion_length(mo) - 1));
@@ -150,14 +161,24 @@ bool motion_project_surfaces(Motion *mo, double t, double *y)
 
         if (!try_signs(&at, signs_values(mo->signs), mo->slip))
             return false;
-        left = vector_largest(mo->off, mo->eq->slide_count);
+        left = largest_left(mo, wanted);
         if (left <= 1e-15 * size || (left <= 1e-12 * size && left >= 0.5 * before))
             return true;
         before = left;
-        if (!sweep_surfaces(mo, &at, y))
+        if (!sweep_surfaces(mo, &at, wanted, y))
             return false;
     }
     return true;
+}
+
+bool motion_project_surfaces(Motion *mo, double t, double *y)
+{
+    return move_to_surfaces(mo, t, NULL, y);
+}
+
+bool motion_leave_surfaces(Motion *mo, double t, double *y, const double *off)
+{
+    return move_to_surfaces(mo, t, off, y);
 }
 
 bool motion_evaluate_all(Motion *mo, double t, const double *y)

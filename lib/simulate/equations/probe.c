@@ -117,7 +117,7 @@ void probe_set_sides(Probe *probe)
     const VariableIndex *l = probe->layout;
 
     probe->seen = l->sides;
-    inputs_set(probe->inputs, l->signs, l->sign_values, l->surface_count);
+    inputs_set(probe->inputs, l->signs, l->sign_values, l->sign_count);
     for (int i = 0; i < probe->sides.count; i++)
         probe->inputs[probe->sides.at[i].input] = l->closed[probe->sides.at[i].side];
     if (probe->sides.count > 0)
@@ -157,8 +157,7 @@ bool row_solve(const VariableIndex *l, Motion *motion, double t, const double *y
 
 static void put_state(const VariableIndex *l, const RowValues *row, double *inputs)
 {
-    inputs_set(inputs, l->signs, row->signs != NULL ? row->signs : l->sign_values,
-               l->surface_count);
+    inputs_set(inputs, l->signs, row->signs != NULL ? row->signs : l->sign_values, l->sign_count);
     inputs[l->t] = row->t;
     inputs_set(inputs, l->references, row->references, l->multi_turns);
     inputs_set(inputs, l->q, row->q, l->n);
@@ -195,7 +194,7 @@ static double *input_errors(const Probe *probe, const RowValues *errors)
     double *inputs = NEW_ARRAY(double, count);
 
     put_row(l, errors, inputs);
-    inputs_set(inputs, l->signs, errors->signs, l->surface_count);
+    inputs_set(inputs, l->signs, errors->signs, l->sign_count);
     for (int i = l->count; i < count; i++)
         inputs[i] = number_error(probe->inputs[i]);
     return inputs;

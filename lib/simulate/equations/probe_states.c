@@ -30,7 +30,7 @@ static void put_signs(const VariableIndex *l, SimdBatch *lanes)
 {
     double values[LANES];
 
-    for (int i = 0; i < l->surface_count; i++) {
+    for (int i = 0; i < l->sign_count; i++) {
         for (int k = 0; k < LANES; k++)
             values[k] = l->sign_values[i];
         simd_batch_set(lanes, l->signs + i, STAGE_VELOCITY, values);

@@ -46,7 +46,7 @@ static void find_measures(VariableIndex *l)
             int way;
             Expr measure;
 
-            if (!is_nested(l->system, surface->condition))
+            if (!is_nested(l->system, surface->condition) || surface->part_count > 0)
                 continue;
             measure = surface_of(
                 arena,
@@ -58,12 +58,35 @@ static void find_measures(VariableIndex *l)
     }
 }
 
+/* the components of a vector, each with a sign */
+static void place_parts(VariableIndex *l, int i, const SystemSurface *known)
+{
+    Surface *surface = &l->surfaces[i];
+
+    surface->part_count = known->part_count;
+    l->first_part[i] = l->sign_count;
+    l->sign_count += known->part_count;
+    for (int k = 0; k < known->part_count; k++) {
+        Text name = {0};
+
+        text_addf(&name, "#sign %d.%d", surface->number + 1, k + 1);
+        surface->part[k] = known->part[k];
+        surface->part_sign[k] = expr_symbol(system_arena(l->system), name.at, SYMBOL_STATE);
+        text_free(&name);
+    }
+}
+
 static void place_surfaces(VariableIndex *l, const OnSurface *on, int count)
 {
+    const int most = count * (1 + SURFACE_PARTS);
+
     l->surfaces = NEW_ARRAY(Surface, count);
     l->on = NEW_ARRAY(OnSurface, count);
-    l->slid = NEW_ARRAY(int, count);
-    l->sign_values = NEW_ARRAY(double, count);
+    l->first_part = NEW_ARRAY(int, count);
+    l->slid = NEW_ARRAY(int, most);
+    l->slid_surface = NEW_ARRAY(int, most);
+    l->sign_values = NEW_ARRAY(double, most);
+    l->sign_count = count;
     for (int i = 0; i < count; i++) {
         Surface *surface = &l->surfaces[i];
         SystemSurface known = {0};
@@ -78,6 +101,7 @@ static void place_surfaces(VariableIndex *l, const OnSurface *on, int count)
                              .may_slide = true,
                              .sign = expr_symbol(system_arena(l->system), name.at, SYMBOL_STATE),
                              .measure = known.condition};
+        place_parts(l, i, &known);
         text_free(&name);
     }
     l->surface_count = count;
@@ -103,6 +127,20 @@ bool variable_index_is_on(const VariableIndex *l, const OnSurface *on)
     return same;
 }
 
+/* The sign of the surface is unknown, or those of its components are. */
+static void slide_along(VariableIndex *l, int i)
+{
+    const int count = l->surfaces[i].part_count;
+
+    for (int k = 0; k < (count > 0 ? count : 1); k++) {
+        const int sign = count > 0 ? l->first_part[i] + k : i;
+
+        l->slid_surface[l->slides] = i;
+        l->slid[l->slides++] = sign;
+        l->sign_values[sign] = 0;
+    }
+}
+
 void variable_index_set_on(VariableIndex *l, const OnSurface *on)
 {
     l->slides = 0;
@@ -110,7 +148,7 @@ void variable_index_set_on(VariableIndex *l, const OnSurface *on)
         l->on[i] = on[i];
         l->sign_values[i] = l->surfaces[i].is_unilateral ? 0 : on[i].side;
         if (on[i].side == 0)
-            l->slid[l->slides++] = i;
+            slide_along(l, i);
     }
     l->sides++;
 }
@@ -175,6 +213,9 @@ VariableIndex *variable_index_new_on(System *system, const OnSurface *on, int co
     l->signs = l->count;
     for (int i = 0; i < l->surface_count; i++)
         (void)append(l, &room, l->surfaces[i].sign);
+    for (int i = 0; i < l->surface_count; i++)
+        for (int k = 0; k < l->surfaces[i].part_count; k++)
+            (void)append(l, &room, l->surfaces[i].part_sign[k]);
     l->rates = l->count;
     for (int i = 0; i < l->nx; i++)
         (void)append(l, &room, system_state_rate(system, i));
@@ -245,7 +286,7 @@ void variable_index_free(VariableIndex *layout)
     if (layout == NULL)
         return;
     MEM_FREE(layout->symbols, layout->side, layout->closed, layout->surfaces, layout->on,
-             layout->slid, layout->sign_values, layout);
+             layout->slid, layout->slid_surface, layout->first_part, layout->sign_values, layout);
 }
 
 static unsigned network_kinds(const VariableIndex *l)

@@ -28,9 +28,13 @@ typedef struct VariableIndex {
     Expr *symbols;     /* count */
     Surface *surfaces; /* whose signs are inputs; */
     int surface_count;
-    OnSurface *on;       /* the sides of these in the current mode; `slides` of them are 0: */
-    int *slid;           /* their indices, */
-    double *sign_values; /* and the current sign of each surface */
+    int *
+        first_part; /* index of the first sign of each one's components, after those of surfaces, */
+    int sign_count; /* and the number of all signs */
+    OnSurface *on;  /* the sides of these in the current mode: of those that are 0 */
+    int *slid;      /* `slides` signs are unknown: their indices, */
+    int *slid_surface;   /* and the surface of each; */
+    double *sign_values; /* the current value of each sign */
 } VariableIndex;
 
 /* y of a run is q, u, x, references, work */

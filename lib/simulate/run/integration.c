@@ -66,7 +66,7 @@ static Status end_or_hand_over(Integration *m, bool is_rounding, Diag *diag)
 
 static Status take_step(Integration *m, double end, Diag *diag)
 {
-    end = onset_before_step(m->segment.onset, m->stepper, end);
+    end = onset_before_step(m->segment.onset, m->stepper, integration_end_of_step(m, end));
     m->stepper->is_read = integration_state_conditions(m) > 0;
     return m->stepper->method->step(m->stepper, end, diag);
 }

@@ -53,12 +53,14 @@ typedef struct Meeting {
     bool far;     /* it is not on the surface but on that side */
     bool ends;    /* its sign has reached its bound on `side` */
     bool settles; /* it crosses so often that it counts as at rest on it */
+    double rest;  /* of a vector: its norm where it counts as 0 */
 } Meeting;
 
 /* what was chosen */
 typedef struct SurfaceChoice {
     bool entered; /* another segment goes on */
-    bool jumps;   /* y is another one: there was an impact */
+    bool jumps;   /* y is another one: there was an impact, */
+    bool moved;   /* or it was moved by next to nothing */
 } SurfaceChoice;
 
 /* Returns the segment that continues from (t, y), on surfaces on which its equations jump: across

@@ -19,7 +19,7 @@ void integration_note_chatter(Integration *m, int i, double t)
     Chatter *chatter;
     double taken;
 
-    if (guard.surface < 0 || guard.end != 0 || guard.is_unilateral)
+    if (guard.surface < 0 || guard.end != 0 || guard.is_unilateral || guard.is_norm)
         return;
     chatter = &m->chatters[guard.surface];
     taken = t - chatter->last;

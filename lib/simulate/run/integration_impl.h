@@ -40,6 +40,7 @@ typedef struct Integration {
     double *conditions, *largest; /* current values, and largest absolute values so far */
     int *mode;                    /* sign of each condition until its next switch */
     int *looked_at, looked_count; /* conditions that steps evaluate; their number */
+    double *rest;                 /* norms of vectors that count as 0; of others 0 */
     double *band;                 /* sizes without a reliable sign, after a switch, */
     double *noise;                /* and anywhere: of margins */
     double *band_ends;            /* s: time from which on `noise` applies; INFINITY */
@@ -102,6 +103,10 @@ MUST_USE Status integration_go_on(Integration *m, double t, const double *y, boo
 
 /* whether a surface's measure is 0 within rounding */
 double integration_on_surface(const Integration *m, int condition);
+/* the norm below which the vector of such a condition counts as 0, by what it has been */
+double integration_rest(const Integration *m, int condition);
+/* The end of the next step, at most `end`: a vector whose norm falls is followed down to rest. */
+double integration_end_of_step(Integration *m, double end);
 /* set conditions' modes on surfaces, and their largest values */
 void integration_begin_surfaces(Integration *m);
 void integration_reach(Integration *m);

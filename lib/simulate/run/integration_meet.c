@@ -234,7 +234,7 @@ static bool passes_others(Integration *m, int i, double when)
 Status integration_meet_switch(Integration *m, int i, double when, bool *again, Diag *diag)
 {
     const Guard guard = equations_guard(m->eq, i);
-    bool on_surface = guard.side != 0 || guard.end != 0, crossed = false;
+    bool on_surface = guard.side != 0 || guard.end != 0 || guard.is_norm, crossed = false;
     double value = 0, slope = 0;
     bool is_margin = integration_is_margin(m, i), entered;
 

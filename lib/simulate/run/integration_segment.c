@@ -74,6 +74,7 @@ void integration_open_segment(Integration *m, const Segment *segment)
     m->largest = NEW_ARRAY(double, conditions);
     m->band = NEW_ARRAY(double, conditions);
     m->noise = NEW_ARRAY(double, conditions);
+    m->rest = NEW_ARRAY(double, conditions);
     m->band_ends = NEW_ARRAY(double, conditions);
     m->depth = NEW_ARRAY(double, conditions);
     m->depth_low = NEW_ARRAY(double, conditions);
@@ -95,8 +96,8 @@ void integration_close_segment(Integration *m)
     integration_discard_stepper(m);
     onset_watch(m->segment.onset, NULL, NULL);
     motion_window(m->segment.motion, -INFINITY, INFINITY);
-    MEM_FREE(m->y, m->slope, m->conditions, m->largest, m->band, m->noise, m->band_ends, m->depth,
-             m->depth_low, m->depth_high, m->mode, m->looked_at);
+    MEM_FREE(m->y, m->slope, m->conditions, m->largest, m->band, m->noise, m->rest, m->band_ends,
+             m->depth, m->depth_low, m->depth_high, m->mode, m->looked_at);
 }
 
 static void add_corner(Integration *m, double t, const double *y)
@@ -144,12 +145,14 @@ static void meet_surface(Integration *m, int i, Meeting *out)
     bool near;
 
     m->largest[i] = fmax(m->largest[i], fabs(m->conditions[i]));
-    near = i == m->root || guard.solved || guard.held ||
-           fabs(m->conditions[i]) <= integration_on_surface(m, i);
+    near =
+        i == m->root || guard.solved || guard.held ||
+        (guard.is_norm ? m->conditions[i] : fabs(m->conditions[i])) <= integration_on_surface(m, i);
     *out = (Meeting){guard.surface, .far = !near,
-                     .settles = i == m->root && m->chatters[guard.surface].settles};
+                     .settles = i == m->root && m->chatters[guard.surface].settles,
+                     .rest = guard.is_norm ? integration_rest(m, i) : 0};
     if (!near)
-        out->side = m->conditions[i] > 0 ? 1 : -1;
+        out->side = guard.is_norm || m->conditions[i] > 0 ? 1 : -1;
 }
 
 /* The surfaces that the run is on, and all others, so that no step evaluates the other side of one.
@@ -170,7 +173,8 @@ static int find_meetings(Integration *m, Meeting *at, bool *on)
             if (i == m->root)
                 at[count - 1] = (Meeting){guard.surface, .side = -1, .ends = true};
         } else if (guard.end > 0) {
-            at[count++] = (Meeting){guard.surface, i == m->root ? 1 : 0, .ends = i == m->root};
+            at[count++] = (Meeting){guard.surface, i == m->root ? 1 : 0, .ends = i == m->root,
+                                    .rest = guard.is_norm ? integration_rest(m, i) : 0};
         } else {
             meet_surface(m, i, &at[count++]);
         }
@@ -230,6 +234,8 @@ static Status slide(Integration *m, bool *entered, bool *changed, Diag *diag)
     }
     if (*entered)
         CHECK(enter(m, &next, t, y, changed, diag));
+    else if (chosen.moved)
+        memcpy(m->stepper->y, y, (size_t)m->length * sizeof(double));
     integration_enter_row(m);
     motion_window(m->segment.motion, m->low, m->high);
     if (*entered)

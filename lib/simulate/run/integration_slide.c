@@ -8,12 +8,23 @@
 #define NEAR     1e-10 /* of a condition's largest size: as location leaves it */
 #define ROUNDING 1e-14 /* of y */
 #define END      1e-9  /* of a sign: so far beyond its end it may begin */
+#define REST     1e-9  /* of the largest norm of a vector, */
+#define STILL    1e-13 /* or of y: such a norm counts as 0 */
 
 double integration_on_surface(const Integration *m, int i)
 {
     const double size = fmax(1, vector_largest(m->stepper->y, m->length - 1)); /* as projected */
 
     return fmax(NEAR * m->largest[i], ROUNDING * size);
+}
+
+double integration_rest(const Integration *m, int i)
+{
+    const Guard guard = equations_guard(m->eq, i);
+    const double size = fmax(1, vector_largest(m->stepper->y, m->length - 1));
+
+    return fmax(m->rest[i],
+                fmax(REST * fmax(m->largest[i], m->reach[guard.surface]), STILL * size));
 }
 
 void integration_reach(Integration *m)

@@ -17,9 +17,22 @@
 #define MOST      1e-6  /* of the largest margin: more than that is no noise */
 #define MOVES     3     /* that tell how far errors reach */
 #define PAUSELESS 20    /* switches at one instant, more than sides of diodes take to be found */
+#define PART      0.5   /* of the way to there, a step */
 #define BY_HALVES 4     /* so often a search goes by halves */
 
 /* --- conditions --- */
+
+/* A norm is never negative: it changes its sign where it counts as 0. */
+static void evaluate_equations(Integration *m, double t, const double *y)
+{
+    motion_switches(m->segment.motion, t, y, m->conditions);
+    for (int i = 0; i < m->eq->switch_count; i++) {
+        const Guard guard = equations_guard(m->eq, i);
+
+        if (guard.is_norm && guard.end == 0 && !guard.is_idle)
+            m->conditions[i] -= m->rest[i];
+    }
+}
 
 void integration_evaluate(Integration *m, double t, const double *y)
 {
@@ -29,7 +42,7 @@ void integration_evaluate(Integration *m, double t, const double *y)
     t = motion_clock(m->segment.motion, t);
 
     if (eq->switch_count > 0)
-        motion_switches(m->segment.motion, t, y, m->conditions);
+        evaluate_equations(m, t, y);
     if (m->count > eq->switch_count)
         events_conditions(m->ev, t, y, m->conditions + eq->switch_count);
 }
@@ -498,4 +511,25 @@ double integration_condition_rate(Integration *m, int i, double *value)
         return 0;
     h = conditions_ahead(m);
     return (m->conditions[i] - *value) / h;
+}
+
+/* Where the direction of a small vector turns ever faster a step that passes by shows no zero of
+ * its norm. */
+double integration_end_of_step(Integration *m, double end)
+{
+    const double t = m->stepper->t;
+
+    for (int i = 0; i < m->eq->switch_count; i++) {
+        const Guard guard = equations_guard(m->eq, i);
+        double value, rate;
+
+        if (!guard.is_norm || guard.is_idle || guard.end != 0)
+            continue;
+        rate = integration_condition_rate(m, i, &value);
+        m->largest[i] = fmax(m->largest[i], value);
+        m->rest[i] = integration_rest(m, i);
+        if (rate < 0 && value > 0)
+            end = fmin(end, t + PART * (value + m->rest[i]) / -rate);
+    }
+    return end;
 }

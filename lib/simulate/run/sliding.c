@@ -11,10 +11,12 @@
 #include <string.h>
 
 #define AHEAD 1e-7 /* of the run: so soon */
+#define STILL 1e-8 /* of the state: a vector that is at rest */
+#define FROM  2    /* times the norm that counts as 0: a vector begins there */
 
 typedef struct Slides {
-    int count;
-    const Meeting *at;
+    int count;       /* of signs: */
+    Meeting *at;     /* the surface of each */
     Phase *phase;    /* that slides along all of them */
     double t;        /* of the instant, and y there: */
     const double *y; /* `off` is what it is there */
@@ -29,13 +31,21 @@ typedef struct Slides {
 
 static void slides_free(Slides *s)
 {
-    MEM_FREE(s->y_soon, s->slip, s->off, s->side, s->room, s->integers);
+    MEM_FREE(s->at, s->y_soon, s->slip, s->off, s->side, s->room, s->integers);
 }
 
-static void slides_make_room(Slides *s)
+/* for the signs of the phase, of `near` surfaces in their order */
+static void slides_begin(Slides *s, const Meeting *near)
 {
-    const int n = s->count;
+    const VariableIndex *l = s->phase->layout;
+    const int n = l->slides;
 
+    s->count = n;
+    s->at = NEW_ARRAY(Meeting, n);
+    for (int k = 0, i = 0; k < n; k++) {
+        i += k > 0 && l->slid_surface[k] != l->slid_surface[k - 1];
+        s->at[k] = near[i];
+    }
     s->slip = NEW_ARRAY(double, n);
     s->off = NEW_ARRAY(double, n);
     s->side = NEW_ARRAY(SurfaceSide, n);
@@ -59,8 +69,9 @@ static bool find_sides(Slides *s)
     memset(s->room, 0, (size_t)s->count * sizeof(double)); /* signs of 0 */
     (void)motion_drift(s->phase->motion, s->t, s->y, s->room, s->slip, s->off);
     for (int i = 0; i < s->count; i++)
-        s->side[i] = (SurfaceSide){.bound = ranges[i].high,
+        s->side[i] = (SurfaceSide){.bound = ranges[i].cone != 0 ? ranges[i].norm : ranges[i].high,
                                    .is_unilateral = ranges[i].is_unilateral,
+                                   .cone = ranges[i].cone,
                                    .off = s->off[i],
                                    .side = s->at[i].side,
                                    .ends = s->at[i].ends,
@@ -79,8 +90,11 @@ static Status no_side(const Phase *now, double t, const Meeting *at, int count, 
         SystemSurface surface = {0};
         const bool is_known = system_surface(now->system, at[i].surface, &surface);
         const char *part = is_known ? system_jumping_part(now->system, surface.condition) : NULL;
-        char *h = expr_text(system_plain(now->system, surface.condition));
+        char *h;
 
+        if (i > 0 && at[i].surface == at[i - 1].surface)
+            continue;
+        h = expr_text(system_plain(now->system, surface.condition));
         text_addf(&what, "%s%s", i > 0 ? ", " : "", h);
         if (part != NULL)
             text_addf(&what, " (%s)", part);
@@ -109,17 +123,27 @@ static void sort_meetings(Meeting *at, int count)
         }
 }
 
+/* the first sign of a surface */
+static int first_sign(const Slides *s, int surface)
+{
+    int k = 0;
+
+    while (s->at[k].surface != surface)
+        k++;
+    return k;
+}
+
 /* The phase on the sides of the surfaces that are met (s->side; NULL: it slides along all) and on
  * the far sides of the others. */
 static Status phase_on(const ModeSwitching *c, const Phase *now, const Meeting *all, int count,
                        const Slides *s, Phase **out, Diag *diag)
 {
     OnSurface *on = NEW_ARRAY(OnSurface, count);
-    int length = 0, near = 0;
+    int length = 0;
     Status status;
 
     for (int i = 0; i < count; i++) {
-        int k = all[i].far ? -1 : near++;
+        const int k = all[i].far ? -1 : s == NULL ? 0 : first_sign(s, all[i].surface);
 
         if (k < 0)
             on[length++] = (OnSurface){all[i].surface, all[i].side, false};
@@ -219,13 +243,53 @@ static Status take_impact(ModeSwitching *c, const Slides *s, double low, double 
     return status;
 }
 
+static bool leaves_vector(const SurfaceSide *side, double off, double still)
+{
+    return side->cone != 0 && side->side != 0 && !side->held && off <= still;
+}
+
+/* how far the motion is off the surface that the k-th sign is of */
+static double norm_off(const Slides *s, int k)
+{
+    const int first = first_sign(s, s->at[k].surface);
+    double norm = 0;
+
+    for (int i = first; i < first + s->side[first].cone; i++)
+        norm = hypot(norm, s->side[i].off);
+    return norm;
+}
+
+/* What leaves the surface of a vector goes on from a short way off it, in the direction that was
+ * found: on the surface there is none. False: it can't be moved there. */
+static bool leave_vectors(const Slides *s, double low, double high, double *y, bool *moved)
+{
+    const double still = STILL * fmax(1, vector_largest(y, s->phase->length - 1));
+    bool sound = true;
+
+    phase_enter(s->phase);
+    motion_window(s->phase->motion, low, high);
+    memset(s->room, 0, (size_t)s->count * sizeof(double));
+    for (int k = 0; k < s->count; k++)
+        *moved = *moved || leaves_vector(&s->side[k], norm_off(s, k), still);
+    if (*moved) {
+        sound = motion_drift(s->phase->motion, s->t, y, s->room, s->slip, s->off);
+        for (int k = 0; k < s->count; k++)
+            if (leaves_vector(&s->side[k], norm_off(s, k), still))
+                s->off[k] = FROM * s->at[k].rest * s->side[k].sign;
+        sound = sound && motion_leave_surfaces(s->phase->motion, s->t, y, s->off);
+    }
+    motion_window(s->phase->motion, -INFINITY, INFINITY);
+    return sound;
+}
+
 Status slide_choose(void *context, double t, double low, double high, double *y, const Meeting *at,
                     int count, Segment *segment, SurfaceChoice *chosen, Diag *diag)
 {
     ModeSwitching *c = context;
     Phase *now = c->run->phases->at[segment->phase], *next = NULL;
     Meeting *all = NEW_ARRAY(Meeting, count), *near = NEW_ARRAY(Meeting, count);
-    Slides s = {.at = near, .t = t, .soon = t, .y = y};
+    Slides s = {.t = t, .soon = t, .y = y};
+    int near_count = 0;
     Events *events = segment->events;
     Status status = OK;
 
@@ -235,16 +299,18 @@ Status slide_choose(void *context, double t, double low, double high, double *y,
     sort_meetings(all, count);
     for (int i = 0; i < count; i++)
         if (!all[i].far)
-            near[s.count++] = all[i];
-    if (s.count > 0) {
+            near[near_count++] = all[i];
+    if (near_count > 0) {
         CHECK(slide_all(c, now, all, count, &s.phase, diag));
         if (s.phase == NULL)
             goto done;
         phase_enter(s.phase);
-        slides_make_room(&s);
+        slides_begin(&s, near);
         motion_partition(s.phase->motion, t, y);
         CHECK(take_impact(c, &s, low, high, y, &chosen->jumps, diag));
         CHECK(choose_phase(c, now, all, count, &s, low, high, &next, diag));
+        if (!leave_vectors(&s, low, high, y, &chosen->moved))
+            CHECK(no_side(now, t, s.at, s.count, diag));
     } else {
         CHECK(phase_on(c, now, all, count, NULL, &next, diag));
     }
