@@ -1,6 +1,7 @@
 /* test_friction.c: friction, brakes, clutches and one-way clutches, against closed forms */
 #include "session_kit.h"
 
+#include <math.h>
 #include <string.h>
 
 #define SLIDE "scene planar\nbody m mass=1 inertia=0\nprismatic s ground m axis=x\n"
@@ -501,6 +502,36 @@ static void a_wheel_sticks_while_a_diode_turns_off(void)
     }
 }
 
+/* A motor pulls one of two blocks that grip each other and the ground, more grips than motions. All
+ * let go where its current reaches i0, from where on the momentum is that of the forces. */
+static void a_current_overcomes_grips(void)
+{
+    const double K = 1.85, R = 0.43, L = 0.017, V = 8, T = 3.7 + 3.6, end = 0.5, i0 = T / K;
+    const double t0 = -L / R * log(1 - i0 * R / V), charge = (V * t0 - L * i0) / R;
+    static const char *const methods[] = {"dop853", "bdf"};
+
+    for (int i = 0; i < 2; i++) {
+        Kit kit = kit_new();
+        char text[500];
+        double passed;
+
+        (void)snprintf(text, sizeof text,
+                       "scene planar\nbody a mass=1.5\nbody b mass=2.9\n"
+                       "prismatic s ground a axis=x\nprismatic r ground b axis=x\n"
+                       "friction f s force=3.7\nfriction g r force=3.6\nclutch c r s force=4\n"
+                       "vsource V p 0 8\ndiode D p q\nmotor M s q 0 R=0.43 L=17 mH Kt=1.85\n"
+                       "init s = 0, s' = 0, r = 0, r' = 0, M.i = 0\n"
+                       "simulate 0.5 method=%s rtol=1e-9\n",
+                       methods[i]);
+        EXPECT_DONE(&kit, text);
+        EXPECT(is_near(kit_value(&kit, "first(s > 1e-9)"), t0, 1e-3));
+        passed = (V * end - L * kit_value(&kit, "M.i") - K * kit_value(&kit, "s")) / R;
+        EXPECT(is_near(kit_value(&kit, "1.5*s' + 2.9*r'"), K * (passed - charge) - T * (end - t0),
+                       1e-6));
+        kit_free(&kit);
+    }
+}
+
 /* by load and viscous, with Stribeck's curve, between two joints */
 static void frictions_of_all_kinds_lose_what_the_motion_had(void)
 {
@@ -594,6 +625,7 @@ int main(void)
     RUN(frictions_of_all_kinds_lose_what_the_motion_had);
     RUN(blocks_without_inertia_in_absolute_coordinates);
     RUN(a_wheel_sticks_while_a_diode_turns_off);
+    RUN(a_current_overcomes_grips);
     RUN(wrong_uses_name_their_cure);
     RUN(a_puck_stops_on_a_straight_line);
     RUN(a_puck_on_a_slope_turns_down);

@@ -186,11 +186,12 @@ static Status find_side(const Phase *now, Slides *s, double low, double high, Di
 }
 
 /* Where one of several signs has reached its bound, others may reach theirs there too, and what
- * each has to hold a little later tells which ones leave. Coordinates are moved as they go. False:
- * there is but one. */
+ * each has to hold a little later tells which ones leave. Coordinates and states of networks are
+ * moved as they go. False: there is but one. */
 static bool look_ahead(const ModeSwitching *c, const Phase *now, Slides *s)
 {
     const Ode *ode = motion_ode(now->motion);
+    const VariableIndex *l = now->layout;
     double *rate = NEW_ARRAY(double, now->length);
     bool ends = false;
 
@@ -199,8 +200,9 @@ static bool look_ahead(const ModeSwitching *c, const Phase *now, Slides *s)
     ends = ends && s->count > 1 && ode->rate(ode->context, s->t, s->y, rate);
     if (ends) {
         s->soon += AHEAD * c->control.span;
-        for (int i = 0; i < now->layout->n; i++)
-            s->y_soon[i] += AHEAD * c->control.span * rate[i];
+        for (int i = 0; i < now->length - 1; i++) /* speeds remain on their surfaces */
+            if (i < l->n || i >= l->n + l->nu)
+                s->y_soon[i] += AHEAD * c->control.span * rate[i];
     }
     mem_free(rate);
     return ends;
