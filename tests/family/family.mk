@@ -319,6 +319,10 @@ FAMILIES += family_friction
 family_friction_SOURCES = tests/family/family_friction.c tests/family/family.h tests/family/units.h \
 	tests/random.h tests/unit/session_kit.h tests/unit/test.h
 family_friction_LDADD = libcotree.la $(unit_ldadd)
+FAMILIES += family_friction_limits
+family_friction_limits_SOURCES = tests/family/family_friction_limits.c tests/family/family.h \
+	tests/random.h tests/unit/session_kit.h tests/unit/test.h
+family_friction_limits_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_impacts
 family_impacts_SOURCES = tests/family/family_impacts.c tests/family/family.h \
 	tests/random.h tests/unit/session_kit.h tests/unit/test.h

@@ -217,6 +217,57 @@ static void a_rigid_one_way_clutch(void)
     kit_free(&kit);
 }
 
+/* A mass between stops that rubs, in bounces that become short beside errors: it never passes them,
+ * and rests on one until its force turns. */
+static void stops_beside_friction(void)
+{
+    static const char *const methods[] = {"dop853", "radau", "bdf", "ida"};
+    double first = 0;
+
+    for (int i = 0; i < 4; i++) {
+        Kit kit = kit_new();
+        char text[600];
+
+        (void)snprintf(text, sizeof text,
+                       PAIR "actuator l s1 force=2.4 + 10*sin(3.7*t + 5.8)\n"
+                            "spring k s1 k=12\nspring m s2 k=18\nfriction f s1 force=4\n"
+                            "friction g s2 force=1.4\nclutch c s2 s1 force=1.6\n"
+                            "stop w s1 low=-0.064 high=0.064 e=0.44\n"
+                            "init s1 = 0, s1' = 0, s2 = 0, s2' = 0\n"
+                            "simulate 2.1 method=%s rtol=1e-8\n",
+                       1.6, 3.3, methods[i]);
+        EXPECT_DONE(&kit, text);
+        EXPECT(is_near(kit_value(&kit, "max(s1)"), 0.064, 1e-8));
+        first = i == 0 ? kit_value(&kit, "s1'") : first;
+        EXPECT(is_near(kit_value(&kit, "s1'"), first, 1e-5));
+        kit_free(&kit);
+    }
+}
+
+/* A diode turns off while the wheel that its current drove rests on a stop. */
+static void a_stop_holds_while_a_diode_turns_off(void)
+{
+    static const char *const methods[] = {"dop853", "bdf", "adams"};
+
+    for (int i = 0; i < 3; i++) {
+        Kit kit = kit_new();
+        char text[600];
+
+        (void)snprintf(text, sizeof text,
+                       "scene planar\nbody a mass=1 inertia=1.03\nrevolute h ground a\n"
+                       "actuator l h torque=-5.67 + 7.75*sin(6.3*t + 1.27)\n"
+                       "friction f h torque=1.76\nstop w h low=-0.2328 high=0.2328 e=0.376\n"
+                       "vsource V p 0 5.26*sin(13.65*t)\ndiode D p q\n"
+                       "motor M h q 0 R=2.2 L=0.122 Kt=0.488\ninit h = 0, h' = 0\n"
+                       "simulate 0.93 method=%s rtol=1e-8\n",
+                       methods[i]);
+        EXPECT_DONE(&kit, text);
+        EXPECT(is_near(kit_value(&kit, "min(h)"), -0.2328, 1e-8));
+        EXPECT(is_near(kit_value(&kit, "h"), -0.2328, 1e-8));
+        kit_free(&kit);
+    }
+}
+
 static void values_are_checked(void)
 {
     Kit kit = kit_new();
@@ -250,6 +301,8 @@ int main(void)
     RUN(a_compliant_stop);
     RUN(a_compliant_stop_with_damping);
     RUN(a_rigid_one_way_clutch);
+    RUN(stops_beside_friction);
+    RUN(a_stop_holds_while_a_diode_turns_off);
     RUN(values_are_checked);
     return test_end();
 }

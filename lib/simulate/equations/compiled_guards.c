@@ -198,7 +198,9 @@ static void push_conditions(CompiledEquations *nb, Conditions *c)
             push_surface(nb, c, on);
         else if (number >= 0 && system_surface(l->system, number, &surface))
             push_condition(nb, c, variable_index_on_surfaces(l, surface.condition),
-                           (Guard){.surface = number, .is_norm = surface.part_count > 0});
+                           (Guard){.surface = number,
+                                   .is_unilateral = surface.is_unilateral,
+                                   .is_norm = surface.part_count > 0});
         else if (on < 0) /* else a surface monitors its kink */
             push_condition(nb, c, variable_index_on_surfaces(l, switches[i].condition),
                            (Guard){.surface = -1});

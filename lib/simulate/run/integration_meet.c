@@ -258,6 +258,8 @@ Status integration_meet_switch(Integration *m, int i, double when, bool *again, 
     integration_conditions_at(m, m->stepper->t);
     TRY(check_side(m, i, diag));
     m->band[i] = fmax(10 * fabs(m->conditions[i]), fmax(1e-10 * m->largest[i], m->noise[i]));
+    if (guard.is_unilateral) /* its largest size is that since it was left */
+        m->band[i] = fmax(m->band[i], integration_on_surface(m, i));
     m->mode[i] = is_margin ? 1 : -m->mode[i];
     TRY(check_pace(m, i, diag));
     integration_note_chatter(m, i, m->stepper->t);

@@ -138,6 +138,14 @@ static Status enter(Integration *m, const Segment *segment, double t, const doub
     return OK;
 }
 
+/* How far off a surface h is; negative: beyond it, where it has no other side, or errors led. */
+static double distance_from(const Guard *guard, double h)
+{
+    if (guard->is_unilateral)
+        return -h;
+    return guard->is_norm ? h : fabs(h);
+}
+
 /* what is known of the surface that condition i belongs to */
 static void meet_surface(Integration *m, int i, Meeting *out)
 {
@@ -145,9 +153,8 @@ static void meet_surface(Integration *m, int i, Meeting *out)
     bool near;
 
     m->largest[i] = fmax(m->largest[i], fabs(m->conditions[i]));
-    near =
-        i == m->root || guard.solved || guard.held ||
-        (guard.is_norm ? m->conditions[i] : fabs(m->conditions[i])) <= integration_on_surface(m, i);
+    near = i == m->root || guard.solved || guard.held ||
+           distance_from(&guard, m->conditions[i]) <= integration_on_surface(m, i);
     *out = (Meeting){guard.surface, .far = !near,
                      .settles = i == m->root && m->chatters[guard.surface].settles,
                      .rest = guard.is_norm ? integration_rest(m, i) : 0};

@@ -7,6 +7,7 @@
 
 #define NEAR     1e-10 /* of a condition's largest size: as location leaves it */
 #define ROUNDING 1e-14 /* of y */
+#define BEYOND   2     /* times as far as a unilateral surface was passed, it may be still */
 #define END      1e-9  /* of a sign: so far beyond its end it may begin */
 #define REST     1e-9  /* of the largest norm of a vector, */
 #define STILL    1e-13 /* or of y: such a norm counts as 0 */
@@ -50,10 +51,12 @@ void integration_begin_surfaces(Integration *m)
             continue;
         }
         m->largest[i] = fmax(m->largest[i], m->reach[guard.surface]);
-        if (guard.side != 0) {
-            m->mode[i] = guard.side;
-            if (fabs(m->conditions[i]) <= integration_on_surface(m, i))
-                m->band[i] = integration_on_surface(m, i);
-        }
+        if (guard.side == 0 && !guard.is_unilateral)
+            continue;
+        m->mode[i] = guard.is_unilateral ? -1 : guard.side;
+        if (fabs(m->conditions[i]) <= integration_on_surface(m, i))
+            m->band[i] = integration_on_surface(m, i);
+        else if (guard.is_unilateral)
+            m->band[i] = fmax(0, BEYOND * m->conditions[i]);
     }
 }
