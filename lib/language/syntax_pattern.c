@@ -13,9 +13,9 @@
 
 bool word_is_reserved(const char *word, size_t length)
 {
-    static const char *const words[] = {"t",          "pi",    "ground", "gnd",   "energy",
-                                        "constraint", "model", "count",  "modes", "linear",
-                                        "last",       "sweep", "fit"};
+    static const char *const words[] = {"t",          "pi",    "ground", "gnd",    "energy",
+                                        "constraint", "model", "count",  "modes",  "linear",
+                                        "last",       "sweep", "fit",    "optimum"};
 
     for (int i = 0; i < COUNT(words); i++)
         if (strlen(words[i]) == length && strncmp(words[i], word, length) == 0)

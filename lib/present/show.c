@@ -34,6 +34,7 @@ static const Topic topics[] = {
     {"sweep",        "runs of the last sweep: parameters, figures, reasons of failures", NEED_MODEL, OPERANDS_NOTHING, AS_TEXT, show_sweep},
     {"statistics",   "mean, deviation and quantiles over the last sweep",  NEED_MODEL,  OPERANDS_NOTHING, AS_TEXT,     show_statistics},
     {"fit",          "parameters of the last fit: values, errors, correlations", NEED_MODEL, OPERANDS_NOTHING, AS_TEXT, show_fit},
+    {"optimum",      "parameters of the last optimisation, its figure and constraints", NEED_MODEL, OPERANDS_NOTHING, AS_TEXT, show_optimum},
     {"init",         "initial values and guesses that were given",         NEED_MODEL,  OPERANDS_NOTHING, AS_TEXT,     show_init},
     {"settings",     "how the session computes and prints",                NEED_MODEL,  OPERANDS_NOTHING, AS_TEXT,     show_settings},
     {"program",      "what a run evaluates, what is hoisted, kept, skipped", NEED_RUNNING, OPERANDS_NOTHING, AS_TEXT,     show_program},

@@ -92,8 +92,9 @@ ShowFunction show_graph, show_nodes, show_edges, show_tree, show_incidence, show
     show_cutsets, show_structure;
 ShowFunction show_coordinates, show_constraints, show_jacobian, show_mass, show_forces,
     show_equations, show_network, show_events, show_sides;
-ShowFunction show_sweep, show_statistics, show_fit;
+ShowFunction show_sweep, show_statistics, show_fit, show_optimum;
 void fit_print(const View *view, const FitResult *fit, Text *out);
+void optimum_print(const View *view, const Optimum *optimum, Text *out);
 ShowFunction show_derivation, show_power, show_partition, show_complement;
 ShowFunction show_outputs, show_params, show_init, show_run, show_runs, show_settings, show_program;
 

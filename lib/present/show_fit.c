@@ -1,4 +1,4 @@
-/* show_fit.c: what a fit found */
+/* show_fit.c: what a fit or an optimisation found */
 #include "present/show.h"
 
 #include <math.h>
@@ -119,5 +119,107 @@ Status show_fit(const View *view, const Selection *selection, Text *out, Diag *d
         return E_MISSING;
     }
     fit_print(view, view->fit, out);
+    return OK;
+}
+
+/* --- an optimisation --- */
+
+static const char *bound_text(const OptimumParameter *parameter)
+{
+    return parameter->value <= parameter->low    ? "at its lower bound"
+           : parameter->value >= parameter->high ? "at its upper bound"
+                                                 : "";
+}
+
+static void print_optimal(const View *view, const Optimum *optimum, Text *out)
+{
+    Table table = table_of_columns(4);
+
+    table_cells(&table, "\tvalue\tinitial\t");
+    for (int i = 0; i < optimum->parameters.count; i++) {
+        const OptimumParameter *parameter = &optimum->parameters.at[i];
+        Text text = {0};
+        const double size = title(view, parameter->name, parameter->unit, &text);
+
+        table_cell(&table, text.at);
+        add_number(&table, DIGITS, parameter->value / size);
+        add_number(&table, DIGITS, parameter->start / size);
+        table_cell(&table, bound_text(parameter));
+        text_free(&text);
+    }
+    if (optimum->parameters.count > 0) {
+        Text text = {0};
+        const double size = title(view, optimum->figure, optimum->unit, &text);
+
+        table_cell(&table, text.at);
+        add_number(&table, DIGITS, optimum->value / size);
+        add_number(&table, DIGITS, optimum->start / size);
+        table_cell(&table, optimum->is_maximum ? "maximum" : "minimum");
+        text_free(&text);
+    }
+    table_blocks(out, &table, 0, view->page.columns);
+    table_free(&table);
+}
+
+/* a side with its unit, as the other may be written in another one */
+static void add_side(Table *table, double value, double size, const char *unit)
+{
+    if (isfinite(value))
+        table_cells(table, "%.*g%s%s", DIGITS, value == 0 ? 0.0 : value / size,
+                    unit[0] != '\0' ? " " : "", unit);
+    else
+        table_cell(table, "-");
+}
+
+static void print_constraints(const View *view, const Optimum *optimum, Text *out)
+{
+    Table table;
+
+    if (optimum->constraints.count == 0)
+        return;
+    table = table_of_columns(4);
+    table_cells(&table, "constraint\tleft\tright\t");
+    for (int i = 0; i < optimum->constraints.count; i++) {
+        const OptimumConstraint *constraint = &optimum->constraints.at[i];
+        Text unit = {0};
+        const double size =
+            constraint->unit[0] != '\0' ? view_unit(view, constraint->unit, &unit) : 1;
+
+        text_add(&unit, "");
+        table_cell(&table, constraint->text);
+        add_side(&table, constraint->left, size, unit.at);
+        add_side(&table, constraint->right, size, unit.at);
+        table_cell(&table, constraint->is_active ? "active" : "");
+        text_free(&unit);
+    }
+    text_char(out, '\n');
+    table_blocks(out, &table, 0, view->page.columns);
+    table_free(&table);
+}
+
+void optimum_print(const View *view, const Optimum *optimum, Text *out)
+{
+    Text line = {0};
+
+    print_optimal(view, optimum, out);
+    print_constraints(view, optimum, out);
+    text_addf(&line, "%s in %d runs%s",
+              optimum->is_stopped     ? "stopped"
+              : optimum->is_converged ? "converged"
+                                      : "not converged",
+              optimum->runs, optimum->is_feasible ? "" : "; not all constraints are met");
+    layout_words(out, view->page.columns, "", line.at);
+    text_free(&line);
+}
+
+Status show_optimum(const View *view, const Selection *selection, Text *out, Diag *diag)
+{
+    (void)selection;
+    if (view->optimum == NULL) {
+        (void)diag_set(diag, E_MISSING, "there is no optimum yet");
+        diag_hint(diag, "optimise k=[0, 20] minimise=max(h) : simulate 5");
+        return E_MISSING;
+    }
+    optimum_print(view, view->optimum, out);
     return OK;
 }

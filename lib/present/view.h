@@ -12,6 +12,7 @@
 #include "present/terminal_graph.h"
 #include "simulate/analyse/linearize.h"
 #include "simulate/fit/fit_result.h"
+#include "simulate/fit/optimum.h"
 #include "simulate/sweep/sweep_table.h"
 
 /* reads expressions over the user's variables at one instant: out[i] of items[i], 0 where it is no
@@ -46,6 +47,7 @@ typedef struct View {
     const Linear *linear;          /* the last linearisation; NULL */
     const SweepTable *sweep;       /* the last sweep; NULL */
     const FitResult *fit;          /* the last fit; NULL */
+    const Optimum *optimum;        /* of the last optimisation; NULL */
     const TerminalGraph *terminal; /* the graph with instances as their ports; NULL: as it is */
     const ViewInstant *instant;    /* where a topic shows values; NULL */
     DefinedLaws *defined; /* with laws that formulas call by name; NULL: they are written out */

@@ -30,6 +30,8 @@ libcore_la_SOURCES += \
   lib/session/session_model.h \
   lib/session/session_named_laws.c \
   lib/session/session_override.c \
+  lib/session/session_optimise.c \
+  lib/session/session_optimum_entry.c \
   lib/session/session_parameter_search.c \
   lib/session/session_parameter_search.h \
   lib/session/session_plot.c \

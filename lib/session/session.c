@@ -85,6 +85,8 @@ static void drop_runs(ct_session *session)
     session->sweep = NULL;
     fit_result_free(session->fit);
     session->fit = NULL;
+    optimum_free(session->optimum);
+    session->optimum = NULL;
     session->reporter = NULL;
     for (int i = 0; i < session->systems.count; i++)
         system_free(session->systems.at[i]);

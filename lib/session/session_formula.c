@@ -107,7 +107,8 @@ static const struct {
 } sizes[] = {{"model.", model_size},
              {"count.", count_size},
              {"sweep.", sweep_size},
-             {"fit.", fit_size_value}};
+             {"fit.", fit_size_value},
+             {"optimum.", optimum_size_value}};
 
 static int find_size(const char *path)
 {
@@ -138,7 +139,7 @@ static bool is_entry(const Syntax *syntax)
 {
     return syntax->kind == SYNTAX_CALL &&
            (session_entry(syntax->text) >= 0 || sweep_entry_is_called(syntax) ||
-            fit_entry_is_called(syntax));
+            fit_entry_is_called(syntax) || optimum_entry_is_called(syntax));
 }
 
 /* whether the model understands the whole subtree; run: the one that all its names have, 0: none */
@@ -444,13 +445,14 @@ done:
     return status;
 }
 
-/* fit.value(k) */
+/* fit.value(k), optimum.value(k) */
 static Status cut_fit(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
 {
     double value = 0;
     Status status;
 
-    CHECK(fit_entry_value(cut->session, syntax, &value, diag));
+    CHECK(optimum_entry_is_called(syntax) ? optimum_entry_value(cut->session, syntax, &value, diag)
+                                          : fit_entry_value(cut->session, syntax, &value, diag));
     *out = push_leaf(cut, (Leaf){.kind = LEAF_CONSTANT, .value = value, .run = -1});
 done:
     if (status != OK && diag->place.line == 0)
@@ -527,7 +529,7 @@ static Status cut_any(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
         return cut_size(cut, syntax, out, diag);
     if (sweep_entry_is_called(syntax))
         return cut_sweep(cut, syntax, out, diag);
-    if (fit_entry_is_called(syntax))
+    if (fit_entry_is_called(syntax) || optimum_entry_is_called(syntax))
         return cut_fit(cut, syntax, out, diag);
     if (is_entry(syntax))
         return cut_entry(cut, syntax, out, diag);

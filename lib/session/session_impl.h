@@ -14,6 +14,7 @@
 #include "present/show.h"
 #include "simulate/analyse/linearize.h"
 #include "simulate/fit/fit_result.h"
+#include "simulate/fit/optimum.h"
 #include "simulate/run/run.h"
 #include "simulate/sweep/sweep_table.h"
 
@@ -53,8 +54,10 @@ struct ct_session {
     Modes *modes;           /* and modes */
     SweepTable *sweep;      /* of the last sweep or Monte Carlo; NULL */
     FitResult *fit;         /* the last one; NULL */
+    Optimum *optimum;       /* likewise */
     uint64_t seed;          /* of random numbers */
     bool is_sweeping;       /* a run is one of many, which leave the model as it is */
+    double run_rtol;        /* of runs without rtol=; 0: the default */
     Report *reporter;       /* for ct_report(); NULL: as in runs */
     bool start_is_later;    /* a bare name means the start, not the end of the last run */
     bool changed;           /* since the last run */
@@ -257,6 +260,13 @@ MUST_USE Status fit_entry_value(const ct_session *session, const Syntax *call, d
                                 Diag *diag);
 MUST_USE Status fit_size_value(ct_session *session, const char *path, double *out, Diag *diag);
 bool fit_entry_dimension(const ct_session *session, const Syntax *call, Dimension *out);
+
+/* and of the last optimisation, optimum.value(k) and optimum.figure (session_optimum_entry.c) */
+bool optimum_entry_is_called(const Syntax *syntax);
+MUST_USE Status optimum_entry_value(const ct_session *session, const Syntax *call, double *out,
+                                    Diag *diag);
+MUST_USE Status optimum_size_value(ct_session *session, const char *path, double *out, Diag *diag);
+bool optimum_entry_dimension(const ct_session *session, const Syntax *call, Dimension *out);
 
 /* --- values --- */
 

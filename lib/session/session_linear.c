@@ -423,6 +423,8 @@ bool session_entry_dimension(void *context, const Syntax *call, Dimension *out)
         return sweep_entry_dimension(session, call, out);
     if (fit_entry_is_called(call))
         return fit_entry_dimension(session, call, out);
+    if (optimum_entry_is_called(call))
+        return optimum_entry_dimension(session, call, out);
     if (entry < 0 || entries[entry].of != NULL || session->linear == NULL || call->count != 2)
         return false;
     matrix = linear_matrix(session->linear, strchr(entries[entry].name, '.')[1]);

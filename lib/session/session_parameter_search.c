@@ -9,7 +9,7 @@
 #include <math.h>
 
 /* of the runs, where the statement has no rtol= */
-#define SEARCH_RTOL "1e-10"
+#define SEARCH_RTOL 1e-10
 
 const Syntax *statement_key(const Statement *statement, const char *name)
 {
@@ -29,30 +29,6 @@ const Syntax *syntax_list_item(const Syntax *list, int i)
     return list->kind == SYNTAX_VECTOR ? list->args[i] : list;
 }
 
-/* --- the statement of the runs --- */
-
-/* finer than by default where it says nothing of it */
-static void make_rest(ParameterSearch *search)
-{
-    const Statement *rest = search->statement->rest;
-    bool is_run = false;
-
-    search->rest = *rest;
-    search->rest.pairs.at = NULL;
-    search->rest.pairs.count = search->rest.pairs.room = 0;
-    for (int i = 0; i < rest->pairs.count; i++)
-        LIST_PUSH(search->rest.pairs, rest->pairs.at[i]);
-    for (int i = 0; verb_key(&rest->row, i) != NULL; i++)
-        is_run = is_run || strcmp(verb_key(&rest->row, i), "rtol") == 0;
-    search->tolerance = (Syntax){.kind = SYNTAX_NUMBER,
-                                 .text = SEARCH_RTOL,
-                                 .unit_text = "",
-                                 .height = 1,
-                                 .place = rest->place};
-    if (is_run && statement_key(rest, "rtol") == NULL)
-        LIST_PUSH(search->rest.pairs, (Pair){.name = "rtol", .value = &search->tolerance});
-}
-
 Status parameter_search_read(ParameterSearch *out, ct_session *session, const Statement *statement,
                              const char *purpose, const char *hint, Diag *diag)
 {
@@ -70,13 +46,11 @@ Status parameter_search_read(ParameterSearch *out, ct_session *session, const St
                         "modes may stand behind the colon");
         return E_VALUE;
     }
-    make_rest(out);
     return sweep_jobs(session, statement, &out->jobs, &out->has_jobs, diag);
 }
 
 void parameter_search_free(ParameterSearch *search)
 {
-    LIST_FREE(search->rest.pairs);
     LIST_FREE(search->unknowns);
 }
 
@@ -216,6 +190,7 @@ void parameter_search_begin(ParameterSearch *search)
     search->progress = session->watch.progress;
     session->watch.progress = NULL; /* the phases of each run are of no interest */
     session->is_sweeping = true;
+    session->run_rtol = SEARCH_RTOL;
 }
 
 void parameter_search_end(ParameterSearch *search)
@@ -224,6 +199,7 @@ void parameter_search_end(ParameterSearch *search)
 
     focus_clear(session, search->runs);
     session->is_sweeping = false;
+    session->run_rtol = 0;
     session->watch.progress = search->progress;
     focus_restore(session, &search->focus);
 }
@@ -246,7 +222,7 @@ Status parameter_search_run(ParameterSearch *search, const double *x, Diag *diag
     focus_clear(session, search->runs);
     TRY(monitor_poll(&session->watch));
     TRY(set_unknowns(search, x, diag));
-    return sweep_analysis(search->statement->rest)(session, &search->rest, diag);
+    return sweep_analysis(search->statement->rest)(session, search->statement->rest, diag);
 }
 
 void parameter_search_forget(const ParameterSearch *search)

@@ -32,8 +32,6 @@ typedef struct ParameterSearch {
     int evaluations;
     Diag why; /* of the first run that failed; status OK: none has */
 
-    Statement rest; /* of the runs, with their tolerance */
-    Syntax tolerance;
     int jobs;
     bool has_jobs;       /* jobs= or `set jobs` */
     int overrides, runs; /* of the session, before */

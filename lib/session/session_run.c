@@ -49,7 +49,7 @@ static Status switch_of(const Syntax *syntax, const char *key, bool *out, Diag *
 
 static Status read_options(ct_session *session, const Statement *s, RunOptions *out, Diag *diag)
 {
-    RunOptions options = {0};
+    RunOptions options = {.default_rtol = session->run_rtol};
     const struct {
         const char *key;
         const char *unit; /* atol applies to lengths, voltages ... equally, each in SI */

@@ -251,6 +251,7 @@ View session_view(const ct_session *session)
                   .linear = session->linear,
                   .sweep = session->sweep,
                   .fit = session->fit,
+                  .optimum = session->optimum,
                   .freedoms = session_freedoms(session),
                   .page = {.columns = session->hooks.columns,
                            .unicode = session->hooks.unicode,

@@ -1,8 +1,10 @@
 # unit tests of lib/simulate
 UNIT_TESTS += test_simulate_linear test_integration test_simulate_run test_simulate_cases \
-  test_result test_kkt_border test_sweep test_fit test_triangular
+  test_result test_kkt_border test_sweep test_fit test_optimiser test_triangular
 test_fit_SOURCES = tests/unit/test_fit.c tests/unit/test.h
 test_fit_LDADD = $(unit_ldadd)
+test_optimiser_SOURCES = tests/unit/test_optimiser.c tests/unit/test.h
+test_optimiser_LDADD = $(unit_ldadd)
 test_sweep_SOURCES = tests/unit/test_sweep.c tests/unit/test.h
 test_sweep_LDADD = $(unit_ldadd)
 test_kkt_border_SOURCES = tests/unit/test_kkt_border.c tests/unit/test.h

@@ -9,15 +9,16 @@
 #include "simulate/run/run_limits.h"
 
 typedef struct RunOptions {
-    double duration;    /* s */
-    double every;       /* output step, s; 0: duration / 500 */
-    double rtol;        /* 0: 1e-8 */
-    double atol;        /* times 1 m, 1 rad, 1 m/s, 1 A; 0: as rtol */
-    double step;        /* fixed or largest step, s; 0: free */
-    double most;        /* largest step, s, of all methods; 0: free */
-    const char *method; /* a row of methods.def; NULL: auto */
-    bool check;         /* run again, finer, and report the global error (global_error.h) */
-    bool realtime;      /* forward: wait for the clock after each step; steps are fixed */
+    double duration;     /* s */
+    double every;        /* output step, s; 0: duration / 500 */
+    double rtol;         /* 0: that of the next member */
+    double default_rtol; /* of many runs that are compared; 0: 1e-8 */
+    double atol;         /* times 1 m, 1 rad, 1 m/s, 1 A; 0: as rtol */
+    double step;         /* fixed or largest step, s; 0: free */
+    double most;         /* largest step, s, of all methods; 0: free */
+    const char *method;  /* a row of methods.def; NULL: auto */
+    bool check;          /* run again, finer, and report the global error (global_error.h) */
+    bool realtime;       /* forward: wait for the clock after each step; steps are fixed */
 } RunOptions;
 
 /* Solve Phi = 0 and the velocity constraints from initial values and guesses (any variables, in

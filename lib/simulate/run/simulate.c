@@ -97,7 +97,7 @@ static Status complete_options(const ActiveRun *r, const RunOptions *given, RunO
     if (out->every == 0)
         out->every = out->duration / 500;
     if (out->rtol == 0)
-        out->rtol = DEFAULT_RTOL;
+        out->rtol = out->default_rtol > 0 ? out->default_rtol : DEFAULT_RTOL;
     if (out->atol == 0)
         out->atol = out->rtol;
     TRY(check_rtol(out->rtol, diag));
