@@ -346,7 +346,7 @@ struct Component {
     Expr (*rotor)(const Instance *instance,
                   Arena *arena);    /* inertia on the joint's coordinate (motor J); NULL: none */
     int terminal_count;             /* of scalar parts; 0: two */
-    const char *terminal_usage;     /* " A B C D", for help; NULL: " PLUS MINUS" */
+    const char *terminal_usage;     /* " A B C D", for help; NULL: by the places */
     const ScalarEdge *scalar_edges; /* NULL: one from the first terminal to the second */
     int scalar_edge_count;
     /* of scalar edge `which`. In `motion` across and through are that edge's own, as the user's

@@ -185,6 +185,7 @@ const Component component_backlash = {
     .family = FAMILY_FORCE,
     .domain = DOMAIN_MECHANICAL,
     .places = PLACES_JOINTS,
+    .terminal_usage = " JOINT JOINT",
     .brief = "play between the coordinates of two joints",
     .params = backlash_params,
     .param_count = COUNT(backlash_params),

@@ -27,7 +27,7 @@ static const char *const forms[] = {
 
 void places_form(const Component *row, Text *out)
 {
-    if (row->places == PLACES_TERMINALS && row->terminal_usage != NULL)
+    if (row->terminal_usage != NULL)
         text_addf(out, "NAME%s", row->terminal_usage);
     else
         text_add(out, forms[row->places]);
