@@ -310,6 +310,68 @@ static void write_row(Member *member, const Row *r, Text *out)
         text_addf(out, "init s%d = %.17g, s%d' = %.17g\n", i, r->place[i], i, r->speed[i]);
 }
 
+/* Between terminals there are no loads and no stops: constant bounds and one-way clutches are in
+ * their place. */
+static void limit_to_terminals(Row *r)
+{
+    int kept = 0;
+
+    for (int k = 0; k < r->parts; k++) {
+        Part p = r->part[k];
+
+        if ((p.kind == ENDS || p.kind == GIVES) && p.sign < 0)
+            continue;
+        if (p.kind == RUBS_BY_LOAD)
+            p = (Part){RUBS, p.first, p.second, 1, .bound = 8 * p.bound};
+        else if (p.kind != RUBS)
+            p = (Part){DRIVES_ALONG, p.first, p.second, 1, .bound = p.gap > 0.3 ? 0 : 10 * p.gap};
+        if (p.kind == DRIVES_ALONG && p.bound == 0)
+            r->speed[p.first] = fmin(r->speed[p.first], p.second < 0 ? 0 : r->speed[p.second]);
+        r->part[kept++] = p;
+    }
+    r->parts = kept;
+}
+
+/* the same between the terminals of shafts or slides */
+static void write_terminals(Member *member, const Row *r, Text *out)
+{
+    const bool turns = member_one_of(member, 2) == 0;
+    const char *bound = turns ? "torque" : "force", *rate = turns ? "w" : "v";
+
+    for (int i = 0; i < r->count; i++) {
+        text_addf(out, "%s m%d a%d 0 %s=%.17g\ninit m%d.%s = %.17g\n", turns ? "flywheel" : "slug",
+                  i, i, turns ? "J" : "m", r->mass[i], i, rate, r->speed[i]);
+        text_addf(out, "%ssource l%d a%d 0 %.17g + %.17g*sin(%.17g*t + %.17g)\n", bound, i, i,
+                  r->constant[i], r->swing[i], r->pace[i], r->phase[i]);
+        if (r->spring[i] > 0)
+            text_addf(out, "%s k%d a%d 0 k=%.17g\ninit k%d.%s = 0\n", turns ? "shaft" : "rod", i, i,
+                      r->spring[i], i, bound);
+    }
+    for (int k = 0; k < r->parts; k++) {
+        const Part *p = &r->part[k];
+        char ends[16];
+
+        if (p->second < 0)
+            (void)snprintf(ends, sizeof ends, "a%d 0", p->first);
+        else
+            (void)snprintf(ends, sizeof ends, "a%d a%d", p->first, p->second);
+        if (p->kind == RUBS)
+            text_addf(out, "%s f%d %s %s=%.17g\n", p->second < 0 ? "friction" : "clutch", k, ends,
+                      bound, p->bound);
+        else if (p->bound > 0)
+            text_addf(out, "oneway o%d %s %s=%.17g\n", k, ends, bound, p->bound);
+        else
+            text_addf(out, "oneway o%d %s\n", k, ends);
+    }
+    if (r->has_motor)
+        text_addf(out,
+                  "vsource V p 0 %.17g*sin(%.17g*t)\ndiode D p q\nresistor R q n %.17g\n"
+                  "inductor L n e %.17g\nvsource E e 0 %.17g*m0.%s\n"
+                  "%ssource M a0 0 %.17g*L.i\ninit L.i = 0\n",
+                  r->voltage, r->frequency, r->resistance, r->inductance, r->constant_of_motor,
+                  rate, bound, r->constant_of_motor);
+}
+
 /* the value beside that of the finest steps */
 static bool is_near(Member *member, Kit *kit, const char *name, double coarse, double middle,
                     double fine)
@@ -319,7 +381,7 @@ static bool is_near(Member *member, Kit *kit, const char *name, double coarse, d
     return keeps(member, name, fabs(kit_value(kit, name) - fine), 2e-3 * (1 + fabs(fine)) + unsure);
 }
 
-static Verdict compare(Member *member, const Row *r, Kit *kit)
+static Verdict compare(Member *member, const Row *r, Kit *kit, bool joints)
 {
     State at[LEVELS];
     bool right = true;
@@ -327,33 +389,44 @@ static Verdict compare(Member *member, const Row *r, Kit *kit)
     for (int k = 0; k < LEVELS; k++)
         step_through(r, STEPS << k, &at[k]);
     for (int i = 0; i < r->count; i++) {
-        char name[16];
+        char name[64];
 
-        (void)snprintf(name, sizeof name, "s%d'", i);
+        if (joints)
+            (void)snprintf(name, sizeof name, "s%d'", i);
+        else
+            (void)snprintf(name, sizeof name, "m%d.momentum/%.17g", i, r->mass[i]);
         right = is_near(member, kit, name, at[0].v[i], at[1].v[i], at[2].v[i]) && right;
         (void)snprintf(name, sizeof name, "s%d", i);
-        right = is_near(member, kit, name, at[0].x[i], at[1].x[i], at[2].x[i]) && right;
+        if (joints)
+            right = is_near(member, kit, name, at[0].x[i], at[1].x[i], at[2].x[i]) && right;
     }
     if (r->has_motor)
-        right = is_near(member, kit, "M.i", at[0].current, at[1].current, at[2].current) && right;
+        right = is_near(member, kit, joints ? "M.i" : "L.i", at[0].current, at[1].current,
+                        at[2].current) &&
+                right;
     return right ? AGREES : DISAGREES;
 }
 
-static Verdict masses_rub_within_limits(Member *member)
+static Verdict run_row(Member *member, bool joints)
 {
     static const char *const methods[] = {"auto", "dop853", "radau", "bdf", "ida"};
     Row r;
     Text text = {0};
     Kit kit = kit_new();
-    Verdict verdict = DISAGREES;
+    Verdict verdict = REFUSED;
 
     draw(member, &r);
-    write_row(member, &r, &text);
+    if (joints) {
+        write_row(member, &r, &text);
+    } else {
+        limit_to_terminals(&r);
+        write_terminals(member, &r, &text);
+    }
     text_addf(&text, "simulate %.17g method=%s rtol=1e-8\n", r.end,
               methods[member_one_of(member, 5)]);
     tell(member, "%s", text.at);
     if (kit_do(&kit, text.at) == CT_OK)
-        verdict = compare(member, &r, &kit);
+        verdict = compare(member, &r, &kit, joints);
     else
         tell(member, "refused: %s\n", kit.error.message);
     text_free(&text);
@@ -361,10 +434,24 @@ static Verdict masses_rub_within_limits(Member *member)
     return verdict;
 }
 
+static Verdict masses_rub_within_limits(Member *member)
+{
+    return run_row(member, true);
+}
+
+static Verdict shafts_and_slides_rub_within_limits(Member *member)
+{
+    return run_row(member, false);
+}
+
 int main(int argc, char **argv)
 {
     static const Family families[] = {
-        {"masses_rub_within_limits", 60, 0, 0, masses_rub_within_limits}};
+        {"masses_rub_within_limits", 60, 0, 0, masses_rub_within_limits},
+        /* a diode whose voltage is 0 at the start, beside a rigid clutch there: methods with a
+         * history begin with steps too short to see it turn on */
+        {"shafts_and_slides_rub_within_limits", 40, 0.03, 0, shafts_and_slides_rub_within_limits},
+    };
 
     return family_main(families, (int)(sizeof families / sizeof families[0]), argc, argv);
 }
