@@ -336,6 +336,10 @@ struct Component {
     /* the force along the line (on the head, away from the tail) or the generalised force on the
      * joint's coordinate (on the head); NULL where it exerts none */
     Expr (*effort)(const Instance *instance, Arena *arena, const Motion1 *motion);
+    /* of friction between two frames or in a joint of several coordinates: the force or torque on
+     * the head against one component of their motion, whose norm is `speed`; NULL: there is but
+     * that one */
+    Expr (*rub)(const Instance *instance, Arena *arena, Expr rate, Expr speed);
     /* of a part that sticks: the most that its dry friction is at this rate, or at rest the most
      * that it holds */
     Expr (*bound)(const Instance *instance, Arena *arena, Expr rate, bool at_rest);
@@ -399,6 +403,7 @@ struct Instance {
     const struct EquationBlock *given;
     int joint; /* the instance whose coordinate it acts on; -1 */
     int joint_coordinate;
+    int rubbed; /* the joint against whose motion as a whole it acts; -1 */
     /* PLACES_JOINTS: the one whose coordinate the effort acts on with the other sign; -1 */
     int second_joint;
     int second_coordinate;

@@ -34,6 +34,7 @@ static const Param friction_params[] = {
     {"radius", PARAM_SCALAR, "m", "0", "with mu=, of a revolute: lever of the friction", 0},
     {"span", PARAM_SCALAR, "m", "0",
      "with mu=, of a prismatic: length over which it carries moments; 0: they press nothing", 0},
+    {"normal", PARAM_AXIS, "1", "z", "between frames: of the plane, in the axes of the tail", 0},
 };
 static const Param brake_params[] = {BOUNDS, STATIC};
 static const Param oneway_params[] = {BOUNDS};
@@ -131,19 +132,28 @@ static Expr friction_bound(const Instance *instance, Arena *arena, Expr rate, bo
                                   : bound;
 }
 
-/* what acts against the rate v, as far as it is positive */
-static Expr resistance(const Instance *instance, Arena *arena, Expr v)
+/* the sign of v, or where a speed is given the direction of v in it */
+static Expr direction_of(Arena *arena, Expr v, Expr speed, Expr ratio)
 {
-    const Expr ratio = instance_scalar(instance, "static");
+    return speed == NULL ? expr_call2(arena, OP_STICK, v, ratio)
+                         : expr_call(arena, OP_DIRECTION, (Expr[]){v, speed, ratio});
+}
+
+/* What acts against the rate v, as far as it is positive; speed: the norm of what v is a component
+ * of, or NULL. */
+static Expr resistance(const Instance *instance, Arena *arena, Expr v, Expr speed)
+{
+    const Expr ratio = instance_scalar(instance, "static"), one = expr_int(arena, 1);
     Expr dry;
 
     if (has_stribeck(instance))
         dry = expr_product(arena,
-                           (Expr[]){bound_of(instance, arena), stribeck_curve(instance, arena, v),
-                                    expr_call1(arena, OP_SIGN, v)},
+                           (Expr[]){bound_of(instance, arena),
+                                    stribeck_curve(instance, arena, speed != NULL ? speed : v),
+                                    direction_of(arena, v, speed, one)},
                            3);
     else
-        dry = expr_mul(arena, bound_of(instance, arena), expr_call2(arena, OP_STICK, v, ratio));
+        dry = expr_mul(arena, bound_of(instance, arena), direction_of(arena, v, speed, ratio));
     if (!has_param(instance, "viscous"))
         return dry;
     return expr_add(arena, dry, expr_mul(arena, instance_scalar(instance, "viscous"), v));
@@ -151,7 +161,12 @@ static Expr resistance(const Instance *instance, Arena *arena, Expr v)
 
 static Expr friction_effort(const Instance *instance, Arena *arena, const Motion1 *motion)
 {
-    return expr_neg(arena, resistance(instance, arena, motion->rate));
+    return expr_neg(arena, resistance(instance, arena, motion->rate, NULL));
+}
+
+static Expr friction_rub(const Instance *instance, Arena *arena, Expr rate, Expr speed)
+{
+    return expr_neg(arena, resistance(instance, arena, rate, speed));
 }
 
 static void friction_relation(const Instance *instance, Arena *arena, int which,
@@ -159,7 +174,7 @@ static void friction_relation(const Instance *instance, Arena *arena, int which,
 {
     (void)which;
     *out = (Relation){.kind = RELATION_CONDUCTIVE,
-                      .value = resistance(instance, arena, motion->across)};
+                      .value = resistance(instance, arena, motion->across, NULL)};
 }
 
 /* N - its value = 0, over the joint's reaction in the names that formulate/ gives to it */
@@ -305,13 +320,23 @@ static Status check_ratio(const Instance *instance, Diag *diag)
     return status;
 }
 
+static Status refuse_normal(const Instance *instance, Diag *diag)
+{
+    (void)diag_set(diag, E_VALUE, "normal= does not fit: %s acts in no plane between two frames",
+                   instance->name);
+    diag_hint(diag, "friction %s FRAME FRAME %s=... normal=z", instance->name,
+              instance->on_angle ? "force" : bound_name(instance));
+    diag_about(diag, "normal");
+    return E_VALUE;
+}
+
 static Status friction_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
     Status status;
 
     (void)arena;
     (void)planar;
-    if (has_param(instance, "mu"))
+    if (has_param(instance, "mu") && instance->row->rub == NULL)
         TRY(check_load(instance, diag));
     if (!is_by_load(instance))
         TRY(check_bound(instance, diag));
@@ -327,6 +352,32 @@ static Status friction_check(const Instance *instance, Arena *arena, bool planar
               instance->on_angle ? "0.1" : "0.01");
     diag_about(diag, "stribeck");
     return status;
+}
+
+static Status check_friction(const Instance *instance, Arena *arena, bool planar, Diag *diag)
+{
+    if (instance_value(instance, "normal")->given)
+        return refuse_normal(instance, diag);
+    return friction_check(instance, arena, planar, diag);
+}
+
+/* of several directions */
+static Status rub_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
+{
+    static const char *const by_load[] = {"mu", "radius", "span"};
+
+    for (int i = 0; i < COUNT(by_load); i++)
+        if (instance_value(instance, by_load[i])->given) {
+            (void)diag_set(diag, E_VALUE,
+                           "%s= does not fit: %s acts in several directions, and follows no load",
+                           by_load[i], instance->name);
+            diag_hint(diag, "give the bound: %s=mu*n", bound_name(instance));
+            diag_about(diag, "%s", by_load[i]);
+            return E_VALUE;
+        }
+    if (instance->rubbed >= 0 && instance_value(instance, "normal")->given)
+        return refuse_normal(instance, diag);
+    return friction_check(instance, arena, planar, diag);
 }
 
 static Status oneway_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
@@ -375,13 +426,29 @@ static const Component friction_by_load = {
     .relation = load_relation,
     .members = joint_members,
     .member_count = COUNT(joint_members),
-    .check = friction_check,
+    .check = check_friction,
+};
+
+/* between two frames, or in a joint of several coordinates */
+static const Component friction_in_directions = {
+    .name = "friction",
+    .sticks = true,
+    .family = FAMILY_FORCE,
+    .domain = DOMAIN_MECHANICAL,
+    .places = PLACES_LINK,
+    .params = friction_params,
+    .param_count = COUNT(friction_params),
+    .rub = friction_rub,
+    .bound = friction_bound,
+    .members = joint_members,
+    .member_count = COUNT(joint_members),
+    .check = rub_check,
 };
 
 #define clutch_params brake_params
-ROWS(friction, friction_relation, friction_check, NULL)
-static const Component *const friction_variants[] = {&friction_shaft, &friction_slide,
-                                                     &friction_by_load, NULL};
+ROWS(friction, friction_relation, check_friction, NULL)
+static const Component *const friction_variants[] = {
+    &friction_shaft, &friction_slide, &friction_by_load, &friction_in_directions, NULL};
 VARIANTS(brake, friction_relation, friction_check, NULL)
 VARIANTS(clutch, friction_relation, friction_check, NULL)
 VARIANTS(oneway, oneway_relation, oneway_check, oneway_is_rigid)
@@ -400,7 +467,7 @@ const Component component_friction = {
     .bound = friction_bound,
     .members = joint_members,
     .member_count = COUNT(joint_members),
-    .check = friction_check,
+    .check = check_friction,
     .help =
         "Dry friction on a joint's coordinate, or between two terminals of a shaft or slide: "
         "torque= on an angle, force= on a length, against the motion. At rest it holds up to "
@@ -410,7 +477,13 @@ const Component component_friction = {
         "With mu= the bound follows from the joint's reaction, NAME.load: of a revolute it is "
         "mu*radius times the norm of its force, in space with the component along the axis; of a "
         "prismatic it is mu times the norm of the force across its axis, plus that of its moment "
-        "over span=.",
+        "over span=.\n"
+        "On a planarjoint the bound is on the norm of the force in its plane, on a spherical or "
+        "another "
+        "joint of three turns on that of the torque: it slips against its motion, in any "
+        "direction. "
+        "Between two frames force= acts at the second one, against its sliding along the plane of "
+        "the first one that has the axis normal=. f.effort is the norm.",
     .example = "scene planar; gravity [0, -9.81]\nbody m mass=1\nprismatic s ground m axis=x\n"
                "friction f s force=5 static=1.2\nactuator l s force=2*t\n"
                "body b mass=2\narm top b [0, 0.5]\nrevolute h ground top\n"

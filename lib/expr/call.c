@@ -37,6 +37,7 @@ static double v_sqrt(const double *x)  { return sqrt(x[0]); }
 static double v_abs(const double *x)   { return fabs(x[0]); }
 static double v_sign(const double *x)  { return (x[0] > 0) - (x[0] < 0); }
 /* beyond 0, by more than rounding, it has no value */
+static double v_hypot(const double *x) { return hypot(x[0], x[1]); }
 static double v_direction(const double *x) { return x[1] > 0 ? x[0] / x[1] : 0; }
 static double v_unilateral(const double *x) { return x[0] > UNILATERAL_CLOSED ? (double)NAN : 0; }
 static double v_min(const double *x)   { return x[1] < x[0] ? x[1] : x[0]; }

@@ -49,6 +49,15 @@ static Expr d_atan2(Arena *arena, Expr e, const Expr *rates)
                     expr_add(arena, expr_square(arena, x), expr_square(arena, y)));
 }
 
+/* (x x' + y y')/hypot(x, y) */
+static Expr d_hypot(Arena *arena, Expr e, const Expr *rates)
+{
+    return expr_div(
+        arena,
+        expr_add(arena, expr_mul(arena, arg(e, 0), rates[0]), expr_mul(arena, arg(e, 1), rates[1])),
+        e);
+}
+
 /* (v' - v/n n')/n */
 static Expr d_direction(Arena *arena, Expr e, const Expr *rates)
 {

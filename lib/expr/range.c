@@ -222,6 +222,8 @@ static Range call(const RangeNode *node, const Range *all, const int *operands)
     case OP_FLOOR:
     case OP_HOLD:
         return node->op == OP_HOLD ? a : rising(node->op, a);
+    case OP_HYPOT:
+        return (Range){0, hypot(fmax(fabs(a.low), fabs(a.high)), fmax(fabs(b.low), fabs(b.high)))};
     case OP_DIRECTION:
         return (Range){-1, 1};
     case OP_UNILATERAL:

@@ -37,7 +37,7 @@ libcore_la_SOURCES += \
 	lib/formulate/dynamics/composite_mass.c lib/formulate/dynamics/composite_mass.h \
 	lib/formulate/dynamics/cutset_equations.c lib/formulate/dynamics/cutset_equations.h \
 	lib/formulate/dynamics/edge_power.c lib/formulate/dynamics/edge_power.h \
-	lib/formulate/dynamics/efforts.c lib/formulate/dynamics/efforts.h lib/formulate/dynamics/losses.c lib/formulate/dynamics/losses.h lib/formulate/dynamics/energy.c \
+	lib/formulate/dynamics/efforts.c lib/formulate/dynamics/efforts.h lib/formulate/dynamics/rubbing.c lib/formulate/dynamics/rubbing.h lib/formulate/dynamics/losses.c lib/formulate/dynamics/losses.h lib/formulate/dynamics/energy.c \
 	lib/formulate/dynamics/laws.c lib/formulate/dynamics/laws.h \
 	lib/formulate/dynamics/loads.c lib/formulate/dynamics/loads.h lib/formulate/dynamics/reactions.c \
 	lib/formulate/dynamics/reactions.h lib/formulate/dynamics/redundancy.c \

@@ -425,7 +425,7 @@ Instance *part_new(State *state, const Component *row, bool is_virtual)
     part->row = row;
     part->number = state->parts.count;
     part->is_virtual = is_virtual;
-    part->tail = part->head = part->edge = part->joint = part->second_joint = -1;
+    part->tail = part->head = part->edge = part->joint = part->second_joint = part->rubbed = -1;
     part->parts[0] = part->parts[1] = -1;
     part->by = part->by_coordinate = -1;
     part->values = pool_alloc(state->pool, sizeof *part->values * ((size_t)row->param_count + 1));

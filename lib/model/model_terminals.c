@@ -228,6 +228,52 @@ static Status link_places(PartDraft *draft)
     return on_joint(draft);
 }
 
+static bool is_frame_name(const State *state, const char *name)
+{
+    const Instance *part = name != NULL ? state_part(state, name) : NULL;
+
+    return name != NULL && (strcmp(name, "ground") == 0 || (part != NULL && part_is_frame(part)));
+}
+
+/* whether friction may act against all of a joint's shifts, or all of its turns, by one bound */
+static bool rubs_as_a_whole(const Instance *joint)
+{
+    int lengths = 0, angles = 0;
+
+    for (int i = 0; i < joint->coord_count; i++) {
+        lengths += joint->coord_kind[i] == COORDINATE_LENGTH;
+        angles += joint->coord_kind[i] != COORDINATE_LENGTH;
+    }
+    return lengths > 0 ? lengths == 2 && angles <= 1 : angles >= 3;
+}
+
+/* friction f p, on a joint of several coordinates, or friction f k1 k2 */
+static Status rubbed_places(PartDraft *draft)
+{
+    const char *name = NULL;
+    Instance *part = draft->part;
+    const Instance *joint;
+    Place place;
+
+    if (draft->statement->operands.count > 2)
+        return two_frames(draft);
+    TRY(next_name(draft, &name, &place));
+    joint = state_part(draft->state, name);
+    if (!rubs_as_a_whole(joint)) {
+        (void)diag_at(draft->diag, E_VALUE, place,
+                      "the motions of %s don't share one bound: %s acts on one coordinate", name,
+                      part->name);
+        diag_hint(draft->diag, "%s %s %s", part->row->name, part->name, joint->coord[0]);
+        return E_VALUE;
+    }
+    TRY(use_check_reach(draft->state, name, place, draft->diag));
+    part->rubbed = joint->number;
+    part->tail = joint->tail;
+    part->head = joint->head;
+    part->on_angle = joint->coord_kind[0] != COORDINATE_LENGTH;
+    return OK;
+}
+
 /* driver D1 h8 = 2*t: the first pair */
 static Status driven_coordinate(PartDraft *draft)
 {
@@ -457,25 +503,44 @@ static const Component *variant_find(const Component *row, Domain domain)
     return NULL;
 }
 
+/* between two frames, or in a joint that has several coordinates; NULL: another row */
+static const Component *row_that_rubs(const State *state, const Statement *statement,
+                                      const Component *row)
+{
+    const Component *found = variant_find(row, DOMAIN_MECHANICAL);
+    const char *first = syntax_name(statement->operands.at[1].value);
+    const Instance *joint = first != NULL ? state_part(state, first) : NULL;
+
+    if (found == NULL)
+        return NULL;
+    if (statement->operands.count > 2)
+        return is_frame_name(state, first) ? found : NULL;
+    return joint != NULL && joint->row->family == FAMILY_JOINT && joint->coord_count > 1 ? found
+                                                                                         : NULL;
+}
+
 /* mu= of friction asks for a row by the joint's load. The first place tells: a joint, or a terminal
  * that has a domain already; a new terminal is of a slide where a force is given, otherwise of a
  * shaft. */
 const Component *row_at_places(const State *state, const Statement *statement, const Component *row)
 {
     Domain domain = has_pair(statement, "force") ? DOMAIN_SLIDE : DOMAIN_SHAFT;
-    const Component *on_terminals, *by_load;
+    const Component *on_terminals, *by_load, *rubs;
 
     if (row->variants == NULL || statement->operands.count < 2)
         return row;
+    rubs = row_that_rubs(state, statement, row);
     by_load = has_pair(statement, "mu") ? variant_find(row, DOMAIN_LOAD) : NULL;
     for (int i = 1; i < 3 && i < statement->operands.count; i++) {
         const char *name = syntax_name(statement->operands.at[i].value);
 
-        if (name != NULL && state_names_joint(state, name))
+        if (name != NULL && rubs == NULL && state_names_joint(state, name))
             return by_load != NULL ? by_load : row;
         if (name != NULL && strcmp(name, "gnd") != 0 && names_find(state->terminals, name) >= 0)
             domain = terminal_domain(state, name);
     }
+    if (rubs != NULL)
+        return rubs;
     on_terminals = variant_find(row, domain);
     return on_terminals != NULL ? on_terminals : row->variants[0];
 }
@@ -497,7 +562,7 @@ Status part_draft_read_terminals(PartDraft *draft)
     case PLACES_ON:
         return on_frame(draft);
     case PLACES_LINK:
-        return link_places(draft);
+        return part->row->rub != NULL ? rubbed_places(draft) : link_places(draft);
     case PLACES_JOINT:
         TRY(on_joint(draft));
         return part->row->scalar_edges != NULL ? own_terminal(draft) : OK;

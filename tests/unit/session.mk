@@ -121,3 +121,7 @@ test_chart_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_stored
 test_stored_SOURCES = tests/unit/test_stored.c tests/unit/session_kit.h tests/unit/test.h
 test_stored_LDADD = $(unit_ldadd)
+
+UNIT_TESTS += test_rubbing
+test_rubbing_SOURCES = tests/unit/test_rubbing.c tests/unit/session_kit.h tests/unit/test.h
+test_rubbing_LDADD = $(unit_ldadd)

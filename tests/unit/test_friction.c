@@ -296,7 +296,7 @@ static void wrong_uses_name_their_cure(void)
         {HINGE "friction f h torque=1 viscous=-1\n", "viscous", ""},
         {HINGE "friction f h torque=1 nu=0.1\n", "'friction' has no key 'nu'", ""},
         {HINGE "friction f torque=1\n", "expected a place", "JOINT"},
-        {HINGE "friction f ground m torque=1\n", "ground", ""},
+        {HINGE "friction f ground m torque=1\n", "torque= does not fit", "use force="},
         {HINGE "friction f m torque=1\n", "m", ""},
         {HINGE "friction h h torque=1\n", "h", ""},
         {HINGE "clutch c h torque=1\n", "expected a place", "JOINT JOINT"},
@@ -559,10 +559,8 @@ static void frictions_of_all_kinds_lose_what_the_motion_had(void)
     "gravity [0, 0, -9.81]\nbody b mass=1 inertia=[0.1, 0.1, 0.1]\nplanarjoint p ground b\n"       \
     "init p.s1 = 0, p.s2 = 0, p.theta = 0, p.theta' = 0\n"
 #define RUBS(x, y, bound, ratio)                                                                   \
-    "actuator ax p.s1 force=" x "-" bound "*direction(p.s1', sqrt(p.s1'^2 + p.s2'^2), " ratio      \
-    ")\n"                                                                                          \
-    "actuator ay p.s2 force=" y "-" bound "*direction(p.s2', sqrt(p.s1'^2 + p.s2'^2), " ratio      \
-    ")\n"
+    "actuator ax p.s1 force=" x "-" bound "*direction(p.s1', hypot(p.s1', p.s2'), " ratio ")\n"    \
+    "actuator ay p.s2 force=" y "-" bound "*direction(p.s2', hypot(p.s1', p.s2'), " ratio ")\n"
 
 /* it goes straight on, and stops after v^2/(2 T/m) */
 static void a_puck_stops_on_a_straight_line(void)

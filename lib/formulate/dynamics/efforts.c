@@ -5,6 +5,7 @@
 #include "formulate/dynamics/efforts.h"
 #include "formulate/dynamics/laws.h"
 #include "formulate/dynamics/loads.h"
+#include "formulate/dynamics/rubbing.h"
 #include "formulate/dynamics/shapes.h"
 #include "formulate/kinematics/coordinate.h"
 #include "formulate/kinematics/frames.h"
@@ -144,6 +145,7 @@ static bool find_push(System *system, const Instance *instance, Pusher *out)
 {
     Vec force, torque;
     Effort effort;
+    FrictionLoad rubbing;
     int chain;
 
     *out = (Pusher){.name = instance->name};
@@ -152,6 +154,10 @@ static bool find_push(System *system, const Instance *instance, Pusher *out)
         out->count = 6;
         memcpy(out->value, force.at, sizeof force.at);
         memcpy(out->value + 3, torque.at, sizeof torque.at);
+    } else if (instance->row->rub != NULL &&
+               rubbing_of(system, instance, TAKE_ALL, &rubbing, NULL) == OK) {
+        out->count = rubbing.count;
+        memcpy(out->value, rubbing.effort, sizeof rubbing.effort);
     } else if (instance->row->effort != NULL && effort_of(system, instance, &effort, NULL) == OK) {
         out->count = 1;
         out->value[0] = effort.value;
@@ -166,24 +172,6 @@ bool system_pusher(System *system, int *next, Pusher *out)
         if (find_push(system, &system->origin->instances[(*next)++], out))
             return true;
     return false;
-}
-
-/* a force along a shift of a joint */
-static void add_shift(System *system, Loads *loads, const Instance *owner, const Step *shift,
-                      Expr effort)
-{
-    Arena *arena = system->arena;
-    const int chain = system->kinematics->frames[owner->tail].chain;
-    Vec force = {{shift->axis[0], shift->axis[1], shift->axis[2]}};
-    const Vec way =
-        vec_sub(arena, node_position(system, owner->head), node_position(system, owner->tail));
-
-    force = vec_scale(arena, effort, frame_vector(system, owner->tail, force));
-    loads_add_force(system, loads, owner->head, force, chain);
-    loads_add_force(system, loads, owner->tail, vec_neg(arena, force), chain);
-    /* the force on the tail acts at the head's position */
-    force = vec_express(system, force, chain, 0);
-    loads_add_torque(system, loads, owner->tail, vec_neg(arena, vec_cross(arena, way, force)), 0);
 }
 
 /* a torque on a screw that is a chord */
@@ -215,8 +203,8 @@ void loads_add_effort(System *system, Loads *loads, const Instance *owner, int c
     if (steps_are_tied(&steps) && !owner->is_virtual &&
         system->kinematics->coordinate[owner->number][coordinate] < 0) {
         add_tied(system, loads, owner, effort);
-        add_shift(system, loads, owner, &steps.shift[0],
-                  expr_div(arena, effort, steps.shift[0].scale));
+        loads_add_shift(system, loads, owner, &steps.shift[0],
+                        expr_div(arena, effort, steps.shift[0].scale));
         return;
     }
     for (int k = 0; k < steps.turn_count; k++) {
@@ -232,7 +220,7 @@ void loads_add_effort(System *system, Loads *loads, const Instance *owner, int c
     /* on a screw the coordinate is the angle, and the effort a torque */
     for (int k = 0; k < steps.shift_count && !steps_are_tied(&steps); k++)
         if (steps.shift[k].coordinate == coordinate)
-            add_shift(system, loads, owner, &steps.shift[k], effort);
+            loads_add_shift(system, loads, owner, &steps.shift[k], effort);
 }
 
 Status effort_add(System *system, const Instance *instance, Loads *loads, int take, Diag *diag)
@@ -248,6 +236,8 @@ Status effort_add(System *system, const Instance *instance, Loads *loads, int ta
         loads_add_force(system, loads, instance->head, force, chain);
         loads_add_torque(system, loads, instance->head, torque, chain);
     }
+    if (instance->row->rub != NULL)
+        return rubbing_add(system, instance, loads, take, diag);
     if (instance->row->effort == NULL || (instance->joint >= 0 && take != TAKE_ALL))
         return OK;
     TRY(effort_of(system, instance, &effort, diag));

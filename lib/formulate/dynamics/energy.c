@@ -5,6 +5,7 @@
  * their own terms. The power P (W) of sources minus losses satisfies d/dt(T + V) = P. */
 #include "formulate/dynamics/efforts.h"
 #include "formulate/dynamics/laws.h"
+#include "formulate/dynamics/rubbing.h"
 #include "formulate/dynamics/shapes.h"
 #include "formulate/kinematics/coordinate.h"
 #include "formulate/kinematics/frames.h"
@@ -310,11 +311,15 @@ Expr system_power(System *system)
     for (int i = 0; i < system->origin->instance_count; i++) {
         const Instance *instance = &system->origin->instances[i];
         Effort effort;
+        FrictionLoad rubbing;
 
         if (instance->row->wrench != NULL)
             push_wrench(system, &terms, instance);
         if (instance->row->effort != NULL && effort_of(system, instance, &effort, NULL) == OK)
             push(system, &terms, expr_int(arena, 1), lost_effort(system, &effort), effort.rate);
+        if (instance->row->rub != NULL &&
+            rubbing_of(system, instance, TAKE_ALL, &rubbing, NULL) == OK)
+            LIST_PUSH(terms, rubbing.power);
     }
     for (int i = 0; i < system->dynamics->elastics.count; i++)
         push_elastic(system, &system->dynamics->elastics.at[i], &terms);

@@ -6,6 +6,8 @@
 #include "formulate/kinematics/frames.h"
 #include "formulate/kinematics/identity.h"
 #include "formulate/kinematics/isomorphic.h"
+#include "formulate/kinematics/recursive.h"
+#include "formulate/system/kinematics.h"
 #include "formulate/system/origin.h"
 #include "formulate/system/system_impl.h"
 
@@ -298,4 +300,21 @@ Sums *loads_sum(const System *system, const Loads *loads, SumsFor whom)
     MEM_FREE(s.asks_force, s.asks_torque, s.forces, s.torques, s.force_key, s.torque_key,
              s.knows_force, s.knows_torque, s.alike);
     return sums;
+}
+
+void loads_add_shift(System *system, Loads *loads, const Instance *owner, const Step *shift,
+                     Expr effort)
+{
+    Arena *arena = system->arena;
+    const int chain = system->kinematics->frames[owner->tail].chain;
+    Vec force = {{shift->axis[0], shift->axis[1], shift->axis[2]}};
+    const Vec way =
+        vec_sub(arena, node_position(system, owner->head), node_position(system, owner->tail));
+
+    force = vec_scale(arena, effort, frame_vector(system, owner->tail, force));
+    loads_add_force(system, loads, owner->head, force, chain);
+    loads_add_force(system, loads, owner->tail, vec_neg(arena, force), chain);
+    /* the force on the tail acts at the head's position */
+    force = vec_express(system, force, chain, 0);
+    loads_add_torque(system, loads, owner->tail, vec_neg(arena, vec_cross(arena, way, force)), 0);
 }

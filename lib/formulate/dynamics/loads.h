@@ -41,6 +41,10 @@ void loads_add_mass(const System *system, Loads *loads, const struct Mass *mass,
                     const Vec *a);
 void loads_add_force(const System *system, Loads *loads, int node, Vec force, int chain);
 void loads_add_torque(const System *system, Loads *loads, int node, Vec torque, int chain);
+/* Adds a force along an axis of a part's tail, on its head, and reversed on its tail at that point.
+ */
+void loads_add_shift(System *system, Loads *loads, const Instance *owner, const Step *shift,
+                     Expr effort);
 /* Adds a force or torque `effort` along a coordinate of an instance: on its head, and reversed on
  * its tail. Along the coordinate of a screw that is a chord, it is the force on the shift that does
  * the same work. The motion rows do the same, as the shift determines the coordinate there. The two

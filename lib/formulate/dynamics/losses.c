@@ -6,6 +6,7 @@
 
 #include "formulate/dynamics/efforts.h"
 #include "formulate/dynamics/laws.h"
+#include "formulate/dynamics/rubbing.h"
 #include "formulate/network/scalar_edges.h"
 #include "formulate/system/network.h"
 #include "formulate/system/system_impl.h"
@@ -35,12 +36,19 @@ static Status find_slip(System *system, const Instance *part, Expr *rate, Expr *
     Arena *arena = system->arena;
     Branchlike *branch;
     Effort effort;
+    FrictionLoad rubbing;
     Expr through;
 
     if (part->row->effort != NULL) {
         TRY(effort_of(system, part, &effort, diag));
         *rate = effort.rate;
         *power = expr_neg(arena, expr_mul(arena, effort.value, effort.rate));
+        return OK;
+    }
+    if (part->row->rub != NULL) {
+        TRY(rubbing_of(system, part, TAKE_ALL, &rubbing, diag));
+        *rate = rubbing.speed;
+        *power = expr_neg(arena, rubbing.power);
         return OK;
     }
     branch = scalar_branch(system, part, 0);

@@ -6,6 +6,7 @@
 #include "formulate/expanded/expanded.h"
 #include "formulate/dynamics/efforts.h"
 #include "formulate/dynamics/laws.h"
+#include "formulate/dynamics/rubbing.h"
 #include "formulate/dynamics/shapes.h"
 #include "formulate/expanded/derivation.h"
 #include "formulate/expanded/derivation_impl.h"
@@ -127,6 +128,22 @@ static Status push_wrench(System *system, const Instance *instance, int j, int t
     return OK;
 }
 
+/* efforts times what speed j adds to their rates, which are linear in speeds */
+static Status push_rubbing(System *system, const Instance *instance, int j, int take, Terms *terms,
+                           Diag *diag)
+{
+    Arena *arena = system->arena;
+    FrictionLoad rubbing;
+
+    TRY(rubbing_of(system, instance, take, &rubbing, diag));
+    for (int k = 0; k < rubbing.count; k++)
+        push_term(terms, TERM_EFFORT, instance->number,
+                  expr_mul(arena, rubbing.effort[k],
+                           expr_diff(arena, expr_open(arena, rubbing.rate[k]),
+                                     system->kinematics->u.at[j].symbol)));
+    return OK;
+}
+
 /* what a law that contains u' adds to M */
 static Status push_inertia_of(System *system, const Instance *instance, int j, int k, Terms *terms,
                               Diag *diag)
@@ -139,6 +156,8 @@ static Status push_inertia_of(System *system, const Instance *instance, int j, i
         TRY(push_effort(system, instance, j, k, terms, diag));
     if (instance->row->wrench != NULL)
         TRY(push_wrench(system, instance, j, k, terms, diag));
+    if (instance->row->rub != NULL)
+        TRY(push_rubbing(system, instance, j, k, terms, diag));
     for (int i = first; i < terms->count; i++)
         terms->at[i] = (Term){.kind = TERM_ROTOR,
                               .edge = -1,
@@ -290,6 +309,8 @@ static Status push_forces(System *system, int j, bool apart, Terms *terms, Diag 
             TRY(push_wrench(system, instance, j, TAKE_AT_REST, terms, diag));
         if (instance->row->effort != NULL)
             TRY(push_effort(system, instance, j, TAKE_AT_REST, terms, diag));
+        if (instance->row->rub != NULL)
+            TRY(push_rubbing(system, instance, j, TAKE_AT_REST, terms, diag));
         TRY(push_rotor(system, instance, j, terms, diag));
     }
     for (int i = 0; i < system->dynamics->elastics.count; i++)

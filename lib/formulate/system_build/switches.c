@@ -5,6 +5,8 @@
  * side of a surface the functions that jump there are constant; on it they take any value
  * between. */
 #include "formulate/dynamics/efforts.h"
+#include "formulate/dynamics/laws.h"
+#include "formulate/dynamics/rubbing.h"
 #include "formulate/formulate_limits.h"
 #include "formulate/network/scalar_edges.h"
 #include "formulate/system/constraints.h"
@@ -435,10 +437,14 @@ static void push_values(System *system, const Instance *instance, SwitchesExprs 
 static void push_law(System *system, const Instance *instance, SwitchesExprs *stack)
 {
     Effort effort;
+    FrictionLoad rubbing;
     Expr value;
 
     if (!instance_sticks(instance))
         return;
+    if (instance->row->rub != NULL && rubbing_of(system, instance, TAKE_ALL, &rubbing, NULL) == OK)
+        for (int k = 0; k < rubbing.count; k++)
+            LIST_PUSH(*stack, rubbing.effort[k]);
     if (instance->row->effort != NULL && effort_of(system, instance, &effort, NULL) == OK)
         LIST_PUSH(*stack, effort.value);
     for (int k = 0; k < instance->scalar_count; k++)

@@ -5,8 +5,10 @@
 #include "component/equation_block.h"
 #include "formulate/dynamics/edge_power.h"
 #include "formulate/dynamics/efforts.h"
+#include "formulate/dynamics/laws.h"
 #include "formulate/dynamics/losses.h"
 #include "formulate/dynamics/reactions.h"
+#include "formulate/dynamics/rubbing.h"
 #include "formulate/dynamics/sections.h"
 #include "formulate/expanded/block_entry.h"
 #include "formulate/expanded/embedded.h"
@@ -256,6 +258,15 @@ static Status effort_variable(System *system, const Instance *instance, const ch
     (void)member;
     TRY(effort_of(system, instance, &effort, diag));
     *out = effort.value;
+    return OK;
+}
+
+static Status rubbing_variable(System *system, const Instance *instance, Expr *out, Diag *diag)
+{
+    FrictionLoad rubbing;
+
+    TRY(rubbing_of(system, instance, TAKE_ALL, &rubbing, diag));
+    *out = rubbing.norm;
     return OK;
 }
 
@@ -664,6 +675,8 @@ static Status member_variable(System *system, const char *path, Expr *out, Diag 
     case FAMILY_COUPLER:
         return coupler_variable(system, instance, member, out, diag);
     case FAMILY_FORCE:
+        if (instance->row->rub != NULL && strcmp(member, "effort") == 0)
+            return rubbing_variable(system, instance, out, diag);
         if (instance->row->effort != NULL)
             return effort_variable(system, instance, member, out, diag);
         break;

@@ -138,12 +138,16 @@ static Status enter(Integration *m, const Segment *segment, double t, const doub
     return OK;
 }
 
-/* How far off a surface h is; negative: beyond it, where it has no other side, or errors led. */
-static double distance_from(const Guard *guard, double h)
+/* How far condition i is from where its surface counts as met; 0 or less: it is met, as beyond a
+ * surface that has no other side. */
+static double distance_from(const Integration *m, int i)
 {
-    if (guard->is_unilateral)
-        return -h;
-    return guard->is_norm ? h : fabs(h);
+    const Guard guard = equations_guard(m->eq, i);
+    const double h = m->conditions[i];
+
+    if (guard.is_norm)
+        return h + m->rest[i] - integration_rest(m, i);
+    return (guard.is_unilateral ? -h : fabs(h)) - integration_on_surface(m, i);
 }
 
 /* what is known of the surface that condition i belongs to */
@@ -153,8 +157,7 @@ static void meet_surface(Integration *m, int i, Meeting *out)
     bool near;
 
     m->largest[i] = fmax(m->largest[i], fabs(m->conditions[i]));
-    near = i == m->root || guard.solved || guard.held ||
-           distance_from(&guard, m->conditions[i]) <= integration_on_surface(m, i);
+    near = i == m->root || guard.solved || guard.held || distance_from(m, i) <= 0;
     *out = (Meeting){guard.surface, .far = !near,
                      .settles = i == m->root && m->chatters[guard.surface].settles,
                      .rest = guard.is_norm ? integration_rest(m, i) : 0};

@@ -10,7 +10,8 @@
 #define BEYOND   2     /* times as far as a unilateral surface was passed, it may be still */
 #define END      1e-9  /* of a sign: so far beyond its end it may begin */
 #define REST     1e-9  /* of the largest norm of a vector, */
-#define STILL    1e-13 /* or of y: such a norm counts as 0 */
+#define STILL    1e-13 /* or of y, */
+#define ERROR    0.3   /* or of the absolute tolerance: such a norm counts as 0 */
 
 double integration_on_surface(const Integration *m, int i)
 {
@@ -24,7 +25,7 @@ double integration_rest(const Integration *m, int i)
     const Guard guard = equations_guard(m->eq, i);
     const double size = fmax(1, vector_largest(m->stepper->y, m->length - 1));
 
-    return fmax(m->rest[i],
+    return fmax(fmax(m->rest[i], ERROR * m->control.atol),
                 fmax(REST * fmax(m->largest[i], m->reach[guard.surface]), STILL * size));
 }
 

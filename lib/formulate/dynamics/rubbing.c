@@ -1,0 +1,157 @@
+/* rubbing.c: dry friction in two or three directions
+ *
+ * Sliding along the axes n_k of a plane of the tail: rates n_k.(v_head - v_tail - w_tail x d) with
+ * d from tail to head, or of a joint the rates of its shifts. Turning: the components of w_head -
+ * w_tail, in the axes of the head, where those of a joint that is a branch are its speeds. */
+#include "formulate/dynamics/rubbing.h"
+
+#include "formulate/dynamics/laws.h"
+#include "formulate/kinematics/coordinate.h"
+#include "formulate/kinematics/frames.h"
+#include "formulate/kinematics/recursive.h"
+#include "formulate/system/kinematics.h"
+#include "formulate/system/origin.h"
+#include "formulate/system/system_impl.h"
+
+static int resolve_class(const System *system, int node)
+{
+    return system->kinematics->chains.at[system->kinematics->frames[node].chain].resolve;
+}
+
+static Vec velocity(const System *system, int node)
+{
+    return vec_express(system, system->kinematics->frames[node].v, resolve_class(system, node), 0);
+}
+
+/* angular velocity of a frame in the axes of a class */
+static Vec turn_rate(const System *system, int node, int class)
+{
+    const int chain = system->kinematics->frames[node].chain;
+
+    return vec_express(system, system->kinematics->motions[chain].w, resolve_class(system, node),
+                       class);
+}
+
+static void add_direction(FrictionLoad *r, Vec axis, Expr rate)
+{
+    if (expr_is_zero(rate))
+        return;
+    r->axis[r->count] = axis;
+    r->rate[r->count++] = rate;
+}
+
+static void find_turns(const System *system, const Instance *instance, FrictionLoad *r)
+{
+    Arena *arena = system->arena;
+    const int own = resolve_class(system, instance->head);
+    const Vec w = vec_sub(arena, turn_rate(system, instance->head, own),
+                          turn_rate(system, instance->tail, own));
+
+    r->turns = true;
+    for (int k = 0; k < 3; k++) {
+        Vec axis = vec_zero(arena);
+
+        axis.at[k] = expr_int(arena, 1);
+        add_direction(r, axis, expr_name_temporary(arena, w.at[k]));
+    }
+}
+
+/* along the plane with that normal, in the axes of the tail */
+static void find_slides(System *system, const Instance *instance, const Expr *normal,
+                        FrictionLoad *r)
+{
+    Arena *arena = system->arena;
+    const Vec way = vec_sub(arena, node_position(system, instance->head),
+                            node_position(system, instance->tail));
+    const Vec carried = vec_cross(arena, turn_rate(system, instance->tail, 0), way);
+    const Vec v = vec_sub(
+        arena, vec_sub(arena, velocity(system, instance->head), velocity(system, instance->tail)),
+        carried);
+    const int chain = system->kinematics->frames[instance->tail].chain;
+    Vec axis[2];
+
+    axis_complement(arena, normal, axis[0].at, axis[1].at);
+    for (int k = 0; k < 2; k++) {
+        const Vec seen =
+            vec_express(system, frame_vector(system, instance->tail, axis[k]), chain, 0);
+
+        add_direction(r, axis[k], expr_name_temporary(arena, vec_dot(arena, seen, v)));
+    }
+}
+
+/* the shifts of a joint, or its turns */
+static Status find_joint(System *system, const Instance *instance, FrictionLoad *r, Diag *diag)
+{
+    const Instance *joint = &system->origin->instances[instance->rubbed];
+    Steps steps;
+
+    instance_steps(system, joint, &steps);
+    if (steps.shift_count == 0) {
+        find_turns(system, instance, r);
+        return OK;
+    }
+    for (int k = 0; k < steps.shift_count; k++) {
+        const Expr *along = steps.shift[k].axis;
+        Expr rate;
+
+        TRY(coordinate_value(system, joint, steps.shift[k].coordinate, 1, &rate, diag));
+        add_direction(r, (Vec){{along[0], along[1], along[2]}}, rate);
+    }
+    return OK;
+}
+
+/* Squares of differences would be multiplied out, and lose what is left of them near 0. */
+static Expr norm_of(Arena *arena, const Expr *v, int count)
+{
+    Expr norm = count > 0 ? v[0] : expr_int(arena, 0);
+
+    if (count == 1)
+        return expr_call1(arena, OP_ABS, norm);
+    for (int k = 1; k < count; k++)
+        norm = expr_call2(arena, OP_HYPOT, norm, v[k]);
+    return norm;
+}
+
+Status rubbing_of(System *system, const Instance *instance, int take, FrictionLoad *out, Diag *diag)
+{
+    Arena *arena = system->arena;
+    FrictionLoad r = {.power = expr_int(arena, 0)};
+
+    if (instance->rubbed >= 0)
+        TRY(find_joint(system, instance, &r, diag));
+    else
+        find_slides(system, instance, instance_value(instance, "normal")->at, &r);
+    r.speed = norm_of(arena, r.rate, r.count);
+    for (int k = 0; k < r.count; k++) {
+        r.effort[k] = instance->row->rub(instance, arena, r.rate[k], r.count > 1 ? r.speed : NULL);
+        TRY(law_read(system, instance, r.effort[k], &r.effort[k], diag));
+        TRY(law_add(system, instance, take, &r.effort[k], diag));
+        r.power = expr_add(arena, r.power, expr_mul(arena, r.effort[k], r.rate[k]));
+    }
+    r.norm = norm_of(arena, r.effort, r.count);
+    *out = r;
+    return OK;
+}
+
+Status rubbing_add(System *system, const Instance *instance, Loads *loads, int take, Diag *diag)
+{
+    Arena *arena = system->arena;
+    const int own = resolve_class(system, instance->head);
+    Vec torque = vec_zero(arena);
+    FrictionLoad r;
+
+    TRY(rubbing_of(system, instance, take, &r, diag));
+    for (int k = 0; k < r.count; k++) {
+        const Step along = {.axis = {r.axis[k].at[0], r.axis[k].at[1], r.axis[k].at[2]}};
+
+        if (r.turns)
+            torque = vec_add(arena, torque, vec_scale(arena, r.effort[k], r.axis[k]));
+        else
+            loads_add_shift(system, loads, instance, &along, r.effort[k]);
+    }
+    if (r.turns) {
+        loads_add_torque(system, loads, instance->head, torque, own);
+        loads_add_torque(system, loads, instance->tail, vec_neg(arena, torque), own);
+    }
+    return OK;
+}
