@@ -257,18 +257,43 @@ static bool leave(Search *s)
     return any;
 }
 
+/* Where the kinetic signs of others turn a surface back that was left, it is solved for again
+ * beside them. Whether there is any. */
+static bool reopen(Search *s)
+{
+    bool any = false;
+
+    for (int i = 0; i < s->n; i++) {
+        SurfaceSide *at = &s->at[i];
+        double slip = s->a[i];
+
+        for (int k = 0; k < s->n; k++)
+            slip += s->b[i * s->n + k] * s->signs[k];
+        if (!at->is_fixed || at->is_known || at->side * slip >= -WRONG * s->largest)
+            continue;
+        at->is_fixed = false;
+        at->side = 0;
+        any = true;
+    }
+    return any;
+}
+
 static bool solve_problem(Search *s)
 {
-    bool found;
+    bool found = false;
 
     for (int i = 0; i < s->n; i++) {
         s->at[i].is_fixed = s->at[i].is_known;
         if (s->at[i].cone > 0)
             s->at[i].is_left = s->at[i].is_known || s->at[i].leaves;
     }
-    do
-        found = solve_sides(s);
-    while (found && leave(s));
+    for (int turn = 0;; turn++) {
+        do
+            found = solve_sides(s);
+        while (found && leave(s));
+        if (!found || turn == s->n || !reopen(s))
+            break;
+    }
     return found;
 }
 

@@ -9,9 +9,9 @@
  * does. Where B_ii > 0 what jumps pushes away, and nothing slides there.
  *
  * r is above 1 where static friction is larger than kinetic: a surface that is left then has the
- * sign +-1, and the others are solved for again. At most as many rounds as surfaces. Where a
- * surface is unilateral s is the effort that keeps h from being positive: 0 where it is left to h <
- * 0.
+ * sign +-1, and the others are solved for again; so is one that was left where those turn it back.
+ * At most as many rounds as surfaces. Where a surface is unilateral s is the effort that keeps h
+ * from being positive: 0 where it is left to h < 0.
  *
  * Surfaces in a row may be a cone, as friction in a plane is: r bounds the norm of their signs, and
  * they are all slid along or all left, with slip = c s, c >= 0, |s| = r. The side of what is left

@@ -70,6 +70,9 @@ test_keys_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_friction
 test_friction_SOURCES = tests/unit/test_friction.c tests/unit/session_kit.h tests/unit/test.h
 test_friction_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_friction_arm
+test_friction_arm_SOURCES = tests/unit/test_friction_arm.c tests/unit/session_kit.h tests/unit/test.h
+test_friction_arm_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_friction_by_load
 test_friction_by_load_SOURCES = tests/unit/test_friction_by_load.c tests/unit/session_kit.h \
 	tests/unit/test.h
