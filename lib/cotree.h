@@ -59,6 +59,11 @@ typedef struct ct_hooks {
     /* what `set` takes beside the session's own settings, for completion: a name, the words it may
      * be set to, NULL; NULL instead: no more; may be NULL */
     const char *const *(*setting)(void *context, int i);
+    /* Files of rows of sweeps: `append` adds bytes at the end of one, which need not exist;
+     * `content` is what it has, new, malloc(); NULL: there is no such file. Each returns or sets
+     * what failed: new, malloc(); NULL: nothing. Without the hooks no such files are written. */
+    char *(*append)(void *context, const char *name, const char *bytes, size_t length);
+    char *(*content)(void *context, const char *name, char **why);
     bool unicode; /* Greek letters, dots, superscripts in what is shown */
     int columns;  /* width to wrap shown text to; 0: never */
     /* that shown numbers are in: "mm deg rpm"; the caller's, as long as the session; NULL: SI */

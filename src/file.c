@@ -197,6 +197,29 @@ ct_status file_write(const char *path, const char *text, size_t length, bool app
     return status;
 }
 
+ct_status file_read(const char *path, char **text, ct_error *error)
+{
+    FILE *file = fopen(path, "re");
+    size_t length = 0, room = 0, got = 1;
+    char *at = NULL;
+
+    if (file == NULL)
+        return say(error, "read", path);
+    while (got > 0) {
+        if (room - length < BUFSIZ)
+            at = check_allocated(realloc(at, (room = 2 * room + BUFSIZ) + 1));
+        got = fread(at + length, 1, room - length, file);
+        length += got;
+    }
+    at[length] = '\0';
+    *text = at;
+
+    ct_status status = ferror(file) ? say(error, "read", path) : CT_OK;
+
+    fclose(file);
+    return status;
+}
+
 bool file_has_content(const char *path)
 {
     struct stat info;

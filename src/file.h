@@ -17,6 +17,8 @@ ct_status file_may_write(const char *path, ct_error *error);
  * directly. CT_FAILED with a message naming the file. */
 ct_status file_write(const char *path, const char *text, size_t length, bool append,
                      ct_error *error);
+/* the whole of a text file into *text, which is new */
+ct_status file_read(const char *path, char **text, ct_error *error);
 bool file_has_content(const char *path);
 /* without its end; new; NULL: it can't be read */
 char *file_first_line(const char *path);

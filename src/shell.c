@@ -45,6 +45,32 @@ static char *hook_find_file(void *context, const char *name)
     return path;
 }
 
+static char *text_of(const ct_error *error)
+{
+    return copy_text(error->message);
+}
+
+/* a file of rows is one to be written: a --safe session has none */
+static char *hook_append(void *context, const char *name, const char *bytes, size_t length)
+{
+    ct_error why;
+
+    (void)context;
+    return file_write(name, bytes, length, true, &why) == CT_OK ? NULL : text_of(&why);
+}
+
+static char *hook_content(void *context, const char *name, char **why)
+{
+    char *text = NULL;
+    ct_error error;
+
+    (void)context;
+    if (file_may_write(name, &error) != CT_OK ||
+        (access(name, F_OK) == 0 && file_read(name, &text, &error) != CT_OK))
+        *why = text_of(&error);
+    return text;
+}
+
 static const char *const *hook_setting(void *context, int i)
 {
     (void)context;
@@ -58,6 +84,8 @@ static void set_width(Shell *shell, int columns)
                       .stop = hook_stop,
                       .progress = hook_progress,
                       .find_file = hook_find_file,
+                      .append = hook_append,
+                      .content = hook_content,
                       .setting = hook_setting,
                       .unicode = shell->unicode,
                       .columns = columns,

@@ -44,6 +44,7 @@ libcore_la_SOURCES += \
   lib/session/session_sweep.c \
   lib/session/session_sweep.h \
   lib/session/session_sweep_entry.c \
+  lib/session/session_sweep_file.c \
   lib/session/session_sweep_plan.c \
   lib/session/session_sweep_sets.c \
   lib/session/session_systems.c \

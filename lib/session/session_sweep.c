@@ -147,6 +147,7 @@ typedef struct SweepWork {
     ct_session *session;
     const Statement *statement;
     SweepTable *table;
+    SweepFile *file;
     bool *is_made;        /* each row; planned */
     int made;             /* rows */
     int overrides, runs;  /* of the session, before */
@@ -194,6 +195,22 @@ static void take_row(SweepWork *work, int row, Status status, const Diag *diag)
     work->made++;
 }
 
+/* the same of a row that is complete: it is added to the file of rows, too */
+static void finish_row(SweepWork *work, int row, Status status, const Diag *diag)
+{
+    Diag why = {0};
+
+    take_row(work, row, status, diag);
+    if (!work->is_made[row])
+        return;
+    status = sweep_file_add(work->file, work->table, row, &why);
+    if (status != OK) {
+        work->failed_row = row;
+        work->failed_status = status;
+        work->fatal = why;
+    }
+}
+
 static Status make_row(SweepWork *work, int row, Diag *diag)
 {
     Status status;
@@ -229,7 +246,7 @@ static Status make_rows_here(SweepWork *work, int end)
             return status;
         /* from now on there is something to lose */
         transaction_stop_asking();
-        take_row(work, row, status, &why);
+        finish_row(work, row, status, &why);
     }
     return OK;
 }
@@ -243,6 +260,8 @@ static void work_on_row(void *context, int row, void *result)
     const int figures = table->columns.count - table->parameter_count;
     RowResult *out = result;
 
+    if (work->is_made[row])
+        return;
     work->session->watch.stop = NULL;
     out->status = make_row(work, row, &out->diag);
     memcpy((char *)result + sizeof *out, sweep_table_row(table, row) + table->parameter_count,
@@ -256,10 +275,12 @@ static void take_result(void *context, int row, const void *result)
     const int figures = table->columns.count - table->parameter_count;
     RowResult got;
 
+    if (work->is_made[row])
+        return;
     memcpy(&got, result, sizeof got);
     memcpy(sweep_table_row(table, row) + table->parameter_count, (const char *)result + sizeof got,
            (size_t)figures * sizeof(double));
-    take_row(work, row, got.status, &got.diag);
+    finish_row(work, row, got.status, &got.diag);
 }
 
 static void lose_row(void *context, int row, const char *why)
@@ -283,7 +304,6 @@ static void make_rows_in_workers(SweepWork *work, int jobs)
     const SweepTable *table = work->table;
     const int figures = table->columns.count - table->parameter_count;
     const WorkPlan plan = {
-        .first = work->made,
         .end = table->planned,
         .workers = jobs < table->planned - work->made ? jobs : table->planned - work->made,
         .size = sizeof(RowResult) + (size_t)figures * sizeof(double),
@@ -319,15 +339,25 @@ static void end_table(SweepWork *work)
             table->reasons[row] = mem_text("stopped", strlen("stopped"));
 }
 
+static int first_to_make(const SweepWork *work)
+{
+    int row = 0;
+
+    while (row < work->table->planned - 1 && work->is_made[row])
+        row++;
+    return row;
+}
+
 /* The first run is made here: it forms the equations, which workers then share. Rows are kept after
  * a stop. */
-static Status run_rows(ct_session *session, const Statement *s, SweepTable *table, int jobs,
-                       bool given, Diag *diag)
+static Status run_rows(ct_session *session, const Statement *s, SweepTable *table, SweepFile *file,
+                       int jobs, bool given, Diag *diag)
 {
     void (*progress)(void *, const char *, double) = session->watch.progress;
     SweepWork work = {.session = session,
                       .statement = s,
                       .table = table,
+                      .file = file,
                       .is_made = NEW_ARRAY(bool, table->planned),
                       .overrides = model_override_count(session->model),
                       .runs = session->runs.count,
@@ -336,8 +366,14 @@ static Status run_rows(ct_session *session, const Statement *s, SweepTable *tabl
     const double began = clock_now();
     Status status;
 
+    status = sweep_file_open(file, table, work.is_made, diag);
+    if (status != OK) {
+        mem_free(work.is_made);
+        return status;
+    }
+    work.made = file->old;
     session->watch.progress = NULL; /* the phases of each run are of no interest */
-    status = make_rows_here(&work, 1);
+    status = make_rows_here(&work, first_to_make(&work) + 1);
     if (status == OK && jobs > 1 && work.failed_row < 0 && table->planned - work.made > 1 &&
         is_worth_workers(&work, clock_now() - began, given))
         make_rows_in_workers(&work, jobs);
@@ -360,13 +396,16 @@ static Status run_rows(ct_session *session, const Statement *s, SweepTable *tabl
     return status;
 }
 
-static void remark_rows(ct_session *session, const Statement *s, const SweepTable *table)
+static void remark_rows(ct_session *session, const Statement *s, const SweepTable *table,
+                        const SweepFile *file)
 {
     Text line = {0};
 
     text_addf(&line, "%s: %d run%s", s->verb, table->rows, table->rows == 1 ? "" : "s");
     if (table->rows < table->planned)
         text_addf(&line, " of %d", table->planned);
+    if (file->old > 0)
+        text_addf(&line, ", %d of them from '%s'", file->old, file->name->text);
     if (table->failures > 0)
         text_addf(&line, ", %d failed", table->failures);
     text_addf(&line, ", %.2g s; 'show %s' prints %s", table->wall,
@@ -407,6 +446,7 @@ Status session_sweep(ct_session *session, const Statement *s, Diag *diag)
 {
     SessionFocus focus;
     SweepTable *table = NULL;
+    SweepFile file;
     int jobs;
     bool given;
     Status status;
@@ -414,20 +454,22 @@ Status session_sweep(ct_session *session, const Statement *s, Diag *diag)
     CHECK(check_rest(s, diag));
     CHECK(sweep_jobs(session, s, &jobs, &given, diag));
     CHECK(sweep_plan(session, s, &table, diag));
+    CHECK(sweep_file_plan(session, s, &table, &file, diag));
     focus_put_aside(session, &focus);
     session->is_sweeping = true;
-    status = run_rows(session, s, table, jobs, given, diag);
+    status = run_rows(session, s, table, &file, jobs, given, diag);
     session->is_sweeping = false;
     focus_restore(session, &focus);
     if ((status != OK && status != E_STOPPED) || table->rows == 0)
         goto done;
     session->reporter = report_nothing;
-    remark_rows(session, s, table);
+    remark_rows(session, s, table, &file);
     if (status == OK && !has_figure(table)) {
         const Diag why = *diag;
 
-        status = diag_at(diag, why.status, why.place, "all %d runs failed; the first: %.400s",
-                         table->rows, table->reasons[0]);
+        status = diag_at(diag, why.status != OK ? why.status : E_VALUE,
+                         why.status != OK ? why.place : s->verb_place,
+                         "all %d runs failed; the first: %.400s", table->rows, table->reasons[0]);
         diag_hint(diag, "%s", why.hint);
     } else {
         remark_failures(session, table);

@@ -28,6 +28,28 @@ MUST_USE Status sweep_number(ct_session *session, const char *name, const Syntax
 /* how many processes share the runs: jobs=, what is set, or all processors; *given: not the last */
 MUST_USE Status sweep_jobs(ct_session *session, const Statement *statement, int *out, bool *given,
                            Diag *diag);
+/* --- rows in a file (session_sweep_file.c) --- */
+
+/* of a row that no file has */
+#define SWEEP_MISSING    "missing"
+#define SWEEP_MOST_PARTS 1000000
+
+/* file= and part=: rows part, part + parts ... of those planned */
+typedef struct SweepFile {
+    ct_session *session;
+    const Syntax *name; /* NULL: rows are written to no file */
+    int part, parts;
+    int planned; /* rows of all parts */
+    int old;     /* rows that the file had */
+    uint64_t fingerprint;
+} SweepFile;
+/* What the statement says of it; *table then has the rows of the part alone. */
+MUST_USE Status sweep_file_plan(ct_session *session, const Statement *statement, SweepTable **table,
+                                SweepFile *out, Diag *diag);
+/* Read the rows that the file has, and write its head if it has none. */
+MUST_USE Status sweep_file_open(SweepFile *file, SweepTable *table, bool *is_made, Diag *diag);
+MUST_USE Status sweep_file_add(const SweepFile *file, const SweepTable *table, int row, Diag *diag);
+
 /* the figure i of keep=; NULL: there are no more */
 const Syntax *sweep_kept(const Statement *statement, int i);
 

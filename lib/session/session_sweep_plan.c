@@ -303,8 +303,9 @@ static Status read_pair(SweepPlan *plan, const Pair *pair, bool is_random)
         plan->keep = pair->value;
         return OK;
     }
-    if (strcmp(pair->name, "jobs") == 0)
-        return OK; /* sweep_jobs() */
+    if (strcmp(pair->name, "jobs") == 0 || strcmp(pair->name, "file") == 0 ||
+        strcmp(pair->name, "part") == 0)
+        return OK; /* sweep_jobs(), sweep_file_plan() */
     if (is_random && strcmp(pair->name, "correlation") == 0) {
         plan->correlation = pair->value;
         return OK;
