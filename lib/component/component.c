@@ -403,6 +403,22 @@ static const Member joint_spatial[] = {
     {"effort", NULL,  "force or moment along the coordinate: of what acts on the joint", 0},
 };
 
+static const Member contact_planar[] = {
+    {"fx", "N", "force on the tip at the contact, ground axes", 0},
+    {"fy", "N", "force on the tip at the contact, ground axes", 0},
+    {"x",  "m", "of the point of contact, ground axes", 1},
+    {"y",  "m", "of the point of contact, ground axes", 1},
+};
+
+static const Member contact_spatial[] = {
+    {"fx", "N", "force on the tip at the contact, ground axes", 0},
+    {"fy", "N", "force on the tip at the contact, ground axes", 0},
+    {"fz", "N", "force on the tip at the contact, ground axes", 0},
+    {"x",  "m", "of the point of contact, ground axes", 1},
+    {"y",  "m", "of the point of contact, ground axes", 1},
+    {"z",  "m", "of the point of contact, ground axes", 1},
+};
+
 static const Member electrical[] = {
     {"v",     "V", "voltage, plus against minus", 2},
     {"i",     "A", "current, from plus to minus inside", 2},
@@ -489,6 +505,9 @@ static const Member *family_members(const Component *row, bool planar, int *coun
     case FAMILY_SCALAR:
     case FAMILY_TRANSDUCER:
         return scalar_members(row, count);
+    case FAMILY_CONTACT:
+        *count = planar ? COUNT(contact_planar) : COUNT(contact_spatial);
+        return planar ? contact_planar : contact_spatial;
     case FAMILY_DRIVER:
     case FAMILY_COUPLER:
     case FAMILY_FORCE:

@@ -101,6 +101,7 @@ typedef enum Family {
     FAMILY_JOINT,
     FAMILY_DRIVER,
     FAMILY_COUPLER, /* between coordinates of joints */
+    FAMILY_CONTACT, /* rows of motion between two frames at a point: wheels, blades */
     FAMILY_FORCE,
     FAMILY_SCALAR,
     FAMILY_TRANSDUCER
@@ -216,6 +217,32 @@ typedef struct Deforming {
     const SectionPart *(*section)(bool planar, const char *name);
 } Deforming;
 
+/* --- contacts: rows of motion between two frames, in axes of the tail --- */
+
+/* how far the head is from the tail */
+typedef struct FramesApart {
+    Expr way[3];  /* from the tail's origin to the head's (m) */
+    Expr turn[9]; /* from axes of the head to those of the tail, row by row */
+    Expr angle;   /* planar: of the head against the tail (rad); otherwise NULL */
+} FramesApart;
+
+/* The velocity of the head's point against the tail's point has no component along `along`. */
+typedef struct ContactRow {
+    const char *direction; /* for messages */
+    Expr along[3];         /* unit vector */
+    /* the position whose rate that component is, 0 in contact (m); NULL: there is none */
+    Expr gap;
+} ContactRow;
+
+enum { CONTACT_ROWS = 3 };
+
+typedef struct Contact {
+    Expr point[3]; /* from the head's origin to the point of contact */
+    Expr normal[3];
+    int count;
+    ContactRow row[CONTACT_ROWS];
+} Contact;
+
 /* --- efforts: forces between two frames or on a joint, and transducers --- */
 
 typedef struct Motion1 { /* what an effort or relation may depend on; 0 where it doesn't apply */
@@ -297,10 +324,11 @@ typedef struct Member { /* a named quantity of an instance: h9.fx, R1.power */
 
 struct Component {
     const char *name;
-    /* PLACES_JOINT, PLACES_JOINTS: rows of the same name on terminals, one a domain; NULL at the
-     * end. NULL: none */
+    /* rows of the same name, NULL at the end. PLACES_JOINT, PLACES_JOINTS: on terminals, one a
+     * domain; PLACES_COORDINATE: of the rate of the coordinate. NULL: none */
     const struct Component *const *variants;
-    bool sticks; /* dry friction, which a run holds at rest */
+    bool is_of_rates; /* PLACES_COORDINATE: that one */
+    bool sticks;      /* dry friction, which a run holds at rest */
     Family family;
     Domain domain; /* of its scalar edge, or MECHANICAL */
     Places places;
@@ -330,8 +358,11 @@ struct Component {
     /* PLACES_ON: force and torque on the head, in ground axes or, with *in_body, in the head's */
     void (*wrench)(const Instance *instance, Arena *arena, bool planar, Expr force[3],
                    Expr torque[3], bool *in_body);
+    /* FAMILY_CONTACT: its rows, and the point at which their forces act */
+    void (*contact)(const Instance *instance, Arena *arena, bool planar, const FramesApart *apart,
+                    Contact *out);
     /* PLACES_COORDINATE: the prescribed value, an expression of t and parameters; for a coupler one
-     * of parameters and other coordinates, by the user's names */
+     * of parameters and other coordinates, or of their rates, by the user's names */
     Expr (*prescribed)(const Instance *instance, Arena *arena);
     /* the force along the line (on the head, away from the tail) or the generalised force on the
      * joint's coordinate (on the head); NULL where it exerts none */

@@ -3,7 +3,7 @@
  *
  * q = f(t), or q = f(c1, c2, ..), is one constraint row, q - f = 0. Its multiplier is the effort on
  * q along that coordinate. For a coupler, -df/dc times this effort acts on each c, so that it does
- * no work. */
+ * no work. q' = f(c, c', t), linear in the rates c', is a velocity row likewise, with -df/dc'. */
 #include "component/component_rows.h"
 
 /* clang-format off */
@@ -17,6 +17,10 @@ static const Member driver_members[] = {
 
 static const Param coupler_params[] = {
     {"value", PARAM_LAW, "m|rad", NULL, "the coordinate: an expression of other joints' coordinates", 0},
+};
+
+static const Param rates_params[] = {
+    {"value", PARAM_LAW, "m/s|rad/s", NULL, "the rate: an expression of other rates, coordinates and t", 0},
 };
 
 static const Member coupler_members[] = {
@@ -53,8 +57,30 @@ const Component component_driver = {
     .see = "inverse kinematics motor",
 };
 
+/* coupler C1 x' = ...: in place of the other where the coordinate has a prime */
+static const Component coupler_of_rates = {
+    .name = "coupler",
+    .family = FAMILY_COUPLER,
+    .domain = DOMAIN_MECHANICAL,
+    .places = PLACES_COORDINATE,
+    .is_of_rates = true,
+    .brief = "a rate as a function of others",
+    .params = rates_params,
+    .param_count = COUNT(rates_params),
+    .translation = BRANCH_NEVER,
+    .rotation = BRANCH_NEVER,
+    .preference = 90,
+    .prescribed = prescribed,
+    .members = coupler_members,
+    .member_count = COUNT(coupler_members),
+    .see = "driver roll knife",
+};
+
+static const Component *const coupler_variants[] = {&coupler_of_rates, NULL};
+
 const Component component_coupler = {
     .name = "coupler",
+    .variants = coupler_variants,
     .family = FAMILY_COUPLER,
     .domain = DOMAIN_MECHANICAL,
     .places = PLACES_COORDINATE,
@@ -73,9 +99,11 @@ const Component component_coupler = {
         "(h3 = (h1 + h2)/2), a cam (s = table(\"cam.csv\", h1)). Each coupler removes one "
         "degree of freedom. Its effort acts on the coordinate, and the corresponding efforts on "
         "the others; in total it does no work. The reactions of each joint include the "
-        "effort on its own coordinate.",
+        "effort on its own coordinate. With a prime it gives the rate of a coordinate of a joint "
+        "or a body, by others and their rates, of which it is linear: coupler C1 w.x' = "
+        "0.1*w.theta'*cos(phi). That takes a freedom of motion, but none of place.",
     .example = "scene planar\nbody a inertia=1 mass=1; body b inertia=3 mass=1\n"
                "revolute h1 ground a; revolute h2 ground b\ncoupler C1 h2 = -h1/2\n"
                "actuator T1 h1 torque=7\nsimulate 1\nprint h1, h2, C1.effort",
-    .see = "driver gear screw",
+    .see = "driver gear screw roll",
 };

@@ -12,7 +12,7 @@ libcore_la_SOURCES += \
 	lib/formulate/kinematics/circuits.c lib/formulate/kinematics/circuits.h \
 	lib/formulate/kinematics/row_patterns.c lib/formulate/kinematics/row_patterns.h \
 	lib/formulate/kinematics/common_turns.c lib/formulate/kinematics/constraint_rows.c \
-	lib/formulate/kinematics/constraint_rows.h lib/formulate/kinematics/coordinate.c \
+	lib/formulate/kinematics/constraint_rows.h lib/formulate/kinematics/contact_rows.c lib/formulate/kinematics/contact_rows.h lib/formulate/kinematics/coordinate.c \
 	lib/formulate/kinematics/coordinate.h lib/formulate/kinematics/critical.c \
 	lib/formulate/kinematics/edges.c lib/formulate/kinematics/edges.h \
 	lib/formulate/kinematics/euler_parameters.c lib/formulate/kinematics/frames.c \

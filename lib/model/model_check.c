@@ -95,46 +95,89 @@ static Status check_arm(State *state, const Instance *arm, Diag *diag)
                : OK;
 }
 
-/* A coupler may contain only coordinates of joints, since it acts on these. */
+/* whether the coupler's rate is linear in another's: its slope contains no rate */
+static bool is_linear_in(Arena *arena, Expr law, Expr rate)
+{
+    const Expr slope = expr_diff(arena, law, rate);
+    Expr *symbols = NULL;
+    const int count = expr_symbols(&slope, 1, &symbols);
+    bool is_linear = true;
+
+    for (int i = 0; i < count; i++)
+        is_linear = is_linear && strchr(expr_name(symbols[i]), '\'') == NULL;
+    mem_free(symbols);
+    return is_linear;
+}
+
+/* a symbol that is no parameter: the coordinate's name into `name`, without its prime */
+static Status check_followed(const Instance *part, Expr law, Expr symbol, Arena *arena, Text *name,
+                             Diag *diag)
+{
+    const char *prime = strchr(expr_name(symbol), '\'');
+    const bool of_rates = part->row->is_of_rates;
+    Status status = OK;
+
+    text_add_n(name, expr_name(symbol), strcspn(expr_name(symbol), "'"));
+    if (expr_symbol_kind(symbol) == SYMBOL_TIME) {
+        if (of_rates)
+            return OK;
+        status = diag_set(diag, E_VALUE, "a coupler follows coordinates, not time");
+        diag_hint(diag, "a driver follows t");
+    } else if (prime != NULL && !of_rates) {
+        status = diag_set(diag, E_VALUE,
+                          "a coupler of a coordinate follows coordinates, not "
+                          "rates: %s",
+                          expr_name(symbol));
+        diag_hint(diag, "coupler %s %s' = ... gives a rate", part->name, part->coordinate);
+    } else if (prime != NULL && prime[1] != '\0') {
+        status = diag_set(diag, E_VALUE, "a rate follows no accelerations: %s", expr_name(symbol));
+    } else if (prime != NULL && !is_linear_in(arena, law, symbol)) {
+        status =
+            diag_set(diag, E_VALUE, "%s' is not linear in %s", part->coordinate, expr_name(symbol));
+        diag_hint(diag, "the factor of a rate contains coordinates, t and parameters alone");
+    }
+    return status;
+}
+
+/* A coupler may contain only coordinates that something can act on. */
 static Status check_coupled(State *state, const Instance *part, Diag *diag)
 {
     const Expr value = part->row->family == FAMILY_COUPLER ? part->values[0].at[0] : NULL;
     Expr *symbols = NULL;
     const int count = value != NULL ? expr_symbols(&value, 1, &symbols) : 0;
+    Text name = {0};
     Status status = OK;
 
     for (int i = 0; i < count; i++) {
-        const char *name = expr_name(symbols[i]);
         int owner, coordinate;
+        const Instance *followed;
+        bool acts;
 
         if (expr_symbol_kind(symbols[i]) == SYMBOL_PARAMETER)
             continue;
-        diag_about(diag, "%s", name);
-        if (expr_symbol_kind(symbols[i]) == SYMBOL_TIME) {
-            status = diag_set(diag, E_VALUE, "a coupler follows coordinates, not time");
-            diag_hint(diag, "a driver follows t");
+        diag_about(diag, "%s", expr_name(symbols[i]));
+        text_free(&name);
+        CHECK(check_followed(part, value, symbols[i], state->arena, &name, diag));
+        if (expr_symbol_kind(symbols[i]) == SYMBOL_TIME)
+            continue;
+        CHECK(coordinate_resolve(state, name.at, (Place){0}, &owner, &coordinate, diag));
+        followed = state->parts.at[owner];
+        acts = strchr(expr_name(symbols[i]), '\'') != NULL || !part->row->is_of_rates;
+        if (acts && followed->coord_kind[coordinate] == COORDINATE_PARAMETER) {
+            status = diag_set(diag, E_VALUE, "a coupler can't act on %s", name.at);
+            diag_hint(diag, "it takes lengths and angles; a virtual joint has those between any "
+                            "two frames");
             goto done;
         }
-        if (strchr(name, '\'') != NULL) {
-            status = diag_set(diag, E_VALUE, "a coupler follows coordinates, not rates: %s", name);
+        if (acts && owner == part->joint && coordinate == part->joint_coordinate) {
+            status = diag_set(diag, E_VALUE, "%s would follow itself", name.at);
             goto done;
         }
-        CHECK(coordinate_resolve(state, name, (Place){0}, &owner, &coordinate, diag));
-        if (state->parts.at[owner]->row->family != FAMILY_JOINT ||
-            state->parts.at[owner]->coord_kind[coordinate] == COORDINATE_PARAMETER) {
-            status = diag_set(diag, E_VALUE, "a coupler can't act on %s", name);
-            diag_hint(diag, "it takes lengths and angles of joints; a virtual joint has those "
-                            "between any two frames");
-            goto done;
-        }
-        if (owner == part->joint && coordinate == part->joint_coordinate) {
-            status = diag_set(diag, E_VALUE, "%s would follow itself", name);
-            goto done;
-        }
-        CHECK(use_check_reach(state, state->parts.at[owner]->name, (Place){0}, diag));
+        CHECK(use_check_reach(state, followed->name, (Place){0}, diag));
     }
 done:
     mem_free(symbols);
+    text_free(&name);
     return status;
 }
 

@@ -162,7 +162,8 @@ static Status act_on(PartDraft *draft, const char *name, Place place)
     TRY(coordinate_resolve(draft->state, name, place, &joint, &part->joint_coordinate,
                            draft->diag));
     owner = draft->state->parts.at[joint];
-    if (part->row->family != FAMILY_DRIVER && owner->row->family != FAMILY_JOINT)
+    if (part->row->family != FAMILY_DRIVER && part->row->family != FAMILY_COUPLER &&
+        owner->row->family != FAMILY_JOINT)
         return diag_at(draft->diag, E_NAME, place, "%s acts on a joint, and %s is none",
                        part->row->name, owner->name);
     if (owner->coord_kind[part->joint_coordinate] == COORDINATE_PARAMETER)
@@ -280,6 +281,7 @@ static Status driven_coordinate(PartDraft *draft)
     const Statement *statement = draft->statement;
     const State *state = draft->state;
     const Instance *part = draft->part;
+    const bool couples = part->row->family == FAMILY_COUPLER;
     Status status = OK;
     const Pair *pair;
 
@@ -290,12 +292,13 @@ static Status driven_coordinate(PartDraft *draft)
         goto done;
     }
     pair = &statement->pairs.at[0];
-    if (pair->primes > 0) {
+    if (pair->primes > couples) {
         status = diag_at(draft->diag, E_NAME, pair->name_place,
-                         "a %s prescribes the coordinate itself, not its rate", part->row->name);
+                         couples ? "a %s gives a coordinate or its rate, not its acceleration"
+                                 : "a %s prescribes the coordinate itself, not its rate",
+                         part->row->name);
         diag_hint(draft->diag,
-                  part->row->family == FAMILY_DRIVER ? "integrate: %s = ... of t"
-                                                     : "%s = ... of coordinates",
+                  couples ? "%s' = ... of coordinates and rates" : "integrate: %s = ... of t",
                   pair->name);
         goto done;
     }
@@ -519,14 +522,19 @@ static const Component *row_that_rubs(const State *state, const Statement *state
                                                                                          : NULL;
 }
 
-/* mu= of friction asks for a row by the joint's load. The first place tells: a joint, or a terminal
- * that has a domain already; a new terminal is of a slide where a force is given, otherwise of a
- * shaft. */
+/* A prime asks for a row of rates. mu= of friction asks for a row by the joint's load. The first
+ * place tells: a joint, or a terminal that has a domain already; a new terminal is of a slide where
+ * a force is given, otherwise of a shaft. */
 const Component *row_at_places(const State *state, const Statement *statement, const Component *row)
 {
     Domain domain = has_pair(statement, "force") ? DOMAIN_SLIDE : DOMAIN_SHAFT;
     const Component *on_terminals, *by_load, *rubs;
 
+    if (row->places == PLACES_COORDINATE)
+        return row->variants != NULL && statement->pairs.count > 0 &&
+                       statement->pairs.at[0].primes == 1
+                   ? row->variants[0]
+                   : row;
     if (row->variants == NULL || statement->operands.count < 2)
         return row;
     rubs = row_that_rubs(state, statement, row);

@@ -17,6 +17,7 @@ static const char *const conventions[] = {
     [FAMILY_JOINT] = of_joints,
     [FAMILY_DRIVER] = "the effort acts along the coordinate, on the tip",
     [FAMILY_COUPLER] = "the effort acts along the coordinate, on the tip",
+    [FAMILY_CONTACT] = "fx ... act on the tip at the point of contact, reversed on the tail",
     [FAMILY_FORCE] = "acts on the tip, reversed on the tail; pulling together is negative",
 };
 

@@ -250,10 +250,10 @@ static void remark_passing(ct_session *session, const Linear *linear, const char
     text_addf(&line,
               "no rest and no steady motion at t = %.6g s: the %s are those of the coordinates",
               linear->at, what);
-    for (int i = 0; i < linear->freedoms && i < MOST_NAMES; i++)
+    for (int i = 0; i < linear->places && i < MOST_NAMES; i++)
         text_addf(&line, "%s %s", i == 0 ? "" : ",", linear->state_names[i]);
     text_addf(&line, "%s; other independent coordinates have others",
-              linear->freedoms > MOST_NAMES ? ", ..." : "");
+              linear->places > MOST_NAMES ? ", ..." : "");
     session_remark(session, line.at);
     text_free(&line);
 }

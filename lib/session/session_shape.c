@@ -47,7 +47,7 @@ static void state_in_mode(const Modes *modes, const Mode *mode, const char *name
 static void follow_mode(const Linear *linear, const Modes *modes, const Mode *mode,
                         ModeShape *shape)
 {
-    for (int s = 0; s < linear->freedoms; s++) {
+    for (int s = 0; s < linear->places; s++) {
         double own[2];
 
         state_in_mode(modes, mode, linear->state_names[s], own);

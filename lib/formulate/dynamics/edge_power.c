@@ -108,6 +108,7 @@ static Status add_loads(System *system, const Instance *part, Loads *loads, Diag
         return OK;
     case FAMILY_DRIVER:
     case FAMILY_COUPLER:
+    case FAMILY_CONTACT:
         add_rows(system, part, loads);
         return OK;
     case FAMILY_FORCE:

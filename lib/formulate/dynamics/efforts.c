@@ -309,10 +309,16 @@ void loads_add_row(System *system, Loads *loads, const Row *row, Expr lambda)
         loads_add_torque(system, loads, row->head, moment, chain);
         loads_add_torque(system, loads, row->tail, vec_neg(arena, moment), chain);
     }
-    if (row->kind == ROW_TAIL || row->kind == ROW_TIE) {
+    if (row->kind == ROW_CONTACT)
+        loads_add_torque(system, loads, row->head, vec_cross(arena, row->point, along), chain);
+    if (row->kind == ROW_TAIL || row->kind == ROW_TIE || row->kind == ROW_CONTACT) {
         Vec way =
             vec_sub(arena, node_position(system, row->head), node_position(system, row->tail));
-        Vec moment = vec_cross(arena, way, vec_express(system, along, chain, 0));
+        Vec moment;
+
+        if (row->kind == ROW_CONTACT)
+            way = vec_add(arena, way, vec_express(system, row->point, chain, 0));
+        moment = vec_cross(arena, way, vec_express(system, along, chain, 0));
 
         loads_add_torque(system, loads, row->tail, vec_neg(arena, moment), 0);
     }

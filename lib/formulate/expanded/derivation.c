@@ -176,6 +176,9 @@ Status constraint_terms(System *system, int k, int column, Terms *out, Diag *dia
         push_shifts(system, row, out);
     } else if (row->kind == ROW_ANGLE) {
         push_turns(system, row, out);
+    } else if (row->reported.is_rate) {
+        LIST_PUSH(*out, whole);
+        out->at[out->count - 1].value = row->rate;
     } else if (is_difference(system, row)) {
         LIST_PUSH(*out, whole);
         out->at[out->count - 1].value = expr_add(system->arena, row->phi, row->prescribed);
@@ -192,7 +195,9 @@ Status jacobian_terms(System *system, int k, int j, Terms *out, Diag *diag)
 {
     TRY(constraint_terms(system, k, 0, out, diag));
     for (int i = 0; i < out->count; i++)
-        out->at[i].value = speed_partial(system, out->at[i].value, j);
+        out->at[i].value = system->constraints->rows.at[k].rate != NULL
+                               ? system->definitions.phi_u[k * system->kinematics->u.count + j]
+                               : speed_partial(system, out->at[i].value, j);
     return OK;
 }
 
@@ -224,6 +229,9 @@ Projection system_projection(const System *view, int row)
         break;
     case ROW_COUPLER:
         out.along = ALONG_COUPLED;
+        break;
+    case ROW_CONTACT:
+        out.along = ALONG_CONTACT;
         break;
     }
     return out;

@@ -60,12 +60,13 @@ void system_angles(const System *view, int node, Angles *out);
 
 /* the direction on which a constraint row projects its circuit */
 typedef enum ConstraintDirection {
-    ALONG_AXIS,   /* `a`, fixed in its node */
-    ALONG_SQUARE, /* none: `a` and `b`, each fixed in its node, remain orthogonal */
-    ALONG_TURN,   /* `a` is the axis of the turns */
-    ALONG_TIE,    /* `a`: the shift minus its value by the turn */
-    ALONG_DRIVEN, /* none: a prescribed coordinate */
-    ALONG_COUPLED /* none: a coordinate that follows others */
+    ALONG_AXIS,    /* `a`, fixed in its node */
+    ALONG_SQUARE,  /* none: `a` and `b`, each fixed in its node, remain orthogonal */
+    ALONG_TURN,    /* `a` is the axis of the turns */
+    ALONG_TIE,     /* `a`: the shift minus its value by the turn */
+    ALONG_DRIVEN,  /* none: a prescribed coordinate */
+    ALONG_COUPLED, /* none: a coordinate that follows others */
+    ALONG_CONTACT  /* `a`, along which a point of the head has no velocity against the tail */
 } ConstraintDirection;
 typedef struct Projection {
     ConstraintDirection along;

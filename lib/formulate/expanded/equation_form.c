@@ -66,8 +66,12 @@ static Status write_out(System *system, Expr *out, Diag *diag)
         int columns;
 
         system_block_size(system, blocks[b], &rows, &columns);
-        for (int i = 0; i < rows * columns; i++)
-            TRY(show_entry(system, blocks[b], i / columns, i % columns, out++, diag));
+        for (int i = 0; i < rows * columns; i++, out++) {
+            TRY(show_entry(system, blocks[b], i / columns, i % columns, out, diag));
+            if (blocks[b] == BLOCK_CONSTRAINTS &&
+                system->constraints->rows.at[i].reported.is_rate) /* it is that of a velocity row */
+                *out = expr_int(system->arena, 0);
+        }
     }
     return OK;
 }

@@ -369,36 +369,51 @@ static Status show_force(System *system, int j, int column, Expr *out, Diag *dia
 
 static Status show_constraint(System *system, int k, int column, Expr *out, Diag *diag)
 {
+    const Row *row = &system->constraints->rows.at[k];
+
     (void)column;
     (void)diag;
-    *out = system->constraints->rows.at[k].phi;
+    *out = row->reported.is_rate ? expanded_tidy(system, row->rate) : row->phi;
     return OK;
 }
 
 static Status show_jacobian(System *system, int k, int j, Expr *out, Diag *diag)
 {
+    const Row *row = &system->constraints->rows.at[k];
+
     (void)diag;
-    *out = expanded_tidy(system, speed_partial(system, system->constraints->rows.at[k].phi, j));
+    *out = expanded_tidy(
+        system, row->rate == NULL ? speed_partial(system, row->phi, j)
+                                  : system->definitions.phi_u[k * system->kinematics->u.count + j]);
     return OK;
 }
 
 static Status show_velocity(System *system, int k, int column, Expr *out, Diag *diag)
 {
+    const Row *row = &system->constraints->rows.at[k];
+
     (void)column;
     (void)diag;
-    *out =
-        expanded_tidy(system, expr_neg(system->arena,
-                                       expr_diff(system->arena, system->constraints->rows.at[k].phi,
-                                                 expr_symbol(system->arena, "t", SYMBOL_TIME))));
+    *out = expanded_tidy(
+        system,
+        row->rate != NULL
+            ? system->definitions.nu[k]
+            : expr_neg(system->arena, expr_diff(system->arena, row->phi,
+                                                expr_symbol(system->arena, "t", SYMBOL_TIME))));
     return OK;
 }
 
 static Status show_acceleration(System *system, int k, int column, Expr *out, Diag *diag)
 {
+    const Row *row = &system->constraints->rows.at[k];
     Expr second;
 
     (void)column;
-    TRY(second_rate_at_rest(system, system->constraints->rows.at[k].phi, &second, diag));
+    if (row->rate != NULL) {
+        *out = expanded_tidy(system, system->definitions.gamma[k]);
+        return OK;
+    }
+    TRY(second_rate_at_rest(system, row->phi, &second, diag));
     *out = expanded_tidy(system, expr_neg(system->arena, second));
     return OK;
 }

@@ -7,6 +7,7 @@
 #include "formulate/kinematics/constraint_rows.h"
 #include "formulate/formulate_limits.h"
 #include "formulate/kinematics/circuits.h"
+#include "formulate/kinematics/contact_rows.h"
 #include "formulate/kinematics/coordinate.h"
 #include "formulate/kinematics/frames.h"
 #include "formulate/kinematics/framesum.h"
@@ -157,6 +158,7 @@ static void driver_row(System *system, const Instance *driver)
     row->coordinate = driver->joint_coordinate;
     row->reported.is_driver = !couples;
     row->reported.is_coupler = couples;
+    row->reported.is_rate = driver->row->is_of_rates;
     row->reported.instance = driver->number;
     row->reported.edge = driver->edge;
 }
@@ -237,7 +239,20 @@ static Status driver_shown(System *system, Row *row, Diag *diag)
     return OK;
 }
 
-/* the coordinate that a coupler determines, minus its prescribed value */
+/* the coordinate whose rate that symbol is, or which it is, as the coupler follows */
+static int coupled_number(const System *system, const Instance *coupler, const char *name)
+{
+    const size_t length = strlen(name);
+
+    if (!coupler->row->is_of_rates)
+        return names_find(system->origin->coordinate_names, name);
+    if (length < 2 || name[length - 1] != '\'')
+        return -1;
+    return names_find(system->origin->coordinate_names,
+                      system_retain(system, "%.*s", (int)length - 1, name));
+}
+
+/* the coordinate that a coupler determines, or its rate, minus its prescribed value */
 static Status coupler_shown(System *system, Row *row, Diag *diag)
 {
     Arena *arena = system->arena;
@@ -250,7 +265,7 @@ static Status coupler_shown(System *system, Row *row, Diag *diag)
 
     row->coupled = pool_alloc(system->pool, (size_t)count * sizeof *row->coupled);
     for (int i = 0; i < count; i++) {
-        const int number = names_find(system->origin->coordinate_names, expr_name(symbols[i]));
+        const int number = coupled_number(system, coupler, expr_name(symbols[i]));
         Coupled *coupled = &row->coupled[row->coupled_count];
 
         if (expr_symbol_kind(symbols[i]) == SYMBOL_PARAMETER || number < 0)
@@ -261,9 +276,11 @@ static Status coupler_shown(System *system, Row *row, Diag *diag)
         row->coupled_count++;
     }
     CHECK(variables_resolve(system, law, &row->prescribed, diag));
-    CHECK(coordinate_value(system, &system->origin->instances[row->owner], row->coordinate, 0,
-                           &value, diag));
-    row->phi = expr_sub(arena, value, row->prescribed);
+    CHECK(coordinate_value(system, &system->origin->instances[row->owner], row->coordinate,
+                           coupler->row->is_of_rates, &value, diag));
+    value = expr_sub(arena, value, row->prescribed);
+    row->phi = coupler->row->is_of_rates ? expr_int(arena, 0) : value;
+    row->rate = coupler->row->is_of_rates ? value : NULL;
 done:
     mem_free(symbols);
     return status;
@@ -333,6 +350,8 @@ static Status row_shown(System *system, RowPatterns *patterns, Row *row, Diag *d
     case ROW_COUPLER:
         TRY(coupler_shown(system, row, diag));
         break;
+    case ROW_CONTACT:
+        break;
     }
     row->phi = expr_fold(arena, expr_open(arena, row->phi));
     return OK;
@@ -387,7 +406,7 @@ static Status row_vanishes(System *system, const Row *row, Sample *const *sample
     double value;
 
     *vanishes = false;
-    if (!row_is_constant(system, row, samples, &value))
+    if (row->reported.is_rate || !row_is_constant(system, row, samples, &value))
         return OK;
     if (row->kind == ROW_ANGLE)
         value = remainder(value, 2 * M_PI); /* full turns count as 0 */
@@ -423,21 +442,39 @@ bool system_holds(const System *system, uint64_t revision,
 
 /* --- rows of the recursive form --- */
 
-/* rows whose expression is short: angles, drivers and couplers */
+/* V = d rate/d u */
+static void run_partials(System *system, Expr rate, int k)
+{
+    const int count = system->kinematics->u.count;
+    Expr *symbols = NULL, *of_u = system->run.phi_u + (ptrdiff_t)k * count;
+    const int listed = expr_symbols(&rate, 1, &symbols);
+
+    for (int i = 0; i < listed; i++)
+        for (int j = 0; expr_symbol_kind(symbols[i]) == SYMBOL_SPEED && j < count; j++)
+            if (symbols[i] == system->kinematics->u.at[j].symbol)
+                of_u[j] = expr_diff(system->arena, rate, symbols[i]);
+    mem_free(symbols);
+}
+
+/* rows whose expression is short: angles, drivers, couplers and contacts */
 static Status run_plain(System *system, const Row *row, int k, Diag *diag)
 {
     Arena *arena = system->arena;
     int count = system->kinematics->u.count;
     Expr *speeds = NEW_ARRAY(Expr, count);
-    Expr rate;
+    Expr rate = row->rate;
     Expr second;
     Status status = OK;
 
     for (int j = 0; j < count; j++) {
         speeds[j] = system->kinematics->u.at[j].symbol;
-        system->run.phi_u[k * count + j] = speed_partial(system, row->phi, j);
+        if (rate == NULL)
+            system->run.phi_u[k * count + j] = speed_partial(system, row->phi, j);
     }
-    CHECK(system_rate_of(system, row->phi, &rate, diag));
+    if (rate == NULL)
+        CHECK(system_rate_of(system, row->phi, &rate, diag));
+    else
+        run_partials(system, rate, k);
     CHECK(system_rate_of(system, rate, &second, diag));
     system->run.phi[k] = row->phi;
     system->run.nu[k] = expr_neg(arena, expr_substitute(arena, rate, speeds, NULL, count));
@@ -507,6 +544,19 @@ done:
     return status;
 }
 
+/* velocity rows of contacts and couplers */
+static void all_rates(System *system)
+{
+    for (int i = 0; i < system->origin->instance_count; i++) {
+        const Instance *instance = &system->origin->instances[i];
+
+        if (instance->row->family == FAMILY_CONTACT)
+            contact_rows_push(system, instance, false);
+        if (instance->row->family == FAMILY_COUPLER && instance->row->is_of_rates)
+            driver_row(system, instance);
+    }
+}
+
 static Status all_rows(System *system, Diag *diag)
 {
     for (int i = 0; i < system->origin->instance_count; i++) {
@@ -515,7 +565,10 @@ static Status all_rows(System *system, Diag *diag)
         bool slides;
         bool turns;
 
-        if (instance->row->family == FAMILY_DRIVER || instance->row->family == FAMILY_COUPLER)
+        if (instance->row->family == FAMILY_CONTACT)
+            contact_rows_push(system, instance, true);
+        if (instance->row->family == FAMILY_DRIVER ||
+            (instance->row->family == FAMILY_COUPLER && !instance->row->is_of_rates))
             driver_row(system, instance);
         if (instance->row->family != FAMILY_JOINT || instance->is_virtual)
             continue;
@@ -536,6 +589,7 @@ static Status all_rows(System *system, Diag *diag)
         if (slides && steps_are_tied(&steps))
             tie_row(system, instance, &steps);
     }
+    all_rates(system);
     return OK;
 }
 

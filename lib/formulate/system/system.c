@@ -65,6 +65,15 @@ int system_m(const System *system)
     return system->constraints->rows.count;
 }
 
+int system_position_rows(const System *system)
+{
+    int count = system->constraints->rows.count;
+
+    while (count > 0 && system->constraints->rows.at[count - 1].reported.is_rate)
+        count--;
+    return count;
+}
+
 int system_nx(const System *system)
 {
     return system->network->x.count;

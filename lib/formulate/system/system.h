@@ -69,7 +69,9 @@ const char *system_instance_name(const System *system, int instance); /* borrowe
 
 int system_n(const System *system);  /* coordinates q */
 int system_nu(const System *system); /* speeds u */
-int system_m(const System *system);  /* constraints */
+int system_m(const System *system);  /* constraints: rows of positions, then of velocities alone */
+/* the number of the former */
+int system_position_rows(const System *system);
 int system_nx(const System *system); /* network states x */
 int system_nz(const System *system); /* network algebraic unknowns z */
 
@@ -188,6 +190,7 @@ typedef struct ConstraintRow {
     char direction[24]; /* "x", "n1", "turn z": for messages */
     bool is_driver;
     bool is_coupler;
+    bool is_rate; /* a velocity row: it restricts speeds, and no position */
 } ConstraintRow;
 
 const ConstraintRow *system_constraint(const System *system, int k);
@@ -206,7 +209,7 @@ typedef struct Entry {
 } Entry;
 
 typedef struct EquationForm {
-    Expr *phi;   /* m */
+    Expr *phi;   /* m; 0 of velocity rows */
     Expr *phi_u; /* m x nu, row by row */
     Expr *nu;    /* m: Phi_u u = nu */
     Expr *gamma; /* m */

@@ -3,7 +3,7 @@
  * With w = (q, u, x) and the unknowns e = (u', lambda, x', z) that it determines, all equations are
  * E(w, e, inputs) = 0, and a deviation of w gives E_e de = -E_w dw. A deviation of one state also
  * moves the dependent coordinates and speeds: Phi_u ds = 0, (Phi_u u - nu)_q dq + Phi_u du = 0, dq
- * = N ds. */
+ * = N ds. Velocity rows determine speeds alone, so that there are more independent coordinates. */
 #include "simulate/analyse/linearize_impl.h"
 
 #include "base/memory.h"
@@ -217,6 +217,13 @@ done:
 
 /* --- the order --- */
 
+static void dependence_free(Dependence *d)
+{
+    partitioning_free(d->partitioning);
+    verified_solve_free(d->held);
+    MEM_FREE(d->rows, d->is_independent, d->matrix, d->error);
+}
+
 static void work_free(Work *w)
 {
     tangents_free(w->along);
@@ -226,12 +233,12 @@ static void work_free(Work *w)
     parameters_free(&w->parameters);
     variable_index_free(w->l);
     system_free(w->varied);
-    partitioning_free(w->partitioning);
-    MEM_FREE(w->inputs, w->at.place, w->is_independent);
+    dependence_free(&w->speeds);
+    dependence_free(&w->own_places);
+    MEM_FREE(w->inputs, w->at.place);
     verified_solve_free(w->equations);
-    verified_solve_free(w->held);
-    MEM_FREE(w->y, w->y_error, w->follow, w->follow_error, w->values, w->phi_u, w->in_use, w->map,
-             w->matrix, w->matrix_error, w->dependent, w->dependent_error);
+    MEM_FREE(w->y, w->y_error, w->follow, w->follow_error, w->values, w->phi_u, w->map, w->matrix,
+             w->matrix_error);
 }
 
 /* Names the laws that jump where they are linearized: their derivative there is none. */

@@ -94,11 +94,11 @@ static void solve(const Work *w, Deviation *d)
 }
 
 /* copy the derivatives of constraint rows to the right-hand side */
-static void take_rows(const Work *w, Deviation *d, int count, int first)
+static void take_rows(const Work *w, const Dependence *on, Deviation *d, int count, int first)
 {
     for (int lane = 0; lane < count; lane++)
-        for (int r = 0; r < w->used; r++)
-            d[lane].right[r] = linear_slope(w, first + w->in_use[r], lane);
+        for (int r = 0; r < on->used; r++)
+            d[lane].right[r] = linear_slope(w, first + on->rows[r], lane);
 }
 
 /* N s' = (N u)_q dq + N du - N' s */
@@ -116,24 +116,24 @@ static void take_turn(const Work *w, Deviation *d, int lane)
 static void complete(const Work *w, Deviation *d, int count)
 {
     move(w, d, count, BY_INPUT);
-    take_rows(w, d, count, w->rows.phi);
+    take_rows(w, w->places, d, count, w->rows.phi);
     for (int lane = 0; lane < count; lane++) {
-        linear_complete(w, d[lane].right, d[lane].s);
+        linear_complete(w, w->places, d[lane].right, d[lane].s);
         by_map(w, &d[lane]);
     }
     move(w, d, count, BY_POSITION);
-    take_rows(w, d, count, w->rows.velocity);
+    take_rows(w, &w->speeds, d, count, w->rows.velocity);
     for (int lane = 0; lane < count; lane++)
-        linear_complete(w, d[lane].right, d[lane].u);
+        linear_complete(w, &w->speeds, d[lane].right, d[lane].u);
 }
 
 /* the deviations of everything, from those of independent coordinates and speeds, a state or an
  * input */
 static void spread(const Work *w, Deviation *d, int count)
 {
-    if (w->used > 0)
+    if (w->speeds.used > 0)
         complete(w, d, count);
-    for (int lane = 0; lane < count && w->used == 0; lane++)
+    for (int lane = 0; lane < count && w->speeds.used == 0; lane++)
         by_map(w, &d[lane]);
     move(w, d, count, BY_SPEED);
     for (int lane = 0; lane < count; lane++) {
@@ -211,15 +211,16 @@ static void write_column(const Work *w, const Deviation *d, const LinearColumn *
                          const LinearColumn *outputs)
 {
     const VariableIndex *l = w->l;
-    const int *independent = partitioning_independent(w->partitioning);
-    int f = w->freedoms;
+    const int places = w->places->free, f = w->speeds.free;
+    const int *independent = partitioning_independent(w->speeds.partitioning);
+    const int *placed = partitioning_independent(w->places->partitioning);
 
-    for (int i = 0; i < f; i++) {
-        put(rates, i, turn_rate(w, d, independent[i]));
-        put(rates, f + i, d->follow[independent[i]]);
-    }
+    for (int i = 0; i < places; i++)
+        put(rates, i, turn_rate(w, d, placed[i]));
+    for (int i = 0; i < f; i++)
+        put(rates, places + i, d->follow[independent[i]]);
     for (int i = 0; i < l->nx; i++)
-        put(rates, 2 * f + i, d->follow[l->nu + w->used + i]);
+        put(rates, places + f + i, d->follow[l->nu + w->speeds.used + i]);
     for (int o = 0; o < w->order->output_count; o++)
         put(outputs, o, d->outputs[o]);
 }
@@ -280,14 +281,15 @@ done:
 /* the deviation of a column: of a state, or after these of an input */
 static void begin(const Work *w, const Linear *out, int c, Deviation *d)
 {
-    const int f = w->freedoms;
-    const int *independent = partitioning_independent(w->partitioning);
+    const int places = w->places->free, above = places + w->speeds.free;
 
     for (int j = 0; j < w->l->nu; j++)
         d->s[j] = d->u[j] = none;
-    if (c < 2 * f)
-        (c < f ? d->s : d->u)[independent[c % f]] = one;
-    d->state = c >= 2 * f && c < out->states ? c - 2 * f : -1;
+    if (c < places)
+        d->s[partitioning_independent(w->places->partitioning)[c]] = one;
+    else if (c < above)
+        d->u[partitioning_independent(w->speeds.partitioning)[c - places]] = one;
+    d->state = c >= above && c < out->states ? c - above : -1;
     d->input = c >= out->states ? c - out->states : -1;
     d->column = c;
 }
@@ -309,7 +311,7 @@ static LinearNumber mass_entry(const Work *w, int i, int j)
 static bool is_mechanical(const Work *w)
 {
     for (int i = 0; i < w->l->nu; i++)
-        for (int k = w->l->nu + w->used; k < w->unknowns; k++) {
+        for (int k = w->l->nu + w->speeds.used; k < w->unknowns; k++) {
             const LinearNumber entry = mass_entry(w, i, k);
 
             if (entry.value != 0 || entry.error != 0)
@@ -322,11 +324,11 @@ static bool is_mechanical(const Work *w)
 static void put_along(const Work *w, const ColumnBalance *b, double sign, double *at, double *error,
                       int stride)
 {
-    for (int i = 0; i < w->freedoms; i++) {
+    for (int i = 0; i < w->speeds.free; i++) {
         LinearNumber sum = none;
 
         for (int j = 0; j < w->l->nu; j++)
-            add_product(&sum, b->along[j * w->freedoms + i], b->moment[j]);
+            add_product(&sum, b->along[j * w->speeds.free + i], b->moment[j]);
         at[(ptrdiff_t)i * stride] = sign * sum.value;
         error[(ptrdiff_t)i * stride] = sum.error;
     }
@@ -342,8 +344,8 @@ static void add_mass(const Work *w, const LinearNumber *acceleration, LinearNumb
 /* T, and the mass matrix of independent coordinates, T^T M T */
 static void open_balance(const Work *w, ColumnBalance *b, Linear *out)
 {
-    const int nu = w->l->nu, f = w->freedoms;
-    LinearNumber *v = NEW_ARRAY(LinearNumber, nu), *still = NEW_ARRAY(LinearNumber, w->used);
+    const int nu = w->l->nu, f = w->speeds.free;
+    LinearNumber *v = NEW_ARRAY(LinearNumber, nu), *still = NEW_ARRAY(LinearNumber, w->speeds.used);
 
     b->along = NEW_ARRAY(LinearNumber, nu * f);
     b->moment = NEW_ARRAY(LinearNumber, nu);
@@ -353,9 +355,9 @@ static void open_balance(const Work *w, ColumnBalance *b, Linear *out)
     out->force_error = NEW_ARRAY(double, f * out->states);
     for (int k = 0; k < f; k++) {
         memset(v, 0, (size_t)nu * sizeof *v);
-        v[partitioning_independent(w->partitioning)[k]] = one;
-        if (w->used > 0)
-            linear_complete(w, still, v);
+        v[partitioning_independent(w->speeds.partitioning)[k]] = one;
+        if (w->speeds.used > 0)
+            linear_complete(w, &w->speeds, still, v);
         for (int j = 0; j < nu; j++)
             b->along[j * f + k] = v[j];
     }
@@ -384,8 +386,8 @@ static void write_force(const Work *w, const ColumnBalance *b, const Deviation *
 
     for (int i = 0; i < nu; i++)
         b->moment[i] = d->right[i];
-    if (w->used > 0) {
-        linear_complete(w, d->right + nu, v);
+    if (w->speeds.used > 0) {
+        linear_complete(w, &w->speeds, d->right + nu, v);
         add_mass(w, v, b->moment);
     }
     put_along(w, b, -1, out->force + column, out->force_error + column, out->states);
@@ -401,6 +403,8 @@ static void forget_balance(Linear *out)
 /* whether s' are the speeds, and s depends on nothing else */
 static bool speeds_are_rates(const Linear *out)
 {
+    if (out->places != out->freedoms)
+        return false;
     for (int i = 0; i < out->freedoms; i++)
         for (int k = 0; k < out->states; k++) {
             const double speed = k == out->freedoms + i ? 1 : 0;

@@ -46,6 +46,17 @@ static inline bool linear_is_undetermined(double value, double error)
     return value != 0 && fabs(value) <= error;
 }
 
+/* A choice of independent coordinates, or of speeds, and the constraint rows that determine the
+ * others. */
+typedef struct Dependence {
+    int used, free; /* rows, and independent ones: nu - used */
+    int *rows;      /* independent at the point */
+    bool *is_independent;
+    Partitioning *partitioning;
+    double *matrix, *error; /* columns of Phi_u by dependent ones */
+    VerifiedSolve *held;    /* its factors */
+} Dependence;
+
 typedef struct Work {
     const LinearOrder *order;
     Phase *phase;   /* of the result, at the point */
@@ -67,14 +78,12 @@ typedef struct Work {
     LinearNumber *phi_u, *map, *map_rate; /* Phi_u, N, N' */
     double *matrix, *matrix_error;        /* E_e over the rows in use */
     VerifiedSolve *equations;             /* its factors */
-    double *dependent, *dependent_error;
-    VerifiedSolve *held; /* factors of Phi_u's dependent columns, over the rows in use */
-    Partitioning *partitioning;
-    int used, freedoms, unknowns; /* unknowns: nu + used + nx + nz */
-    uint64_t perturbation;        /* seed by which all numbers are perturbed; 0: none are, and
-                                    errors are bounded */
-    int *in_use;                  /* `used` constraint rows, independent at the point */
-    bool *is_independent;         /* per speed */
+    Dependence speeds;                    /* over all rows in use, */
+    Dependence own_places;                /* over those of positions, where there are others; */
+    Dependence *places;                   /* that of coordinates: one of these */
+    int unknowns;                         /* nu + rows in use + nx + nz */
+    uint64_t perturbation; /* seed by which all numbers are perturbed; 0: none are, and errors are
+                              bounded */
 } Work;
 
 /* let the symbol of a column move along the direction of a batch lane */
@@ -104,7 +113,8 @@ int linear_unknown(const Work *w, int k);  /* column of the k-th unknown */
  * like numbers: otherwise rounding errors would be the same where no number is an unknown. */
 double linear_moved(const Work *w, int r, int column, double value);
 /* Complete v, whose independent entries are set: Phi_u v + right = 0 in the dependent ones. */
-void linear_complete(const Work *w, const LinearNumber *right, LinearNumber *v);
+void linear_complete(const Work *w, const Dependence *d, const LinearNumber *right,
+                     LinearNumber *v);
 
 /* Evaluate everything at a point perturbed by w->perturbation, for the same equations and
  * coordinates; false: it can't be evaluated. */

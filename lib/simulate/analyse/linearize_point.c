@@ -23,9 +23,9 @@ int linear_equation(const Work *w, int r)
 
     if (r < l->nu)
         return w->rows.balance + r;
-    if (r < l->nu + w->used)
-        return w->rows.acceleration + w->in_use[r - l->nu];
-    return w->rows.network + r - l->nu - w->used;
+    if (r < l->nu + w->speeds.used)
+        return w->rows.acceleration + w->speeds.rows[r - l->nu];
+    return w->rows.network + r - l->nu - w->speeds.used;
 }
 
 int linear_unknown(const Work *w, int k)
@@ -34,9 +34,9 @@ int linear_unknown(const Work *w, int k)
 
     if (k < l->nu)
         return w->at.acceleration + k;
-    if (k < l->nu + w->used)
-        return w->at.multipliers + w->in_use[k - l->nu];
-    k -= l->nu + w->used;
+    if (k < l->nu + w->speeds.used)
+        return w->at.multipliers + w->speeds.rows[k - l->nu];
+    k -= l->nu + w->speeds.used;
     return k < l->nx ? w->at.rates + k : w->at.z + k - l->nx;
 }
 
@@ -222,24 +222,59 @@ static double *plain_phi_u(const Work *w)
 static void choose_rows(Work *w)
 {
     const Assembled *start = &w->order->about->result->start;
+    const int used = w->speeds.used;
     double *phi_u;
 
-    w->in_use = NEW_ARRAY(int, w->used);
-    memcpy(w->in_use, start->rows, (size_t)w->used * sizeof(int));
-    if (w->used == w->l->m)
+    w->speeds.rows = NEW_ARRAY(int, used);
+    memcpy(w->speeds.rows, start->rows, (size_t)used * sizeof(int));
+    if (used == w->l->m)
         return;
     evaluate_geometry(w);
     phi_u = plain_phi_u(w);
-    (void)rank_choose(phi_u, w->l->m, w->l->nu, w->used, w->in_use);
+    (void)rank_choose(phi_u, w->l->m, w->l->nu, used, w->speeds.rows);
     mem_free(phi_u);
 }
 
+/* those of positions among them */
+static void choose_position_rows(Work *w)
+{
+    Dependence *places = &w->own_places;
+
+    w->places = &w->speeds;
+    if (w->l->position_rows == w->l->m)
+        return;
+    w->places = places;
+    places->rows = NEW_ARRAY(int, w->speeds.used);
+    for (int r = 0; r < w->speeds.used; r++)
+        if (w->speeds.rows[r] < w->l->position_rows)
+            places->rows[places->used++] = w->speeds.rows[r];
+}
+
+static bool partition(const Work *w, Dependence *d, const double *phi_u, const int *wanted,
+                      int count)
+{
+    const int nu = w->l->nu;
+
+    d->free = nu - d->used;
+    d->is_independent = NEW_ARRAY(bool, nu);
+    d->matrix = NEW_ARRAY(double, d->used * d->used);
+    d->error = NEW_ARRAY(double, d->used * d->used);
+    d->partitioning = partitioning_new(nu, d->used);
+    if (!partitioning_choose(d->partitioning, phi_u, d->rows, wanted, count))
+        return false;
+    for (int i = 0; i < d->free; i++)
+        d->is_independent[partitioning_independent(d->partitioning)[i]] = true;
+    return true;
+}
+
+/* Independent speeds first: their coordinates are independent too, so that equations read alike. */
 static Status choose_independent(Work *w, Diag *diag)
 {
     const LinearOrder *order = w->order;
-    int *wanted = NEW_ARRAY(int, order->independent_count);
+    int *wanted = NEW_ARRAY(int, order->independent_count + w->l->nu);
     double *phi_u = plain_phi_u(w);
     int count = 0;
+    bool chosen;
     Status status = OK;
 
     for (int k = 0; k < order->independent_count; k++)
@@ -249,40 +284,49 @@ static Status choose_independent(Work *w, Diag *diag)
             if (i >= 0 && strcmp(system_q(w->system, i)->name, order->independent[k]) == 0)
                 wanted[count++] = j;
         }
-    w->partitioning = partitioning_new(w->l->nu, w->used);
-    if (!partitioning_choose(w->partitioning, phi_u, w->in_use, wanted, count))
+    choose_position_rows(w);
+    chosen = partition(w, &w->speeds, phi_u, wanted, count);
+    if (chosen && w->places != &w->speeds) {
+        for (int i = 0; i < w->speeds.free; i++)
+            wanted[count++] = partitioning_independent(w->speeds.partitioning)[i];
+        chosen = partition(w, w->places, phi_u, wanted, count);
+    }
+    if (!chosen)
         status =
             diag_set(diag, E_SINGULAR,
                      "a singular position: no choice of coordinates describes the motion there");
-    for (int i = 0; i < w->freedoms && status == OK; i++)
-        w->is_independent[partitioning_independent(w->partitioning)[i]] = true;
     MEM_FREE(wanted, phi_u);
     return status;
 }
 
 /* factor the dependent columns of Phi_u */
-static bool factor_dependent(Work *w)
+static bool factor_columns(const Work *w, Dependence *d)
 {
-    const int nu = w->l->nu, m = w->used;
+    const int nu = w->l->nu, m = d->used;
 
     for (int r = 0; r < m; r++)
         for (int j = 0, column = 0; j < nu; j++) {
-            const LinearNumber entry = w->phi_u[w->in_use[r] * nu + j];
+            const LinearNumber entry = w->phi_u[d->rows[r] * nu + j];
 
-            if (w->is_independent[j])
+            if (d->is_independent[j])
                 continue;
-            w->dependent[r * m + column] = entry.value;
-            w->dependent_error[r * m + column++] = entry.error;
+            d->matrix[r * m + column] = entry.value;
+            d->error[r * m + column++] = entry.error;
         }
-    verified_solve_free(w->held);
-    w->held = verified_solve_new(w->dependent, w->dependent_error, m);
-    return verified_solve_is_regular(w->held);
+    verified_solve_free(d->held);
+    d->held = verified_solve_new(d->matrix, d->error, m);
+    return verified_solve_is_regular(d->held);
 }
 
-void linear_complete(const Work *w, const LinearNumber *right, LinearNumber *v)
+static bool factor_dependent(Work *w)
 {
-    const int nu = w->l->nu, m = w->used;
-    const int *rows = w->in_use;
+    return factor_columns(w, &w->speeds) &&
+           (w->places == &w->speeds || factor_columns(w, w->places));
+}
+
+void linear_complete(const Work *w, const Dependence *d, const LinearNumber *right, LinearNumber *v)
+{
+    const int nu = w->l->nu, m = d->used;
     double *b = NEW_ARRAY(double, m), *error = NEW_ARRAY(double, m);
     double *found = NEW_ARRAY(double, m), *off = NEW_ARRAY(double, m);
 
@@ -290,14 +334,14 @@ void linear_complete(const Work *w, const LinearNumber *right, LinearNumber *v)
         LinearNumber sum = right[r];
 
         for (int j = 0; j < nu; j++)
-            if (w->is_independent[j])
-                number_add(&sum, w->phi_u[rows[r] * nu + j], v[j]);
+            if (d->is_independent[j])
+                number_add(&sum, w->phi_u[d->rows[r] * nu + j], v[j]);
         b[r] = -sum.value;
         error[r] = sum.error;
     }
-    verified_solve_solution(w->held, b, error, found, off);
+    verified_solve_solution(d->held, b, error, found, off);
     for (int j = 0, column = 0; j < nu; j++)
-        if (!w->is_independent[j]) {
+        if (!d->is_independent[j]) {
             v[j] = (LinearNumber){found[column], off[column]};
             column++;
         }
@@ -306,20 +350,20 @@ void linear_complete(const Work *w, const LinearNumber *right, LinearNumber *v)
 
 /* --- errors of the state --- */
 
-/* deviations of dependent speeds for the residuals of rows, `first` being the index of constraint
+/* deviations of dependent ones for the residuals of rows, `first` being the index of constraint
  * 0's */
-static void miss(const Work *w, int first, LinearNumber *moves)
+static void miss(const Work *w, const Dependence *d, int first, LinearNumber *moves)
 {
-    LinearNumber *right = NEW_ARRAY(LinearNumber, w->used);
+    LinearNumber *right = NEW_ARRAY(LinearNumber, d->used);
 
-    for (int r = 0; r < w->used; r++) {
-        const LinearNumber value = w->values[first + w->in_use[r]];
+    for (int r = 0; r < d->used; r++) {
+        const LinearNumber value = w->values[first + d->rows[r]];
 
         right[r] = (LinearNumber){value.value, value.error};
     }
     for (int j = 0; j < w->l->nu; j++)
         moves[j] = (LinearNumber){0, 0};
-    linear_complete(w, right, moves);
+    linear_complete(w, d, right, moves);
     mem_free(right);
 }
 
@@ -328,13 +372,13 @@ static void bound_state(Work *w)
     const VariableIndex *l = w->l;
     LinearNumber *moves = NEW_ARRAY(LinearNumber, l->nu);
 
-    miss(w, w->rows.phi, moves);
+    miss(w, w->places, w->rows.phi, moves);
     for (int i = 0; i < l->n; i++)
         for (int j = 0; j < l->nu; j++)
             w->y_error[i] +=
                 fabs(w->map[i * l->nu + j].value) * (fabs(moves[j].value) + moves[j].error);
     evaluate(w, true);
-    miss(w, w->rows.velocity, moves);
+    miss(w, &w->speeds, w->rows.velocity, moves);
     for (int j = 0; j < l->nu; j++)
         w->y_error[l->n + j] += fabs(moves[j].value) + moves[j].error;
     mem_free(moves);
@@ -347,21 +391,17 @@ static void open_room(Work *w)
     const VariableIndex *l = w->l;
     const int follow = l->nu + l->m + l->nx + l->nz;
 
-    w->used = w->order->about->result->start.row_count;
-    w->freedoms = l->nu - w->used;
-    w->unknowns = l->nu + w->used + l->nx + l->nz;
+    w->speeds.used = w->order->about->result->start.row_count;
+    w->unknowns = l->nu + w->speeds.used + l->nx + l->nz;
     w->follow = NEW_ARRAY(double, follow);
     w->follow_error = NEW_ARRAY(double, follow);
     w->y_error = NEW_ARRAY(double, variable_index_references(l) + l->multi_turns);
     w->values = NEW_ARRAY(LinearNumber, w->rows.count);
-    w->is_independent = NEW_ARRAY(bool, l->nu);
     w->matrix = NEW_ARRAY(double, w->unknowns * w->unknowns);
     w->matrix_error = NEW_ARRAY(double, w->unknowns * w->unknowns);
     w->phi_u = NEW_ARRAY(LinearNumber, l->m * l->nu);
     w->map = NEW_ARRAY(LinearNumber, 2 * l->n * l->nu);
     w->map_rate = w->map + l->n * l->nu;
-    w->dependent = NEW_ARRAY(double, w->used * w->used);
-    w->dependent_error = NEW_ARRAY(double, w->used * w->used);
     for (int i = 0; i < variable_index_references(l); i++)
         w->y_error[i] = number_error(w->y[i]);
 }
@@ -440,13 +480,14 @@ bool linear_perturbed(Work *w)
 /* approximate largest eigenvalue of the deviations of coordinates, 1/s */
 static double quickness(const Linear *linear)
 {
-    const int n = linear->freedoms;
+    const int places = linear->places, n = places + linear->freedoms;
     double stiffness = 0, damping = 0;
 
-    for (int i = n; i < 2 * n; i++)
+    for (int i = places; i < n; i++)
         for (int k = 0; k < n; k++) {
-            stiffness = fmax(stiffness, fabs(linear->a[i * linear->states + k]));
-            damping = fmax(damping, fabs(linear->a[i * linear->states + n + k]));
+            double *most = k < places ? &stiffness : &damping;
+
+            *most = fmax(*most, fabs(linear->a[i * linear->states + k]));
         }
     return sqrt(stiffness) + damping;
 }
@@ -486,7 +527,7 @@ static bool row_changes(const double *here, const double *there, int count)
 static double *coefficients(const Work *w)
 {
     const int nu = w->l->nu, count = w->at.rates;
-    double *out = NEW_ARRAY(double, (nu + w->used) * count);
+    double *out = NEW_ARRAY(double, (nu + w->speeds.used) * count);
 
     for (int first = 0; first < count; first += TANGENT_BATCH) {
         const int lanes = count - first < TANGENT_BATCH ? count - first : TANGENT_BATCH;
@@ -496,11 +537,11 @@ static double *coefficients(const Work *w)
             if (first + lane < w->at.x || first + lane >= w->at.acceleration)
                 linear_move(w, lane, first + lane, (LinearNumber){1, 0});
         tangents_run(w->along);
-        for (int r = 0; r < nu + w->used; r++)
+        for (int r = 0; r < nu + w->speeds.used; r++)
             for (int lane = 0; lane < lanes; lane++)
                 out[r * count + first + lane] =
                     linear_slope(
-                        w, r < nu ? w->rows.balance + r : w->rows.velocity + w->in_use[r - nu],
+                        w, r < nu ? w->rows.balance + r : w->rows.velocity + w->speeds.rows[r - nu],
                         lane)
                         .value;
     }
@@ -521,7 +562,7 @@ bool linear_is_passing(Work *w, const Linear *linear)
     row = row_with(w, w->order->at + time, y, w->follow);
     probe_tangents(w->derived, &row, NULL, w->along);
     there = coefficients(w);
-    for (int r = 0; r < w->l->nu + w->used && !passes; r++)
+    for (int r = 0; r < w->l->nu + w->speeds.used && !passes; r++)
         passes = row_changes(here + (size_t)r * count, there + (size_t)r * count, count);
     MEM_FREE(y, here, there);
     return passes;

@@ -33,11 +33,12 @@ Linear *linear_new(const Work *w)
     const LinearOrder *order = w->order;
     const VariableIndex *l = w->l;
     Linear *out = NEW(Linear);
-    int f = w->freedoms;
+    const int places = w->places->free, f = w->speeds.free;
 
     out->at = order->at;
+    out->places = places;
     out->freedoms = f;
-    out->states = 2 * f + l->nx;
+    out->states = places + f + l->nx;
     out->inputs = order->input_count;
     out->outputs = order->output_count;
     out->parts = l->nu + l->nx;
@@ -56,14 +57,14 @@ Linear *linear_new(const Work *w)
     out->part_names = NEW_ARRAY(char *, out->parts);
     for (int j = 0; j < l->nu; j++)
         out->part_names[j] = part_name(w, j);
-    for (int i = 0; i < f; i++) {
-        int j = partitioning_independent(w->partitioning)[i];
-
-        out->state_names[i] = copy(out->part_names[j]);
-        out->state_names[f + i] = copy(system_u(w->system, j)->name);
-    }
+    for (int i = 0; i < places; i++)
+        out->state_names[i] =
+            copy(out->part_names[partitioning_independent(w->places->partitioning)[i]]);
+    for (int i = 0; i < f; i++)
+        out->state_names[places + i] =
+            copy(system_u(w->system, partitioning_independent(w->speeds.partitioning)[i])->name);
     for (int i = 0; i < l->nx; i++) {
-        out->state_names[2 * f + i] = copy(system_x(w->system, i)->name);
+        out->state_names[places + f + i] = copy(system_x(w->system, i)->name);
         out->part_names[l->nu + i] = copy(system_x(w->system, i)->name);
     }
     for (int i = 0; i < out->inputs; i++)

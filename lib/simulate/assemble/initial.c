@@ -39,6 +39,21 @@ done:
     return status;
 }
 
+/* whether a coordinate may have several values where the others are known: some row is not linear
+ * in it. The angle of a wheel that rolls along a line has one. */
+static bool has_branches(const VariableIndex *l, int coordinate)
+{
+    const Expr q = system_q(l->system, coordinate)->symbol;
+    bool branches = false;
+
+    for (int k = 0; k < l->position_rows && !branches; k++) {
+        const Expr slope = expr_diff(system_arena(l->system), system_run(l->system)->phi[k], q);
+
+        branches = (expr_kinds(slope) & 1U << SYMBOL_COORDINATE) != 0;
+    }
+    return branches;
+}
+
 static void remark_moved(Assembly *a, const double *begun)
 {
     const VariableIndex *l = a->l;
@@ -47,7 +62,8 @@ static void remark_moved(Assembly *a, const double *begun)
     for (int i = 1; i < l->n; i++)
         if (fabs(a->y[i] - begun[i]) > fabs(a->y[furthest] - begun[furthest]))
             furthest = i;
-    if (l->n > 0 && fabs(a->y[furthest] - begun[furthest]) > COORDINATES_FAR)
+    if (l->n > 0 && has_branches(l, furthest) &&
+        fabs(a->y[furthest] - begun[furthest]) > COORDINATES_FAR)
         remarks_add(&a->out->remarks, (Remark){.kind = REMARK_ASSEMBLED_FAR,
                                                .what = system_q(l->system, furthest)->name,
                                                .size = begun[furthest],

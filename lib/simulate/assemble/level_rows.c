@@ -81,7 +81,9 @@ Status level_rows_new(StateLevel level, const VariableIndex *l, const Equations 
     rows->l = l;
     rows->eq = eq;
     rows->level = level;
-    rows->system_rows = level <= LEVEL_VELOCITY ? l->m : 0;
+    rows->system_rows = level == LEVEL_POSITION   ? l->position_rows
+                        : level == LEVEL_VELOCITY ? l->m
+                                                  : 0;
     rows->count = count;
     rows->target = NEW_ARRAY(double, count);
     rows->place = NEW_ARRAY(double, l->n + l->nu + 2 * l->nx + l->nz);
@@ -114,14 +116,14 @@ static void evaluate_system(const LevelRows *rows, double *residual, double *jac
 
     if (rows->level == LEVEL_POSITION) {
         eq->position(eq->context, rows->t, rows->place);
-        memcpy(residual, eq->phi, (size_t)eq->m * sizeof(double));
+        memcpy(residual, eq->phi, (size_t)rows->system_rows * sizeof(double));
     } else {
         eq->velocity(eq->context, u, u + eq->nu);
         for (int k = 0; k < eq->m; k++)
             residual[k] = pattern_dot(eq->rows, eq->phi_u, k, u) - eq->nu_rate[k];
     }
     if (jacobian != NULL)
-        memcpy(jacobian, eq->phi_u, (size_t)eq->rows->count * sizeof(double));
+        memcpy(jacobian, eq->phi_u, (size_t)eq->rows->start[rows->system_rows] * sizeof(double));
 }
 
 /* in the order of the pattern */
@@ -191,7 +193,8 @@ static void move_position(void *context, double *v, const double *step)
 static void find_pattern(LevelRows *rows, int count)
 {
     const Pattern *system = rows->system_rows > 0 ? rows->eq->rows : NULL;
-    const int of_system = system != NULL ? system->count : 0, most = of_system + rows->entries;
+    const int of_system = system != NULL ? system->start[rows->system_rows] : 0;
+    const int most = of_system + rows->entries;
     int *row = NEW_ARRAY(int, 3 * most), *column = row + most, *place = column + most;
     int *number = NEW_ARRAY(int, rows->count), next = rows->system_rows, terms = of_system;
     int listed = 0;

@@ -1,6 +1,7 @@
 /* level_rows.h: the equations of one level of a state, for least squares
  *
- *     position   Phi(q) = 0            (m)  in q (n), which moves along speeds: dq = N ds
+ *     position   Phi(q) = 0            (m, without velocity rows) in q (n), which moves along
+ *                                      speeds: dq = N ds
  *     velocity   Phi_u u - nu = 0      (m)  in u (nu)
  *     states                           in x (nx)
  *     network                          in (x, x', z)
@@ -28,7 +29,7 @@ typedef struct LevelRows {
     const VariableIndex *l;
     const Equations *eq;
     StateLevel level;
-    int system_rows; /* rows of the system, which come first: m, or none */
+    int system_rows; /* rows of the system of that level, which come first */
     int count;       /* expressions */
     double *target;  /* of each; write here. NAN: any value, and no row */
     double t;

@@ -130,6 +130,7 @@ Status compiled_new(const VariableIndex *layout, Parameters *parameters, Compile
     nb->eq = (Equations){.n = layout->n,
                          .nu = layout->nu,
                          .m = layout->m,
+                         .position_rows = layout->position_rows,
                          .nx = layout->nx,
                          .nz = layout->nz,
                          .multi_turn_count = layout->multi_turns,

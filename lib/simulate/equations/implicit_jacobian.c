@@ -189,7 +189,7 @@ static void add_entries(ImplicitSlopes *j)
 }
 
 /* rates that F contains with coefficient 1: all of y but u; L and M where their rows aren't in
- * use */
+ * use; M of velocity rows, which have no position */
 static void add_rates(ImplicitSlopes *j)
 {
     const VariableIndex *l = j->l;
@@ -201,6 +201,9 @@ static void add_rates(ImplicitSlopes *j)
         add_term(j, j->tail + i, j->tail + i,
                  (ImplicitJacobianTerm){-1, -1, i % l->m, .is_unused = true, .by_rate = true,
                                         .sign = 1});
+    for (int i = l->position_rows; i < l->m; i++)
+        add_term(j, j->tail + i, j->tail + l->m + i,
+                 (ImplicitJacobianTerm){-1, -1, i, .by_rate = true, .sign = 1});
 }
 
 /* N Phi_u^T mu of q': N is q' by u, Phi_u the velocity rows by u */

@@ -55,6 +55,7 @@ typedef struct Eliminated {
 
 typedef struct Equations {
     int n, nu, m, nx, nz;
+    int position_rows;     /* the first of m; of the velocity rows after them phi is 0 */
     int multi_turn_count;  /* of a */
     const uint64_t *sides; /* counts changes of switches between resistances, each of which changes
                               numbers in the equations; NULL: there are no such switches */

@@ -3,7 +3,8 @@
  * With multipliers, w = (y, L, M): L' = lambda and M' = mu of all rows, 0 where they aren't in use,
  * so that the positions of the equations don't depend on the rows in use. F is the stabilised
  * index-2 formulation (Gear, Gupta, Leimkuhler 1985): q' = N (u + Phi_u^T mu), M u' + Phi_u^T
- * lambda = F, Phi = 0, Phi_u u = nu. In the embedded form w is y, and F is y' less its rates. */
+ * lambda = F, Phi = 0, Phi_u u = nu, and mu = 0 of velocity rows. In the embedded form w is y, and
+ * F is y' less its rates. */
 #include "simulate/equations/motion_impl.h"
 
 #include "algebra/linear.h"
@@ -53,7 +54,7 @@ static void constrain(Motion *mo, const double *w, const double *w_rate, double 
 
         pattern_add(eq->rows, eq->phi_u, row, lambda[row], force_rows);
         pattern_add(eq->rows, eq->phi_u, row, mu[row], mo->du);
-        out[tail + row] = eq->phi[row];
+        out[tail + row] = row < eq->position_rows ? eq->phi[row] : mu[row];
         out[tail + eq->m + row] = pattern_dot(eq->rows, eq->phi_u, row, u) - eq->nu_rate[row];
     }
     for (int i = 0; i < eq->n; i++) { /* q' = N (u + Phi_u^T mu) */

@@ -194,6 +194,7 @@ VariableIndex *variable_index_new_on(System *system, const OnSurface *on, int co
     l->n = system_n(system);
     l->nu = system_nu(system);
     l->m = system_m(system);
+    l->position_rows = system_position_rows(system);
     l->nx = system_nx(system);
     l->nz = system_nz(system);
     l->t = append(l, &room, expr_symbol(system_arena(system), "t", SYMBOL_TIME));

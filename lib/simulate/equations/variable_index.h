@@ -22,6 +22,7 @@ typedef struct VariableIndex {
     int switches;
     uint64_t sides; /* counts changes of them: values computed with another count are outdated */
     int n, nu, m, nx, nz, ne, multi_turns, slides;
+    int position_rows; /* the first of m: those after them are velocity rows */
     int t, references, q, u, x, signs, rates, z, acceleration, multipliers, efforts,
         jerk; /* index of the first */
     int count;

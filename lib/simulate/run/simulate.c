@@ -541,8 +541,8 @@ static Status refuse_idle(const RunOptions *given, Diag *diag)
     return OK;
 }
 
-/* Positions follow from the drivers; states of a network that the motion doesn't determine are
- * integrated along. */
+/* Positions follow from the drivers. States of a network that the motion doesn't determine are
+ * integrated along; with velocity rows, which depend on the way to a position, so is all of it. */
 static Status drive(ActiveRun *r, const SimulationInput *setting, const RunOptions *given,
                     Diag *diag)
 {
@@ -560,7 +560,8 @@ static Status drive(ActiveRun *r, const SimulationInput *setting, const RunOptio
         diag_hint(diag, "give diodes and switches Ron= and Roff=");
         goto done;
     }
-    if (r->mode_search != NULL || (r->phase->layout->nx > 0 && !inverse_finds_states(r->system))) {
+    if (r->mode_search != NULL || r->phase->layout->position_rows < r->phase->layout->m ||
+        (r->phase->layout->nx > 0 && !inverse_finds_states(r->system))) {
         options.rtol = fmin(options.rtol, 1e-10);
         options.atol = fmin(options.atol, 1e-10);
         CHECK(go(r, setting, &options, 0, false, diag));

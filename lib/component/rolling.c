@@ -1,0 +1,356 @@
+/* rolling.c: what rolls without slipping, and blades that go along one direction
+ *
+ * All in axes of the tail, whose plane goes through its origin with the normal z; c (m) is the way
+ * to the head's origin, rho (m) that from there to the point of contact, and v + w x rho the
+ * velocity of the head's point against the tail's. Rolling is v + w x rho = 0: its component along
+ * the normal is the rate of the gap, the others are velocity rows.
+ *
+ *     ball         rho = -r z                  gap = z.c - r
+ *     wheel        rho = -r d - s z            gap = z.c - r |z - (z.a) a| - s
+ *                  d = z - (z.a) a, of length 1; a: its axle; s: radius of its round rim
+ *     ellipsoid    rho = -R A^2 m/h            gap = z.c - h
+ *                  m = R^T z, h = |A m|, A = diag(a, b, c), R: from axes of the head
+ *     in a bowl    rho = r c/|c|               gap = R - r - |c|;    on a dome |c| - R - r
+ *     in the plane t.c + r theta = offset, t = z x (out of the plane): a position row
+ *
+ * theory 14; P. Meijaard et al., Proc. R. Soc. A 463 (2007), 1955, have wheels with round rims. */
+#include "component/component_rows.h"
+
+/* clang-format off */
+static const Param roll_params[] = {
+    {"radius",   PARAM_SCALAR, "m", "0", "of the wheel, to the middle of a round rim, or of the ball", 0},
+    {"axle",     PARAM_AXIS,   "1", "z", "of a wheel, in the axes of the tip; without it a ball rolls", 0},
+    {"normal",   PARAM_AXIS,   "1", "z", "of the plane that it rolls on, in the axes of the tail; planar: y", 0},
+    {"rim",      PARAM_SCALAR, "m", "0", "radius of a wheel's round rim", 0},
+    {"semiaxes", PARAM_LIST,   "m", "",  "[a, b, c] of an ellipsoid along the axes of the tip", 0},
+    {"bowl",     PARAM_SCALAR, "m", "0", "radius of a bowl about the tail's origin, in which a ball rolls", 0},
+    {"dome",     PARAM_SCALAR, "m", "0", "radius of a dome about the tail's origin, on which a ball rolls", 0},
+    {"offset",   PARAM_SCALAR, "m", "0", "planar: of the way along the line where the wheel's angle is 0", 0},
+};
+
+static const Param knife_params[] = {
+    {"along",  PARAM_AXIS, "1", "x", "the direction in which the blade goes, in the axes of the tip", 0},
+    {"normal", PARAM_AXIS, "1", "z", "of the plane that it goes on, in the axes of the tail", 0},
+};
+
+static const Member roll_members[] = {
+    {"fn", "N", "force on the tip along the normal", 0},
+    {"ft", "N", "magnitude of the force along the plane", 0},
+};
+
+static const Member knife_members[] = {
+    {"fn", "N", "force on the tip across the blade", 0},
+};
+/* clang-format on */
+
+/* --- vectors --- */
+
+static Expr dot(Arena *arena, const Expr a[3], const Expr b[3])
+{
+    return expr_sum(arena,
+                    (Expr[]){expr_mul(arena, a[0], b[0]), expr_mul(arena, a[1], b[1]),
+                             expr_mul(arena, a[2], b[2])},
+                    3);
+}
+
+static void cross(Arena *arena, const Expr a[3], const Expr b[3], Expr out[3])
+{
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+
+        out[i] = expr_sub(arena, expr_mul(arena, a[j], b[k]), expr_mul(arena, a[k], b[j]));
+    }
+}
+
+/* out = a + s b; out may be either */
+static void add_scaled(Arena *arena, const Expr a[3], Expr s, const Expr b[3], Expr out[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = expr_add(arena, a[i], expr_mul(arena, s, b[i]));
+}
+
+static void scale(Arena *arena, Expr s, const Expr a[3], Expr out[3])
+{
+    for (int i = 0; i < 3; i++)
+        out[i] = expr_mul(arena, s, a[i]);
+}
+
+/* from axes of the head to those of the tail; with `back` the other way */
+static void turn(Arena *arena, const FramesApart *apart, bool back, const Expr a[3], Expr out[3])
+{
+    for (int i = 0; i < 3; i++) {
+        const Expr row[3] = {apart->turn[back ? i : 3 * i], apart->turn[back ? 3 + i : 3 * i + 1],
+                             apart->turn[back ? 6 + i : 3 * i + 2]};
+
+        out[i] = dot(arena, row, a);
+    }
+}
+
+static Expr held_length(Arena *arena, const Expr a[3])
+{
+    return expr_name_temporary(arena, expr_sqrt(arena, dot(arena, a, a)));
+}
+
+static bool is_given(const Instance *instance, const char *name)
+{
+    return instance_value(instance, name)->given;
+}
+
+/* --- rows --- */
+
+static void push(Contact *out, const char *direction, const Expr along[3], Expr gap)
+{
+    ContactRow *row = &out->row[out->count++];
+
+    *row = (ContactRow){.direction = direction, .gap = gap};
+    for (int i = 0; i < 3; i++)
+        row->along[i] = along[i];
+}
+
+static void push_tangents(Arena *arena, const Expr normal[3], Contact *out)
+{
+    Expr n1[3], n2[3];
+
+    axis_complement(arena, normal, n1, n2);
+    push(out, "t1", n1, NULL);
+    push(out, "t2", n2, NULL);
+}
+
+/* of a ball: the normal where it touches a bowl or a dome */
+static Expr round_gap(const Instance *instance, Arena *arena, const FramesApart *apart,
+                      Expr normal[3])
+{
+    const bool is_bowl = is_given(instance, "bowl");
+    const Expr far = held_length(arena, apart->way), r = instance_scalar(instance, "radius");
+    const Expr sign = expr_int(arena, is_bowl ? -1 : 1);
+
+    scale(arena, expr_div(arena, sign, far), apart->way, normal);
+    return is_bowl ? expr_sub(arena, expr_sub(arena, instance_scalar(instance, "bowl"), r), far)
+                   : expr_sub(arena, expr_sub(arena, far, instance_scalar(instance, "dome")), r);
+}
+
+/* rho of a wheel, and its gap */
+static Expr wheel_gap(const Instance *instance, Arena *arena, const FramesApart *apart,
+                      const Expr z[3], Expr point[3])
+{
+    const Expr r = instance_scalar(instance, "radius"), rim = instance_scalar(instance, "rim");
+    Expr a[3], d[3], length;
+
+    turn(arena, apart, false, instance_value(instance, "axle")->at, a);
+    add_scaled(arena, z, expr_neg(arena, dot(arena, z, a)), a, d);
+    length = held_length(arena, d);
+    scale(arena, expr_neg(arena, expr_div(arena, r, length)), d, point);
+    add_scaled(arena, point, expr_neg(arena, rim), z, point);
+    return expr_sub(arena, expr_sub(arena, dot(arena, z, apart->way), expr_mul(arena, r, length)),
+                    rim);
+}
+
+static Expr ellipsoid_gap(const Instance *instance, Arena *arena, const FramesApart *apart,
+                          const Expr z[3], Expr point[3])
+{
+    const Value *axes = instance_value(instance, "semiaxes");
+    Expr m[3], scaled[3], h;
+
+    turn(arena, apart, true, z, m);
+    for (int i = 0; i < 3; i++)
+        scaled[i] = expr_mul(arena, axes->at[i], m[i]);
+    h = held_length(arena, scaled);
+    for (int i = 0; i < 3; i++)
+        scaled[i] = expr_neg(arena, expr_div(arena, expr_mul(arena, axes->at[i], scaled[i]), h));
+    turn(arena, apart, false, scaled, point);
+    return expr_sub(arena, dot(arena, z, apart->way), h);
+}
+
+static void plane_normal(const Instance *instance, Arena *arena, bool planar, Expr out[3])
+{
+    const Value *normal = instance_value(instance, "normal");
+    const bool is_default = planar && !normal->given;
+
+    for (int i = 0; i < 3; i++)
+        out[i] = is_default ? expr_int(arena, i == 1) : normal->at[i];
+}
+
+static void roll_contact(const Instance *instance, Arena *arena, bool planar,
+                         const FramesApart *apart, Contact *out)
+{
+    const Expr r = instance_scalar(instance, "radius");
+    const Expr out_of_plane[3] = {expr_int(arena, 0), expr_int(arena, 0), expr_int(arena, 1)};
+    Expr z[3], along[3], gap, travel;
+
+    *out = (Contact){0};
+    plane_normal(instance, arena, planar, z);
+    if (is_given(instance, "bowl") || is_given(instance, "dome")) {
+        gap = round_gap(instance, arena, apart, out->normal);
+        scale(arena, expr_neg(arena, r), out->normal, out->point);
+        push(out, "normal", out->normal, gap);
+        if (planar) {
+            cross(arena, out->normal, out_of_plane, along);
+            push(out, "t", along, NULL);
+        } else {
+            /* with the row along the normal any two other directions hold all of the velocity */
+            push_tangents(arena, z, out);
+        }
+        return;
+    }
+    for (int i = 0; i < 3; i++)
+        out->normal[i] = z[i];
+    if (is_given(instance, "semiaxes")) {
+        gap = ellipsoid_gap(instance, arena, apart, z, out->point);
+    } else if (!planar && is_given(instance, "axle")) {
+        gap = wheel_gap(instance, arena, apart, z, out->point);
+    } else {
+        scale(arena, expr_neg(arena, r), z, out->point);
+        gap = expr_sub(arena, dot(arena, z, apart->way), r);
+    }
+    push(out, "normal", z, gap);
+    if (!planar) {
+        push_tangents(arena, z, out);
+        return;
+    }
+    cross(arena, z, out_of_plane, along);
+    travel = expr_add(arena, dot(arena, along, apart->way), expr_mul(arena, r, apart->angle));
+    push(out, "t", along, expr_sub(arena, travel, instance_scalar(instance, "offset")));
+}
+
+static void knife_contact(const Instance *instance, Arena *arena, bool planar,
+                          const FramesApart *apart, Contact *out)
+{
+    const Expr *z = instance_value(instance, "normal")->at;
+    const Expr zero = expr_int(arena, 0), out_of_plane[3] = {zero, zero, expr_int(arena, 1)};
+    Expr blade[3];
+
+    *out = (Contact){.point = {zero, zero, zero}};
+    turn(arena, apart, false, instance_value(instance, "along")->at, blade);
+    cross(arena, planar ? out_of_plane : z, blade, out->normal);
+    if (!planar)
+        scale(arena, expr_div(arena, expr_int(arena, 1), held_length(arena, out->normal)),
+              out->normal, out->normal);
+    push(out, "side", out->normal, NULL);
+}
+
+/* --- checks --- */
+
+static Status refuse(Diag *diag, const char *about, const char *message, const char *hint)
+{
+    const Status status = diag_set(diag, E_VALUE, "%s", message);
+
+    diag_hint(diag, "%s", hint);
+    diag_about(diag, "%s", about);
+    return status;
+}
+
+static Status check_ellipsoid(const Instance *instance, bool planar, Diag *diag)
+{
+    const Value *axes = instance_value(instance, "semiaxes");
+
+    if (planar)
+        return refuse(diag, "semiaxes", "an ellipsoid rolls in a spatial scene",
+                      "in the plane a circle rolls: radius=");
+    if (axes->count != 3)
+        return refuse(diag, "semiaxes", "an ellipsoid has three semiaxes",
+                      "they are written [a, b, c], along the axes of the tip");
+    if (is_given(instance, "radius"))
+        return refuse(diag, "radius", "semiaxes= and radius= exclude each other",
+                      "a ball has a radius, an ellipsoid three semiaxes");
+    for (int i = 0; i < 3; i++)
+        if (expr_is_number(axes->at[i]) && !(expr_value(axes->at[i]) > 0))
+            return refuse(diag, "semiaxes", "a semiaxis must be above 0", "in m");
+    return OK;
+}
+
+/* of one that isn't flat */
+static Status check_round(const Instance *instance, Diag *diag)
+{
+    const bool is_bowl = is_given(instance, "bowl");
+    const Expr R = instance_scalar(instance, is_bowl ? "bowl" : "dome");
+    const Expr r = instance_scalar(instance, "radius");
+
+    if (is_bowl && is_given(instance, "dome"))
+        return refuse(diag, "dome", "bowl= and dome= exclude each other",
+                      "inside a sphere, or outside of it");
+    if (is_given(instance, "axle") || is_given(instance, "semiaxes"))
+        return refuse(diag, is_bowl ? "bowl" : "dome", "in a bowl or on a dome only a ball rolls",
+                      "wheels and ellipsoids roll on planes");
+    TRY(check_positive(instance, is_bowl ? "bowl" : "dome", diag));
+    if (is_bowl && expr_is_number(R) && expr_is_number(r) && expr_value(R) <= expr_value(r))
+        return refuse(diag, "bowl", "the ball does not fit into the bowl",
+                      "bowl= must be above radius=");
+    return OK;
+}
+
+static Status roll_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
+{
+    (void)arena;
+    if (is_given(instance, "bowl") || is_given(instance, "dome"))
+        TRY(check_round(instance, diag));
+    if (is_given(instance, "semiaxes"))
+        return check_ellipsoid(instance, planar, diag);
+    if (!is_given(instance, "radius"))
+        return refuse(diag, "radius", "a wheel or a ball needs its radius",
+                      "radius=0.3 m; an ellipsoid has semiaxes=[a, b, c]");
+    TRY(check_not_negative(instance, "rim", diag));
+    if (is_given(instance, "rim") && (planar || !is_given(instance, "axle")))
+        return refuse(diag, "rim", "only a wheel has a rim", "axle= makes it a wheel");
+    if (is_given(instance, "offset") && !planar)
+        return refuse(diag, "offset", "offset= belongs to rolling in a planar scene",
+                      "in space an initial position may be any: init");
+    return check_positive(instance, "radius", diag);
+}
+
+/* --- table --- */
+
+const Component component_roll = {
+    .name = "roll",
+    .family = FAMILY_CONTACT,
+    .domain = DOMAIN_MECHANICAL,
+    .places = PLACES_FRAMES,
+    .brief = "a wheel, ball or ellipsoid that rolls on a plane, or a ball in a bowl",
+    .params = roll_params,
+    .param_count = COUNT(roll_params),
+    .translation = BRANCH_NEVER,
+    .rotation = BRANCH_NEVER,
+    .preference = 95,
+    .contact = roll_contact,
+    .members = roll_members,
+    .member_count = COUNT(roll_members),
+    .check = roll_check,
+    .help =
+        "The tip rolls on the tail without slipping and without leaving it. The plane goes through "
+        "the tail's origin. A wheel turns about axle=, its contact point is the lowest of its rim; "
+        "without axle= a ball rolls, with semiaxes= an ellipsoid. bowl= and dome= make the tail a "
+        "sphere. In space the velocity along the surface is 0, which takes freedoms of motion but "
+        "not of place. In a planar scene the way is tied to the angle: t.c + radius*theta = "
+        "offset.",
+    .example = "gravity [0, 0, -9.81]\n"
+               "body coin mass=0.02 inertia=[1.25e-6, 1.25e-6, 2.5e-6] euler=zxz\n"
+               "roll r1 ground coin axle=z radius=16 mm\n"
+               "init coin.x = 0, coin.y = 0, coin.a1 = 0, coin.a2 = 60 deg, coin.a3 = 0\n"
+               "init coin.a1' = 0, coin.a2' = 0, coin.a3' = 20\n"
+               "simulate 1\nprint coin.x, coin.y, r1.fn",
+    .see = "knife coupler contact",
+};
+
+const Component component_knife = {
+    .name = "knife",
+    .family = FAMILY_CONTACT,
+    .domain = DOMAIN_MECHANICAL,
+    .places = PLACES_FRAMES,
+    .brief = "a blade or skate that goes along one direction only",
+    .params = knife_params,
+    .param_count = COUNT(knife_params),
+    .translation = BRANCH_NEVER,
+    .rotation = BRANCH_NEVER,
+    .preference = 95,
+    .contact = knife_contact,
+    .members = knife_members,
+    .member_count = COUNT(knife_members),
+    .help = "The origin of the tip has no velocity across the blade, against the tail. The blade "
+            "goes along a direction fixed in the tip, on a plane with the normal of the tail. It "
+            "takes a freedom of motion, but none of place.",
+    .example = "scene planar\nbody sleigh mass=1 inertia=0.2\narm blade sleigh [-0.3, 0]\n"
+               "knife k1 ground blade along=x\n"
+               "init sleigh.x = 0, sleigh.y = 0, sleigh.theta = 0\n"
+               "init sleigh.theta' = 1, sleigh.x' = 1\nsimulate 2\n"
+               "print sleigh.x, sleigh.y, sleigh.theta, k1.fn",
+    .see = "roll coupler",
+};

@@ -1,0 +1,138 @@
+/* contact_rows.c: velocity of one frame's point against another's, projected on directions
+ *
+ * With the way d (m) from the tail's origin to the head's and rho (m) from there to the point,
+ *
+ *     n . (v_h + w_h x rho - v_t - w_t x (d + rho)) = 0
+ *
+ * is a row in the speeds (m/s). Where n . d has a rate that equals it, as along the normal of a
+ * contact, the row has a position too. All vectors are in the axes of the tail's orientation
+ * class. theory 14. */
+#include "formulate/kinematics/contact_rows.h"
+
+#include "formulate/kinematics/frames.h"
+#include "formulate/kinematics/recursive.h"
+#include "formulate/system/kinematics.h"
+#include "formulate/system/origin.h"
+#include "formulate/system/system_impl.h"
+
+#include <string.h>
+
+/* the angle of the head against the tail in a planar scene: a sum of turns */
+static Expr angle_between(System *system, const Instance *part)
+{
+    Arena *arena = system->arena;
+    const Frame *tail = &system->kinematics->frames[part->tail],
+                *head = &system->kinematics->frames[part->head];
+    const Rotation back = rotation_transpose(&tail->zero);
+    const Rotation constant = rotation_product(arena, &back, &head->zero);
+    const Vec out_of_plane = {{expr_int(arena, 0), expr_int(arena, 0), expr_int(arena, 1)}};
+    Expr sum = rotation_angle(arena, &constant, out_of_plane);
+    Turns turns = {0};
+
+    turns_between(system, tail->chain, head->chain, &turns);
+    for (int i = 0; i < turns.count; i++)
+        sum = expr_add(arena, sum, expr_mul(arena, turns.at[i].axis.at[2], turns.at[i].angle));
+    LIST_FREE(turns);
+    return sum;
+}
+
+/* a vector of ground axes in those of a node's frame */
+static Vec in_frame(const System *system, int node, Vec v)
+{
+    const Frame *frame = &system->kinematics->frames[node];
+    const Rotation back = rotation_transpose(&frame->zero);
+
+    return rotation_apply(system->arena, &back, vec_express(system, v, 0, frame->chain));
+}
+
+static Vec way_between(System *system, const Instance *part)
+{
+    return vec_sub(system->arena, node_position(system, part->head),
+                   node_position(system, part->tail));
+}
+
+void contact_of(System *system, const Instance *part, Contact *out)
+{
+    Arena *arena = system->arena;
+    const int tail = system->kinematics->frames[part->tail].chain;
+    const int head = system->kinematics->frames[part->head].chain;
+    const Rotation back = rotation_transpose(&system->kinematics->frames[part->tail].zero);
+    FramesApart apart = {0};
+    Vec way = vec_hold(arena, in_frame(system, part->tail, way_between(system, part)));
+
+    memcpy(apart.way, way.at, sizeof way.at);
+    for (int i = 0; i < 3; i++) {
+        Vec axis = vec_zero(arena);
+
+        axis.at[i] = expr_int(arena, 1);
+        axis = vec_express(system, frame_vector(system, part->head, axis), head, tail);
+        axis = vec_hold(arena, rotation_apply(arena, &back, axis));
+        for (int k = 0; k < 3; k++)
+            apart.turn[3 * k + i] = axis.at[k];
+    }
+    if (system->origin->planar)
+        apart.angle = angle_between(system, part);
+    part->row->contact(part, arena, system->origin->planar, &apart, out);
+}
+
+/* a quantity of the recursive form, from the axes of its resolve class to those of the tail */
+static Vec carried(const System *system, Vec v, int chain, int tail)
+{
+    return vec_express(system, v, system->kinematics->chains.at[chain].resolve, tail);
+}
+
+/* the velocity of the head's point against the tail's, in axes of the tail's orientation class */
+static Vec slip_of(System *system, const Instance *part, Vec point)
+{
+    Arena *arena = system->arena;
+    const Kinematics *k = system->kinematics;
+    const int tail = k->frames[part->tail].chain, head = k->frames[part->head].chain;
+    const Vec way = vec_express(system, way_between(system, part), 0, tail);
+    const Vec v = vec_sub(arena, carried(system, k->frames[part->head].v, head, tail),
+                          carried(system, k->frames[part->tail].v, tail, tail));
+    const Vec of_head = vec_cross(arena, carried(system, k->motions[head].w, head, tail), point);
+    const Vec of_tail = vec_cross(arena, carried(system, k->motions[tail].w, tail, tail),
+                                  vec_add(arena, way, point));
+
+    return vec_hold(arena, vec_add(arena, v, vec_sub(arena, of_head, of_tail)));
+}
+
+void contact_rows_push(System *system, const Instance *part, bool with_position)
+{
+    Arena *arena = system->arena;
+    Contact contact;
+    Vec point, slip;
+
+    contact_of(system, part, &contact);
+    point = vec_hold(arena,
+                     frame_vector(system, part->tail,
+                                  (Vec){{contact.point[0], contact.point[1], contact.point[2]}}));
+    slip = slip_of(system, part, point);
+    for (int i = 0; i < contact.count; i++) {
+        const ContactRow *own = &contact.row[i];
+        const Vec along = {{own->along[0], own->along[1], own->along[2]}};
+        Row row = {.kind = ROW_CONTACT, .tail = part->tail, .head = part->head, .point = point};
+
+        if ((own->gap != NULL) != with_position)
+            continue;
+        row.n = vec_hold(arena, frame_vector(system, part->tail, along));
+        row.rate = expr_name_temporary(arena, vec_dot(arena, row.n, slip));
+        row.phi = own->gap != NULL ? own->gap : expr_int(arena, 0);
+        row.reported = (ConstraintRow){
+            .edge = part->edge, .instance = part->number, .is_rate = own->gap == NULL};
+        (void)strncpy(row.reported.direction, own->direction, sizeof row.reported.direction - 1);
+        LIST_PUSH(system->constraints->rows, row);
+    }
+}
+
+Vec contact_point(System *system, const Instance *part)
+{
+    Contact contact;
+    Vec point;
+
+    contact_of(system, part, &contact);
+    point = frame_vector(system, part->tail,
+                         (Vec){{contact.point[0], contact.point[1], contact.point[2]}});
+    point = vec_express(system, point, system->kinematics->frames[part->tail].chain, 0);
+    return vec_add(system->arena, node_position(system, part->head), point);
+}

@@ -1,0 +1,14 @@
+/* contact_rows.h: rows of motion between two frames at a point: wheels, blades */
+#ifndef COTREE_FORMULATE_KINEMATICS_CONTACT_ROWS_H
+#define COTREE_FORMULATE_KINEMATICS_CONTACT_ROWS_H
+
+#include "formulate/system/constraints.h"
+
+/* The part's rows and its point of contact, over q, in axes of the tail's frame. */
+void contact_of(System *system, const Instance *part, Contact *out);
+/* Adds the part's rows with a position, or those without. Sets phi, rate, n and point of each. */
+void contact_rows_push(System *system, const Instance *part, bool with_position);
+/* the point of contact in ground axes */
+Vec contact_point(System *system, const Instance *part);
+
+#endif
