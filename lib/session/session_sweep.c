@@ -343,7 +343,7 @@ static int first_to_make(const SweepWork *work)
 {
     int row = 0;
 
-    while (row < work->table->planned - 1 && work->is_made[row])
+    while (row < work->table->planned && work->is_made[row])
         row++;
     return row;
 }
@@ -373,7 +373,8 @@ static Status run_rows(ct_session *session, const Statement *s, SweepTable *tabl
     }
     work.made = file->old;
     session->watch.progress = NULL; /* the phases of each run are of no interest */
-    status = make_rows_here(&work, first_to_make(&work) + 1);
+    if (first_to_make(&work) < table->planned)
+        status = make_rows_here(&work, first_to_make(&work) + 1);
     if (status == OK && jobs > 1 && work.failed_row < 0 && table->planned - work.made > 1 &&
         is_worth_workers(&work, clock_now() - began, given))
         make_rows_in_workers(&work, jobs);
