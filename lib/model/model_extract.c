@@ -184,6 +184,7 @@ static Status add_massless(const Extraction *x, State **state, const char *name,
     operand = statement->operands.at[0];
     operand.value = &named;
     statement->operands.at[0] = operand;
+    (*state)->is_open = true;
     status = state_apply(state, statement, &outcome, diag);
 done:
     text_free(&outcome.remarks);

@@ -68,7 +68,7 @@ Status part_draft_read_name(PartDraft *draft)
     Place place;
 
     TRY(next_name(draft, &name, &place));
-    if (strchr(name, '.') != NULL && draft->state->inside < 0)
+    if (strchr(name, '.') != NULL && draft->state->inside < 0 && !draft->state->is_open)
         return diag_at(draft->diag, E_NAME, place, "a new name has no dot");
     if (names_find(draft->state->terminals, name) >= 0)
         return diag_at(draft->diag, E_NAME, place, "'%s' is already a terminal", name);

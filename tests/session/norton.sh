@@ -71,6 +71,9 @@ say 'show thevenin B.alphaz of h, b, M, R1' "$arm"
 say 'show thevenin B.alphaz of h, b, M, R1 at 0' "$arm"
 say 'show norton p.ax p.ay B.alphaz of h, b at 0' "$arm"
 say 'diode D n 0; show norton p of h, b, M, R1, D networks=kept' "$arm"
+# a part that is attached to a frame inside an instance
+hung='source "one_leg.ct"; body p mass=2 inertia=0.1; arm a p [0.1, 0]; revolute h leg1.B a'
+say 'show thevenin p.ax p.ay of h, p; show norton p of p' "$hung"
 echo "--- none of that kind"
 say 'show norton r1 of h1, b1' "$double"
 say 'show thevenin r1 of h2, b2' "$double"
