@@ -78,6 +78,16 @@ Status model_extract(const Model *model, const Extract *part, Model **out, Extra
     return OK;
 }
 
+Status model_isolate(const Model *model, const char *name, Model **out, ExtractedEnds *ends,
+                     Diag *diag)
+{
+    State *state = NULL;
+
+    TRY(state_isolate(model->state, name, &state, ends, diag));
+    *out = fork_around(model, state);
+    return OK;
+}
+
 void model_open_insides(Model *fork)
 {
     assert(fork->is_fork);

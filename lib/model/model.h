@@ -97,23 +97,35 @@ typedef struct Extract {
 typedef struct ExtractedTerminal {
     const char *node;
     Domain domain;
+    bool is_across; /* the source gives its voltage; otherwise its current */
 } ExtractedTerminal;
 
 /* Where a part was attached to the rest; names are borrowed from the model. */
 typedef struct ExtractedEnds {
     LIST(const char *) frames; /* of massless bodies, which take the place of the rest's */
-    /* Terminal i has a source of the parameters EXTRACT_VALUE with (i, 0), (i, 1) and (i, 2): its
-     * value and the rates of it at the time EXTRACT_TIME. */
+    /* Terminal i has a source, EXTRACT_SOURCE with i, of the parameters EXTRACT_VALUE with (i, 0),
+     * (i, 1) and (i, 2): its value and the rates of it at the time EXTRACT_TIME. */
     LIST(ExtractedTerminal) terminals;
 } ExtractedEnds;
-#define EXTRACT_VALUE "port__value%d_%d"
-#define EXTRACT_TIME  "port__time"
+#define EXTRACT_VALUE    "port__value%d_%d"
+#define EXTRACT_TIME     "port__time"
+#define EXTRACT_SOURCE   "port__source%d"
+#define EXTRACT_INSTANCE "port__use"
 
 /* New: the part by itself (NULL: all), a model over the same arena, which must outlive it. Adds to
  * `ends`, whose lists the caller frees. E_NAME for an unknown name, E_MODEL where a frame isn't one
  * of the part, or a component needs something outside of it. */
 MUST_USE Status model_extract(const Model *model, const Extract *part, Model **out,
                               ExtractedEnds *ends, Diag *diag);
+/* New: an instance of a subsystem by itself, or of a definition one that is called
+ * EXTRACT_INSTANCE. Instead of the frames that `use` binds it has massless bodies, as ends->frames,
+ * and all terminals have sources. Bodies and terminals are named as the ports: "leg1.A". `name` is
+ * of an instance or a definition; fails with E_MODEL for an instance inside another. */
+MUST_USE Status model_isolate(const Model *model, const char *name, Model **out,
+                              ExtractedEnds *ends, Diag *diag);
+/* An expression of such a part with variables, such as "leg1.e.v'", in place of the parameters of
+ * its sources. */
+Expr model_extracted(Arena *arena, const ExtractedEnds *ends, Expr e);
 /* The statement of a source, for printf() with its name, its two terminals and its value. */
 const char *model_source_statement(Domain domain, bool is_across);
 /* From now on statements of the fork may attach parts inside instances, to examine these. */

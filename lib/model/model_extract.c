@@ -12,12 +12,14 @@
 typedef struct Extraction {
     const State *old;
     const Extract *part;
-    bool *keeps;    /* by part: its line belongs to the part of the model */
-    bool *carries;  /* by part: a body of the rest to which frames of the part are fixed */
-    int *made_by;   /* by node: the body or arm whose frame it is; -1 */
-    int *line;      /* by part: the line that makes it; one inside an instance: -1 */
-    bool *touches;  /* by node: an edge of the part is attached to it */
-    NameList loose; /* frames inside instances of the rest */
+    bool *keeps;      /* by part: its line belongs to the part of the model */
+    bool *carries;    /* by part: a body of the rest to which frames of the part are fixed */
+    int *made_by;     /* by node: the body or arm whose frame it is; -1 */
+    int *line;        /* by part: the line that makes it; one inside an instance: -1 */
+    bool *touches;    /* by node: an edge of the part is attached to it */
+    NameList loose;   /* frames inside instances of the rest */
+    bool is_isolated; /* state_isolate(): a kept instance gets ports of its own */
+    ExtractedEnds *ends;
 } Extraction;
 
 static bool is_kept_use(const Extraction *x, const char *name)
@@ -208,6 +210,125 @@ static Status apply_kept(State **state, const char *name, const char *text, Diag
     return E_MODEL;
 }
 
+/* --- sources --- */
+
+const char *model_source_statement(Domain domain, bool is_across)
+{
+    static const struct {
+        const char *through, *across;
+    } sources[DOMAIN_COUNT] = {
+        [DOMAIN_ELECTRICAL] = {"isource %s %s %s %s", "vsource %s %s %s %s"},
+        [DOMAIN_HYDRAULIC] = {"pump %s %s %s flow=%s", "pump %s %s %s pressure=%s"},
+        [DOMAIN_SHAFT] = {"torquesource %s %s %s %s", "speedsource %s %s %s %s"},
+        [DOMAIN_SLIDE] = {"forcesource %s %s %s %s", "velocitysource %s %s %s %s"},
+        [DOMAIN_THERMAL] = {"heatsource %s %s %s %s", "tempsource %s %s %s %s"},
+    };
+
+    return is_across ? sources[domain].across : sources[domain].through;
+}
+
+/* a source whose value and rates are parameters */
+static Status add_source(State **state, ExtractedEnds *ends, const char *node, Domain domain,
+                         bool is_across, Diag *diag)
+{
+    const int number = ends->terminals.count;
+    char name[32], value[128];
+    Text line = {0};
+    Status status = OK;
+
+    if (number == 0)
+        TRY(state_apply_text(state, EXTRACT_TIME " = 0", diag));
+    for (int k = 0; k < 3; k++) {
+        text_addf(&line, EXTRACT_VALUE " = 1", number, k);
+        CHECK(state_apply_text(state, line.at, diag));
+        text_free(&line);
+    }
+    (void)snprintf(name, sizeof name, EXTRACT_SOURCE, number);
+    (void)snprintf(value, sizeof value,
+                   "(" EXTRACT_VALUE " + (t - " EXTRACT_TIME ")*" EXTRACT_VALUE
+                   " + (t - " EXTRACT_TIME ")^2*" EXTRACT_VALUE "/2)",
+                   number, 0, number, 1, number, 2);
+    text_addf(&line, model_source_statement(domain, is_across), name, node, "0", value);
+    (*state)->is_open = true;
+    CHECK(state_apply_text(state, line.at, diag));
+    LIST_PUSH(ends->terminals, ((ExtractedTerminal){node, domain, is_across}));
+done:
+    text_free(&line);
+    return status;
+}
+
+/* --- an instance with ports of its own --- */
+
+/* `use` without what it binds */
+static void add_use(const Subsystem *subsystem, const char *name, const Statement *use, Text *out)
+{
+    text_addf(out, "use %s %s", subsystem->name, name);
+    for (int i = 0; use != NULL && i < use->pairs.count; i++)
+        if (subsystem_port(subsystem, use->pairs.at[i].name) < 0) {
+            text_addf(out, " %s=", use->pairs.at[i].name);
+            syntax_print(out, use->pairs.at[i].value);
+        }
+}
+
+/* Motions and voltages that the outside determines are those of massless bodies and of sources,
+ * named as the ports; currents are those of sources, too. */
+static Status apply_isolated(const Extraction *x, State **state, const Subsystem *subsystem,
+                             const char *name, const Statement *use, Diag *diag)
+{
+    const char **names = NEW_ARRAY(const char *, subsystem->port_count + 1);
+    Text text = {0};
+    Status status = OK;
+
+    add_use(subsystem, name, use, &text);
+    (*state)->is_open = true;
+    for (int i = 0; i < subsystem->port_count; i++) {
+        const Port *port = &subsystem->ports[i];
+        Text full = {0};
+
+        text_addf(&full, "%s.%s", name, port->name);
+        names[i] = state_text(*state, full.at);
+        text_free(&full);
+        if (port->is_through)
+            continue;
+        text_addf(&text, " %s=%s", port->name, names[i]);
+        if (port->is_frame) {
+            CHECK(add_massless(x, state, names[i], diag));
+            LIST_PUSH(x->ends->frames, names[i]);
+        }
+    }
+    CHECK(apply_kept(state, name, text.at, diag));
+    for (int i = 0; i < subsystem->port_count; i++) {
+        const int node = graph_find_node((*state)->graph, names[i]);
+        const Domain domain =
+            node >= 0 ? graph_node((*state)->graph, node)->domain : DOMAIN_ELECTRICAL;
+
+        if (!subsystem->ports[i].is_frame)
+            CHECK(add_source(state, x->ends, names[i], domain, !subsystem->ports[i].is_through,
+                             diag));
+    }
+done:
+    text_free(&text);
+    mem_free(names);
+    return status;
+}
+
+static Status apply_use_line(const Extraction *x, State **state, const Line *line, Diag *diag)
+{
+    const Use *use = &x->old->uses.at[line->use];
+    Statement *statement = NULL;
+    Status status = OK;
+
+    if (!is_kept_use(x, use->name))
+        return OK;
+    if (!x->is_isolated)
+        return apply_kept(state, use->name, line->text, diag);
+    CHECK(statement_parse(line->text, 1, (SyntaxOptions){false}, NULL, &statement, diag));
+    CHECK(apply_isolated(x, state, use->subsystem, use->name, statement, diag));
+done:
+    statement_free(statement);
+    return status;
+}
+
 static bool sets_in_rest(const Extraction *x, const Line *line)
 {
     const int around = line->key != NULL ? state_use_around(x->old, line->key) : -1;
@@ -223,9 +344,7 @@ static Status apply_line(const Extraction *x, State **state, const Line *line, D
     const State *old = x->old;
 
     if (line->use >= 0)
-        return is_kept_use(x, old->uses.at[line->use].name)
-                   ? apply_kept(state, old->uses.at[line->use].name, line->text, diag)
-                   : OK;
+        return apply_use_line(x, state, line, diag);
     if (line->part >= 0 && x->carries[line->part] && !x->keeps[line->part])
         return line->key == NULL ? add_massless(x, state, old->parts.at[line->part]->name, diag)
                                  : OK;
@@ -252,21 +371,6 @@ static Status apply_line(const Extraction *x, State **state, const Line *line, D
 
 /* --- terminals --- */
 
-const char *model_source_statement(Domain domain, bool is_across)
-{
-    static const struct {
-        const char *through, *across;
-    } sources[DOMAIN_COUNT] = {
-        [DOMAIN_ELECTRICAL] = {"isource %s %s %s %s", "vsource %s %s %s %s"},
-        [DOMAIN_HYDRAULIC] = {"pump %s %s %s flow=%s", "pump %s %s %s pressure=%s"},
-        [DOMAIN_SHAFT] = {"torquesource %s %s %s %s", "speedsource %s %s %s %s"},
-        [DOMAIN_SLIDE] = {"forcesource %s %s %s %s", "velocitysource %s %s %s %s"},
-        [DOMAIN_THERMAL] = {"heatsource %s %s %s %s", "tempsource %s %s %s %s"},
-    };
-
-    return is_across ? sources[domain].across : sources[domain].through;
-}
-
 /* Whether the node has edges of the part and of the rest. */
 static bool is_shared(const Extraction *x, int node)
 {
@@ -281,24 +385,6 @@ static bool is_shared(const Extraction *x, int node)
     return inside && outside;
 }
 
-/* a source whose value and rate are parameters */
-static Status add_source(State **state, int number, const char *node, Domain domain, Diag *diag)
-{
-    char name[32], value[128], line[320];
-
-    for (int k = 0; k < 3; k++) {
-        (void)snprintf(line, sizeof line, EXTRACT_VALUE " = 1", number, k);
-        TRY(state_apply_text(state, line, diag));
-    }
-    (void)snprintf(name, sizeof name, "port__source%d", number);
-    (void)snprintf(value, sizeof value,
-                   "(" EXTRACT_VALUE " + (t - " EXTRACT_TIME ")*" EXTRACT_VALUE
-                   " + (t - " EXTRACT_TIME ")^2*" EXTRACT_VALUE "/2)",
-                   number, 0, number, 1, number, 2);
-    (void)snprintf(line, sizeof line, model_source_statement(domain, true), name, node, "0", value);
-    return state_apply_text(state, line, diag);
-}
-
 static Status add_sources(const Extraction *x, State **state, ExtractedEnds *ends, Diag *diag)
 {
     for (int n = 0; n < graph_node_count(x->old->graph); n++) {
@@ -306,11 +392,7 @@ static Status add_sources(const Extraction *x, State **state, ExtractedEnds *end
 
         if (node->domain == DOMAIN_MECHANICAL || node->datum || !is_shared(x, n))
             continue;
-        if (ends->terminals.count == 0)
-            TRY(state_apply_text(state, EXTRACT_TIME " = 0", diag));
-        (*state)->is_open = true;
-        TRY(add_source(state, ends->terminals.count, node->name, node->domain, diag));
-        LIST_PUSH(ends->terminals, ((ExtractedTerminal){node->name, node->domain}));
+        TRY(add_source(state, ends, node->name, node->domain, true, diag));
     }
     return OK;
 }
@@ -363,6 +445,21 @@ done:
     return status;
 }
 
+static void extraction_alloc(Extraction *x)
+{
+    x->keeps = NEW_ARRAY(bool, x->old->parts.count + 1);
+    x->carries = NEW_ARRAY(bool, x->old->parts.count + 1);
+    x->line = NEW_ARRAY(int, x->old->parts.count + 1);
+    x->made_by = NEW_ARRAY(int, graph_node_count(x->old->graph) + 1);
+    x->touches = NEW_ARRAY(bool, graph_node_count(x->old->graph) + 1);
+}
+
+static void extraction_free(Extraction *x)
+{
+    LIST_FREE(x->loose);
+    MEM_FREE(x->keeps, x->carries, x->line, x->made_by, x->touches);
+}
+
 Status state_extract(const State *old, const Extract *part, State **out, ExtractedEnds *ends,
                      Diag *diag)
 {
@@ -370,11 +467,7 @@ Status state_extract(const State *old, const Extract *part, State **out, Extract
     State *state = state_new(old->arena, old->overrides, old->apply);
     Status status = OK;
 
-    x.keeps = NEW_ARRAY(bool, old->parts.count + 1);
-    x.carries = NEW_ARRAY(bool, old->parts.count + 1);
-    x.line = NEW_ARRAY(int, old->parts.count + 1);
-    x.made_by = NEW_ARRAY(int, graph_node_count(old->graph) + 1);
-    x.touches = NEW_ARRAY(bool, graph_node_count(old->graph) + 1);
+    extraction_alloc(&x);
     CHECK(check_names(&x, diag));
     find_makers(&x);
     find_kept(&x);
@@ -385,8 +478,102 @@ Status state_extract(const State *old, const Extract *part, State **out, Extract
     *out = state;
     state = NULL;
 done:
-    LIST_FREE(x.loose);
-    MEM_FREE(x.keeps, x.carries, x.line, x.made_by, x.touches);
+    extraction_free(&x);
     state_free(state);
     return status;
+}
+
+/* Edges of the ports are branches, if other choices leave room for that or not. */
+static Status choose_ports(State *state, const ExtractedEnds *ends, Diag *diag)
+{
+    const Tree *trees[TREE_KINDS];
+    Diag ignored = {0};
+
+    for (int attempt = 0; attempt < 2; attempt++) {
+        for (TreeKind kind = TREE_TRANSLATION; kind <= TREE_ROTATION; kind++) {
+            Choice *choice = &state->choices[kind];
+
+            if (attempt > 0)
+                choice->chosen.count = choice->excluded.count = 0;
+            for (int i = 0; i < ends->frames.count; i++)
+                name_list_add(&choice->chosen, ends->frames.at[i]);
+        }
+        state_forget_trees(state);
+        if (state_trees(state, trees, &ignored) == OK)
+            return OK;
+    }
+    return complete_trees(state, diag);
+}
+
+static Status check_outermost(const State *old, const char *name, Diag *diag)
+{
+    int around = state_use_around(old, name);
+
+    if (around < 0)
+        return OK;
+    while (old->uses.at[around].outer >= 0)
+        around = old->uses.at[around].outer;
+    (void)diag_set(diag, E_MODEL, "'%s' is inside %s, whose ports are all that the outside reaches",
+                   name, old->uses.at[around].name);
+    diag_hint(diag, "'show %s' shows the whole, 'show %s' the definition of this part",
+              old->uses.at[around].name, state_use(old, name)->subsystem->name);
+    return E_MODEL;
+}
+
+Status state_isolate(const State *old, const char *name, State **out, ExtractedEnds *ends,
+                     Diag *diag)
+{
+    const Use *use = state_use(old, name);
+    const Subsystem *subsystem =
+        use != NULL ? use->subsystem : state_subsystem(old, name, &(int){0});
+    const Extract part = {.names = &name, .count = use != NULL};
+    Extraction x = {.old = old, .part = &part, .is_isolated = true, .ends = ends};
+    State *state = state_new(old->arena, old->overrides, old->apply);
+    int count = 0;
+    int *order = lines_in_order(old, &count);
+    Status status = OK;
+
+    extraction_alloc(&x);
+    CHECK(use != NULL ? check_outermost(old, name, diag) : OK);
+    find_makers(&x);
+    for (int i = 0; i < count; i++)
+        CHECK(apply_line(&x, &state, &old->lines.at[order[i]], diag));
+    if (use == NULL)
+        CHECK(apply_isolated(&x, &state, subsystem, EXTRACT_INSTANCE, NULL, diag));
+    else
+        choices_copy(state, old, NULL);
+    CHECK(choose_ports(state, ends, diag));
+    state_forget_before(state, 0);
+    *out = state;
+    state = NULL;
+done:
+    mem_free(order);
+    extraction_free(&x);
+    state_free(state);
+    return status;
+}
+
+Expr model_extracted(Arena *arena, const ExtractedEnds *ends, Expr e)
+{
+    for (int i = 0; i < ends->terminals.count; i++) {
+        const ExtractedTerminal *terminal = &ends->terminals.at[i];
+        const char *member = terminal->is_across ? domain_across(terminal->domain)
+                                                 : domain_through(terminal->domain);
+
+        for (int k = 0; k < 3; k++) {
+            Text from = {0}, to = {0};
+            Expr symbols[2], values[2];
+
+            text_addf(&from, EXTRACT_VALUE, i, k);
+            text_addf(&to, "%s.%s%.*s", terminal->node, member, k, "''");
+            symbols[0] = expr_symbol(arena, from.at, SYMBOL_PARAMETER);
+            values[0] = expr_symbol(arena, to.at, SYMBOL_VARIABLE);
+            symbols[1] = expr_symbol(arena, EXTRACT_TIME, SYMBOL_PARAMETER);
+            values[1] = expr_symbol(arena, "t", SYMBOL_TIME);
+            e = expr_substitute(arena, e, symbols, values, COUNT(symbols));
+            text_free(&from);
+            text_free(&to);
+        }
+    }
+    return e;
 }

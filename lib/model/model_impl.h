@@ -440,6 +440,9 @@ void state_list_scene(const State *state, Scene *scene);
 /* (model_extract.c) see model_extract() */
 MUST_USE Status state_extract(const State *old, const Extract *part, State **out,
                               ExtractedEnds *ends, Diag *diag);
+/* the same, see model_isolate() */
+MUST_USE Status state_isolate(const State *old, const char *name, State **out, ExtractedEnds *ends,
+                              Diag *diag);
 /* Applies each pair of a statement, all or none. */
 typedef MUST_USE Status ApplyPair(State **state, const Pair *pair, Outcome *outcome, Diag *diag);
 MUST_USE Status apply_pairs(State **state, const Statement *statement, ApplyPair *apply,

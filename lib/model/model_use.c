@@ -357,7 +357,7 @@ static Status bind_terminal(UseDraft *d, int port, const Syntax *value)
     if (name != NULL && strcmp(name, "gnd") == 0)
         name = "0";
     if (name == NULL || strcmp(name, "ground") == 0 ||
-        (!is_there && strchr(name, '.') != NULL && state->inside < 0)) {
+        (!is_there && strchr(name, '.') != NULL && state->inside < 0 && !state->is_open)) {
         (void)diag_at(d->diag, E_NAME, value->place, "a terminal is expected here");
         if (name != NULL && strncmp(name, d->use.name, strlen(d->use.name)) == 0 &&
             name[strlen(d->use.name)] == '.')

@@ -275,6 +275,14 @@ static void offer_ports(TypedLine *line)
         offer_alternatives(line, "translation|rotation|of");
 }
 
+/* whether `show` treats the word as a black box */
+static bool names_subsystem(const TypedLine *line, const char *word)
+{
+    const Model *model = line->known->model;
+
+    return model_find_use(model, word) != NULL || model_find_subsystem(model, word) != NULL;
+}
+
 static void offer_show(TypedLine *line)
 {
     const Topic *topic = line->before.count > 1 ? topic_find(line->before.at[1]) : NULL;
@@ -313,8 +321,15 @@ static void offer_show(TypedLine *line)
         }
         return;
     }
+    if (line->before.count == 2 && names_subsystem(line, line->before.at[1])) {
+        offer_alternatives(line, "internal|ports");
+        return;
+    }
     if (line->before.count == 1)
         offer_topics(line);
+    if (line->before.count == 1)
+        for (int i = 0; i < model_subsystem_count(line->known->model); i++)
+            offer(line, model_subsystem(line->known->model, i)->name);
     if (line->before.count > 1 || line->prefix[0] != '\0')
         offer_showable(line);
 }

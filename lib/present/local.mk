@@ -64,6 +64,7 @@ libcore_la_SOURCES += \
   lib/present/show_session.c \
   lib/present/show_sides.c \
   lib/present/show_structure.c \
+  lib/present/show_subsystem.c \
   lib/present/show_state.c \
   lib/present/show_sweep.c \
   lib/present/show_transfer.c \

@@ -53,6 +53,12 @@ static const Topic topics[] = {
 static const Topic symbolic_transfer = {"transfer",     "",          NEED_MODEL,
                                         OPERANDS_ITEMS, AS_FORMULAS, show_symbolic_transfer};
 
+/* `show leg`: a definition, or an instance, whose equations have what its ports are bound to */
+static const Topic subsystem_topic = {
+    "", "", NEED_MODEL, OPERANDS_PART, AS_FORMULAS, show_subsystem};
+static const Topic instance_topic = {
+    "", "", NEED_SYSTEM, OPERANDS_PART, AS_FORMULAS, show_subsystem};
+
 const Topic *topic_find(const char *name)
 {
     for (int i = 0; i < COUNT(topics); i++)
@@ -113,19 +119,22 @@ static bool in_symbols(const Linear *linear, const Statement *statement)
     return statement->operands.count == 3 && !was_linearized(linear, statement);
 }
 
-/* The topic's row, NULL where the first operand is a variable or an expression. `linear`: of the
- * last linearisation, NULL where there is none. */
-static const Topic *find_topic(const Linear *linear, const Statement *statement)
+/* The topic's row, NULL where the first operand is a variable or an expression. */
+static const Topic *find_topic(const View *view, const Statement *statement)
 {
     const Syntax *first = statement->operands.count > 0 ? statement->operands.at[0].value : NULL;
+    const Topic *topic;
 
-    const Topic *topic = first != NULL && first->kind == SYNTAX_VARIABLE && first->primes == 0
-                             ? topic_find(first->text)
-                             : NULL;
-
-    return topic != NULL && topic->operands == OPERANDS_PAIR && in_symbols(linear, statement)
-               ? &symbolic_transfer
-               : topic;
+    if (first == NULL || first->kind != SYNTAX_VARIABLE || first->primes > 0)
+        return NULL;
+    topic = topic_find(first->text);
+    if (topic != NULL && topic->operands == OPERANDS_PAIR && in_symbols(view->linear, statement))
+        return &symbolic_transfer;
+    if (topic == NULL && model_find_use(view->model, first->text) != NULL)
+        return &instance_topic;
+    if (topic == NULL && model_find_subsystem(view->model, first->text) != NULL)
+        return &subsystem_topic;
+    return topic;
 }
 
 /* whether any of what is to be shown is a formula, which equations are needed for */
@@ -171,6 +180,12 @@ static Status read_notation(const Statement *statement, const Topic *topic, Nota
     return E_NAME;
 }
 
+/* what separates "show" from the topic, if that has a name */
+static const char *space_before(const Topic *topic)
+{
+    return topic != NULL && topic->name[0] != '\0' ? " " : "";
+}
+
 /* the word `at` belongs to topics of values */
 static Status check_at(const Statement *statement, const Topic *topic, Diag *diag)
 {
@@ -179,7 +194,7 @@ static Status check_at(const Statement *statement, const Topic *topic, Diag *dia
                            topic->operands == OPERANDS_PORTS)))
         return OK;
     (void)diag_at(diag, E_SYNTAX, statement->at->place, "'show%s%s' shows no values at an instant",
-                  topic != NULL ? " " : "", topic != NULL ? topic->name : "");
+                  space_before(topic), topic != NULL ? topic->name : "");
     diag_hint(diag, "'show power', 'norton' and 'thevenin' do, and 'print' prints values: print "
                     "mass(1,1) at 2");
     return E_SYNTAX;
@@ -187,7 +202,7 @@ static Status check_at(const Statement *statement, const Topic *topic, Diag *dia
 
 Status show_need(const View *view, const Statement *statement, Need *need, Diag *diag)
 {
-    const Topic *topic = find_topic(view->linear, statement);
+    const Topic *topic = find_topic(view, statement);
     Notation ignored;
 
     TRY(read_notation(statement, topic, &ignored, diag));
@@ -302,6 +317,20 @@ static void take_port(const Operand *operand, const Syntax **items, Selection *s
     *(selection->has_of ? &selection->of_count : &selection->port_count) += 1;
 }
 
+/* internal or ports, of a subsystem `name` */
+static Status take_part(const char *name, const Operand *operand, Selection *selection, Diag *diag)
+{
+    const Syntax *value = operand->value;
+
+    if (selection->part == NULL && value->kind == SYNTAX_VARIABLE && value->primes == 0 &&
+        (strcmp(value->text, "internal") == 0 || strcmp(value->text, "ports") == 0)) {
+        selection->part = value->text;
+        return OK;
+    }
+    return diag_at(diag, E_SYNTAX, operand->place, "'show %s' may be followed by internal or ports",
+                   name);
+}
+
 /* networks=kept|eliminated, of what has ports */
 static Status read_keys(const Topic *topic, const Statement *statement, Selection *selection,
                         Diag *diag)
@@ -312,7 +341,7 @@ static Status read_keys(const Topic *topic, const Statement *statement, Selectio
 
         if (topic == NULL || topic->operands != OPERANDS_PORTS) {
             (void)diag_at(diag, E_SYNTAX, pair->name_place, "'show%s%s' takes no keys",
-                          topic != NULL ? " " : "", topic != NULL ? topic->name : "");
+                          space_before(topic), topic != NULL ? topic->name : "");
             diag_hint(diag, "'%s=' goes with 'show norton' and 'show thevenin'", pair->name);
             return E_SYNTAX;
         }
@@ -380,10 +409,14 @@ static Status show_topic(const View *view, const Topic *topic, const Statement *
     Status status = OK;
 
     CHECK(read_keys(topic, statement, &selection, diag));
+    if (topic->operands == OPERANDS_PART)
+        selection.item = statement->operands.at[0].value;
     for (int i = 1; i < statement->operands.count; i++) {
         const Operand *operand = statement->operands.at + i;
 
-        if (topic->operands == OPERANDS_ENTRY && selection.item == NULL) {
+        if (topic->operands == OPERANDS_PART) {
+            CHECK(take_part(statement->operands.at[0].value->text, operand, &selection, diag));
+        } else if (topic->operands == OPERANDS_ENTRY && selection.item == NULL) {
             selection.item = operand->value;
             entry = *operand->value;
             entry.args = entry.count == 0 ? args : NULL;
@@ -486,7 +519,7 @@ static Status show_operands(const View *view, const Topic *topic, const Statemen
 Status show(const View *view, const Statement *statement, Text *out, Diag *diag)
 {
     View in_notation = *view;
-    const Topic *topic = find_topic(view->linear, statement);
+    const Topic *topic = find_topic(view, statement);
     const size_t from = out->length;
 
     TRY(read_notation(statement, topic, &in_notation.page.notation, diag));

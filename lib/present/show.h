@@ -26,6 +26,7 @@ typedef enum TopicOperands {
     OPERANDS_ENTRY,   /* a name, a row, or an entry: mass(2,3) */
     OPERANDS_PAIR,    /* output and input of the linearisation, by number or name */
     OPERANDS_ITEMS,   /* two: an output and an input */
+    OPERANDS_PART,    /* a subsystem or instance; internal or ports */
     OPERANDS_PORTS    /* two terminals; or frames, `of` and a part of the model, `at` an instant */
 } TopicOperands;
 
@@ -51,8 +52,9 @@ typedef struct Selection {
     int name_count;
     bool is_open;           /* show the inside of instances of subsystems, not only their ports */
     const char *level;      /* "velocity", "acceleration" or NULL */
-    const Syntax *item;     /* OPERANDS_ENTRY; NULL: all */
+    const Syntax *item;     /* OPERANDS_ENTRY, OPERANDS_PART; NULL: all */
     const Syntax *items[2]; /* OPERANDS_ITEMS; NULL: none */
+    const char *part;       /* OPERANDS_PART: "internal", "ports"; NULL: both */
     /* OPERANDS_PORTS */
     const Syntax *const *ports;
     int port_count;
@@ -95,6 +97,7 @@ ShowFunction show_coordinates, show_constraints, show_jacobian, show_mass, show_
 ShowFunction show_sweep, show_statistics, show_fit, show_optimum;
 void fit_print(const View *view, const FitResult *fit, Text *out);
 void optimum_print(const View *view, const Optimum *optimum, Text *out);
+ShowFunction show_subsystem;
 ShowFunction show_derivation, show_power, show_partition, show_complement;
 ShowFunction show_outputs, show_params, show_init, show_run, show_runs, show_settings, show_program;
 

@@ -361,33 +361,6 @@ static Status refuse_sides(const PortRequest *r, Diag *diag)
     return OK;
 }
 
-/* --- symbols of sources that stand for the rest --- */
-
-static Expr replaced(const PortRequest *r, Expr e)
-{
-    Arena *arena = model_arena(r->view->model);
-
-    for (int i = 0; i < r->ends.terminals.count; i++) {
-        const ExtractedTerminal *terminal = &r->ends.terminals.at[i];
-
-        for (int k = 0; k < 3; k++) {
-            Text from = {0}, to = {0};
-            Expr symbols[2], values[2];
-
-            text_addf(&from, EXTRACT_VALUE, i, k);
-            text_addf(&to, "%s.%s%.*s", terminal->node, domain_across(terminal->domain), k, "''");
-            symbols[0] = expr_symbol(arena, from.at, SYMBOL_PARAMETER);
-            values[0] = expr_symbol(arena, to.at, SYMBOL_VARIABLE);
-            symbols[1] = expr_symbol(arena, EXTRACT_TIME, SYMBOL_PARAMETER);
-            values[1] = expr_symbol(arena, "t", SYMBOL_TIME);
-            e = expr_substitute(arena, e, symbols, values, COUNT(symbols));
-            text_free(&from);
-            text_free(&to);
-        }
-    }
-    return e;
-}
-
 /* --- refusal --- */
 
 static void add_names(Text *out, const Words *names)
@@ -566,7 +539,8 @@ static Status print_symbols(PortRequest *r, const Selection *selection, PortEqua
     }
     CHECK(status);
     for (int i = 0; i < count + count * count; i++)
-        all[i] = system_plain(r->system, replaced(r, all[i]));
+        all[i] =
+            system_plain(r->system, model_extracted(model_arena(r->view->model), &r->ends, all[i]));
     print_head(r, out);
     print_given(r, all, count + count * count, out);
     if (port->nonlinear != NULL) {

@@ -24,3 +24,13 @@ cotree model.ct
 cotree -e complete | grep -x plot
 echo 'complete info mas' >>model.ct
 cotree model.ct | grep -x mass1
+# a subsystem as a black box, and its halves
+cat >box.ct <<'END'
+subsystem low terminals=[a] through=[b]
+  resistor R a b 1 kohm
+end
+complete show lo
+complete show low 
+complete show low p
+END
+cotree box.ct

@@ -373,19 +373,37 @@ static Expr port_acceleration(const PortEquations *p, const Expr *x, int i, int 
     return symbolic_tidy(p->arena, sum);
 }
 
+typedef LIST(Expr) Units;
+
+static Units port_units(const PortEquations *p)
+{
+    Units units = {0};
+
+    for (int i = 0; system_quaternion(p->system, i) >= 0; i++)
+        for (int k = 0; k < 4; k++)
+            LIST_PUSH(units, system_q(p->system, system_quaternion(p->system, i) + k)->symbol);
+    return units;
+}
+
+void port_fold_units(const PortEquations *p, Expr *e, int count)
+{
+    Units units = port_units(p);
+
+    if (units.count > 0)
+        symbolic_fold_units(p->arena, e, count, units.at, units.count / 4);
+    LIST_FREE(units);
+}
+
 Status port_symbols(const PortEquations *p, Expr *constant, Expr *matrix, PortFault *fault)
 {
     const PortPlaces at = port_places(p, p->m);
     const int n = at.count, count = p->options.count, columns = 1 + count;
     Expr *a = NEW_ARRAY(Expr, n * n + 1), *b = NEW_ARRAY(Expr, n * columns + 1),
          *x = NEW_ARRAY(Expr, n * columns + 1);
-    LIST(Expr) units = {0};
+    Units units = port_units(p);
     int unknown = -1;
     Status status;
 
-    for (int i = 0; system_quaternion(p->system, i) >= 0; i++)
-        for (int k = 0; k < 4; k++)
-            LIST_PUSH(units, system_q(p->system, system_quaternion(p->system, i) + k)->symbol);
     fill_symbols(p, &at, a, b);
     status = symbolic_solve(p->arena, a, b, n, columns, units.at, units.count / 4, p->options.watch,
                             x, &unknown);

@@ -60,6 +60,8 @@ MUST_USE Status port_symbols(const PortEquations *port, Expr *constant, Expr *ma
  * a message where a number isn't finite. */
 MUST_USE Status port_numbers(const PortEquations *port, SymbolValue value, void *context,
                              double *constant, double *matrix, PortFault *fault);
+/* The number in the place of each sum that is 0, 1 or -1 as Euler parameters are of size 1. */
+void port_fold_units(const PortEquations *port, Expr *e, int count);
 /* The symbols that occur: new, mem_free(). */
 int port_symbols_of(const PortEquations *port, Expr **out);
 

@@ -195,6 +195,21 @@ static bool reads_units(const SymbolicSolve *s, Expr e)
     return false;
 }
 
+static void samples_open(SymbolicSolve *s)
+{
+    for (int k = 0; k < SAMPLES; k++) {
+        s->samples[k].solve = s;
+        s->samples[k].seed = 20261 + (uint64_t)k;
+        s->samples[k].evaluation = evaluation_new(sample_value, &s->samples[k]);
+    }
+}
+
+static void samples_close(SymbolicSolve *s)
+{
+    for (int k = 0; k < SAMPLES; k++)
+        evaluation_free(s->samples[k].evaluation);
+}
+
 /* the same, or the number that it is identically */
 static Expr not_quite(const SymbolicSolve *s, Expr e)
 {
@@ -486,11 +501,7 @@ Status symbolic_solve(Arena *arena, const Expr *a, const Expr *b, int n, int col
     s.a = NEW_ARRAY(Expr, n * n);
     s.b = NEW_ARRAY(Expr, n * columns);
     s.solved = NEW_ARRAY(bool, n);
-    for (int k = 0; k < SAMPLES; k++) {
-        s.samples[k].solve = &s;
-        s.samples[k].seed = 20261 + (uint64_t)k;
-        s.samples[k].evaluation = evaluation_new(sample_value, &s.samples[k]);
-    }
+    samples_open(&s);
     *unknown = -1;
     for (int i = 0; i < n * n; i++) {
         s.a[i] = not_quite(&s, a[i]);
@@ -504,8 +515,17 @@ Status symbolic_solve(Arena *arena, const Expr *a, const Expr *b, int n, int col
     }
     CHECK(solve_blocks(&s, column, unknown));
 done:
-    for (int k = 0; k < SAMPLES; k++)
-        evaluation_free(s.samples[k].evaluation);
+    samples_close(&s);
     MEM_FREE(s.a, s.b, s.solved, pattern, column);
     return status;
+}
+
+void symbolic_fold_units(Arena *arena, Expr *e, int count, const Expr *units, int unit_count)
+{
+    SymbolicSolve s = {.arena = arena, .units = units, .unit_count = unit_count};
+
+    samples_open(&s);
+    for (int i = 0; i < count; i++)
+        e[i] = not_quite(&s, e[i]);
+    samples_close(&s);
 }

@@ -15,6 +15,8 @@
 MUST_USE Status symbolic_solve(Arena *arena, const Expr *a, const Expr *b, int n, int columns,
                                const Expr *units, int unit_count, const CallMonitor *watch, Expr *x,
                                int *unknown);
+/* The number in the place of each sum that is 0, 1 or -1 for such `units`. */
+void symbolic_fold_units(Arena *arena, Expr *e, int count, const Expr *units, int unit_count);
 /* The same value as one fraction where it is short: multiplied out, folded and collected. */
 Expr symbolic_tidy(Arena *arena, Expr e);
 
