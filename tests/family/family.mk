@@ -323,6 +323,10 @@ FAMILIES += family_friction_limits
 family_friction_limits_SOURCES = tests/family/family_friction_limits.c tests/family/family.h \
 	tests/random.h tests/unit/session_kit.h tests/unit/test.h
 family_friction_limits_LDADD = libcotree.la $(unit_ldadd)
+FAMILIES += family_rolling
+family_rolling_SOURCES = tests/family/family_rolling.c tests/family/family.h tests/unit/session_kit.h \
+	tests/random.h
+family_rolling_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_impacts
 family_impacts_SOURCES = tests/family/family_impacts.c tests/family/family.h \
 	tests/random.h tests/unit/session_kit.h tests/unit/test.h

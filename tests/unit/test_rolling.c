@@ -347,6 +347,32 @@ static void a_bicycle_weaves(void)
     kit_free(&kit);
 }
 
+static void values_are_checked(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "body b mass=1 inertia=[1, 1, 1]\n");
+    EXPECT_FAILS(&kit, "roll r ground b\n", "needs its radius");
+    EXPECT_FAILS(&kit, "roll r ground b radius=-1\n", "radius");
+    EXPECT_FAILS(&kit, "roll r ground b radius=1 rim=0.1\n", "only a wheel has a rim");
+    EXPECT_FAILS(&kit, "roll r ground b radius=1 semiaxes=[1, 2, 3]\n", "exclude each other");
+    EXPECT_FAILS(&kit, "roll r ground b semiaxes=[1, 2]\n", "three semiaxes");
+    EXPECT_FAILS(&kit, "roll r ground b semiaxes=[1, 2, 0]\n", "above 0");
+    EXPECT_FAILS(&kit, "roll r ground b radius=1 bowl=0.5\n", "does not fit");
+    EXPECT_FAILS(&kit, "roll r ground b radius=1 bowl=3 dome=2\n", "exclude each other");
+    EXPECT_FAILS(&kit, "roll r ground b radius=1 axle=y bowl=3\n", "only a ball rolls");
+    EXPECT_FAILS(&kit, "roll r ground b radius=1 offset=3\n", "planar scene");
+    EXPECT_FAILS(&kit, "roll r ground b radius=1 axle=[0, 0, 0]\n", "axle");
+    EXPECT_DONE(&kit, "roll r ground b radius=1\ninit b.x = 0, b.y = 0, b.vx = 1, b.wx = 0\n");
+    EXPECT_FAILS(&kit, "init b.wy = 0\nsimulate 1\n", "b");
+    kit_free(&kit);
+    kit = kit_new();
+    EXPECT_DONE(&kit, "scene planar\nbody b mass=1 inertia=1\n");
+    EXPECT_FAILS(&kit, "roll r ground b radius=1 rim=0.1\n", "only a wheel has a rim");
+    EXPECT_FAILS(&kit, "roll r ground b semiaxes=[1, 2, 3]\n", "spatial scene");
+    kit_free(&kit);
+}
+
 int main(void)
 {
     RUN(a_sleigh_runs_straight);
@@ -359,5 +385,6 @@ int main(void)
     RUN(rates_are_coupled);
     RUN(a_trailer_follows);
     RUN(a_bicycle_weaves);
+    RUN(values_are_checked);
     return test_end();
 }

@@ -1,0 +1,353 @@
+/* family_rolling.c: balls, wheels and ellipsoids on inclined planes, against Newton and Euler
+ *
+ * A body with any inertia, on which the round shape sits anywhere and at any attitude, rolls on a
+ * plane. The oracle writes the moments about the centre of mass,
+ *
+ *     J w' + w x J w = rho x F,   F = m (v' - g),   v = -w x rho
+ *
+ * with rho from the centre of mass to the point of contact, which follows from the attitude by the
+ * shape alone, and rho' by differences of that. It takes fixed steps of Runge and Kutta, once and
+ * twice as many. */
+#include "../unit/session_kit.h"
+#include "base/text.h"
+#include "family.h"
+
+#include <math.h>
+
+typedef enum Shape { BALL, WHEEL, RIM, ELLIPSOID, SHAPES } Shape;
+
+typedef struct V {
+    double at[3];
+} V;
+
+typedef struct M {
+    double at[3][3];
+} M;
+
+typedef struct Rolling {
+    Shape shape;
+    double mass, inertia[3], radius, rim, semiaxes[3];
+    V hub, gravity, plane; /* of the shape on the body; of the plane's origin */
+    M own, tilt;           /* attitude of the shape on the body; of the plane */
+    double hub_turn[2], plane_turn[2];
+    double end;
+} Rolling;
+
+typedef struct Pose {
+    double q[4]; /* Euler parameters */
+    V c, w;
+} Pose;
+
+static V plus(V a, double s, V b)
+{
+    return (V){{a.at[0] + s * b.at[0], a.at[1] + s * b.at[1], a.at[2] + s * b.at[2]}};
+}
+
+static double dot(V a, V b)
+{
+    return a.at[0] * b.at[0] + a.at[1] * b.at[1] + a.at[2] * b.at[2];
+}
+
+static V cross(V a, V b)
+{
+    return (V){{a.at[1] * b.at[2] - a.at[2] * b.at[1], a.at[2] * b.at[0] - a.at[0] * b.at[2],
+                a.at[0] * b.at[1] - a.at[1] * b.at[0]}};
+}
+
+static V apply(const M *m, V a)
+{
+    V out;
+
+    for (int i = 0; i < 3; i++)
+        out.at[i] = m->at[i][0] * a.at[0] + m->at[i][1] * a.at[1] + m->at[i][2] * a.at[2];
+    return out;
+}
+
+static V apply_back(const M *m, V a)
+{
+    V out;
+
+    for (int i = 0; i < 3; i++)
+        out.at[i] = m->at[0][i] * a.at[0] + m->at[1][i] * a.at[1] + m->at[2][i] * a.at[2];
+    return out;
+}
+
+/* about x by the first angle, then about the new y by the second */
+static M turned(const double angle[2])
+{
+    const double c = cos(angle[0]), s = sin(angle[0]), d = cos(angle[1]), e = sin(angle[1]);
+
+    return (M){{{d, 0, e}, {s * e, c, -s * d}, {-c * e, s, c * d}}};
+}
+
+static M matrix_of(const double q[4])
+{
+    const double a = q[0], b = q[1], c = q[2], d = q[3];
+
+    return (M){{{1 - 2 * (c * c + d * d), 2 * (b * c - a * d), 2 * (b * d + a * c)},
+                {2 * (b * c + a * d), 1 - 2 * (b * b + d * d), 2 * (c * d - a * b)},
+                {2 * (b * d - a * c), 2 * (c * d + a * b), 1 - 2 * (b * b + c * c)}}};
+}
+
+static V normal_of(const Rolling *r)
+{
+    return apply(&r->tilt, (V){{0, 0, 1}});
+}
+
+/* from the centre of mass to the point of contact; *upright: 0 where a wheel lies flat */
+static V contact_from(const Rolling *r, const double q[4], double *upright)
+{
+    const M body = matrix_of(q);
+    const V n = normal_of(r), hub = apply(&body, r->hub);
+    V d, m;
+    double size = 0;
+
+    *upright = 1;
+    switch (r->shape) {
+    case BALL:
+        return plus(hub, -r->radius, n);
+    case WHEEL:
+    case RIM:
+        d = apply(&body, apply(&r->own, (V){{0, 1, 0}}));
+        d = plus(n, -dot(n, d), d);
+        *upright = sqrt(dot(d, d));
+        return plus(plus(hub, -r->radius / *upright, d), -r->rim, n);
+    default:
+        m = apply_back(&r->own, apply_back(&body, n));
+        for (int i = 0; i < 3; i++) {
+            size += pow(r->semiaxes[i] * m.at[i], 2);
+            m.at[i] *= r->semiaxes[i] * r->semiaxes[i];
+        }
+        return plus(hub, -1 / sqrt(size), apply(&body, apply(&r->own, m)));
+    }
+}
+
+/* q after a turn by `angle` in ground axes */
+static void turn(const double q[4], V angle, double out[4])
+{
+    const double size = sqrt(dot(angle, angle)), s = size > 0 ? sin(size / 2) / size : 0.5;
+    const double p[4] = {cos(size / 2), s * angle.at[0], s * angle.at[1], s * angle.at[2]};
+
+    out[0] = p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3];
+    out[1] = p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2];
+    out[2] = p[0] * q[2] - p[1] * q[3] + p[2] * q[0] + p[3] * q[1];
+    out[3] = p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0];
+}
+
+static V contact_rate(const Rolling *r, const double q[4], V w)
+{
+    const double h = 1e-3 / (1 + sqrt(dot(w, w)));
+    static const double weight[4] = {1.0 / 12, -8.0 / 12, 8.0 / 12, -1.0 / 12};
+    static const double at[4] = {-2, -1, 1, 2};
+    V sum = {{0}};
+
+    for (int k = 0; k < 4; k++) {
+        double moved[4], ignored;
+
+        turn(q, plus((V){{0}}, at[k] * h, w), moved);
+        sum = plus(sum, weight[k] / h, contact_from(r, moved, &ignored));
+    }
+    return sum;
+}
+
+/* a x = b by Cramer's rule */
+static V solve(const M *a, V b)
+{
+    const V c[3] = {{{a->at[0][0], a->at[1][0], a->at[2][0]}},
+                    {{a->at[0][1], a->at[1][1], a->at[2][1]}},
+                    {{a->at[0][2], a->at[1][2], a->at[2][2]}}};
+    const double whole = dot(c[0], cross(c[1], c[2]));
+
+    return (V){{dot(b, cross(c[1], c[2])) / whole, dot(c[0], cross(b, c[2])) / whole,
+                dot(c[0], cross(c[1], b)) / whole}};
+}
+
+static void rates(const Rolling *r, const Pose *p, Pose *out, double *push, double *upright)
+{
+    const M body = matrix_of(p->q);
+    const V rho = contact_from(r, p->q, upright), rho_rate = contact_rate(r, p->q, p->w);
+    const V own = apply_back(&body, p->w);
+    const double square = dot(rho, rho);
+    V momentum, force, right;
+    M whole;
+
+    for (int i = 0; i < 3; i++)
+        momentum.at[i] = r->inertia[i] * own.at[i];
+    momentum = apply(&body, momentum);
+    force =
+        plus(plus((V){{0}}, -1, cross(p->w, rho_rate)), -1, r->gravity); /* at w' = 0, by mass */
+    right = plus(plus((V){{0}}, r->mass, cross(rho, force)), -1, cross(p->w, momentum));
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) {
+            whole.at[i][k] = r->mass * ((i == k) * square - rho.at[i] * rho.at[k]);
+            for (int j = 0; j < 3; j++)
+                whole.at[i][k] += body.at[i][j] * r->inertia[j] * body.at[k][j];
+        }
+    out->w = solve(&whole, right);
+    force = plus(force, -1, cross(out->w, rho));
+    *push = r->mass * dot(force, normal_of(r));
+    out->c = plus((V){{0}}, -1, cross(p->w, rho));
+    out->q[0] = (-p->q[1] * p->w.at[0] - p->q[2] * p->w.at[1] - p->q[3] * p->w.at[2]) / 2;
+    out->q[1] = (p->q[0] * p->w.at[0] - p->q[2] * p->w.at[2] + p->q[3] * p->w.at[1]) / 2;
+    out->q[2] = (p->q[0] * p->w.at[1] + p->q[1] * p->w.at[2] - p->q[3] * p->w.at[0]) / 2;
+    out->q[3] = (p->q[0] * p->w.at[2] - p->q[1] * p->w.at[1] + p->q[2] * p->w.at[0]) / 2;
+}
+
+static void step_by(Pose *p, double h, const Pose *rate)
+{
+    for (int i = 0; i < 4; i++)
+        p->q[i] += h * rate->q[i];
+    p->c = plus(p->c, h, rate->c);
+    p->w = plus(p->w, h, rate->w);
+}
+
+/* the force along the normal at the end; *lowest: how flat a wheel has lain */
+static double follow(const Rolling *r, Pose *p, int steps, double *lowest)
+{
+    const double h = r->end / steps, part[4] = {0, h / 2, h / 2, h};
+    const double weight[4] = {h / 6, h / 3, h / 3, h / 6};
+    double push, upright;
+    Pose rate;
+
+    *lowest = 1;
+    for (int i = 0; i < steps; i++) {
+        Pose sum = *p;
+        double norm = 0;
+
+        for (int k = 0; k < 4; k++) {
+            Pose trial = *p;
+
+            if (k > 0)
+                step_by(&trial, part[k], &rate);
+            rates(r, &trial, &rate, &push, &upright);
+            step_by(&sum, weight[k], &rate);
+        }
+        *lowest = fmin(*lowest, upright);
+        *p = sum;
+        for (int k = 0; k < 4; k++)
+            norm += p->q[k] * p->q[k];
+        for (int k = 0; k < 4; k++)
+            p->q[k] /= sqrt(norm);
+    }
+    rates(r, p, &rate, &push, &upright);
+    return push;
+}
+
+static bool one_in(Member *member, int count)
+{
+    return test_random(&member->random) % (uint64_t)count == 0;
+}
+
+static void draw(Member *member, Rolling *r, Pose *p)
+{
+    double size = 0, upright;
+    V n, rho;
+
+    *r = (Rolling){.shape = (Shape)(test_random(&member->random) % SHAPES),
+                   .mass = member_between(member, 0.5, 3),
+                   .radius = member_between(member, 0.2, 0.5),
+                   .end = member_between(member, 0.3, 1.5)};
+    r->rim = r->shape == RIM ? member_between(member, 0.02, 0.1) : 0;
+    for (int i = 0; i < 3; i++) {
+        r->inertia[i] = member_between(member, 0.1, 0.19);
+        r->semiaxes[i] = member_between(member, 0.2, 0.5);
+        r->hub.at[i] = one_in(member, 2) ? member_between(member, -0.1, 0.1) : 0;
+        r->plane.at[i] = member_between(member, -1, 1);
+        r->gravity.at[i] = member_between(member, -3, 3) - (i == 2 ? 9 : 0);
+        p->w.at[i] = member_between(member, -4, 4);
+    }
+    for (int i = 0; i < 2; i++) {
+        r->hub_turn[i] = member_between(member, -3, 3);
+        r->plane_turn[i] = member_between(member, -1, 1);
+    }
+    r->own = turned(r->hub_turn);
+    r->tilt = turned(r->plane_turn);
+    for (int i = 0; i < 4; i++) {
+        p->q[i] = member_between(member, i == 0 ? 0.1 : -1, 1);
+        size += p->q[i] * p->q[i];
+    }
+    for (int i = 0; i < 4; i++)
+        p->q[i] /= sqrt(size);
+    n = normal_of(r);
+    rho = contact_from(r, p->q, &upright);
+    p->c = plus(r->plane, member_between(member, -1, 1), apply(&r->tilt, (V){{1, 0, 0}}));
+    p->c = plus(p->c, -dot(rho, n), n);
+}
+
+static void write(Member *member, const Rolling *r, const Pose *p, Text *out)
+{
+    text_addf(out, "gravity [%.17g, %.17g, %.17g]\n", r->gravity.at[0], r->gravity.at[1],
+              r->gravity.at[2]);
+    text_addf(out, "arm plane ground [%.17g, %.17g, %.17g] rotation=x(%.17g)*y(%.17g)\n",
+              r->plane.at[0], r->plane.at[1], r->plane.at[2], r->plane_turn[0], r->plane_turn[1]);
+    text_addf(out, "body b mass=%.17g inertia=[%.17g, %.17g, %.17g]\n", r->mass, r->inertia[0],
+              r->inertia[1], r->inertia[2]);
+    text_addf(out, "arm hub b [%.17g, %.17g, %.17g] rotation=x(%.17g)*y(%.17g)\n", r->hub.at[0],
+              r->hub.at[1], r->hub.at[2], r->hub_turn[0], r->hub_turn[1]);
+    text_add(out, "roll c plane hub");
+    if (r->shape == ELLIPSOID)
+        text_addf(out, " semiaxes=[%.17g, %.17g, %.17g]\n", r->semiaxes[0], r->semiaxes[1],
+                  r->semiaxes[2]);
+    else
+        text_addf(out, " radius=%.17g%s", r->radius, r->shape == BALL ? "\n" : " axle=y");
+    if (r->shape == WHEEL || r->shape == RIM)
+        text_addf(out, r->rim > 0 ? " rim=%.17g\n" : "\n", r->rim);
+    if (one_in(member, 3))
+        text_add(out, "form embedded\n");
+    text_addf(out, "init b.x = %.17g, b.y = %.17g, b.z = %.17g\n", p->c.at[0], p->c.at[1],
+              p->c.at[2]);
+    text_addf(out, "init b.q1 = %.17g, b.q2 = %.17g, b.q3 = %.17g\n", p->q[1], p->q[2], p->q[3]);
+    text_addf(out, "init b.wx = %.17g, b.wy = %.17g, b.wz = %.17g\n", p->w.at[0], p->w.at[1],
+              p->w.at[2]);
+}
+
+static Verdict bodies_roll(Member *member)
+{
+    static const char *const methods[] = {"auto", "dop853", "radau", "ida", "bdf", "adams"};
+    static const char *const names[] = {"b.x", "b.y", "b.z", "b.wx", "b.wy", "b.wz"};
+    Rolling r;
+    Pose start = {.w = {{0}}}, coarse, fine;
+    Text text = {0};
+    Kit kit = kit_new();
+    Verdict verdict = AGREES;
+    double lowest, push, bound, off = 0;
+
+    draw(member, &r, &start);
+    write(member, &r, &start, &text);
+    coarse = fine = start;
+    (void)follow(&r, &coarse, 1000, &lowest);
+    push = follow(&r, &fine, 2000, &lowest);
+    for (int i = 0; i < 3; i++)
+        off = fmax(off,
+                   fmax(fabs(coarse.c.at[i] - fine.c.at[i]), fabs(coarse.w.at[i] - fine.w.at[i])));
+    text_addf(&text, "simulate %.17g rtol=1e-10 atol=1e-12 method=%s\n", r.end,
+              methods[test_random(&member->random) % 6]);
+    tell(member, "%s", text.at);
+    bound = 1e-6 + 10 * off;
+    if (lowest < 0.2 || !(off < 1e-7)) { /* the oracle's steps are too long for it */
+        verdict = REFUSED;
+    } else if (kit_do(&kit, text.at) != CT_OK) {
+        tell(member, "refused: %s\n", kit.error.message);
+        verdict = DISAGREES;
+    }
+    for (int i = 0; i < 6 && verdict == AGREES; i++) {
+        const double wanted = i < 3 ? fine.c.at[i] : fine.w.at[i - 3];
+
+        if (!keeps(member, names[i], fabs(kit_value(&kit, names[i]) - wanted),
+                   bound * (1 + fabs(wanted))))
+            verdict = DISAGREES;
+    }
+    if (verdict == AGREES &&
+        !keeps(member, "c.fn", fabs(kit_value(&kit, "c.fn") - push), 10 * bound * (1 + fabs(push))))
+        verdict = DISAGREES;
+    text_free(&text);
+    kit_free(&kit);
+    return verdict;
+}
+
+int main(int argc, char **argv)
+{
+    static const Family families[] = {{"bodies_roll", 60, 0.45, 0, bodies_roll}};
+
+    return family_main(families, (int)(sizeof families / sizeof families[0]), argc, argv);
+}
