@@ -268,6 +268,29 @@ static void a_stop_holds_while_a_diode_turns_off(void)
     }
 }
 
+/* A motor behind a diode presses a shaft that a rigid one-way clutch holds: L i' + R i = V sin(w t)
+ * from the start on. */
+static void a_diode_turns_on_beside_a_rigid_clutch(void)
+{
+    static const char *const methods[] = {"dop853", "bdf", "ida", "adams"};
+
+    for (int i = 0; i < 4; i++) {
+        Kit kit = kit_new();
+        char text[600];
+
+        (void)snprintf(text, sizeof text,
+                       "flywheel J a 0 J=4\ntorquesource T a 0 2 + 3*sin(1.8*t)\noneway o a 0\n"
+                       "vsource V p 0 12*sin(40*t)\ndiode D p q\nresistor R q n 1.2\n"
+                       "inductor L n e 0.09\nvsource E e 0 0.8*J.w\ntorquesource M a 0 0.8*L.i\n"
+                       "init J.w = 0, L.i = 0\nsimulate 2 method=%s rtol=1e-9\n"
+                       "expect L.i ~ 4.235631219526551 within 1e-6 at 0.06\n"
+                       "expect max(J.w) ~ 0 within 1e-9\n",
+                       methods[i]);
+        EXPECT_DONE(&kit, text);
+        kit_free(&kit);
+    }
+}
+
 static void values_are_checked(void)
 {
     Kit kit = kit_new();
@@ -303,6 +326,7 @@ int main(void)
     RUN(a_rigid_one_way_clutch);
     RUN(stops_beside_friction);
     RUN(a_stop_holds_while_a_diode_turns_off);
+    RUN(a_diode_turns_on_beside_a_rigid_clutch);
     RUN(values_are_checked);
     return test_end();
 }

@@ -137,7 +137,7 @@ static void add_row(ModeSearch *s, ModeSearchRoots *roots, int row, Expr residua
 
     LIST_PUSH(s->rows,
               (ResidualRow){.row = row, .ideal = ideal, .when = when, .averaged = averaged});
-    LIST_PUSH(*roots, residual);
+    LIST_PUSH(*roots, variable_index_on_surfaces(s->l, residual));
 }
 
 /* closed: v - least = on i; open: i = v/off, or 0; and a leak beside each */
@@ -242,6 +242,8 @@ static Status compile(ModeSearch *s, Parameters *parameters, Diag *diag)
         LIST_PUSH(looks, edge.across);
         LIST_PUSH(looks, edge.through);
     }
+    for (int i = 0; i < looks.count; i++)
+        looks.at[i] = variable_index_on_surfaces(s->l, looks.at[i]);
     CHECK(compile_rows(s, parameters, &roots, diag));
     CHECK(probe_new(s->l, parameters, looks.at, looks.count, &s->looks, diag));
 done:
@@ -251,12 +253,28 @@ done:
     return status;
 }
 
+/* A layout on which nothing unilateral holds: its effort has no value beyond the surface, where a
+ * step may lead that takes no part in holding it. */
+static VariableIndex *open_unilateral(System *system)
+{
+    LIST(OnSurface) on = {0};
+    SystemSurface surface;
+    VariableIndex *out;
+
+    for (int i = 0; system_surface(system, i, &surface); i++)
+        if (surface.is_unilateral)
+            LIST_PUSH(on, (OnSurface){.surface = i, .side = -1});
+    out = variable_index_new_on(system, on.at, on.count);
+    LIST_FREE(on);
+    return out;
+}
+
 Status mode_search_new(System *system, Parameters *parameters, ModeSearch **out, Diag *diag)
 {
     ModeSearch *s = NEW(ModeSearch);
     Status status = OK;
 
-    s->l = variable_index_new(system);
+    s->l = open_unilateral(system);
     s->n = s->l->nx + s->l->nz;
     s->is_linear = true;
     s->count = system_ideal_count(system);
