@@ -300,8 +300,16 @@ static Status push_constraint(PortedSubsystem *b, EquationList *equations, int k
     ShownEquation equation = {.lead = NULL, .name = NULL, .left = {0}, .right = {0}};
     Expr e;
 
-    TRY(system_show(b->system, BLOCK_CONSTRAINTS, k, 0, &e, diag));
-    push_term(b, &equation, true, e, NULL);
+    if (system_constraint(b->system, k)->is_rate) {
+        for (int j = 0; j < b->port->nu; j++)
+            push_term(b, &equation, true, b->port->phi_u[k * b->port->nu + j],
+                      system_u(b->system, j)->symbol);
+        TRY(system_show(b->system, BLOCK_VELOCITY, k, 0, &e, diag));
+        push_term(b, &equation, false, e, NULL);
+    } else {
+        TRY(system_show(b->system, BLOCK_CONSTRAINTS, k, 0, &e, diag));
+        push_term(b, &equation, true, e, NULL);
+    }
     equation.lead = lead_of(b, constraint_name(b->system, b->part, k));
     LIST_PUSH(*equations, equation);
     return OK;

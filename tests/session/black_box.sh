@@ -141,6 +141,18 @@ show nested.ct 'show two internal'
 show nested.ct 'show S ports'
 show nested.ct 'show S.u'
 show nested.ct 'show sticky'
+echo "--- a velocity row inside"
+cat >sled.ct <<'MODEL'
+scene planar
+subsystem sled frames=[A, B]
+  body b mass=2 inertia=0.1
+  arm a b [-0.3, 0]
+  arm B b [0.3, 0]
+  revolute h A a
+  knife k ground B
+end
+MODEL
+show sled.ct 'show sled'
 echo "--- wrong uses"
 show link.ct 'show S outside'
 show link.ct 'show link ports internal'
