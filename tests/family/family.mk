@@ -327,6 +327,10 @@ FAMILIES += family_rolling
 family_rolling_SOURCES = tests/family/family_rolling.c tests/family/family.h tests/unit/session_kit.h \
 	tests/random.h
 family_rolling_LDADD = libcotree.la $(unit_ldadd)
+FAMILIES += family_rubbing
+family_rubbing_SOURCES = tests/family/family_rubbing.c tests/family/family.h \
+	tests/random.h tests/unit/session_kit.h tests/unit/test.h
+family_rubbing_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_impacts
 family_impacts_SOURCES = tests/family/family_impacts.c tests/family/family.h \
 	tests/random.h tests/unit/session_kit.h tests/unit/test.h

@@ -45,9 +45,22 @@ static void set_projection(Motion *mo)
     mo->ode.project = projects ? project : NULL;
 }
 
+/* A direction turns the faster the smaller its vector is. */
+static bool has_norms(const Equations *eq)
+{
+    for (int i = 0; i < eq->switch_count; i++) {
+        const Guard guard = equations_guard(eq, i);
+
+        if (guard.is_norm && guard.end == 0 && !guard.is_idle)
+            return true;
+    }
+    return false;
+}
+
 void motion_enter_mode(Motion *mo)
 {
     set_projection(mo);
+    mo->ode.stiffness_falls = has_norms(mo->eq);
     if (mo->eq->slide_count > 0)
         signs_begin(mo->signs, mo->eq->slide_count, mo->eq->sign_ranges);
 }

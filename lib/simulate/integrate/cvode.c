@@ -256,7 +256,13 @@ static int first_start(Sundials *c, double t)
         return code;
     if (c->base.method->suits_stiff) {
         code = set_newton(c);
-        return code == 0 ? set_linear(c) : code;
+        if (code == 0)
+            code = set_linear(c);
+        if (code == 0 && c->base.ode->stiffness_falls)
+            code = CVodeSetLSetupFrequency(c->memory, 1);
+        if (code == 0 && c->base.ode->stiffness_falls)
+            code = CVodeSetJacEvalFrequency(c->memory, 1);
+        return code;
     }
     c->nonlinear = MEM_GIVEN(SUNNonlinSol_FixedPoint(c->w, 0, c->context));
     return CVodeSetNonlinearSolver(c->memory, c->nonlinear);

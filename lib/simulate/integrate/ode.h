@@ -85,6 +85,9 @@ typedef struct Ode {
     OdeJacobian jacobian;
     Dae dae;         /* entries 0..n+quadratures-1 of w are y; n 0: not available */
     bool is_network; /* without mechanics: messages mention a network */
+    /* Stiffness may fall by decades from step to step: with a matrix of earlier steps Newton's
+     * method would seem to have converged. */
+    bool stiffness_falls;
 } Ode;
 
 /* name of y' in messages */

@@ -152,6 +152,11 @@ static Status switches_endlessly(const Integration *m, int i, Diag *diag)
         diag_hint(diag, "let the switch read what a gain with period= has sampled; or put a source "
                         "of two values in its place, as vsource E a 0 if(L1.i < 2, 12, 0), whose "
                         "mean then holds the condition");
+    else if (equations_guard(m->eq, i).is_norm)
+        diag_hint(diag,
+                  "several parts may hold the same motion there, and which of them does is not "
+                  "determined: one friction in their place, or a stiff connection between "
+                  "them, has a motion");
     else
         diag_hint(
             diag,

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+#define BESIDE 4  /* norms that count as 0 */
 #define ROUNDS 20 /* events and ideal switches that trigger each other at one instant */
 
 /* --- steps --- */
@@ -138,6 +139,18 @@ static Status enter(Integration *m, const Segment *segment, double t, const doub
     return OK;
 }
 
+/* The norm below which a vector counts as at rest beside one that is: where one stops another may
+ * stop with it, and their norms differ by errors. */
+static double rest_of_all(const Integration *m)
+{
+    double most = 0;
+
+    for (int i = 0; i < m->eq->switch_count; i++)
+        if (equations_guard(m->eq, i).is_norm)
+            most = fmax(most, integration_rest(m, i));
+    return BESIDE * most;
+}
+
 /* How far condition i is from where its surface counts as met; 0 or less: it is met, as beyond a
  * surface that has no other side. */
 static double distance_from(const Integration *m, int i)
@@ -146,7 +159,7 @@ static double distance_from(const Integration *m, int i)
     const double h = m->conditions[i];
 
     if (guard.is_norm)
-        return h + m->rest[i] - integration_rest(m, i);
+        return h + m->rest[i] - rest_of_all(m);
     return (guard.is_unilateral ? -h : fabs(h)) - integration_on_surface(m, i);
 }
 

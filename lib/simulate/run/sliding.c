@@ -335,12 +335,13 @@ void sliding_report(void *context, const Segment *segment, int condition, Text *
     System *system = c->run->phases->at[segment->phase]->system;
     const CompiledEquations *numbers = c->run->phases->at[segment->phase]->numbers;
     Expr h = compiled_condition(numbers, condition);
+    const bool is_norm = equations_guard(segment->equations, condition).is_norm;
     const char *part = h != NULL ? system_jumping_part(system, h) : NULL;
     char *text = h != NULL ? expr_text(system_plain(system, h)) : NULL;
     IdealSwitch diode;
 
     if (text != NULL)
-        text_addf(out, "the sign of %s", text);
+        text_addf(out, "%s%s", is_norm ? "" : "the sign of ", text);
     else if (system_ideal(system, compiled_margin(numbers, condition), &diode, NULL) == OK)
         text_add(out, diode.name);
     if (part != NULL)
