@@ -370,6 +370,8 @@ static void values_are_checked(void)
     EXPECT_DONE(&kit, "scene planar\nbody b mass=1 inertia=1\n");
     EXPECT_FAILS(&kit, "roll r ground b radius=1 rim=0.1\n", "only a wheel has a rim");
     EXPECT_FAILS(&kit, "roll r ground b semiaxes=[1, 2, 3]\n", "spatial scene");
+    EXPECT_DONE(&kit, "arm p b [1, 0]\nknife k b p\n");
+    EXPECT_FAILS(&kit, "simulate 1\n", "b and p, do not move against each other");
     kit_free(&kit);
 }
 

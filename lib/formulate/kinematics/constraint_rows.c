@@ -545,16 +545,17 @@ done:
 }
 
 /* velocity rows of contacts and couplers */
-static void all_rates(System *system)
+static Status all_rates(System *system, Diag *diag)
 {
     for (int i = 0; i < system->origin->instance_count; i++) {
         const Instance *instance = &system->origin->instances[i];
 
         if (instance->row->family == FAMILY_CONTACT)
-            contact_rows_push(system, instance, false);
+            TRY(contact_rows_push(system, instance, false, diag));
         if (instance->row->family == FAMILY_COUPLER && instance->row->is_of_rates)
             driver_row(system, instance);
     }
+    return OK;
 }
 
 static Status all_rows(System *system, Diag *diag)
@@ -566,7 +567,7 @@ static Status all_rows(System *system, Diag *diag)
         bool turns;
 
         if (instance->row->family == FAMILY_CONTACT)
-            contact_rows_push(system, instance, true);
+            TRY(contact_rows_push(system, instance, true, diag));
         if (instance->row->family == FAMILY_DRIVER ||
             (instance->row->family == FAMILY_COUPLER && !instance->row->is_of_rates))
             driver_row(system, instance);
@@ -589,8 +590,7 @@ static Status all_rows(System *system, Diag *diag)
         if (slides && steps_are_tied(&steps))
             tie_row(system, instance, &steps);
     }
-    all_rates(system);
-    return OK;
+    return all_rates(system, diag);
 }
 
 Status constraints_build(System *system, Diag *diag)

@@ -5,14 +5,14 @@
  *     n . (v_h + w_h x rho - v_t - w_t x (d + rho)) = 0
  *
  * is a row in the speeds (m/s). Where n . d has a rate that equals it, as along the normal of a
- * contact, the row has a position too. All vectors are in the axes of the tail's orientation
- * class. theory 14. */
+ * contact, the row has a position too. theory 14. */
 #include "formulate/kinematics/contact_rows.h"
 
 #include "formulate/kinematics/frames.h"
 #include "formulate/kinematics/recursive.h"
 #include "formulate/system/kinematics.h"
 #include "formulate/system/origin.h"
+#include "formulate/system/resolve.h"
 #include "formulate/system/system_impl.h"
 
 #include <string.h>
@@ -75,39 +75,63 @@ void contact_of(System *system, const Instance *part, Contact *out)
     part->row->contact(part, arena, system->origin->planar, &apart, out);
 }
 
-/* a quantity of the recursive form, from the axes of its resolve class to those of the tail */
-static Vec carried(const System *system, Vec v, int chain, int tail)
+/* angular velocity of a frame in ground axes */
+static Vec turn_rate(const System *system, int node)
 {
-    return vec_express(system, v, system->kinematics->chains.at[chain].resolve, tail);
+    const int chain = system->kinematics->frames[node].chain;
+
+    return vec_express(system, system->kinematics->motions[chain].w,
+                       system->kinematics->chains.at[chain].resolve, 0);
 }
 
-/* the velocity of the head's point against the tail's, in axes of the tail's orientation class */
-static Vec slip_of(System *system, const Instance *part, Vec point)
+/* The velocity of the head's point against the tail's, all in ground axes. It begins with the rate
+ * of d: velocities of the recursive form would be turned to and fro. */
+static Status slip_of(System *system, const Instance *part, Vec point, Vec *out, Diag *diag)
 {
     Arena *arena = system->arena;
-    const Kinematics *k = system->kinematics;
-    const int tail = k->frames[part->tail].chain, head = k->frames[part->head].chain;
-    const Vec way = vec_express(system, way_between(system, part), 0, tail);
-    const Vec v = vec_sub(arena, carried(system, k->frames[part->head].v, head, tail),
-                          carried(system, k->frames[part->tail].v, tail, tail));
-    const Vec of_head = vec_cross(arena, carried(system, k->motions[head].w, head, tail), point);
-    const Vec of_tail = vec_cross(arena, carried(system, k->motions[tail].w, tail, tail),
-                                  vec_add(arena, way, point));
+    const Vec way = way_between(system, part);
+    const Vec of_head = vec_cross(arena, turn_rate(system, part->head), point);
+    const Vec of_tail = vec_cross(arena, turn_rate(system, part->tail), vec_add(arena, way, point));
+    Vec v;
 
-    return vec_hold(arena, vec_add(arena, v, vec_sub(arena, of_head, of_tail)));
+    for (int i = 0; i < 3; i++)
+        TRY(system_rate_of(system, way.at[i], &v.at[i], diag));
+    *out = vec_hold(arena, vec_add(arena, v, vec_sub(arena, of_head, of_tail)));
+    return OK;
 }
 
-void contact_rows_push(System *system, const Instance *part, bool with_position)
+/* whether only constant shifts and turns are between two frames */
+static bool is_fixed_to(const System *system, int a, int b)
+{
+    const Frame *frames = system->kinematics->frames;
+    int ends[2] = {a, b};
+
+    for (int i = 0; i < 2; i++)
+        while (frames[ends[i]].parent >= 0 && frames[ends[i]].slide_count == 0 &&
+               frames[ends[i]].step_chain == frames[a].chain)
+            ends[i] = frames[ends[i]].parent;
+    return frames[a].chain == frames[b].chain && ends[0] == ends[1];
+}
+
+Status contact_rows_push(System *system, const Instance *part, bool with_position, Diag *diag)
 {
     Arena *arena = system->arena;
+    const int tail = system->kinematics->frames[part->tail].chain;
     Contact contact;
     Vec point, slip;
 
+    if (is_fixed_to(system, part->tail, part->head)) {
+        (void)diag_set(diag, E_MODEL, "the frames of %s, %s and %s, do not move against each other",
+                       part->name, graph_node(system->origin->graph, part->tail)->name,
+                       graph_node(system->origin->graph, part->head)->name);
+        diag_hint(diag, "the tail belongs to what is rolled on, as ground, the tip to what rolls");
+        return E_MODEL;
+    }
     contact_of(system, part, &contact);
     point = vec_hold(arena,
                      frame_vector(system, part->tail,
                                   (Vec){{contact.point[0], contact.point[1], contact.point[2]}}));
-    slip = slip_of(system, part, point);
+    TRY(slip_of(system, part, vec_express(system, point, tail, 0), &slip, diag));
     for (int i = 0; i < contact.count; i++) {
         const ContactRow *own = &contact.row[i];
         const Vec along = {{own->along[0], own->along[1], own->along[2]}};
@@ -116,13 +140,15 @@ void contact_rows_push(System *system, const Instance *part, bool with_position)
         if ((own->gap != NULL) != with_position)
             continue;
         row.n = vec_hold(arena, frame_vector(system, part->tail, along));
-        row.rate = expr_name_temporary(arena, vec_dot(arena, row.n, slip));
+        row.rate =
+            expr_name_temporary(arena, vec_dot(arena, vec_express(system, row.n, tail, 0), slip));
         row.phi = own->gap != NULL ? own->gap : expr_int(arena, 0);
         row.reported = (ConstraintRow){
             .edge = part->edge, .instance = part->number, .is_rate = own->gap == NULL};
         (void)strncpy(row.reported.direction, own->direction, sizeof row.reported.direction - 1);
         LIST_PUSH(system->constraints->rows, row);
     }
+    return OK;
 }
 
 Vec contact_point(System *system, const Instance *part)
