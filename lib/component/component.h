@@ -243,6 +243,13 @@ typedef struct Contact {
     ContactRow row[CONTACT_ROWS];
 } Contact;
 
+/* an ellipse about the tip's origin, first cos a + second sin a (m), in axes of the tip: to draw */
+typedef struct Ring {
+    Expr first[3], second[3];
+} Ring;
+
+enum { MOST_RINGS = 3 };
+
 /* --- efforts: forces between two frames or on a joint, and transducers --- */
 
 typedef struct Motion1 { /* what an effort or relation may depend on; 0 where it doesn't apply */
@@ -361,6 +368,8 @@ struct Component {
     /* FAMILY_CONTACT: its rows, and the point at which their forces act */
     void (*contact)(const Instance *instance, Arena *arena, bool planar, const FramesApart *apart,
                     Contact *out);
+    /* what a picture shows of a round tip: the number of rings; NULL: nothing */
+    int (*rings)(const Instance *instance, Arena *arena, bool planar, Ring out[MOST_RINGS]);
     /* PLACES_COORDINATE: the prescribed value, an expression of t and parameters; for a coupler one
      * of parameters and other coordinates, or of their rates, by the user's names */
     Expr (*prescribed)(const Instance *instance, Arena *arena);

@@ -212,6 +212,31 @@ static void roll_contact(const Instance *instance, Arena *arena, bool planar,
     push(out, "t", along, expr_sub(arena, travel, instance_scalar(instance, "offset")));
 }
 
+/* a wheel's rim, or the sections of a ball or an ellipsoid along its axes */
+static int roll_rings(const Instance *instance, Arena *arena, bool planar, Ring out[MOST_RINGS])
+{
+    const Value *semiaxes = instance_value(instance, "semiaxes");
+    const Expr zero = expr_int(arena, 0), r = instance_scalar(instance, "radius");
+    const bool is_wheel = planar || is_given(instance, "axle");
+    const Expr out_of_plane[3] = {zero, zero, expr_int(arena, 1)};
+
+    if (is_wheel) {
+        axis_complement(arena, planar ? out_of_plane : instance_value(instance, "axle")->at,
+                        out[0].first, out[0].second);
+        scale(arena, r, out[0].first, out[0].first);
+        scale(arena, r, out[0].second, out[0].second);
+        return 1;
+    }
+    for (int k = 0; k < MOST_RINGS; k++)
+        for (int i = 0; i < 3; i++) {
+            const Expr half = semiaxes->given ? semiaxes->at[i] : r;
+
+            out[k].first[i] = i == k ? half : zero;
+            out[k].second[i] = i == (k + 1) % 3 ? half : zero;
+        }
+    return MOST_RINGS;
+}
+
 static void knife_contact(const Instance *instance, Arena *arena, bool planar,
                           const FramesApart *apart, Contact *out)
 {
@@ -311,6 +336,7 @@ const Component component_roll = {
     .rotation = BRANCH_NEVER,
     .preference = 95,
     .contact = roll_contact,
+    .rings = roll_rings,
     .members = roll_members,
     .member_count = COUNT(roll_members),
     .check = roll_check,

@@ -85,6 +85,26 @@ static void add_load(Mechanism *mechanism, const Instance *instance)
     LIST_PUSH(mechanism->loads, load);
 }
 
+static void add_rims(Mechanism *mechanism, const Instance *instance)
+{
+    const View *view = mechanism->view;
+    Ring rings[MOST_RINGS];
+    int count = 0;
+
+    if (instance->row->rings != NULL)
+        count = instance->row->rings(instance, model_arena(view->model),
+                                     model_is_planar(view->model), rings);
+    for (int k = 0; k < count; k++) {
+        Rim rim = {.part = instance};
+
+        for (int i = 0; i < 3; i++) {
+            rim.first[i] = model_number(view->model, rings[k].first[i]);
+            rim.second[i] = model_number(view->model, rings[k].second[i]);
+        }
+        LIST_PUSH(mechanism->rims, rim);
+    }
+}
+
 /* Frames are fixed in the body that arms lead to them from. */
 static void find_bodies(Mechanism *mechanism)
 {
@@ -166,8 +186,10 @@ Status mechanism_open(Mechanism *mechanism, const View *view, MechanismOptions o
             add_node(mechanism, n);
     for (int i = 0; i < mechanism->bents.count; i++)
         add_bent(mechanism, i);
-    for (int i = 0; i < model_count(model); i++)
+    for (int i = 0; i < model_count(model); i++) {
         add_load(mechanism, model_instance(model, i));
+        add_rims(mechanism, model_instance(model, i));
+    }
     choose_axes(mechanism);
     mechanism_call(mechanism);
     return OK;
@@ -183,6 +205,7 @@ void mechanism_close(Mechanism *mechanism)
     LIST_FREE(mechanism->items);
     LIST_FREE(mechanism->loads);
     LIST_FREE(mechanism->bents);
+    LIST_FREE(mechanism->rims);
     LIST_FREE(mechanism->names);
     MEM_FREE(mechanism->place, mechanism->body);
 }
@@ -200,6 +223,21 @@ static void widen(const Mechanism *mechanism, const double *values, double *forc
     }
 }
 
+/* how far a rim at a node reaches on the sheet at most, m */
+static double reach_of(const Mechanism *mechanism, int node)
+{
+    double most = 0;
+
+    for (int i = 0; i < mechanism->rims.count; i++) {
+        const Rim *rim = &mechanism->rims.at[i];
+
+        if (rim->part->head == node)
+            most = fmax(most, fmax(hypot(hypot(rim->first[0], rim->first[1]), rim->first[2]),
+                                   hypot(hypot(rim->second[0], rim->second[1]), rim->second[2])));
+    }
+    return most;
+}
+
 /* the area of all frames and ends of arrows, with the title above and the scales below */
 static void lay_out_sheet(Mechanism *mechanism, const double *values, int rows)
 {
@@ -213,7 +251,7 @@ static void lay_out_sheet(Mechanism *mechanism, const double *values, int rows)
         for (int i = 0; i < mechanism->spots + mechanism->loads.count; i++) {
             const Load *load =
                 i >= mechanism->spots ? &mechanism->loads.at[i - mechanism->spots] : NULL;
-            double at[3], moment[3];
+            double at[3], moment[3], reach;
             Point p, d = {0, 0};
 
             if (load == NULL && mechanism->place[i] < 0)
@@ -224,8 +262,9 @@ static void lay_out_sheet(Mechanism *mechanism, const double *values, int rows)
                 d = mechanism_load(mechanism, row, load, moment);
             if (isfinite(d.x) && isfinite(d.y))
                 p = (Point){p.x + d.x, p.y + d.y};
-            low = (Point){fmin(low.x, p.x), fmin(low.y, p.y)};
-            high = (Point){fmax(high.x, p.x), fmax(high.y, p.y)};
+            reach = load == NULL ? mechanism->scale * reach_of(mechanism, i) : 0;
+            low = (Point){fmin(low.x, p.x - reach), fmin(low.y, p.y - reach)};
+            high = (Point){fmax(high.x, p.x + reach), fmax(high.y, p.y + reach)};
         }
     }
     mechanism->width = fmax(fmax(high.x - low.x + 2 * MARGIN, LEAST_SIDE),
@@ -262,10 +301,12 @@ Status mechanism_fit(Mechanism *mechanism, const double *values, int rows, Diag 
             if (!isfinite(p.x) || !isfinite(p.y))
                 return diag_set(diag, E_VALUE, "the place of %s is undefined",
                                 spot_name(mechanism, n));
-            low[0] = fmin(low[0], p.x);
-            high[0] = fmax(high[0], p.x);
-            low[1] = fmin(low[1], p.y);
-            high[1] = fmax(high[1], p.y);
+            const double reach = reach_of(mechanism, n);
+
+            low[0] = fmin(low[0], p.x - reach);
+            high[0] = fmax(high[0], p.x + reach);
+            low[1] = fmin(low[1], p.y - reach);
+            high[1] = fmax(high[1], p.y + reach);
         }
         widen(mechanism, row, &force, &moment);
     }

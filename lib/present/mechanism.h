@@ -32,6 +32,12 @@ typedef struct Bent {
     int first; /* of its spots */
 } Bent;
 
+/* An ellipse about a node, in the axes of its frame: of a wheel or a ball. */
+typedef struct Rim {
+    const Instance *part;
+    double first[3], second[3]; /* m */
+} Rim;
+
 enum { BENT_SPOTS = 13 };
 
 /* The name of a part, next to the end of a load's arrow or a node: at the same side in all pictures
@@ -48,6 +54,7 @@ typedef struct Mechanism {
     LIST(Expr) items; /* what it is drawn from, over the user's variables */
     LIST(Load) loads;
     LIST(Bent) bents;
+    LIST(Rim) rims;
     LIST(Name) names; /* those that choose first first */
     int nodes, spots; /* nodes, then the points of beams */
     int *place;       /* of a spot's first item; -1: ground, or not drawn */

@@ -316,6 +316,35 @@ void sheet_link(Sheet *sheet, const Instance *link)
         draw_actuator(sheet->picture, ink, a, b);
 }
 
+/* --- wheels and balls --- */
+
+/* a rim, and a spoke that shows how it turns */
+void sheet_rim(Sheet *sheet, const Rim *rim)
+{
+    enum { CORNERS = 48 };
+    const Mechanism *mechanism = sheet->mechanism;
+    const int node = rim->part->head;
+    const Ink ink = {.stroke = picture_color(mechanism_color(mechanism, node)), .width = 1.4};
+    const Point centre = sheet_node(sheet, node, NULL);
+    double first[3], second[3];
+    Point points[CORNERS + 1], a, b;
+
+    mechanism_turn(mechanism, sheet->values, node, rim->first, first);
+    mechanism_turn(mechanism, sheet->values, node, rim->second, second);
+    a = mechanism_direction(mechanism, first);
+    b = mechanism_direction(mechanism, second);
+    for (int i = 0; i <= CORNERS; i++) {
+        const double angle = 2 * M_PI * i / CORNERS;
+
+        points[i] =
+            plus(plus(centre, mechanism->scale * cos(angle), a), mechanism->scale * sin(angle), b);
+    }
+    picture_of(sheet->picture, rim->part->row->name, rim->part->name);
+    sheet->picture->depth = sheet_depth(sheet, node);
+    picture_line(sheet->picture, ink, points, CORNERS + 1);
+    picture_line(sheet->picture, ink, (Point[]){centre, points[0]}, 2);
+}
+
 /* --- loads --- */
 
 /* a moment about the look, as far as it has one: an arc, with the clock or against it */

@@ -184,6 +184,8 @@ static void draw_parts(Sheet *sheet)
                  instance->row->places == PLACES_JOINTS)
             sheet_link(sheet, instance);
     }
+    for (int i = 0; i < sheet->mechanism->rims.count; i++)
+        sheet_rim(sheet, &sheet->mechanism->rims.at[i]);
     picture_sort(sheet->picture);
 }
 

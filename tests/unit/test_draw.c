@@ -93,6 +93,25 @@ static void places_are_to_scale(void)
     kit_free(&kit);
 }
 
+/* a wheel's rim, 0.3 m from its centre, begins at its spoke, which turns with it */
+static void wheels_are_to_scale_and_turn(void)
+{
+    Kit kit = kit_new();
+    char *svg;
+    double rim[4] = {0}, hub[2] = {0}, scale;
+
+    EXPECT_DONE(&kit, "scene planar\nbody w mass=1 inertia=0.02\narm m w [1, 0]\n"
+                      "roll r ground w radius=0.3\ninit w.theta = 0.5\n");
+    svg = drawn(&kit, "draw mechanism", "svg");
+    scale = scale_of(svg);
+    circle(svg, "body w", hub);
+    points(svg, "roll r", rim);
+    EXPECT_NEAR((rim[0] - hub[0]) / scale, 0.3 * cos(0.5), 2e-3);
+    EXPECT_NEAR((hub[1] - rim[1]) / scale, 0.3 * sin(0.5), 2e-3);
+    ct_free(svg);
+    kit_free(&kit);
+}
+
 static void every_part_is_drawn_once_by_its_name(void)
 {
     static const char *const parts[] = {"body m1",       "body m2",     "body m3",
@@ -668,6 +687,7 @@ static void what_cannot_be_drawn_says_why(void)
 int main(void)
 {
     RUN(places_are_to_scale);
+    RUN(wheels_are_to_scale_and_turn);
     RUN(every_part_is_drawn_once_by_its_name);
     RUN(forces_are_to_scale_and_of_the_instant);
     RUN(beams_are_drawn_bent);
