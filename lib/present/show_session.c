@@ -59,7 +59,7 @@ static void add_processes(const Model *model, Text *out)
     if (model_settings(model)->is_given[SETTING_JOBS])
         text_add(out, "  (threads of a run, processes that share many runs)");
     else
-        text_addf(out, "  (threads of a run; many runs share %d process%s, one for each processor)",
+        text_addf(out, "  (threads of a run; many runs share %d process%s)",
                   available < MOST_WORKERS ? available : MOST_WORKERS, available == 1 ? "" : "es");
 }
 
