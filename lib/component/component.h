@@ -244,9 +244,9 @@ typedef struct Contact {
 } Contact;
 
 /* an ellipse about the tip's origin, first cos a + second sin a (m), in axes of the tip: to draw */
-typedef struct Ring {
+typedef struct ContactRing {
     Expr first[3], second[3];
-} Ring;
+} ContactRing;
 
 enum { MOST_RINGS = 3 };
 
@@ -369,7 +369,7 @@ struct Component {
     void (*contact)(const Instance *instance, Arena *arena, bool planar, const FramesApart *apart,
                     Contact *out);
     /* what a picture shows of a round tip: the number of rings; NULL: nothing */
-    int (*rings)(const Instance *instance, Arena *arena, bool planar, Ring out[MOST_RINGS]);
+    int (*rings)(const Instance *instance, Arena *arena, bool planar, ContactRing out[MOST_RINGS]);
     /* PLACES_COORDINATE: the prescribed value, an expression of t and parameters; for a coupler one
      * of parameters and other coordinates, or of their rates, by the user's names */
     Expr (*prescribed)(const Instance *instance, Arena *arena);

@@ -213,7 +213,8 @@ static void roll_contact(const Instance *instance, Arena *arena, bool planar,
 }
 
 /* a wheel's rim, or the sections of a ball or an ellipsoid along its axes */
-static int roll_rings(const Instance *instance, Arena *arena, bool planar, Ring out[MOST_RINGS])
+static int roll_rings(const Instance *instance, Arena *arena, bool planar,
+                      ContactRing out[MOST_RINGS])
 {
     const Value *semiaxes = instance_value(instance, "semiaxes");
     const Expr zero = expr_int(arena, 0), r = instance_scalar(instance, "radius");

@@ -88,7 +88,7 @@ static void add_load(Mechanism *mechanism, const Instance *instance)
 static void add_rims(Mechanism *mechanism, const Instance *instance)
 {
     const View *view = mechanism->view;
-    Ring rings[MOST_RINGS];
+    ContactRing rings[MOST_RINGS];
     int count = 0;
 
     if (instance->row->rings != NULL)
