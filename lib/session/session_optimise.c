@@ -98,10 +98,12 @@ static Status read_method(OptimiseWork *work, Diag *diag)
 static Status read_runs(OptimiseWork *work, Diag *diag)
 {
     const Syntax *value = statement_key(work->search.statement, "runs");
-    double number = RUNS;
+    double number;
 
-    if (value != NULL)
-        TRY(session_number(work->search.session, value, &number, diag));
+    work->most_runs = RUNS;
+    if (value == NULL)
+        return OK;
+    TRY(session_number(work->search.session, value, &number, diag));
     if (!(number >= 1 && number <= most_runs) || number != floor(number))
         return diag_at(diag, E_VALUE, value->place, "runs is a whole number from 1 to %.0f, not %g",
                        most_runs, number);

@@ -50,9 +50,11 @@ static void form(double t, const double *q, const double *u, double m[JOINTS][JO
 {
     double angle[JOINTS], rate[JOINTS], own[JOINTS][JOINTS], rest[JOINTS];
 
-    for (int j = 0; j < JOINTS; j++) {
-        angle[j] = q[j] + (j > 0 ? angle[j - 1] : 0);
-        rate[j] = u[j] + (j > 0 ? rate[j - 1] : 0);
+    angle[0] = q[0];
+    rate[0] = u[0];
+    for (int j = 1; j < JOINTS; j++) {
+        angle[j] = q[j] + angle[j - 1];
+        rate[j] = u[j] + rate[j - 1];
     }
     for (int j = 0; j < JOINTS; j++) {
         rest[j] = 0;
