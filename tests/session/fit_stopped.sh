@@ -11,7 +11,7 @@ simulate 1 every=0.1
 export csv h > "data.csv"
 L = 0.3
 w1 = 1; w2 = 1; w3 = 1; w4 = 1; w5 = 1; w6 = 1; w7 = 1; w8 = 1
-fit L w1 w2 w3 w4 w5 w6 w7 w8 to=table("data.csv", t, "h") by=h : simulate 1 method=rk4 step=6e-6
+fit L w1 w2 w3 w4 w5 w6 w7 w8 to=table("data.csv", t, "h") by=h : simulate 1 method=rk4 step=2e-6
 print "never"
 END
 cotree model.ct -e 'show fit' 2>errors &

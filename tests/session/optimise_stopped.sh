@@ -8,7 +8,7 @@ arm p b [0, L]
 revolute h ground p
 init h = 1
 w1 = 1; w2 = 1; w3 = 1; w4 = 1; w5 = 1; w6 = 1; w7 = 1; w8 = 1
-optimise L w1 w2 w3 w4 w5 w6 w7 w8 minimise=(h - 0.3)^2 : simulate 1 method=rk4 step=6e-6
+optimise L w1 w2 w3 w4 w5 w6 w7 w8 minimise=(h - 0.3)^2 : simulate 1 method=rk4 step=2e-6
 print "never"
 END
 cotree model.ct -e 'show optimum' 2>errors &
