@@ -287,7 +287,7 @@ static void six_joints_stick_and_slip(void)
     text_addf(&text, "simulate %g rtol=1e-12 atol=1e-13\n", END);
     EXPECT_DONE(&kit, text.at);
     for (int j = 0; j < JOINTS; j++) {
-        char name[8];
+        char name[16];
 
         (void)snprintf(name, sizeof name, "h%d", j);
         EXPECT(fabs(kit_value(&kit, name) - arm.q[j]) < 1e-9);
