@@ -1,5 +1,5 @@
-/* test_rolling.c: wheels, balls, blades and couplers of rates, against closed forms, the equations
- * of a rolling disc, and the linear equations of a bicycle */
+/* test_rolling.c: wheels, balls, blades, rods and couplers of rates, against closed forms, the
+ * equations of a rolling disc, and the linear equations of a bicycle */
 #include "session_kit.h"
 
 #include <complex.h>
@@ -233,6 +233,90 @@ static void a_disc_rolls_down(void)
     kit_free(&kit);
 }
 
+/* --- rods, planes, lines --- */
+
+/* a point on a rod is a pendulum: energy, and the pull m (v^2/L + g cos) */
+static void a_rod_holds_a_pendulum(void)
+{
+    Kit kit = kit_new();
+    double x, y;
+
+    EXPECT_DONE(&kit, "scene planar\ngravity [0, -9.81]\nbody m mass=2 inertia=0.1\n"
+                      "link L ground m length=0.5\ninit m.x = 0.5, m.y = 0, m.theta = 0\n"
+                      "init m.y' = 0, m.theta' = 0\nsimulate 1 rtol=1e-11\n");
+    x = kit_value(&kit, "m.x");
+    y = kit_value(&kit, "m.y");
+    EXPECT(is_near(hypot(x, y), 0.5, 1e-12));
+    EXPECT_VALUE(&kit, "m.x'^2 + m.y'^2", -2 * G * y, 1e-8);
+    EXPECT_VALUE(&kit, "L.fn", -2 * (-2 * G * y / 0.5 - G * y / 0.5), 1e-8);
+    kit_free(&kit);
+}
+
+/* two bodies on a rod in space, from centre to centre: each goes round the common centre evenly */
+static void a_rod_between_two_bodies_turns_evenly(void)
+{
+    static const char *const trees[] = {"", "free j a b\ntree a j\n"};
+    const double turn = 3 * 0.8; /* 2 m/s across 2/3 of 1.25 m from the centre */
+
+    for (int i = 0; i < 2; i++) {
+        Kit kit = kit_new();
+
+        EXPECT_DONE(&kit, "body a mass=2 inertia=[1, 2, 2]; body b mass=1 inertia=[1, 1, 1]\n"
+                          "link L a b length=1.25\n");
+        EXPECT_DONE(&kit, trees[i]);
+        EXPECT_DONE(&kit, "init a.x = 0, a.y = 0, a.z = 0, b.x = 1.25, b.y = 0, b.z = 0\n"
+                          "init a.y' = -1, a.z' = 0.3, b.y' = 2, b.z' = 0.3, a.x' = 0.4\n"
+                          "init a.wx = 1, a.wy = 0, a.wz = 0, b.wx = 0, b.wy = 2, b.wz = 1\n"
+                          "simulate 2 rtol=1e-11\n");
+        EXPECT_VALUE(&kit, "b.x - a.x", 1.25 * cos(turn * 2), 1e-8);
+        EXPECT_VALUE(&kit, "b.y - a.y", 1.25 * sin(turn * 2), 1e-8);
+        EXPECT_VALUE(&kit, "(2*a.x + b.x)/3", 1.25 / 3 + 0.8, 1e-8);
+        EXPECT_VALUE(&kit, "a.z", 0.6, 1e-9);
+        EXPECT_VALUE(&kit, "L.fn", -2.0 / 3 * turn * turn * 1.25, 1e-8);
+        kit_free(&kit);
+    }
+}
+
+/* a rod whose ends are on two lines: its centre goes round in a circle, and it is a pendulum */
+static void a_trammel_is_a_pendulum(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\ngravity [0, -9.81]\nbody r mass=1 inertia=1/12\n"
+                      "arm a r [-0.5, 0]; arm b r [0.5, 0]\ninline A ground a axis=x\n"
+                      "inline B ground b axis=y\ninit r.theta = 2, r.theta' = 0\n"
+                      "simulate 0.5 rtol=1e-11\n");
+    EXPECT_VALUE(&kit, "r.theta'^2/6 + 9.81*sin(r.theta)/2", G * sin(2) / 2, 1e-9);
+    EXPECT_VALUE(&kit, "r.x^2 + r.y^2", 0.25, 1e-12);
+    EXPECT_VALUE(&kit, "A.fy - 9.81", kit_value(&kit, "r.ay"), 1e-9);
+    EXPECT_VALUE(&kit, "B.fx", kit_value(&kit, "r.ax"), 1e-9);
+    kit_free(&kit);
+}
+
+/* a body with its foot on a plane, and one on an inclined line */
+static void points_remain_in_planes_and_on_lines(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "gravity [0, 0, -9.81]\nbody b mass=2 inertia=[0.1, 0.2, 0.3]\n"
+                      "arm foot b [0.2, 0, -0.5]\ninplane P ground foot\n"
+                      "init b.x = 0, b.y = 0, b.q1 = 0.1, b.q2 = 0, b.q3 = 0, b.x' = 1, b.y' = 0\n"
+                      "init b.wx = 0, b.wy = 0, b.wz = 5\nsimulate 0.5 rtol=1e-11\n");
+    EXPECT_VALUE(&kit, "foot.z", 0, 1e-12);
+    EXPECT_VALUE(&kit, "b.x", 0.5, 1e-10);
+    EXPECT_VALUE(&kit, "P.fn/2 - 9.81", kit_value(&kit, "b.az"), 1e-9);
+    EXPECT_VALUE(&kit, "energy.total", kit_value(&kit, "energy.total at 0"), 1e-9);
+    kit_free(&kit);
+    kit = kit_new();
+    EXPECT_DONE(&kit, "gravity [0, 0, -9.81]\nbody b mass=2 inertia=[0.1, 0.2, 0.3]\n"
+                      "inline S ground b axis=[0.6, 0, -0.8]\n"
+                      "init b.x = 0, b.x' = 0, b.wx = 0, b.wy = 0, b.wz = 1\nsimulate 1\n");
+    EXPECT_VALUE(&kit, "b.z", -0.8 * 0.8 * G / 2, 1e-9);
+    EXPECT_VALUE(&kit, "b.x", 0.6 * 0.8 * G / 2, 1e-9);
+    EXPECT_VALUE(&kit, "hypot(S.fx, S.fz)", 2 * G * 0.6, 1e-9);
+    kit_free(&kit);
+}
+
 /* --- couplers of rates --- */
 
 /* two couplers that are a wheel which steers with its spin, and the knife edge that is one */
@@ -384,6 +468,10 @@ int main(void)
     RUN(a_ball_on_a_turntable_circles);
     RUN(a_ball_swings_in_a_bowl);
     RUN(a_disc_rolls_down);
+    RUN(a_rod_holds_a_pendulum);
+    RUN(a_rod_between_two_bodies_turns_evenly);
+    RUN(a_trammel_is_a_pendulum);
+    RUN(points_remain_in_planes_and_on_lines);
     RUN(rates_are_coupled);
     RUN(a_trailer_follows);
     RUN(a_bicycle_weaves);

@@ -1,4 +1,4 @@
-/* rolling.c: what rolls without slipping, and blades that go along one direction
+/* contacts.c: what rolls without slipping, blades, rods, and points in a plane or on a line
  *
  * All in axes of the tail, whose plane goes through its origin with the normal z; c (m) is the way
  * to the head's origin, rho (m) that from there to the point of contact, and v + w x rho the
@@ -12,6 +12,8 @@
  *                  m = R^T z, h = |A m|, A = diag(a, b, c), R: from axes of the head
  *     in a bowl    rho = r c/|c|               gap = R - r - |c|;    on a dome |c| - R - r
  *     in the plane t.c + r theta = offset, t = z x (out of the plane): a position row
+ *
+ * A rod of length L holds |c| = L, a point in the plane z.c = 0, one on a line n1.c = n2.c = 0.
  *
  * theory 14; P. Meijaard et al., Proc. R. Soc. A 463 (2007), 1955, have wheels with round rims. */
 #include "component/component_rows.h"
@@ -31,6 +33,30 @@ static const Param roll_params[] = {
 static const Param knife_params[] = {
     {"along",  PARAM_AXIS, "1", "x", "the direction in which the blade goes, in the axes of the tip", 0},
     {"normal", PARAM_AXIS, "1", "z", "of the plane that it goes on, in the axes of the tail", 0},
+};
+
+static const Param link_params[] = {
+    {"length", PARAM_SCALAR, "m", NULL, "distance of the frames", POSITIONAL},
+};
+
+static const Param plane_params[] = {
+    {"normal", PARAM_AXIS, "1", "z", "of the plane through the tail's origin, in the axes of the tail; planar: y", 0},
+};
+
+static const Param line_params[] = {
+    {"axis", PARAM_AXIS, "1", "x", "of the line through the tail's origin, in the axes of the tail", 0},
+};
+
+static const Member link_members[] = {
+    {"fn", "N", "force on the tip away from the tail: below 0 where the rod is pulled", 0},
+};
+
+static const Member plane_members[] = {
+    {"fn", "N", "force on the tip along the normal", 0},
+};
+
+static const Member line_members[] = {
+    {"fn", "N", "force on the tip across the line; in space along the first of two normals", 0},
 };
 
 static const Member roll_members[] = {
@@ -254,6 +280,44 @@ static void knife_contact(const Instance *instance, Arena *arena, bool planar,
     push(out, "side", out->normal, NULL);
 }
 
+static void link_contact(const Instance *instance, Arena *arena, bool planar,
+                         const FramesApart *apart, Contact *out)
+{
+    const Expr far = held_length(arena, apart->way), zero = expr_int(arena, 0);
+
+    (void)planar;
+    *out = (Contact){.point = {zero, zero, zero}};
+    scale(arena, expr_div(arena, expr_int(arena, 1), far), apart->way, out->normal);
+    push(out, "length", out->normal, expr_sub(arena, far, instance_scalar(instance, "length")));
+}
+
+static void plane_contact(const Instance *instance, Arena *arena, bool planar,
+                          const FramesApart *apart, Contact *out)
+{
+    const Expr zero = expr_int(arena, 0);
+
+    *out = (Contact){.point = {zero, zero, zero}};
+    plane_normal(instance, arena, planar, out->normal);
+    push(out, "normal", out->normal, dot(arena, out->normal, apart->way));
+}
+
+static void line_contact(const Instance *instance, Arena *arena, bool planar,
+                         const FramesApart *apart, Contact *out)
+{
+    const Expr zero = expr_int(arena, 0), *axis = instance_value(instance, "axis")->at;
+    const Expr out_of_plane[3] = {zero, zero, expr_int(arena, 1)};
+    Expr n2[3];
+
+    *out = (Contact){.point = {zero, zero, zero}};
+    if (planar)
+        cross(arena, out_of_plane, axis, out->normal);
+    else
+        axis_complement(arena, axis, out->normal, n2);
+    push(out, "n1", out->normal, dot(arena, out->normal, apart->way));
+    if (!planar)
+        push(out, "n2", n2, dot(arena, n2, apart->way));
+}
+
 /* --- checks --- */
 
 static Status refuse(Diag *diag, const char *about, const char *message, const char *hint)
@@ -323,6 +387,13 @@ static Status roll_check(const Instance *instance, Arena *arena, bool planar, Di
     return check_positive(instance, "radius", diag);
 }
 
+static Status link_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
+{
+    (void)arena;
+    (void)planar;
+    return check_positive(instance, "length", diag);
+}
+
 /* --- table --- */
 
 const Component component_roll = {
@@ -380,4 +451,73 @@ const Component component_knife = {
                "init sleigh.theta' = 1, sleigh.x' = 1\nsimulate 2\n"
                "print sleigh.x, sleigh.y, sleigh.theta, k1.fn",
     .see = "roll coupler",
+};
+
+const Component component_link = {
+    .name = "link",
+    .family = FAMILY_CONTACT,
+    .domain = DOMAIN_MECHANICAL,
+    .places = PLACES_FRAMES,
+    .brief = "a massless rod between two frames",
+    .params = link_params,
+    .param_count = COUNT(link_params),
+    .translation = BRANCH_NEVER,
+    .rotation = BRANCH_NEVER,
+    .preference = 95,
+    .contact = link_contact,
+    .members = link_members,
+    .member_count = COUNT(link_members),
+    .check = link_check,
+    .help = "Holds the origins of two frames at a distance, as a rod without mass between two ball "
+            "joints does. It pulls and pushes. A rope is 'stop NAME TAIL TIP high=..'.",
+    .example = "scene planar; gravity [0, -9.81]\nbody m mass=2 inertia=0.1\n"
+               "link L1 ground m length=0.5\ninit m.x = 0.5, m.y = 0, m.theta = 0\n"
+               "init m.y' = 0, m.theta' = 0\nsimulate 0.3\nprint m.x, m.y, L1.fn",
+    .see = "stop spring spherical",
+};
+
+const Component component_inplane = {
+    .name = "inplane",
+    .family = FAMILY_CONTACT,
+    .domain = DOMAIN_MECHANICAL,
+    .places = PLACES_FRAMES,
+    .brief = "a point of the tip remains in a plane of the tail",
+    .params = plane_params,
+    .param_count = COUNT(plane_params),
+    .translation = BRANCH_NEVER,
+    .rotation = BRANCH_NEVER,
+    .preference = 95,
+    .contact = plane_contact,
+    .members = plane_members,
+    .member_count = COUNT(plane_members),
+    .help = "Keeps the origin of the tip in the plane through the origin of the tail. It takes one "
+            "freedom, without friction. In a planar scene the plane is a line.",
+    .example = "gravity [0, 0, -9.81]\nbody b mass=1 inertia=[0.1, 0.1, 0.1]\n"
+               "arm foot b [0.2, 0, -0.5]\ninplane P1 ground foot\n"
+               "init b.x = 0, b.y = 0, b.q1 = 0.1, b.q2 = 0, b.q3 = 0\nsimulate 0.2\n"
+               "print b.z, P1.fn",
+    .see = "inline planarjoint roll",
+};
+
+const Component component_inline = {
+    .name = "inline",
+    .family = FAMILY_CONTACT,
+    .domain = DOMAIN_MECHANICAL,
+    .places = PLACES_FRAMES,
+    .brief = "a point of the tip remains on a line of the tail",
+    .params = line_params,
+    .param_count = COUNT(line_params),
+    .translation = BRANCH_NEVER,
+    .rotation = BRANCH_NEVER,
+    .preference = 95,
+    .contact = line_contact,
+    .members = line_members,
+    .member_count = COUNT(line_members),
+    .help = "Keeps the origin of the tip on the line through the origin of the tail, whatever its "
+            "attitude: a pin in a slot. It takes two freedoms in space and one in the plane.",
+    .example = "scene planar; gravity [0, -9.81]\nbody rod1 mass=1 inertia=1/12\n"
+               "arm a rod1 [-0.5, 0]; arm b rod1 [0.5, 0]\ninline S1 ground a axis=x\n"
+               "inline S2 ground b axis=y\ninit rod1.theta = 2, rod1.theta' = 0\nsimulate 0.3\n"
+               "print rod1.theta, S1.fn, S2.fn",
+    .see = "inplane prismatic cylindrical",
 };
