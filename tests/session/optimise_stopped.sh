@@ -1,5 +1,8 @@
-# Ctrl-C ends an optimisation; the best values until then are kept
-cat >model.ct <<'END'
+# Ctrl-C ends an optimisation; the best values until then are kept. Many short runs, as in
+# fit_stopped.
+names=
+for i in $(seq 150); do names="$names w$i"; done
+cat >model.ct <<END
 scene planar
 gravity [0, -9.81]
 L = 0.5 m
@@ -7,8 +10,8 @@ body b mass=1 inertia=0
 arm p b [0, L]
 revolute h ground p
 init h = 1
-w1 = 1; w2 = 1; w3 = 1; w4 = 1; w5 = 1; w6 = 1; w7 = 1; w8 = 1
-optimise L w1 w2 w3 w4 w5 w6 w7 w8 minimise=(h - 0.3)^2 : simulate 1 method=rk4 step=2e-6
+$(for name in $names; do printf '%s = 1; ' "$name"; done)
+optimise L $names minimise=(h - 0.3)^2 : simulate 1 method=rk4 step=1e-5
 print "never"
 END
 cotree model.ct -e 'show optimum' 2>errors &
