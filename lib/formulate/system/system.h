@@ -4,7 +4,8 @@
  *     M u' + Phi_u^T lambda = F(q, u, x, z, t)
  *     G([x'; z], q, u, x, t) = 0                     (network states and algebraic unknowns)
  *
- * with coordinates q (n), speeds u (nu), N n x nu, m constraints Phi, M nu x nu, multipliers lambda
+ * where the last rows of Phi_u may be velocity rows V u = n without a position (theory 14), with
+ * coordinates q (n), speeds u (nu), N n x nu, m constraints Phi, M nu x nu, multipliers lambda
  * (m), network states x (nx) and algebraic unknowns z (nz), G (nx + nz). A System is complete when
  * system_new() returns, const ever after, and stores the revision of its model. It has two forms of
  * the same definitions. The expanded form is shown: a view forms each entry on request, as written
