@@ -329,8 +329,42 @@ static Status refuse(Diag *diag, const char *about, const char *message, const c
     return status;
 }
 
+/* In a planar scene a given direction is in the plane, or with `turns` the axis out of it. */
+static Status check_direction(const Instance *instance, const char *name, bool turns, bool planar,
+                              Diag *diag)
+{
+    const Value *value = instance_value(instance, name);
+    const bool is_in_plane = expr_is_zero(value->at[2]);
+    const bool is_out_of_it = expr_is_zero(value->at[0]) && expr_is_zero(value->at[1]);
+
+    if (!planar || !value->given || (turns ? is_out_of_it : is_in_plane))
+        return OK;
+    return refuse(diag, name, turns ? "it turns about z in a planar scene" : "it leaves the plane",
+                  turns ? "the scene is planar: z, or nothing"
+                        : "the scene is planar: x, y, or a vector [a, b]");
+}
+
+/* refuses a key that has no effect beside another */
+static Status check_alone(const Instance *instance, const char *with, const char *const *keys,
+                          Diag *diag)
+{
+    for (; *keys != NULL; keys++) {
+        Status status;
+
+        if (!is_given(instance, *keys))
+            continue;
+        status = diag_set(diag, E_VALUE, "%s= and %s= exclude each other", with, *keys);
+        diag_hint(diag, "one shape rolls: a wheel or a ball with radius=, an ellipsoid with "
+                        "semiaxes=, a ball in a bowl or on a dome");
+        diag_about(diag, "%s", *keys);
+        return status;
+    }
+    return OK;
+}
+
 static Status check_ellipsoid(const Instance *instance, bool planar, Diag *diag)
 {
+    static const char *const others[] = {"radius", "axle", "rim", "bowl", "dome", "offset", NULL};
     const Value *axes = instance_value(instance, "semiaxes");
 
     if (planar)
@@ -339,29 +373,25 @@ static Status check_ellipsoid(const Instance *instance, bool planar, Diag *diag)
     if (axes->count != 3)
         return refuse(diag, "semiaxes", "an ellipsoid has three semiaxes",
                       "they are written [a, b, c], along the axes of the tip");
-    if (is_given(instance, "radius"))
-        return refuse(diag, "radius", "semiaxes= and radius= exclude each other",
-                      "a ball has a radius, an ellipsoid three semiaxes");
     for (int i = 0; i < 3; i++)
         if (expr_is_number(axes->at[i]) && !(expr_value(axes->at[i]) > 0))
             return refuse(diag, "semiaxes", "a semiaxis must be above 0", "in m");
-    return OK;
+    return check_alone(instance, "semiaxes", others, diag);
 }
 
-/* of one that isn't flat */
+/* of a ball on one that isn't flat */
 static Status check_round(const Instance *instance, Diag *diag)
 {
+    static const char *const others[] = {"dome", "offset", NULL};
     const bool is_bowl = is_given(instance, "bowl");
-    const Expr R = instance_scalar(instance, is_bowl ? "bowl" : "dome");
-    const Expr r = instance_scalar(instance, "radius");
+    const char *name = is_bowl ? "bowl" : "dome";
+    const Expr R = instance_scalar(instance, name), r = instance_scalar(instance, "radius");
 
-    if (is_bowl && is_given(instance, "dome"))
-        return refuse(diag, "dome", "bowl= and dome= exclude each other",
-                      "inside a sphere, or outside of it");
-    if (is_given(instance, "axle") || is_given(instance, "semiaxes"))
-        return refuse(diag, is_bowl ? "bowl" : "dome", "in a bowl or on a dome only a ball rolls",
+    if (is_given(instance, "axle"))
+        return refuse(diag, name, "in a bowl or on a dome only a ball rolls",
                       "wheels and ellipsoids roll on planes");
-    TRY(check_positive(instance, is_bowl ? "bowl" : "dome", diag));
+    TRY(check_alone(instance, name, is_bowl ? others : others + 1, diag));
+    TRY(check_positive(instance, name, diag));
     if (is_bowl && expr_is_number(R) && expr_is_number(r) && expr_value(R) <= expr_value(r))
         return refuse(diag, "bowl", "the ball does not fit into the bowl",
                       "bowl= must be above radius=");
@@ -371,20 +401,42 @@ static Status check_round(const Instance *instance, Diag *diag)
 static Status roll_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
     (void)arena;
-    if (is_given(instance, "bowl") || is_given(instance, "dome"))
-        TRY(check_round(instance, diag));
     if (is_given(instance, "semiaxes"))
         return check_ellipsoid(instance, planar, diag);
     if (!is_given(instance, "radius"))
         return refuse(diag, "radius", "a wheel or a ball needs its radius",
                       "radius=0.3 m; an ellipsoid has semiaxes=[a, b, c]");
+    TRY(check_positive(instance, "radius", diag));
+    TRY(check_direction(instance, "axle", true, planar, diag));
+    TRY(check_direction(instance, "normal", false, planar, diag));
+    if (is_given(instance, "bowl") || is_given(instance, "dome"))
+        TRY(check_round(instance, diag));
     TRY(check_not_negative(instance, "rim", diag));
     if (is_given(instance, "rim") && (planar || !is_given(instance, "axle")))
         return refuse(diag, "rim", "only a wheel has a rim", "axle= makes it a wheel");
     if (is_given(instance, "offset") && !planar)
         return refuse(diag, "offset", "offset= belongs to rolling in a planar scene",
                       "in space an initial position may be any: init");
-    return check_positive(instance, "radius", diag);
+    return OK;
+}
+
+static Status knife_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
+{
+    (void)arena;
+    TRY(check_direction(instance, "along", false, planar, diag));
+    return check_direction(instance, "normal", true, planar, diag);
+}
+
+static Status plane_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
+{
+    (void)arena;
+    return check_direction(instance, "normal", false, planar, diag);
+}
+
+static Status line_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
+{
+    (void)arena;
+    return check_direction(instance, "axis", false, planar, diag);
 }
 
 static Status link_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
@@ -442,6 +494,7 @@ const Component component_knife = {
     .contact = knife_contact,
     .members = knife_members,
     .member_count = COUNT(knife_members),
+    .check = knife_check,
     .help = "The origin of the tip has no velocity across the blade, against the tail. The blade "
             "goes along a direction fixed in the tip, on a plane with the normal of the tail. It "
             "takes a freedom of motion, but none of place.",
@@ -490,6 +543,7 @@ const Component component_inplane = {
     .contact = plane_contact,
     .members = plane_members,
     .member_count = COUNT(plane_members),
+    .check = plane_check,
     .help = "Keeps the origin of the tip in the plane through the origin of the tail. It takes one "
             "freedom, without friction. In a planar scene the plane is a line.",
     .example = "gravity [0, 0, -9.81]\nbody b mass=1 inertia=[0.1, 0.1, 0.1]\n"
@@ -513,6 +567,7 @@ const Component component_inline = {
     .contact = line_contact,
     .members = line_members,
     .member_count = COUNT(line_members),
+    .check = line_check,
     .help = "Keeps the origin of the tip on the line through the origin of the tail, whatever its "
             "attitude: a pin in a slot. It takes two freedoms in space and one in the plane.",
     .example = "scene planar; gravity [0, -9.81]\nbody rod1 mass=1 inertia=1/12\n"

@@ -57,6 +57,13 @@ Status inverse_new(const View *view, Inverse **out, Diag *diag)
         diag_hint(diag, "'driver D h1 = 0' prescribes the motion of h1");
         goto done;
     }
+    if (system_position_rows(system) < system_m(system)) {
+        status = diag_set(diag, E_MODEL,
+                          "positions under velocity rows depend on the way there, "
+                          "which code of inverse motion doesn't follow");
+        diag_hint(diag, "'inverse' follows it here; exported equations of motion do");
+        goto done;
+    }
     CHECK(model_scene(view->model, &scene, diag));
     CHECK(system_new_view(&scene, &options, &inverse->system, diag));
     *out = inverse;

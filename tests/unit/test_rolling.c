@@ -431,6 +431,21 @@ static void a_bicycle_weaves(void)
     kit_free(&kit);
 }
 
+/* what shares its load with a joint is open in the joint's tree, and shared evenly in the other */
+static void a_redundant_row_has_no_force_of_its_own(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "gravity [0, 0, -9.81]\nbody b mass=2 inertia=[1, 1, 1]\n"
+                      "planarjoint p ground b normal=z\ninplane P ground b\n"
+                      "init p.s1 = 0, p.s2 = 0, p.theta = 0\nsimulate 0.1\n");
+    EXPECT_FAILS(&kit, "print P.fn\n", "P.fn isn't determined");
+    EXPECT_DONE(&kit, "tree absolute\nsimulate 0.1\n");
+    EXPECT_VALUE(&kit, "P.fn", G, 1e-9);
+    EXPECT_VALUE(&kit, "p.fz", G, 1e-9);
+    kit_free(&kit);
+}
+
 static void values_are_checked(void)
 {
     Kit kit = kit_new();
@@ -445,6 +460,7 @@ static void values_are_checked(void)
     EXPECT_FAILS(&kit, "roll r ground b radius=1 bowl=0.5\n", "does not fit");
     EXPECT_FAILS(&kit, "roll r ground b radius=1 bowl=3 dome=2\n", "exclude each other");
     EXPECT_FAILS(&kit, "roll r ground b radius=1 axle=y bowl=3\n", "only a ball rolls");
+    EXPECT_FAILS(&kit, "roll r ground b axle=y semiaxes=[1, 2, 3]\n", "exclude each other");
     EXPECT_FAILS(&kit, "roll r ground b radius=1 offset=3\n", "planar scene");
     EXPECT_FAILS(&kit, "roll r ground b radius=1 axle=[0, 0, 0]\n", "axle");
     EXPECT_DONE(&kit, "roll r ground b radius=1\ninit b.x = 0, b.y = 0, b.vx = 1, b.wx = 0\n");
@@ -454,6 +470,12 @@ static void values_are_checked(void)
     EXPECT_DONE(&kit, "scene planar\nbody b mass=1 inertia=1\n");
     EXPECT_FAILS(&kit, "roll r ground b radius=1 rim=0.1\n", "only a wheel has a rim");
     EXPECT_FAILS(&kit, "roll r ground b semiaxes=[1, 2, 3]\n", "spatial scene");
+    EXPECT_FAILS(&kit, "roll r ground b radius=1 axle=x\n", "turns about z");
+    EXPECT_FAILS(&kit, "roll r ground b radius=1 normal=z\n", "leaves the plane");
+    EXPECT_FAILS(&kit, "roll r ground b radius=1 bowl=2 offset=1\n", "exclude each other");
+    EXPECT_FAILS(&kit, "knife k ground b along=z\n", "leaves the plane");
+    EXPECT_FAILS(&kit, "inline k ground b axis=z\n", "leaves the plane");
+    EXPECT_FAILS(&kit, "inplane k ground b normal=z\n", "leaves the plane");
     EXPECT_DONE(&kit, "arm p b [1, 0]\nknife k b p\n");
     EXPECT_FAILS(&kit, "simulate 1\n", "b and p, do not move against each other");
     kit_free(&kit);
@@ -475,6 +497,7 @@ int main(void)
     RUN(rates_are_coupled);
     RUN(a_trailer_follows);
     RUN(a_bicycle_weaves);
+    RUN(a_redundant_row_has_no_force_of_its_own);
     RUN(values_are_checked);
     return test_end();
 }

@@ -1,4 +1,4 @@
-/* reactions.c: forces and moments of joints (theory 5)
+/* reactions.c: forces and moments of joints, forces of contacts (theory 5, 14)
  *
  * If the joint is a chord they follow from lambda; if it is a branch, from the loads beyond it.
  * Redundant rows have multipliers too (redundancy.c). Where some of these are undetermined, so is
@@ -7,6 +7,7 @@
 #include "formulate/dynamics/efforts.h"
 #include "formulate/dynamics/laws.h"
 #include "formulate/dynamics/loads.h"
+#include "formulate/kinematics/contact_rows.h"
 #include "formulate/kinematics/coordinate.h"
 #include "formulate/kinematics/frames.h"
 #include "formulate/kinematics/recursive.h"
@@ -22,6 +23,7 @@
 #include <assert.h>
 
 #include <math.h>
+#include <string.h>
 
 Status rotor_add(System *system, const Instance *instance, Loads *loads, Diag *diag)
 {
@@ -327,5 +329,51 @@ Status joint_load(System *system, const Instance *part, bool moment, Expr *out, 
     for (int i = 0; i < 3; i++)
         load.at[i] = expr_name_temporary(arena, load.at[i]);
     *out = norm_of(arena, load);
+    return OK;
+}
+
+/* --- contacts --- */
+
+Status contact_variable(System *system, const Instance *part, const char *member, Expr *out,
+                        Diag *diag)
+{
+    Arena *arena = system->arena;
+    const int tail = system->kinematics->frames[part->tail].chain;
+    Vec force = vec_zero(arena), normal;
+    Expr along;
+    Contact contact;
+
+    if (strlen(member) == 1 && member[0] >= 'x' && member[0] <= 'z') {
+        *out = contact_point(system, part).at[member[0] - 'x'];
+        return OK;
+    }
+    if (system_wait_for_motion(system, diag) != OK)
+        return E_MISSING;
+    for (int k = 0; k < system->constraints->redundant_rows.count; k++)
+        if (system->constraints->redundant_rows.at[k].reported.instance == part->number) {
+            (void)diag_set(diag, E_MISSING, "%s.%s isn't determined", part->name, member);
+            diag_hint(diag,
+                      "a row of %s holds in every position, so that others may carry its "
+                      "load; 'tree absolute' finds the least loads that balance",
+                      part->name);
+            return E_MISSING;
+        }
+    for (int k = 0; k < system->constraints->rows.count; k++) {
+        const Row *row = &system->constraints->rows.at[k];
+
+        if (row->reported.instance == part->number)
+            force = vec_sub(arena, force,
+                            vec_scale(arena, system->constraints->multipliers[k], row->n));
+    }
+    if (member[1] >= 'x') {
+        *out = vec_express(system, force, tail, 0).at[member[1] - 'x'];
+        return OK;
+    }
+    contact_of(system, part, &contact);
+    normal = frame_vector(system, part->tail,
+                          (Vec){{contact.normal[0], contact.normal[1], contact.normal[2]}});
+    along = vec_dot(arena, force, normal);
+    force = vec_sub(arena, force, vec_scale(arena, along, normal));
+    *out = member[1] == 'n' ? along : expr_sqrt(arena, vec_dot(arena, force, force));
     return OK;
 }

@@ -50,4 +50,9 @@ MUST_USE Status joint_reaction(System *system, const Instance *joint, ReactionPa
 MUST_USE Status joint_load(System *system, const Instance *part, bool moment, Expr *out,
                            Diag *diag);
 
+/* fx fy fz, x y z, fn or ft of a contact: the sum of its rows' forces, and its point. E_MISSING
+ * where it shares its load with others. */
+MUST_USE Status contact_variable(System *system, const Instance *part, const char *member,
+                                 Expr *out, Diag *diag);
+
 #endif

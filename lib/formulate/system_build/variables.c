@@ -13,7 +13,6 @@
 #include "formulate/expanded/block_entry.h"
 #include "formulate/expanded/embedded.h"
 #include "formulate/expanded/expanded.h"
-#include "formulate/kinematics/contact_rows.h"
 #include "formulate/kinematics/coordinate.h"
 #include "formulate/kinematics/frames.h"
 #include "formulate/kinematics/recursive.h"
@@ -292,42 +291,6 @@ static Status driver_variable(System *system, const Instance *driver, const char
         return OK;
     *out =
         driver->by >= 0 && driver->by_coordinate < 0 ? expr_int(system->arena, 0) : drive->effort;
-    return OK;
-}
-
-/* fx fy fz, x y z, fn and ft of a contact: the sum of its rows' forces, and its point */
-static Status contact_variable(System *system, const Instance *part, const char *member, Expr *out,
-                               Diag *diag)
-{
-    Arena *arena = system->arena;
-    const int tail = system->kinematics->frames[part->tail].chain;
-    Vec force = vec_zero(arena), normal;
-    Expr along;
-    Contact contact;
-
-    if (strlen(member) == 1 && member[0] >= 'x' && member[0] <= 'z') {
-        *out = contact_point(system, part).at[member[0] - 'x'];
-        return OK;
-    }
-    if (system_wait_for_motion(system, diag) != OK)
-        return E_MISSING;
-    for (int k = 0; k < system->constraints->rows.count; k++) {
-        const Row *row = &system->constraints->rows.at[k];
-
-        if (row->reported.instance == part->number)
-            force = vec_sub(arena, force,
-                            vec_scale(arena, system->constraints->multipliers[k], row->n));
-    }
-    if (member[1] >= 'x') {
-        *out = vec_express(system, force, tail, 0).at[member[1] - 'x'];
-        return OK;
-    }
-    contact_of(system, part, &contact);
-    normal = frame_vector(system, part->tail,
-                          (Vec){{contact.normal[0], contact.normal[1], contact.normal[2]}});
-    along = vec_dot(arena, force, normal);
-    force = vec_sub(arena, force, vec_scale(arena, along, normal));
-    *out = member[1] == 'n' ? along : expr_sqrt(arena, vec_dot(arena, force, force));
     return OK;
 }
 
