@@ -25,8 +25,7 @@
 static Status line_motion(System *system, const Instance *instance, Effort *effort, Diag *diag)
 {
     Arena *arena = system->arena;
-    Vec d = vec_hold(arena, vec_sub(arena, node_position(system, instance->head),
-                                    node_position(system, instance->tail)));
+    Vec d = vec_hold(arena, node_way(system, instance->tail, instance->head));
     Expr length = expr_name_temporary(arena, expr_sqrt(arena, vec_dot(arena, d, d)));
     Vec v[2];
     const int ends[2] = {instance->tail, instance->head};
@@ -312,8 +311,7 @@ void loads_add_row(System *system, Loads *loads, const Row *row, Expr lambda)
     if (row->kind == ROW_CONTACT)
         loads_add_torque(system, loads, row->head, vec_cross(arena, row->point, along), chain);
     if (row->kind == ROW_TAIL || row->kind == ROW_TIE || row->kind == ROW_CONTACT) {
-        Vec way =
-            vec_sub(arena, node_position(system, row->head), node_position(system, row->tail));
+        Vec way = node_way(system, row->tail, row->head);
         Vec moment;
 
         if (row->kind == ROW_CONTACT)

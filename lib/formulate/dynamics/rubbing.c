@@ -23,15 +23,6 @@ static Vec velocity(const System *system, int node)
     return vec_express(system, system->kinematics->frames[node].v, resolve_class(system, node), 0);
 }
 
-/* angular velocity of a frame in the axes of a class */
-static Vec turn_rate(const System *system, int node, int class)
-{
-    const int chain = system->kinematics->frames[node].chain;
-
-    return vec_express(system, system->kinematics->motions[chain].w, resolve_class(system, node),
-                       class);
-}
-
 static void add_direction(FrictionLoad *r, Vec axis, Expr rate)
 {
     if (expr_is_zero(rate))
@@ -44,8 +35,8 @@ static void find_turns(const System *system, const Instance *instance, FrictionL
 {
     Arena *arena = system->arena;
     const int own = resolve_class(system, instance->head);
-    const Vec w = vec_sub(arena, turn_rate(system, instance->head, own),
-                          turn_rate(system, instance->tail, own));
+    const Vec w = vec_sub(arena, node_turn_rate(system, instance->head, own),
+                          node_turn_rate(system, instance->tail, own));
 
     r->turns = true;
     for (int k = 0; k < 3; k++) {
@@ -61,9 +52,8 @@ static void find_slides(System *system, const Instance *instance, const Expr *no
                         FrictionLoad *r)
 {
     Arena *arena = system->arena;
-    const Vec way = vec_sub(arena, node_position(system, instance->head),
-                            node_position(system, instance->tail));
-    const Vec carried = vec_cross(arena, turn_rate(system, instance->tail, 0), way);
+    const Vec way = node_way(system, instance->tail, instance->head);
+    const Vec carried = vec_cross(arena, node_turn_rate(system, instance->tail, 0), way);
     const Vec v = vec_sub(
         arena, vec_sub(arena, velocity(system, instance->head), velocity(system, instance->tail)),
         carried);

@@ -544,18 +544,24 @@ done:
     return status;
 }
 
-/* velocity rows of contacts and couplers */
-static Status all_rates(System *system, Diag *diag)
+/* those of positions first, otherwise in order */
+static void order_rows(System *system)
 {
-    for (int i = 0; i < system->origin->instance_count; i++) {
-        const Instance *instance = &system->origin->instances[i];
+    Constraints *constraints = system->constraints;
+    const int count = constraints->rows.count;
+    Row *rates = NEW_ARRAY(Row, count);
+    int positions = 0, moved = 0;
 
-        if (instance->row->family == FAMILY_CONTACT)
-            TRY(contact_rows_push(system, instance, false, diag));
-        if (instance->row->family == FAMILY_COUPLER && instance->row->is_of_rates)
-            driver_row(system, instance);
+    for (int k = 0; k < count; k++) {
+        const Row row = constraints->rows.at[k];
+
+        if (row.reported.is_rate)
+            rates[moved++] = row;
+        else
+            constraints->rows.at[positions++] = row;
     }
-    return OK;
+    memcpy(constraints->rows.at + positions, rates, (size_t)moved * sizeof *rates);
+    mem_free(rates);
 }
 
 static Status all_rows(System *system, Diag *diag)
@@ -567,9 +573,8 @@ static Status all_rows(System *system, Diag *diag)
         bool turns;
 
         if (instance->row->family == FAMILY_CONTACT)
-            TRY(contact_rows_push(system, instance, true, diag));
-        if (instance->row->family == FAMILY_DRIVER ||
-            (instance->row->family == FAMILY_COUPLER && !instance->row->is_of_rates))
+            TRY(contact_rows_push(system, instance, diag));
+        if (instance->row->family == FAMILY_DRIVER || instance->row->family == FAMILY_COUPLER)
             driver_row(system, instance);
         if (instance->row->family != FAMILY_JOINT || instance->is_virtual)
             continue;
@@ -590,7 +595,8 @@ static Status all_rows(System *system, Diag *diag)
         if (slides && steps_are_tied(&steps))
             tie_row(system, instance, &steps);
     }
-    return all_rates(system, diag);
+    order_rows(system);
+    return OK;
 }
 
 Status constraints_build(System *system, Diag *diag)

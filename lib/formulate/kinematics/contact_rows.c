@@ -45,12 +45,6 @@ static Vec in_frame(const System *system, int node, Vec v)
     return rotation_apply(system->arena, &back, vec_express(system, v, 0, frame->chain));
 }
 
-static Vec way_between(System *system, const Instance *part)
-{
-    return vec_sub(system->arena, node_position(system, part->head),
-                   node_position(system, part->tail));
-}
-
 void contact_of(System *system, const Instance *part, Contact *out)
 {
     Arena *arena = system->arena;
@@ -58,7 +52,8 @@ void contact_of(System *system, const Instance *part, Contact *out)
     const int head = system->kinematics->frames[part->head].chain;
     const Rotation back = rotation_transpose(&system->kinematics->frames[part->tail].zero);
     FramesApart apart = {0};
-    Vec way = vec_hold(arena, in_frame(system, part->tail, way_between(system, part)));
+    Vec way =
+        vec_hold(arena, in_frame(system, part->tail, node_way(system, part->tail, part->head)));
 
     memcpy(apart.way, way.at, sizeof way.at);
     for (int i = 0; i < 3; i++) {
@@ -75,23 +70,15 @@ void contact_of(System *system, const Instance *part, Contact *out)
     part->row->contact(part, arena, system->origin->planar, &apart, out);
 }
 
-/* angular velocity of a frame in ground axes */
-static Vec turn_rate(const System *system, int node)
-{
-    const int chain = system->kinematics->frames[node].chain;
-
-    return vec_express(system, system->kinematics->motions[chain].w,
-                       system->kinematics->chains.at[chain].resolve, 0);
-}
-
 /* The velocity of the head's point against the tail's, all in ground axes. It begins with the rate
  * of d: velocities of the recursive form would be turned to and fro. */
 static Status slip_of(System *system, const Instance *part, Vec point, Vec *out, Diag *diag)
 {
     Arena *arena = system->arena;
-    const Vec way = way_between(system, part);
-    const Vec of_head = vec_cross(arena, turn_rate(system, part->head), point);
-    const Vec of_tail = vec_cross(arena, turn_rate(system, part->tail), vec_add(arena, way, point));
+    const Vec way = node_way(system, part->tail, part->head);
+    const Vec of_head = vec_cross(arena, node_turn_rate(system, part->head, 0), point);
+    const Vec of_tail =
+        vec_cross(arena, node_turn_rate(system, part->tail, 0), vec_add(arena, way, point));
     Vec v;
 
     for (int i = 0; i < 3; i++)
@@ -113,7 +100,7 @@ static bool is_fixed_to(const System *system, int a, int b)
     return frames[a].chain == frames[b].chain && ends[0] == ends[1];
 }
 
-Status contact_rows_push(System *system, const Instance *part, bool with_position, Diag *diag)
+Status contact_rows_push(System *system, const Instance *part, Diag *diag)
 {
     Arena *arena = system->arena;
     const int tail = system->kinematics->frames[part->tail].chain;
@@ -137,8 +124,6 @@ Status contact_rows_push(System *system, const Instance *part, bool with_positio
         const Vec along = {{own->along[0], own->along[1], own->along[2]}};
         Row row = {.kind = ROW_CONTACT, .tail = part->tail, .head = part->head, .point = point};
 
-        if ((own->gap != NULL) != with_position)
-            continue;
         row.n = vec_hold(arena, frame_vector(system, part->tail, along));
         row.rate =
             expr_name_temporary(arena, vec_dot(arena, vec_express(system, row.n, tail, 0), slip));

@@ -360,3 +360,16 @@ Vec node_position(System *system, int node)
     LIST_FREE(way);
     return p;
 }
+
+Vec node_way(System *system, int from, int to)
+{
+    return vec_sub(system->arena, node_position(system, to), node_position(system, from));
+}
+
+Vec node_turn_rate(const System *system, int node, int axes)
+{
+    const int chain = system->kinematics->frames[node].chain;
+
+    return vec_express(system, system->kinematics->motions[chain].w,
+                       system->kinematics->chains.at[chain].resolve, axes);
+}

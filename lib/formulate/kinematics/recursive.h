@@ -12,5 +12,9 @@ void accelerations_build(const System *system, const Expr *accelerations, Vec *a
 void node_moved(System *shadow, int node);
 /* position of a node in ground axes, a named temporary; formed at the first call */
 Vec node_position(System *system, int node);
+/* from one node to another, ground axes */
+Vec node_way(System *system, int from, int to);
+/* angular velocity of a node's frame in the axes of an orientation class */
+Vec node_turn_rate(const System *system, int node, int axes);
 
 #endif
