@@ -586,7 +586,7 @@ void steps_freedom(const Steps *steps, int freedom[2])
     freedom[1] = steps->turn_count + (steps->quaternion ? 3 : 0);
 }
 
-static void cross(Arena *arena, const Expr a[3], const Expr b[3], Expr out[3])
+void axis_cross(Arena *arena, const Expr a[3], const Expr b[3], Expr out[3])
 {
     for (int i = 0; i < 3; i++) {
         int j = (i + 1) % 3;
@@ -617,18 +617,18 @@ void axis_complement(Arena *arena, const Expr u[3], Expr n1[3], Expr n2[3])
         for (int j = 0; j < 3; j++)
             n1[j] = e[j];
         n1[(i + 1) % 3] = expr_int(arena, 1);
-        cross(arena, u, n1, n2);
+        axis_cross(arena, u, n1, n2);
         return;
     }
     for (int i = 1; i < 3; i++)
         if (size_of(u[i]) < size_of(u[least]))
             least = i;
     e[least] = expr_int(arena, 1);
-    cross(arena, e, u, n1);
+    axis_cross(arena, e, u, n1);
     length = expr_sqrt(
         arena, expr_add(arena, expr_square(arena, n1[0]),
                         expr_add(arena, expr_square(arena, n1[1]), expr_square(arena, n1[2]))));
     for (int i = 0; i < 3; i++)
         n1[i] = expr_div(arena, n1[i], length);
-    cross(arena, u, n1, n2);
+    axis_cross(arena, u, n1, n2);
 }

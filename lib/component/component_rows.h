@@ -14,6 +14,8 @@
 MUST_USE Status check_positive(const Instance *instance, const char *param, Diag *diag);
 MUST_USE Status check_not_negative(const Instance *instance, const char *param, Diag *diag);
 
+void axis_cross(Arena *arena, const Expr a[3], const Expr b[3], Expr out[3]); /* a x b */
+
 /* --- attitude.c: three shifts along the tail's axes, then any rotation --- */
 
 enum { FREE_SHIFTS = 3, FREE_COORDS = 7, FREE_COORDS_PLANAR = 3 };

@@ -79,15 +79,6 @@ static Expr dot(Arena *arena, const Expr a[3], const Expr b[3])
                     3);
 }
 
-static void cross(Arena *arena, const Expr a[3], const Expr b[3], Expr out[3])
-{
-    for (int i = 0; i < 3; i++) {
-        const int j = (i + 1) % 3, k = (i + 2) % 3;
-
-        out[i] = expr_sub(arena, expr_mul(arena, a[j], b[k]), expr_mul(arena, a[k], b[j]));
-    }
-}
-
 /* out = a + s b; out may be either */
 static void add_scaled(Arena *arena, const Expr a[3], Expr s, const Expr b[3], Expr out[3])
 {
@@ -210,7 +201,7 @@ static void roll_contact(const Instance *instance, Arena *arena, bool planar,
         scale(arena, expr_neg(arena, r), out->normal, out->point);
         push(out, "normal", out->normal, gap);
         if (planar) {
-            cross(arena, out->normal, out_of_plane, along);
+            axis_cross(arena, out->normal, out_of_plane, along);
             push(out, "t", along, NULL);
         } else {
             /* with the row along the normal any two other directions hold all of the velocity */
@@ -233,7 +224,7 @@ static void roll_contact(const Instance *instance, Arena *arena, bool planar,
         push_tangents(arena, z, out);
         return;
     }
-    cross(arena, z, out_of_plane, along);
+    axis_cross(arena, z, out_of_plane, along);
     travel = expr_add(arena, dot(arena, along, apart->way), expr_mul(arena, r, apart->angle));
     push(out, "t", along, expr_sub(arena, travel, instance_scalar(instance, "offset")));
 }
@@ -273,7 +264,7 @@ static void knife_contact(const Instance *instance, Arena *arena, bool planar,
 
     *out = (Contact){.point = {zero, zero, zero}};
     turn(arena, apart, false, instance_value(instance, "along")->at, blade);
-    cross(arena, planar ? out_of_plane : z, blade, out->normal);
+    axis_cross(arena, planar ? out_of_plane : z, blade, out->normal);
     if (!planar)
         scale(arena, expr_div(arena, expr_int(arena, 1), held_length(arena, out->normal)),
               out->normal, out->normal);
@@ -310,7 +301,7 @@ static void line_contact(const Instance *instance, Arena *arena, bool planar,
 
     *out = (Contact){.point = {zero, zero, zero}};
     if (planar)
-        cross(arena, out_of_plane, axis, out->normal);
+        axis_cross(arena, out_of_plane, axis, out->normal);
     else
         axis_complement(arena, axis, out->normal, n2);
     push(out, "n1", out->normal, dot(arena, out->normal, apart->way));

@@ -57,42 +57,30 @@ const Component component_driver = {
     .see = "inverse kinematics motor",
 };
 
+#define COUPLER                                                                                    \
+    .name = "coupler", .family = FAMILY_COUPLER, .domain = DOMAIN_MECHANICAL,                      \
+    .places = PLACES_COORDINATE, .translation = BRANCH_NEVER, .rotation = BRANCH_NEVER,            \
+    .preference = 90, .prescribed = prescribed, .members = coupler_members,                        \
+    .member_count = COUNT(coupler_members)
+
 /* coupler C1 x' = ...: in place of the other where the coordinate has a prime */
 static const Component coupler_of_rates = {
-    .name = "coupler",
-    .family = FAMILY_COUPLER,
-    .domain = DOMAIN_MECHANICAL,
-    .places = PLACES_COORDINATE,
+    COUPLER,
     .is_of_rates = true,
     .brief = "a rate as a function of others",
     .params = rates_params,
     .param_count = COUNT(rates_params),
-    .translation = BRANCH_NEVER,
-    .rotation = BRANCH_NEVER,
-    .preference = 90,
-    .prescribed = prescribed,
-    .members = coupler_members,
-    .member_count = COUNT(coupler_members),
     .see = "driver roll knife",
 };
 
 static const Component *const coupler_variants[] = {&coupler_of_rates, NULL};
 
 const Component component_coupler = {
-    .name = "coupler",
+    COUPLER,
     .variants = coupler_variants,
-    .family = FAMILY_COUPLER,
-    .domain = DOMAIN_MECHANICAL,
-    .places = PLACES_COORDINATE,
     .brief = "gears, racks, cams: a coordinate as a function of others",
     .params = coupler_params,
     .param_count = COUNT(coupler_params),
-    .translation = BRANCH_NEVER,
-    .rotation = BRANCH_NEVER,
-    .preference = 90,
-    .prescribed = prescribed,
-    .members = coupler_members,
-    .member_count = COUNT(coupler_members),
     .help =
         "Makes the coordinate of a joint a function of those of other joints, without play or "
         "elasticity: gears (coupler C1 h2 = -20/60*h1), a rack (s = 0.03*h1), a differential "
