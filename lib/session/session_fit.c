@@ -362,8 +362,7 @@ Status session_fit(ct_session *session, const Statement *s, Diag *diag)
     if (solution == NULL)
         goto done;
     if (status == E_STOPPED)
-        stopped = diag_set(diag, status, "stopped in run %d: the best values so far are kept",
-                           work.search.evaluations);
+        stopped = parameter_search_stopped(&work.search, diag);
     else if (status != OK)
         goto done;
     result = result_of(&work, solution, stopped != OK);

@@ -444,3 +444,9 @@ Status parameter_search_run_last(const ParameterSearch *search, Diag *diag)
 
     return sweep_analysis(rest)(search->session, rest, diag);
 }
+
+Status parameter_search_stopped(const ParameterSearch *search, Diag *diag)
+{
+    return diag_set(diag, E_STOPPED, "stopped in run %d: the best values so far are kept",
+                    search->evaluations);
+}

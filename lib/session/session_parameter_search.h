@@ -65,6 +65,9 @@ MUST_USE Status parameter_search_define(const ParameterSearch *search, const dou
 /* the statement behind the colon once more, as if it had been typed */
 MUST_USE Status parameter_search_run_last(const ParameterSearch *search, Diag *diag);
 
+/* E_STOPPED: the message of a search that ended with the best values so far */
+Status parameter_search_stopped(const ParameterSearch *search, Diag *diag);
+
 /* the value of a key; NULL: it is not there */
 const Syntax *statement_key(const Statement *statement, const char *name);
 /* [a, b] is a list, anything else a list of one, and NULL an empty one */
