@@ -233,17 +233,12 @@ static double follow(const Rolling *r, Pose *p, int steps, double *lowest)
     return push;
 }
 
-static bool one_in(Member *member, int count)
-{
-    return test_random(&member->random) % (uint64_t)count == 0;
-}
-
 static void draw(Member *member, Rolling *r, Pose *p)
 {
     double size = 0, upright;
     V n, rho;
 
-    *r = (Rolling){.shape = (Shape)(test_random(&member->random) % SHAPES),
+    *r = (Rolling){.shape = (Shape)(member_one_of(member, SHAPES)),
                    .mass = member_between(member, 0.5, 3),
                    .radius = member_between(member, 0.2, 0.5),
                    .end = member_between(member, 0.3, 1.5)};
@@ -251,7 +246,7 @@ static void draw(Member *member, Rolling *r, Pose *p)
     for (int i = 0; i < 3; i++) {
         r->inertia[i] = member_between(member, 0.1, 0.19);
         r->semiaxes[i] = member_between(member, 0.2, 0.5);
-        r->hub.at[i] = one_in(member, 2) ? member_between(member, -0.1, 0.1) : 0;
+        r->hub.at[i] = member_one_of(member, 2) == 0 ? member_between(member, -0.1, 0.1) : 0;
         r->plane.at[i] = member_between(member, -1, 1);
         r->gravity.at[i] = member_between(member, -3, 3) - (i == 2 ? 9 : 0);
         p->w.at[i] = member_between(member, -4, 4);
@@ -292,7 +287,7 @@ static void write(Member *member, const Rolling *r, const Pose *p, Text *out)
         text_addf(out, " radius=%.17g%s", r->radius, r->shape == BALL ? "\n" : " axle=y");
     if (r->shape == WHEEL || r->shape == RIM)
         text_addf(out, r->rim > 0 ? " rim=%.17g\n" : "\n", r->rim);
-    if (one_in(member, 3))
+    if (member_one_of(member, 3) == 0)
         text_add(out, "form embedded\n");
     text_addf(out, "init b.x = %.17g, b.y = %.17g, b.z = %.17g\n", p->c.at[0], p->c.at[1],
               p->c.at[2]);
@@ -321,7 +316,7 @@ static Verdict bodies_roll(Member *member)
         off = fmax(off,
                    fmax(fabs(coarse.c.at[i] - fine.c.at[i]), fabs(coarse.w.at[i] - fine.w.at[i])));
     text_addf(&text, "simulate %.17g rtol=1e-10 atol=1e-12 method=%s\n", r.end,
-              methods[test_random(&member->random) % 6]);
+              methods[member_one_of(member, 6)]);
     tell(member, "%s", text.at);
     bound = 1e-6 + 10 * off;
     if (lowest < 0.2 || !(off < 1e-7)) { /* the oracle's steps are too long for it */
