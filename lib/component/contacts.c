@@ -335,7 +335,7 @@ static Status check_direction(const Instance *instance, const char *name, bool t
                         : "the scene is planar: x, y, or a vector [a, b]");
 }
 
-/* refuses a key that has no effect beside another */
+/* refuses a key that has no effect together with another */
 static Status check_alone(const Instance *instance, const char *with, const char *const *keys,
                           Diag *diag)
 {

@@ -221,7 +221,7 @@ Status fit_plan_data(ct_session *session, FitPlan *plan, int *left, Diag *diag)
             continue;
         if (session->runs.count == 0)
             return diag_at(diag, E_VALUE, target->to->place,
-                           "data over the time need a run behind the colon");
+                           "data over the time need a run after the colon");
         TRY(take_data(session, target, &session->runs.at[session->runs.count - 1], diag));
         *left += target->curve->count - target->count;
     }

@@ -43,7 +43,7 @@ Status parameter_search_read(ParameterSearch *out, ct_session *session, const St
         (void)diag_at(diag, E_VALUE, rest->place, "'%s' computes nothing that could %s",
                       rest->verb != NULL ? rest->verb : rest->text, purpose);
         diag_hint(diag, "simulate, kinematics, inverse, assemble, equilibrium, op, linearize and "
-                        "modes may stand behind the colon");
+                        "modes may stand after the colon");
         return E_VALUE;
     }
     return sweep_jobs(session, statement, &out->jobs, &out->has_jobs, diag);

@@ -40,7 +40,7 @@ typedef struct ParameterSearch {
     void (*progress)(void *context, const char *phase, double fraction);
 } ParameterSearch;
 
-/* Read what is behind the colon, and jobs=; `purpose`: what its figures would do. The search needs
+/* Read what is after the colon, and jobs=; `purpose`: what its figures would do. The search needs
  * parameter_search_free() even after a failure. */
 MUST_USE Status parameter_search_read(ParameterSearch *out, ct_session *session,
                                       const Statement *statement, const char *purpose,
@@ -62,7 +62,7 @@ MUST_USE Status parameter_search_evaluate(void *search, int count, const double 
 
 /* "k = 0.25 [N/m]" of each: one step of the model's history */
 MUST_USE Status parameter_search_define(const ParameterSearch *search, const double *x, Diag *diag);
-/* the statement behind the colon once more, as if it had been typed */
+/* the statement after the colon once more, as if it had been typed */
 MUST_USE Status parameter_search_run_last(const ParameterSearch *search, Diag *diag);
 
 /* E_STOPPED: the message of a search that ended with the best values so far */

@@ -83,7 +83,7 @@ static Status check_rest(const Statement *s, Diag *diag)
     (void)diag_at(diag, E_VALUE, s->rest->place, "'%s' computes nothing that could be kept",
                   s->rest->verb != NULL ? s->rest->verb : s->rest->text);
     diag_hint(diag, "simulate, kinematics, inverse, assemble, equilibrium, op, linearize and modes "
-                    "may stand behind the colon");
+                    "may stand after the colon");
     return E_VALUE;
 }
 

@@ -69,7 +69,7 @@ void focus_put_aside(ct_session *session, SessionFocus *out);
 /* as before any run of the model: frees all but the first `runs` */
 void focus_clear(ct_session *session, int runs);
 void focus_restore(ct_session *session, const SessionFocus *focus);
-/* of a statement that may stand behind the colon; else NULL */
+/* of a statement that may stand after the colon; else NULL */
 Analysis *sweep_analysis(const Statement *statement);
 /* whether it is the fault of the parameters of one run; else the statement is wrong */
 bool sweep_is_of_one_run(Status status);

@@ -189,7 +189,7 @@ Status sweep_file_open(SweepFile *file, SweepTable *table, bool *is_made, Diag *
         return OK;
     CHECK(read_content(file, &content, diag));
     if (content.length > 0 && content.at[content.length - 1] != '\n')
-        text_char(&text, '\n'); /* behind a line that was not finished */
+        text_char(&text, '\n'); /* after a line that was not finished */
     CHECK(read_rows(file, table, content.at, is_made, &has_head, diag));
     if (!has_head && content.length > 0 && strncmp(content.at, "cotree rows", 11) != 0)
         CHECK(refuse_other(file, diag));

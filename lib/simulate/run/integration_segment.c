@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-#define BESIDE 4  /* norms that count as 0 */
-#define ROUNDS 20 /* events and ideal switches that trigger each other at one instant */
+#define REST_RATIO 4  /* norms that count as 0 */
+#define ROUNDS     20 /* events and ideal switches that trigger each other at one instant */
 
 /* --- steps --- */
 
@@ -139,7 +139,7 @@ static Status enter(Integration *m, const Segment *segment, double t, const doub
     return OK;
 }
 
-/* The norm below which a vector counts as at rest beside one that is: where one stops another may
+/* The norm below which a vector counts as at rest where another is: where one stops another may
  * stop with it, and their norms differ by errors. */
 static double rest_of_all(const Integration *m)
 {
@@ -148,7 +148,7 @@ static double rest_of_all(const Integration *m)
     for (int i = 0; i < m->eq->switch_count; i++)
         if (equations_guard(m->eq, i).is_norm)
             most = fmax(most, integration_rest(m, i));
-    return BESIDE * most;
+    return REST_RATIO * most;
 }
 
 /* How far condition i is from where its surface counts as met; 0 or less: it is met, as beyond a
