@@ -340,6 +340,23 @@ static void rates_are_coupled(void)
     kit_free(&other);
 }
 
+/* b.x' = 0.3 sin(2 t) + 0.2 b.theta': momentum with P on x and -0.2 P on theta; it does work */
+static void a_rate_follows_time(void)
+{
+    Kit kit = kit_new();
+    const char *report;
+
+    EXPECT_DONE(&kit, "scene planar\nbody b mass=1 inertia=1\n"
+                      "coupler c b.x' = 0.3*sin(2*t) + b.theta'*0.2\n"
+                      "init b.x = 0, b.y = 0, b.theta = 0, b.theta' = 0.5, b.y' = 0\n"
+                      "simulate 2 rtol=1e-10\n");
+    report = ct_remarks(kit.session);
+    EXPECT(report != NULL && strstr(report, "by themselves") == NULL);
+    EXPECT_VALUE(&kit, "b.x - 0.2*b.theta", 0.3 * (1 - cos(4)) / 2, 1e-8);
+    EXPECT_VALUE(&kit, "b.theta'", 0.5 - 0.06 * sin(4) / 1.04, 1e-8);
+    kit_free(&kit);
+}
+
 /* a trailer behind a hitch that goes straight: its angle falls as tan(theta/2) e^(-v t/L), whatever
  * the rows that are asked for */
 static void a_trailer_follows(void)
@@ -495,6 +512,7 @@ int main(void)
     RUN(a_trammel_is_a_pendulum);
     RUN(points_remain_in_planes_and_on_lines);
     RUN(rates_are_coupled);
+    RUN(a_rate_follows_time);
     RUN(a_trailer_follows);
     RUN(a_bicycle_weaves);
     RUN(a_redundant_row_has_no_force_of_its_own);

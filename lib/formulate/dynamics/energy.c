@@ -263,6 +263,7 @@ static void push_network(System *system, EnergyTerms *terms)
     }
 }
 
+/* of drivers, and -lambda n of couplers of rates that follow time */
 static void push_drives(System *system, EnergyTerms *terms)
 {
     Arena *arena = system->arena;
@@ -275,6 +276,9 @@ static void push_drives(System *system, EnergyTerms *terms)
             coordinate_value(system, &system->origin->instances[row->owner], row->coordinate, 1,
                              &rate, NULL) == OK)
             push(system, terms, expr_int(arena, -1), system->constraints->multipliers[k], rate);
+        if (row->reported.is_rate)
+            push(system, terms, expr_int(arena, -1), system->constraints->multipliers[k],
+                 system->definitions.nu[k]);
     }
 }
 
