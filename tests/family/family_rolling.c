@@ -6,8 +6,9 @@
  *     J w' + w x J w = rho x F,   F = m (v' - g),   v = -w x rho
  *
  * with rho from the centre of mass to the point of contact, which follows from the attitude by the
- * shape alone, and rho' by differences of that. It takes fixed steps of Runge and Kutta, once and
- * twice as many. */
+ * shape alone, and rho' by differences of that. Every second plane turns evenly about an axis
+ * through its origin o, with its point of contact: v = W x (c + rho - o) - w x rho. It takes fixed
+ * steps of Runge and Kutta, once and twice as many. */
 #include "../unit/session_kit.h"
 #include "base/text.h"
 #include "family.h"
@@ -30,6 +31,7 @@ typedef struct Rolling {
     V hub, gravity, plane; /* of the shape on the body; of the plane's origin */
     M own, tilt;           /* attitude of the shape on the body; of the plane */
     double hub_turn[2], plane_turn[2];
+    V spin; /* W */
     double end;
 } Rolling;
 
@@ -89,16 +91,34 @@ static M matrix_of(const double q[4])
                 {2 * (b * d - a * c), 2 * (c * d + a * b), 1 - 2 * (b * b + c * c)}}};
 }
 
-static V normal_of(const Rolling *r)
+/* q after a turn by `angle` in ground axes */
+static void turn(const double q[4], V angle, double out[4])
 {
-    return apply(&r->tilt, (V){{0, 0, 1}});
+    const double size = sqrt(dot(angle, angle)), s = size > 0 ? sin(size / 2) / size : 0.5;
+    const double p[4] = {cos(size / 2), s * angle.at[0], s * angle.at[1], s * angle.at[2]};
+
+    out[0] = p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3];
+    out[1] = p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2];
+    out[2] = p[0] * q[2] - p[1] * q[3] + p[2] * q[0] + p[3] * q[1];
+    out[3] = p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0];
+}
+
+static V normal_of(const Rolling *r, double t)
+{
+    static const double none[4] = {1, 0, 0, 0};
+    double q[4];
+    M turned_by;
+
+    turn(none, plus((V){{0}}, t, r->spin), q);
+    turned_by = matrix_of(q);
+    return apply(&turned_by, apply(&r->tilt, (V){{0, 0, 1}}));
 }
 
 /* from the centre of mass to the point of contact; *upright: 0 where a wheel lies flat */
-static V contact_from(const Rolling *r, const double q[4], double *upright)
+static V contact_from(const Rolling *r, double t, const double q[4], double *upright)
 {
     const M body = matrix_of(q);
-    const V n = normal_of(r), hub = apply(&body, r->hub);
+    const V n = normal_of(r, t), hub = apply(&body, r->hub);
     V d, m;
     double size = 0;
 
@@ -122,19 +142,7 @@ static V contact_from(const Rolling *r, const double q[4], double *upright)
     }
 }
 
-/* q after a turn by `angle` in ground axes */
-static void turn(const double q[4], V angle, double out[4])
-{
-    const double size = sqrt(dot(angle, angle)), s = size > 0 ? sin(size / 2) / size : 0.5;
-    const double p[4] = {cos(size / 2), s * angle.at[0], s * angle.at[1], s * angle.at[2]};
-
-    out[0] = p[0] * q[0] - p[1] * q[1] - p[2] * q[2] - p[3] * q[3];
-    out[1] = p[0] * q[1] + p[1] * q[0] + p[2] * q[3] - p[3] * q[2];
-    out[2] = p[0] * q[2] - p[1] * q[3] + p[2] * q[0] + p[3] * q[1];
-    out[3] = p[0] * q[3] + p[1] * q[2] - p[2] * q[1] + p[3] * q[0];
-}
-
-static V contact_rate(const Rolling *r, const double q[4], V w)
+static V contact_rate(const Rolling *r, double t, const double q[4], V w)
 {
     const double h = 1e-3 / (1 + sqrt(dot(w, w)));
     static const double weight[4] = {1.0 / 12, -8.0 / 12, 8.0 / 12, -1.0 / 12};
@@ -145,7 +153,7 @@ static V contact_rate(const Rolling *r, const double q[4], V w)
         double moved[4], ignored;
 
         turn(q, plus((V){{0}}, at[k] * h, w), moved);
-        sum = plus(sum, weight[k] / h, contact_from(r, moved, &ignored));
+        sum = plus(sum, weight[k] / h, contact_from(r, t + at[k] * h, moved, &ignored));
     }
     return sum;
 }
@@ -162,10 +170,12 @@ static V solve(const M *a, V b)
                 dot(c[0], cross(c[1], b)) / whole}};
 }
 
-static void rates(const Rolling *r, const Pose *p, Pose *out, double *push, double *upright)
+static void rates(const Rolling *r, double t, const Pose *p, Pose *out, double *push,
+                  double *upright)
 {
     const M body = matrix_of(p->q);
-    const V rho = contact_from(r, p->q, upright), rho_rate = contact_rate(r, p->q, p->w);
+    const V rho = contact_from(r, t, p->q, upright), rho_rate = contact_rate(r, t, p->q, p->w);
+    const V from_origin = plus(plus(p->c, 1, rho), -1, r->plane);
     const V own = apply_back(&body, p->w);
     const double square = dot(rho, rho);
     V momentum, force, right;
@@ -174,8 +184,10 @@ static void rates(const Rolling *r, const Pose *p, Pose *out, double *push, doub
     for (int i = 0; i < 3; i++)
         momentum.at[i] = r->inertia[i] * own.at[i];
     momentum = apply(&body, momentum);
-    force =
-        plus(plus((V){{0}}, -1, cross(p->w, rho_rate)), -1, r->gravity); /* at w' = 0, by mass */
+    out->c = plus(cross(r->spin, from_origin), -1, cross(p->w, rho));
+    /* at w' = 0, by mass */
+    force = plus(cross(r->spin, plus(out->c, 1, rho_rate)), -1, cross(p->w, rho_rate));
+    force = plus(force, -1, r->gravity);
     right = plus(plus((V){{0}}, r->mass, cross(rho, force)), -1, cross(p->w, momentum));
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 3; k++) {
@@ -185,8 +197,7 @@ static void rates(const Rolling *r, const Pose *p, Pose *out, double *push, doub
         }
     out->w = solve(&whole, right);
     force = plus(force, -1, cross(out->w, rho));
-    *push = r->mass * dot(force, normal_of(r));
-    out->c = plus((V){{0}}, -1, cross(p->w, rho));
+    *push = r->mass * dot(force, normal_of(r, t));
     out->q[0] = (-p->q[1] * p->w.at[0] - p->q[2] * p->w.at[1] - p->q[3] * p->w.at[2]) / 2;
     out->q[1] = (p->q[0] * p->w.at[0] - p->q[2] * p->w.at[2] + p->q[3] * p->w.at[1]) / 2;
     out->q[2] = (p->q[0] * p->w.at[1] + p->q[1] * p->w.at[2] - p->q[3] * p->w.at[0]) / 2;
@@ -219,7 +230,7 @@ static double follow(const Rolling *r, Pose *p, int steps, double *lowest)
 
             if (k > 0)
                 step_by(&trial, part[k], &rate);
-            rates(r, &trial, &rate, &push, &upright);
+            rates(r, i * h + part[k], &trial, &rate, &push, &upright);
             step_by(&sum, weight[k], &rate);
         }
         *lowest = fmin(*lowest, upright);
@@ -229,7 +240,7 @@ static double follow(const Rolling *r, Pose *p, int steps, double *lowest)
         for (int k = 0; k < 4; k++)
             p->q[k] /= sqrt(norm);
     }
-    rates(r, p, &rate, &push, &upright);
+    rates(r, r->end, p, &rate, &push, &upright);
     return push;
 }
 
@@ -255,6 +266,8 @@ static void draw(Member *member, Rolling *r, Pose *p)
         r->hub_turn[i] = member_between(member, -3, 3);
         r->plane_turn[i] = member_between(member, -1, 1);
     }
+    for (int i = 0; i < 3; i++)
+        r->spin.at[i] = member->number % 2 == 0 ? member_between(member, -2, 2) : 0;
     r->own = turned(r->hub_turn);
     r->tilt = turned(r->plane_turn);
     for (int i = 0; i < 4; i++) {
@@ -263,18 +276,27 @@ static void draw(Member *member, Rolling *r, Pose *p)
     }
     for (int i = 0; i < 4; i++)
         p->q[i] /= sqrt(size);
-    n = normal_of(r);
-    rho = contact_from(r, p->q, &upright);
+    n = normal_of(r, 0);
+    rho = contact_from(r, 0, p->q, &upright);
     p->c = plus(r->plane, member_between(member, -1, 1), apply(&r->tilt, (V){{1, 0, 0}}));
     p->c = plus(p->c, -dot(rho, n), n);
 }
 
 static void write(Member *member, const Rolling *r, const Pose *p, Text *out)
 {
+    const double rate = sqrt(dot(r->spin, r->spin));
+
     text_addf(out, "gravity [%.17g, %.17g, %.17g]\n", r->gravity.at[0], r->gravity.at[1],
               r->gravity.at[2]);
-    text_addf(out, "arm plane ground [%.17g, %.17g, %.17g] rotation=x(%.17g)*y(%.17g)\n",
-              r->plane.at[0], r->plane.at[1], r->plane.at[2], r->plane_turn[0], r->plane_turn[1]);
+    text_addf(out, "arm base ground [%.17g, %.17g, %.17g]\n", r->plane.at[0], r->plane.at[1],
+              r->plane.at[2]);
+    if (rate > 0)
+        text_addf(out,
+                  "body plate mass=1 inertia=[1, 2, 3]\nrevolute h base plate axis=[%.17g, %.17g, "
+                  "%.17g]\ndriver D h = %.17g*t\n",
+                  r->spin.at[0], r->spin.at[1], r->spin.at[2], rate);
+    text_addf(out, "arm plane %s [0, 0, 0] rotation=x(%.17g)*y(%.17g)\n",
+              rate > 0 ? "plate" : "base", r->plane_turn[0], r->plane_turn[1]);
     text_addf(out, "body b mass=%.17g inertia=[%.17g, %.17g, %.17g]\n", r->mass, r->inertia[0],
               r->inertia[1], r->inertia[2]);
     text_addf(out, "arm hub b [%.17g, %.17g, %.17g] rotation=x(%.17g)*y(%.17g)\n", r->hub.at[0],
