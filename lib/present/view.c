@@ -73,10 +73,11 @@ void view_freedoms(Text *out, const System *system, int freedoms)
     const int nu = system_nu(system), m = system_m(system);
     const int rates = m - system_position_rows(system);
 
-    if (freedoms >= 0 && rates > 0) /* velocity rows leave more freedoms of place */
-        text_addf(out, "%d degree%s of freedom of motion, %d of place", freedoms,
-                  freedoms == 1 ? "" : "s", freedoms + rates);
-    else if (freedoms >= 0 || m == 0)
+    if (freedoms >= 0 && rates > 0) {
+        text_addf(out, "%d degree%s of freedom of motion", freedoms, freedoms == 1 ? "" : "s");
+        if (freedoms + m == nu) /* rows are independent: velocity rows take none of place */
+            text_addf(out, ", %d of place", freedoms + rates);
+    } else if (freedoms >= 0 || m == 0)
         layout_count(out, freedoms >= 0 ? freedoms : nu, "degree of freedom", "degrees of freedom");
     else
         text_addf(out, "n - m = %d", nu - m);

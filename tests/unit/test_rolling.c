@@ -357,6 +357,19 @@ static void a_rate_follows_time(void)
     kit_free(&kit);
 }
 
+/* a coupler that repeats what a wheel's position row says takes no place: two zero eigenvalues */
+static void a_velocity_row_repeats_a_position(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar\nbody w mass=2 inertia=0.05\n"
+                      "coupler c w.theta' = -w.x'*1000/200\nroll r ground w radius=0.2\n"
+                      "init w.x = 0\nlinearize\n");
+    EXPECT(isnan(kit_value(&kit, "linear.A(3,3)")));
+    EXPECT_VALUE(&kit, "linear.A(1,2)", 1, 1e-12);
+    kit_free(&kit);
+}
+
 /* a trailer behind a hitch that goes straight: its angle falls as tan(theta/2) e^(-v t/L), whatever
  * the rows that are asked for */
 static void a_trailer_follows(void)
@@ -513,6 +526,7 @@ int main(void)
     RUN(points_remain_in_planes_and_on_lines);
     RUN(rates_are_coupled);
     RUN(a_rate_follows_time);
+    RUN(a_velocity_row_repeats_a_position);
     RUN(a_trailer_follows);
     RUN(a_bicycle_weaves);
     RUN(a_redundant_row_has_no_force_of_its_own);

@@ -46,6 +46,9 @@
 /* rad; the state is compared after the time in which the fastest oscillation moves by this angle */
 #define LINEAR_AHEAD 0.1
 
+/* pivot over the largest one of rows of positions: a smaller one counts as 0 */
+#define LINEARIZE_RANK 1e-9
+
 /* of a row's largest coefficient: change over that time with which a row counts as constant */
 #define LINEAR_CONSTANT 1e-5
 

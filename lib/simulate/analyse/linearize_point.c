@@ -235,19 +235,27 @@ static void choose_rows(Work *w)
     mem_free(phi_u);
 }
 
-/* those of positions among them */
-static void choose_position_rows(Work *w)
+/* Independent rows of positions: among those in use a velocity row may stand for one of them. */
+static Status choose_position_rows(Work *w, const double *phi_u)
 {
     Dependence *places = &w->own_places;
+    const int count = w->l->position_rows;
+    int rank;
 
     w->places = &w->speeds;
-    if (w->l->position_rows == w->l->m)
-        return;
+    if (count == w->l->m)
+        return OK;
     w->places = places;
-    places->rows = NEW_ARRAY(int, w->speeds.used);
+    places->rows = NEW_ARRAY(int, count);
+    TRY(rank_rows(phi_u, count, w->l->nu, LINEARIZE_RANK, w->order->watch, &rank, places->rows));
     for (int r = 0; r < w->speeds.used; r++)
-        if (w->speeds.rows[r] < w->l->position_rows)
-            places->rows[places->used++] = w->speeds.rows[r];
+        places->used += w->speeds.rows[r] < count;
+    /* at a singular position the rank of those in use counts */
+    if (rank >= places->used)
+        places->used = rank;
+    else
+        (void)rank_choose(phi_u, count, w->l->nu, places->used, places->rows);
+    return OK;
 }
 
 static bool partition(const Work *w, Dependence *d, const double *phi_u, const int *wanted,
@@ -284,7 +292,7 @@ static Status choose_independent(Work *w, Diag *diag)
             if (i >= 0 && strcmp(system_q(w->system, i)->name, order->independent[k]) == 0)
                 wanted[count++] = j;
         }
-    choose_position_rows(w);
+    CHECK(choose_position_rows(w, phi_u));
     chosen = partition(w, &w->speeds, phi_u, wanted, count);
     if (chosen && w->places != &w->speeds) {
         for (int i = 0; i < w->speeds.free; i++)
@@ -295,6 +303,7 @@ static Status choose_independent(Work *w, Diag *diag)
         status =
             diag_set(diag, E_SINGULAR,
                      "a singular position: no choice of coordinates describes the motion there");
+done:
     MEM_FREE(wanted, phi_u);
     return status;
 }
