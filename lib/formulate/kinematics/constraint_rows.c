@@ -560,7 +560,8 @@ static void order_rows(System *system)
         else
             constraints->rows.at[positions++] = row;
     }
-    memcpy(constraints->rows.at + positions, rates, (size_t)moved * sizeof *rates);
+    for (int k = 0; k < moved; k++)
+        constraints->rows.at[positions + k] = rates[k];
     mem_free(rates);
 }
 
