@@ -15,22 +15,26 @@
 #include "formulate/system/system_impl.h"
 #include "formulate/system/vector.h"
 
+/* it doesn't turn with the nodes beyond the branch, and none of them bends */
+bool speed_shift_is_fixed(const System *system, int speed)
+{
+    const int node = speed_node(system, speed);
+    const int slide_node = system->kinematics->speeds[speed].slide_node;
+    const Frame *frame = &system->kinematics->frames[node];
+
+    return system->dynamics->elastics.count == 0 && (slide_node < 0 || slide_node == node) &&
+           (frame->base != node || vec_is_zero(frame->step));
+}
+
 bool speed_moves_as_one(const System *system, int speed)
 {
     const Tree *translation = system->origin->trees[TREE_TRANSLATION];
     const Tree *rotation = system->origin->trees[TREE_ROTATION];
-    int node = speed_node(system, speed);
-    int slide_node = system->kinematics->speeds[speed].slide_node;
-    int branch = tree_parent_edge(translation, node);
+    const int node = speed_node(system, speed), branch = tree_parent_edge(translation, node);
     int carried, turned;
     const int *beyond;
 
-    if (system->dynamics->elastics.count > 0) /* it may bend beyond */
-        return false;
-    /* the branch's own shift must not turn with the nodes beyond it */
-    if (branch != tree_parent_edge(rotation, node) || (slide_node >= 0 && slide_node != node) ||
-        (system->kinematics->frames[node].base == node &&
-         !vec_is_zero(system->kinematics->frames[node].step)))
+    if (branch != tree_parent_edge(rotation, node) || !speed_shift_is_fixed(system, speed))
         return false;
     (void)tree_nodes_beyond(rotation, branch, &turned);
     beyond = tree_nodes_beyond(translation, branch, &carried);
@@ -41,16 +45,17 @@ bool speed_moves_as_one(const System *system, int speed)
 }
 
 /* inertia of a mass m with first moment S, shifted by r: (2 r.S + m r.r) 1 - r S' - S r' - m r
- * r' */
-static Rotation shifted(Arena *arena, const Composite *part, Vec r)
+ * r'; in a plane its last entry alone */
+static Rotation shifted(const System *system, const Composite *part, Vec r)
 {
+    Arena *arena = system->arena;
     Expr two = expr_int(arena, 2);
     Expr round = expr_add(arena, expr_mul(arena, two, vec_dot(arena, r, part->moment)),
                           expr_mul(arena, part->mass, vec_dot(arena, r, r)));
     Rotation inertia = part->inertia;
 
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++) {
+    for (int i = system->origin->planar ? 2 : 0; i < 3; i++)
+        for (int j = i; j < 3; j++) {
             Expr terms[5] = {
                 inertia.at[3 * i + j],
                 i == j ? round : expr_int(arena, 0),
@@ -59,7 +64,7 @@ static Rotation shifted(Arena *arena, const Composite *part, Vec r)
                 expr_neg(arena, expr_product(arena, (Expr[]){part->mass, r.at[i], r.at[j]}, 3)),
             };
 
-            inertia.at[3 * i + j] = expr_sum(arena, terms, 5);
+            inertia.at[3 * i + j] = inertia.at[3 * j + i] = expr_sum(arena, terms, 5);
         }
     return inertia;
 }
@@ -186,7 +191,7 @@ static void pass_on(const System *system, Composites *all, int node)
 
     if (is_nothing(&part))
         return;
-    part.inertia = shifted(arena, &part, frame->step);
+    part.inertia = shifted(system, &part, frame->step);
     part.moment = vec_add(arena, part.moment, vec_scale(arena, part.mass, frame->step));
     part.moment = vec_carry(system, part.moment, axes, onto);
     part.inertia = tensor_express(system, part.inertia, axes, onto);

@@ -24,6 +24,8 @@ Composites composites_new(const System *system, const int *place);
 Composite composite_at(const System *system, const Composites *all, int node);
 /* one unit of the speed moves everything beyond its branch as one rigid body */
 bool speed_moves_as_one(const System *system, int speed);
+/* the same where both trees reach every node by the same edge; O(1) */
+bool speed_shift_is_fixed(const System *system, int speed);
 /* the loads of the composite on its branch, per unit of u', with everything else at rest */
 void composite_loads(const System *system, Composite composite, int speed, Loads *loads);
 

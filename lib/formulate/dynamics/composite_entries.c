@@ -2,7 +2,9 @@
  *
  * What a place passes on to the next is a named temporary, which all speeds further inward
  * share. */
+#include "formulate/dynamics/composite.h"
 #include "formulate/dynamics/composite_mass.h"
+#include "formulate/kinematics/frames.h"
 #include "formulate/system/dynamics.h"
 #include "formulate/system/system_impl.h"
 #include "formulate/system/vector.h"
@@ -65,10 +67,10 @@ static void add_entry(Arena *arena, const CompositeMass *mass, int row, int colu
         LIST_PUSH(*out, (Entry){row, column, expr_name_temporary(arena, sum)});
 }
 
-static void add_column(Arena *arena, const CompositeMass *mass, int k, MassEntries *out)
+static void add_column(Arena *arena, const CompositeMass *mass, int k, Vec force, Vec torque,
+                       MassEntries *out)
 {
     const MassSpeed *own = &mass->speeds[k];
-    Vec force = vec_at(mass, own->force), torque = vec_at(mass, own->torque);
 
     for (int p = own->place; p >= 0; p = mass->places[p].parent) {
         const MassPlace *place = &mass->places[p];
@@ -95,10 +97,18 @@ int64_t composite_mass_pairs(const CompositeMass *mass)
 void composite_mass_entries(const System *system, MassEntries *out)
 {
     const CompositeMass *mass = system_composite_mass(system);
+    const PoolMark mark = pool_mark(system->pool);
+    const Composites composites = composites_new(system, NULL);
+    Loads loads = loads_new(system);
     const Entry *share;
 
-    for (int k = 0; k < mass->speed_count; k++)
-        add_column(system->arena, mass, k, out);
+    for (int k = 0; k < mass->speed_count; k++) {
+        const int node = speed_node(system, k);
+
+        composite_loads(system, composite_at(system, &composites, node), k, &loads);
+        add_column(system->arena, mass, k, loads.force[node], loads.torque[node], out);
+    }
+    pool_release(system->pool, mark);
     for (int i = 0; (share = system_mass_share(system, i)) != NULL; i++)
         if (share->row <= share->column)
             LIST_PUSH(*out, *share);

@@ -26,7 +26,7 @@ static bool moves_in_composites(const System *system)
         if (tree_parent_edge(translation, order[i]) != tree_parent_edge(rotation, order[i]))
             return false;
     for (int j = 0; j < system->kinematics->u.count; j++)
-        if (!speed_moves_as_one(system, j))
+        if (!speed_shift_is_fixed(system, j))
             return false;
     return true;
 }
@@ -132,61 +132,18 @@ static void add_places(System *system, CompositeMass *mass, int *at)
 
 /* --- speeds --- */
 
-typedef struct SpeedVectors { /* as in MassSpeed */
-    Vec turn, slide, force, torque;
-} SpeedVectors;
-
-/* motion per unit of the speed; find_vectors() adds the loads that this motion needs */
-static SpeedVectors speed_motion(const System *system, int j)
+static MassSpeed speed_of(const System *system, CompositeMass *mass, int j, int place)
 {
     const int axes = node_axes(system, speed_node(system, j));
+    const Vec turn = system->kinematics->speeds[j].chain >= 0 ? speed_axis(system, j, axes)
+                                                              : vec_zero(system->arena),
+              slide = speed_slide(system, j, axes);
 
-    return (SpeedVectors){.turn = system->kinematics->speeds[j].chain >= 0
-                                      ? speed_axis(system, j, axes)
-                                      : vec_zero(system->arena),
-                          .slide = speed_slide(system, j, axes)};
-}
-
-/* By renaming within an instance, recalled, or derived. `all`: of those that others take over */
-static void find_vectors(const System *system, const Composites *composites, Loads *loads, int j,
-                         SpeedVectors *all)
-{
-    const int node = speed_node(system, j);
-    int first;
-    const Follower *follower = isomorphic_speed(system, j, &first);
-    Key key = key_of(composites->key[node]);
-    const bool takes = follower != NULL && isomorphic_ends(follower);
-    Vec effect[2];
-    Expr identity = NULL;
-
-    all[j] = speed_motion(system, j);
-    key_add(&key, &all[j].turn, sizeof all[j].turn);
-    key_add(&key, &all[j].slide, sizeof all[j].slide);
-    if (!takes || isomorphic_is_heir(follower))
-        identity = key_end(system, &key);
-    if (takes) {
-        effect[0] = isomorphic_vec(follower, all[first].force);
-        effect[1] = isomorphic_vec(follower, all[first].torque);
-        isomorphic_keep(system, follower, identity, DERIVED_SPEED, effect, sizeof effect);
-    } else if (!derived_recall(system, identity, DERIVED_SPEED, effect, sizeof effect)) {
-        composite_loads(system, composite_at(system, composites, node), j, loads);
-        effect[0] = loads->force[node];
-        effect[1] = loads->torque[node];
-        derived_store(system, identity, DERIVED_SPEED, effect, sizeof effect);
-    }
-    all[j].force = effect[0];
-    all[j].torque = effect[1];
-}
-
-static MassSpeed speed_of(CompositeMass *mass, const SpeedVectors *vectors, int place)
-{
     return (MassSpeed){.place = place,
-                       .turns = !vec_is_zero(vectors->turn),
-                       .slides = !vec_is_zero(vectors->slide),
-                       .turn = need(mass, vectors->turn.at, 3),
-                       .slide = need(mass, vectors->slide.at, 3),
-                       .force = need(mass, vectors->force.at, 3),
-                       .torque = need(mass, vectors->torque.at, 3)};
+                       .turns = !vec_is_zero(turn),
+                       .slides = !vec_is_zero(slide),
+                       .turn = need(mass, turn.at, 3),
+                       .slide = need(mass, slide.at, 3)};
 }
 
 /* its speeds, place by place */
@@ -211,25 +168,10 @@ static void list_speeds(System *system, CompositeMass *mass)
 
 static void add_speeds(System *system, CompositeMass *mass, const int *at)
 {
-    const Composites composites = composites_new(system, NULL);
-    Loads loads = loads_new(system);
-    const int count = system->kinematics->u.count;
-    SpeedVectors *vectors = NEW_ARRAY(SpeedVectors, count);
-
-    mass->speed_count = count;
-    mass->speeds = pool_alloc(system->pool, (size_t)count * sizeof *mass->speeds);
-    /* first those that others take over */
-    for (int level = 0, done = 0; done < count; level++)
-        for (int j = 0; j < count; j++) {
-            const int node = speed_node(system, j);
-
-            if (isomorphic_level(system, node) != level)
-                continue;
-            find_vectors(system, &composites, &loads, j, vectors);
-            mass->speeds[j] = speed_of(mass, &vectors[j], at[node]);
-            done++;
-        }
-    mem_free(vectors);
+    mass->speed_count = system->kinematics->u.count;
+    mass->speeds = pool_alloc(system->pool, (size_t)mass->speed_count * sizeof *mass->speeds);
+    for (int j = 0; j < mass->speed_count; j++)
+        mass->speeds[j] = speed_of(system, mass, j, at[speed_node(system, j)]);
     list_speeds(system, mass);
 }
 
@@ -240,17 +182,16 @@ static void add_bodies(System *system, CompositeMass *mass, const int *at)
     const int *order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
     const Composites bodies = composites_new(system, at);
 
+    mass->first_body = mass->needs.count;
     for (int i = 1; i < nodes; i++) {
+        Composite body;
+
         if (at[order[i]] < 0)
             continue;
-
-        const Composite body = composite_at(system, &bodies, order[i]);
-
-        LIST_PUSH(mass->bodies, body.mass);
-        for (int k = 0; k < 3; k++)
-            LIST_PUSH(mass->bodies, body.moment.at[k]);
-        for (int k = 0; k < 9; k++)
-            LIST_PUSH(mass->bodies, body.inertia.at[k]);
+        body = composite_at(system, &bodies, order[i]);
+        (void)need(mass, &body.mass, 1);
+        (void)need(mass, body.moment.at, 3);
+        (void)need(mass, body.inertia.at, 9);
     }
 }
 
@@ -277,7 +218,6 @@ void composite_mass_free(CompositeMass *mass)
     if (mass == NULL)
         return;
     LIST_FREE(mass->needs);
-    LIST_FREE(mass->bodies);
     mem_free(mass);
 }
 
@@ -308,13 +248,38 @@ static OpCount passing(const CompositeMass *mass, const MassPlace *place)
     return op_count_plus(sum, times(turned, place->is_turned));
 }
 
+/* The inertia of all beyond a place, moved, turned and added to that of its parent: for each shift
+ * the first moment and the six entries of a symmetric tensor, three vectors twice for its turn. */
+static OpCount gathering(const CompositeMass *mass, const MassPlace *place)
+{
+    const OpCount shift = mass->planar ? (OpCount){6, 4, 0} : (OpCount){23, 18, 0};
+    const OpCount turned = place->axis == AXIS_ANY ? (OpCount){42, 63, 0} : (OpCount){14, 28, 0};
+    const OpCount sum = op_count_plus(times(shift, place->has_step + place->has_way),
+                                      times(turned, place->is_turned));
+
+    return op_count_plus(sum, (OpCount){mass->planar ? 4 : 10, 0, 0});
+}
+
+/* the force and moment that one unit of a speed needs: S x slide + J turn, m slide + turn x S */
+static OpCount loading(const CompositeMass *mass, const MassSpeed *speed)
+{
+    return op_count_plus(
+        times(mass->planar ? (OpCount){0, 3, 0} : (OpCount){9, 15, 0}, speed->turns),
+        times(mass->planar ? (OpCount){4, 4, 0} : (OpCount){9, 9, 0}, speed->slides));
+}
+
 OpCount composite_mass_passing(const CompositeMass *mass)
 {
     OpCount sum = {0};
 
-    for (int k = 0; k < mass->speed_count; k++)
+    for (int p = 0; p < mass->place_count; p++)
+        if (mass->places[p].parent >= 0)
+            sum = op_count_plus(sum, gathering(mass, &mass->places[p]));
+    for (int k = 0; k < mass->speed_count; k++) {
+        sum = op_count_plus(sum, loading(mass, &mass->speeds[k]));
         for (int p = mass->speeds[k].place; p >= 0; p = mass->places[p].parent)
             sum = op_count_plus(sum, passing(mass, &mass->places[p]));
+    }
     return sum;
 }
 

@@ -4,8 +4,9 @@
  * of M is the force and moment that this body exerts on its branch. Both are passed on from place
  * to place towards the datum, and are projected on the speeds met on the way (theory 4). Expanded,
  * this gives one formula for each pair of speeds, though a place transforms all that it passes on
- * in the same way. So only the formulas of each place and each speed are stored here. The program
- * that runs the system passes loads on numerically. */
+ * in the same way. So only the formulas of each place, of the body that moves with it alone, and of
+ * each speed are stored here. The program that runs the system adds bodies up and passes loads on
+ * numerically. An edit leaves the formulas of all other places as they were. */
 #ifndef COTREE_FORMULATE_DYNAMICS_COMPOSITE_MASS_H
 #define COTREE_FORMULATE_DYNAMICS_COMPOSITE_MASS_H
 
@@ -30,8 +31,7 @@ typedef struct MassPlace {
 typedef struct MassSpeed {
     int place;
     bool turns, slides;
-    int turn, slide;   /* motion per unit */
-    int force, torque; /* load that all beyond needs per unit of u' */
+    int turn, slide; /* motion per unit */
 } MassSpeed;
 
 typedef struct CompositeMass {
@@ -39,12 +39,12 @@ typedef struct CompositeMass {
     int place_count, speed_count;
     MassPlace *places;
     MassSpeed *speeds;
-    int *speed_at;    /* speeds, place by place, in order at each */
-    LIST(Expr) needs; /* expressions whose values are passed on */
-    /* What moves with each place as one rigid body, place by place: mass, first moment and inertia
-     * (row by row) about the place, in its axes. With these and the vectors of places and speeds, M
-     * u' = F is solved without M. */
-    LIST(Expr) bodies;
+    int *speed_at; /* speeds, place by place, in order at each */
+    /* Expressions of the vectors of places and speeds. From `first_body` on, of what moves with
+     * each place as one rigid body, place by place: mass (kg), first moment (kg m) and inertia (kg
+     * m^2, row by row; in a plane the last entry alone) about the place, in its axes. */
+    LIST(Expr) needs;
+    int first_body;
 } CompositeMass;
 
 enum { BODY_NEEDS = 13 };

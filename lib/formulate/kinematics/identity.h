@@ -23,7 +23,6 @@ typedef enum Derived {
     DERIVED_ROW_RUN,
     DERIVED_INERTIA,   /* force and torque of a mass at u' = 0 */
     DERIVED_COMPOSITE, /* Composite of all beyond */
-    DERIVED_SPEED,     /* force and torque per unit of u' */
     DERIVED_FORCE,     /* Vec: the sum at a node */
     DERIVED_PASSED,    /* the sum passed on, and its moment */
     DERIVED_TORQUE,    /* Vec: the sum at a node */

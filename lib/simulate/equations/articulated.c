@@ -30,7 +30,6 @@ struct Articulated {
     const CompositeMass *mass;
     LIST(Expr) needs;
     LIST(ArticulatedShare) shares;
-    int first_body;
     const double *numbers;
     ArticulatedInertia *blocks; /* one per place */
     SpatialVector
@@ -58,13 +57,6 @@ Articulated *articulated_new(const System *system)
     ar->mass = mass;
     for (int i = 0; i < mass->needs.count; i++)
         LIST_PUSH(ar->needs, mass->needs.at[i]);
-    for (int j = 0; j < mass->speed_count; j++) /* loads of composites belong to M alone */
-        for (int k = 0; k < 3; k++)
-            ar->needs.at[mass->speeds[j].force + k] = ar->needs.at[mass->speeds[j].torque + k] =
-                ar->needs.at[mass->speeds[j].turn + k];
-    ar->first_body = ar->needs.count;
-    for (int i = 0; i < mass->bodies.count; i++)
-        LIST_PUSH(ar->needs, mass->bodies.at[i]);
     for (int i = 0; (share = system_mass_share(system, i)) != NULL; i++) {
         LIST_PUSH(ar->shares, (ArticulatedShare){share->row, ar->needs.count});
         LIST_PUSH(ar->needs, share->value);
@@ -211,12 +203,6 @@ static void begin_spatial(const double *body, ArticulatedInertia *b)
         b->M[i] = i % 4 == 0 ? body[0] : 0;
 }
 
-static inline void add_product(const double *A, const double *v, double *out)
-{
-    for (int i = 0; i < 3; i++)
-        out[i] += dot(A + 3 * i, v);
-}
-
 static inline void add_across(const double *A, const double *v, double *out)
 {
     for (int i = 0; i < 3; i++)
@@ -275,21 +261,6 @@ static void move_block(const double *r, ArticulatedInertia *b)
         add_cross(column, r, b->H + 3 * k);
         for (int i = 0; i < 3; i++)
             b->J[3 * i + k] += column[i];
-    }
-}
-
-/* R A R^T */
-static void turn_tensor(const MassPlace *place, const double *R, double *A)
-{
-    for (int pass = 0; pass < 2; pass++) {
-        double across[9];
-
-        for (int i = 0; i < 3; i++) {
-            turn_onto(place, R, A + 3 * i);
-            for (int k = 0; k < 3; k++)
-                across[3 * k + i] = A[3 * i + k];
-        }
-        memcpy(A, across, sizeof across);
     }
 }
 
@@ -378,7 +349,7 @@ bool articulated_factor(Articulated *ar, const double *numbers)
     for (int i = 0; i < ar->shares.count; i++)
         ar->own[ar->shares.at[i].speed] += numbers[ar->shares.at[i].number];
     for (int p = 0; p < mass->place_count; p++) {
-        const double *body = numbers + ar->first_body + BODY_NEEDS * (ptrdiff_t)p;
+        const double *body = numbers + mass->first_body + BODY_NEEDS * (ptrdiff_t)p;
 
         if (mass->planar)
             begin_planar(body, &ar->blocks[p]);

@@ -1,8 +1,10 @@
 /* mass_matrix.c: M (nu x nu) column by column, from forces and moments passed on towards the datum
  *
- * f, t: force and moment on a place, in its axes; s its displacement, R the rotation to the axes of
- * its parent, r the vector from the parent's origin. A place passes on the force R f and the moment
- * R (t + s x f) + r x R f. */
+ * m, S, J: mass (kg), first moment (kg m) and inertia (kg m^2) of all beyond a place, about it and
+ * in its axes. A unit of a speed that turns by w and slides by v needs the force f = m v + w x S
+ * and the moment t = S x v + J w there. s is the displacement of a place, R the rotation to the
+ * axes of its parent, r the vector from the parent's origin. A place passes on the force R f and
+ * the moment R (t + s x f) + r x R f. */
 #include "simulate/equations/mass_matrix.h"
 
 #include "base/memory.h"
@@ -20,9 +22,10 @@ struct MassMatrix {
     LIST(MassMatrixShare) shares;
     LIST(Expr) needs;
     Pattern places;
-    int *pair;  /* positions of entries of pairs in the order of the pass, and transposed */
-    int next;   /* the next of those in a pass */
-    double *at; /* M */
+    int *pair;    /* positions of entries of pairs in the order of the pass, and transposed */
+    int next;     /* the next of those in a pass */
+    double *at;   /* M */
+    double *body; /* of each place with all beyond it: m, S and J row by row, as in CompositeMass */
 };
 
 /* Pairs of speeds that meet on the paths towards the datum; two speeds of one place are in the
@@ -76,6 +79,7 @@ MassMatrix *mass_matrix_new(const System *system)
                                                     matrix->needs.count});
         LIST_PUSH(matrix->needs, share->value);
     }
+    matrix->body = NEW_ARRAY(double, BODY_NEEDS *(size_t)mass->place_count);
     find_pairs(matrix);
     return matrix;
 }
@@ -87,7 +91,7 @@ void mass_matrix_free(MassMatrix *matrix)
     LIST_FREE(matrix->shares);
     LIST_FREE(matrix->needs);
     pattern_free(&matrix->places);
-    MEM_FREE(matrix->pair, matrix->at, matrix);
+    MEM_FREE(matrix->pair, matrix->at, matrix->body, matrix);
 }
 
 const Expr *mass_matrix_needs(const MassMatrix *matrix, int *count)
@@ -97,6 +101,78 @@ const Expr *mass_matrix_needs(const MassMatrix *matrix, int *count)
 }
 
 /* --- in numbers --- */
+
+/* Moves m, S, J to a point from which r leads to the present one: S' = S + m r, J' = J + (r.S +
+ * r.S') 1 - r S^T - S' r^T. */
+static void move_body(const double *r, double *body)
+{
+    double *S = body + 1, *J = body + 4, before[3], round;
+
+    memcpy(before, S, sizeof before);
+    for (int i = 0; i < 3; i++)
+        S[i] += body[0] * r[i];
+    round = dot(r, before) + dot(r, S);
+    for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++)
+            J[3 * i + k] -= r[i] * before[k] + S[i] * r[k];
+        J[4 * i] += round;
+    }
+}
+
+/* S and J in the axes of the place's parent */
+static void turn_body(const MassPlace *place, const double *R, double *body)
+{
+    double *J = body + 4;
+
+    turn_onto(place, R, body + 1);
+    turn_tensor(place, R, J);
+}
+
+static void pass_body(const MassPlace *place, const double *numbers, double *body)
+{
+    if (place->has_step)
+        move_body(numbers + place->step, body);
+    if (place->is_turned)
+        turn_body(place, numbers + place->rotation, body);
+    if (place->has_way)
+        move_body(numbers + place->way, body);
+}
+
+static void pass_planar_body(const MassPlace *place, const double *numbers, double *body)
+{
+    const double *r = numbers + place->way;
+    const double x = body[1], y = body[2];
+
+    if (!place->has_way)
+        return;
+    body[1] += body[0] * r[0];
+    body[2] += body[0] * r[1];
+    body[12] += r[0] * (x + body[1]) + r[1] * (y + body[2]);
+}
+
+/* what moves with each place alone, and inward all beyond it: places are listed outward */
+static void gather_bodies(MassMatrix *matrix, const double *numbers)
+{
+    const CompositeMass *mass = matrix->mass;
+
+    memcpy(matrix->body, numbers + mass->first_body,
+           BODY_NEEDS * (size_t)mass->place_count * sizeof(double));
+    for (int p = mass->place_count - 1; p >= 0; p--) {
+        const MassPlace *place = &mass->places[p];
+        double body[BODY_NEEDS], *onto;
+
+        if (place->parent < 0)
+            continue;
+        memcpy(body, matrix->body + BODY_NEEDS * (ptrdiff_t)p, sizeof body);
+        if (mass->planar)
+            pass_planar_body(place, numbers, body);
+        else
+            pass_body(place, numbers, body);
+        onto = matrix->body + BODY_NEEDS * (ptrdiff_t)place->parent;
+        for (int i = 0; i < BODY_NEEDS; i++)
+            onto[i] += body[i];
+    }
+}
 
 static inline void put_pair(MassMatrix *matrix, double value)
 {
@@ -108,10 +184,19 @@ static void column(MassMatrix *matrix, const double *numbers, int k)
 {
     const CompositeMass *mass = matrix->mass;
     const MassSpeed *own = &mass->speeds[k];
-    double f[3], t[3];
+    const double *body = matrix->body + BODY_NEEDS * (ptrdiff_t)own->place, *S = body + 1;
+    const double *turn = numbers + own->turn, *slide = numbers + own->slide;
+    double f[3] = {0}, t[3] = {0};
 
-    memcpy(f, numbers + own->force, sizeof f);
-    memcpy(t, numbers + own->torque, sizeof t);
+    if (own->turns) {
+        add_cross(f, turn, S);
+        add_product(body + 4, turn, t);
+    }
+    if (own->slides) {
+        add_cross(t, S, slide);
+        for (int i = 0; i < 3; i++)
+            f[i] += body[0] * slide[i];
+    }
     for (int p = own->place; p >= 0; p = mass->places[p].parent) {
         const MassPlace *place = &mass->places[p];
 
@@ -140,8 +225,11 @@ static void planar_column(MassMatrix *matrix, const double *numbers, int k)
 {
     const CompositeMass *mass = matrix->mass;
     const MassSpeed *own = &mass->speeds[k];
-    const double x = numbers[own->force], y = numbers[own->force + 1];
-    double t = numbers[own->torque + 2];
+    const double *body = matrix->body + BODY_NEEDS * (ptrdiff_t)own->place;
+    const double turn = own->turns ? numbers[own->turn + 2] : 0;
+    const double *slid = numbers + own->slide; /* zeros where it doesn't slide */
+    const double x = body[0] * slid[0] - turn * body[2], y = body[0] * slid[1] + turn * body[1];
+    double t = body[12] * turn + body[1] * slid[1] - body[2] * slid[0];
 
     for (int p = own->place; p >= 0; p = mass->places[p].parent) {
         const MassPlace *place = &mass->places[p];
@@ -166,6 +254,7 @@ void mass_matrix_set(MassMatrix *matrix, const double *numbers)
     for (int i = 0; i < matrix->shares.count; i++)
         matrix->at[matrix->shares.at[i].at] = 0;
     matrix->next = 0;
+    gather_bodies(matrix, numbers);
     for (int k = 0; k < matrix->mass->speed_count; k++)
         if (matrix->mass->planar)
             planar_column(matrix, numbers, k);

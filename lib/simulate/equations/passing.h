@@ -1,8 +1,10 @@
-/* passing.h: vectors of one place in the axes of another */
+/* passing.h: vectors and tensors of one place in the axes of another */
 #ifndef COTREE_SIMULATE_EQUATIONS_PASSING_H
 #define COTREE_SIMULATE_EQUATIONS_PASSING_H
 
 #include "formulate/dynamics/composite_mass.h"
+
+#include <string.h>
 
 static inline double dot(const double *a, const double *b)
 {
@@ -14,6 +16,13 @@ static inline void add_cross(double *sum, const double *a, const double *b)
     sum[0] += a[1] * b[2] - a[2] * b[1];
     sum[1] += a[2] * b[0] - a[0] * b[2];
     sum[2] += a[0] * b[1] - a[1] * b[0];
+}
+
+/* sum += A v */
+static inline void add_product(const double *A, const double *v, double *sum)
+{
+    for (int i = 0; i < 3; i++)
+        sum[i] += dot(A + 3 * i, v);
 }
 
 static inline void turn_by(const double *R, double *v)
@@ -53,6 +62,21 @@ static inline void turn_back(const MassPlace *place, const double *R, double *v)
     else
         for (int i = 0; i < 3; i++)
             v[i] = R[i] * x + R[3 + i] * y + R[6 + i] * z;
+}
+
+/* R A R^T */
+static inline void turn_tensor(const MassPlace *place, const double *R, double *A)
+{
+    for (int pass = 0; pass < 2; pass++) {
+        double across[9];
+
+        for (int i = 0; i < 3; i++) {
+            turn_onto(place, R, A + 3 * i);
+            for (int k = 0; k < 3; k++)
+                across[3 * k + i] = A[3 * i + k];
+        }
+        memcpy(A, across, sizeof across);
+    }
 }
 
 #endif
