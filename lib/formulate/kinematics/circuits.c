@@ -124,50 +124,63 @@ static int row_axes(const System *system, const Row *row, Vec *n)
 
 /* --- which speeds a row can move --- */
 
+/* speeds that turn or slide something on a circuit; all of them are in low .. high */
+typedef struct MarkedSpeeds {
+    bool *turns, *slides;
+    int low, high;
+} MarkedSpeeds;
+
+static void mark(MarkedSpeeds *marked, bool *of, int speed)
+{
+    of[speed] = true;
+    marked->low = speed < marked->low ? speed : marked->low;
+    marked->high = speed > marked->high ? speed : marked->high;
+}
+
 /* marks the turns of an orientation class and of all classes inward of it */
-static void mark_turns(const System *system, int chain, bool *moves)
+static void mark_turns(const System *system, int chain, MarkedSpeeds *marked)
 {
     for (; chain > 0; chain = system->kinematics->chains.at[chain].parent) {
         const OrientationClass *own = &system->kinematics->chains.at[chain];
 
-        if (moves[own->speed])
+        if (marked->turns[own->speed])
             return; /* all classes further inward are marked */
         for (int j = own->speed; j < own->speed + own->speed_count; j++)
-            moves[j] = true;
+            mark(marked, marked->turns, j);
     }
 }
 
-static void mark_way(const System *system, int node, int ancestor, bool *turns, bool *slides)
+static void mark_way(const System *system, int node, int ancestor, MarkedSpeeds *marked)
 {
     for (; node != ancestor; node = system->kinematics->frames[node].parent) {
         const Frame *frame = &system->kinematics->frames[node];
 
-        mark_turns(system, frame->step_chain, turns);
+        mark_turns(system, frame->step_chain, marked);
         for (int i = 0; i < frame->slide_count; i++)
-            slides[frame->slide[i].speed] = true;
+            mark(marked, marked->slides, frame->slide[i].speed);
     }
 }
 
 int circuit_speeds(const System *system, const Row *row, int *speeds)
 {
     const int all = system->kinematics->speed_count;
-    bool *turns = NEW_ARRAY(bool, all), *slides = NEW_ARRAY(bool, all);
+    MarkedSpeeds marked = {NEW_ARRAY(bool, all), NEW_ARRAY(bool, all), all, -1};
     int count = 0;
 
     if (row->kind != ROW_DOT) {
         int ancestor = circuit_parting(system, row->tail, row->head);
 
-        mark_way(system, row->head, ancestor, turns, slides);
-        mark_way(system, row->tail, ancestor, turns, slides);
+        mark_way(system, row->head, ancestor, &marked);
+        mark_way(system, row->tail, ancestor, &marked);
     }
     if (row->kind != ROW_DATUM)
-        mark_turns(system, system->kinematics->frames[row->tail].chain, turns);
+        mark_turns(system, system->kinematics->frames[row->tail].chain, &marked);
     if (row->kind == ROW_DOT)
-        mark_turns(system, system->kinematics->frames[row->head].chain, turns);
-    for (int j = 0; j < all; j++)
-        if (turns[j] || slides[j])
+        mark_turns(system, system->kinematics->frames[row->head].chain, &marked);
+    for (int j = marked.low; j <= marked.high; j++)
+        if (marked.turns[j] || marked.slides[j])
             speeds[count++] = j;
-    MEM_FREE(turns, slides);
+    MEM_FREE(marked.turns, marked.slides);
     return count;
 }
 

@@ -526,7 +526,7 @@ static Status run_rows(System *system, RowPatterns *patterns, Diag *diag)
     system->run.phi = pool_alloc(system->pool, size);
     system->run.nu = pool_alloc(system->pool, size);
     system->run.gamma = pool_alloc(system->pool, size);
-    system->run.phi_u = pool_alloc(system->pool, size * (size_t)count);
+    system->run.phi_u = pool_room(system->pool, size * (size_t)count);
     for (int i = 0; i < m * count; i++)
         system->run.phi_u[i] = zero;
     for (int k = 0; k < m; k++) {
