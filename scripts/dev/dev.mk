@@ -78,7 +78,7 @@ bench: benches
 	done >bench.out
 	@$(dev)/bench-table $(srcdir)/tests/bench/record.txt <bench.out
 	@status=0; ! grep '^# bench_.*: failed' bench.out || status=1; \
-	for part in bench-precision bench-scaling bench-estimates bench-peers bench-races bench-latency; do $(MAKE) -s $$part || status=1; done; \
+	for part in bench-instructions bench-precision bench-scaling bench-estimates bench-peers bench-races bench-latency; do $(MAKE) -s $$part || status=1; done; \
 		exit $$status
 
 # work against precision of every reference and stress case, by method: a table, and pictures in
@@ -97,6 +97,10 @@ bench-scaling: all
 		>scaling/rows || status=1; cat scaling/rows; \
 	$(dev)/scaling-pictures scaling/data svg scaling && \
 		echo "the picture is in scaling/" && exit $$status
+
+# what an edit leaves to form, where valgrind is there
+bench-instructions: bench_edit bench_subsystems
+	@PYTHONDONTWRITEBYTECODE=1 $(srcdir)/tests/bench/instructions.py .
 
 # what check=on says of its error, over the error, by case, method and tolerance
 bench-estimates: all
@@ -165,4 +169,4 @@ mostlyclean-local:
 distclean-local:
 	rm -rf san threads faults coverage bench.work precision scaling
 
-.PHONY: check-total check-hacking check-san check-san-all check-threads check-faults lint lint-all format bench benches bench-precision bench-scaling bench-estimates bench-peers bench-races bench-latency bench-record precision-record scaling-record fuzz stress check-coverage
+.PHONY: check-total check-hacking check-san check-san-all check-threads check-faults lint lint-all format bench benches bench-precision bench-scaling bench-estimates bench-peers bench-instructions bench-races bench-latency bench-record precision-record scaling-record fuzz stress check-coverage

@@ -1,7 +1,13 @@
 /* bench_edit.c: a chain of 100 links, and a ladder of 1000 elements, formed anew, and after an edit
  * of the middle
  *
- * Both up to the programs that a run steps with. */
+ * Both up to the programs that a run steps with.
+ *
+ * `bench_edit planar joint insert` (or spatial; absolute; another row of `counted_edits`) forms the
+ * equations alone, after an edit that follows earlier equations; with the last word `anew` it forms
+ * those of the edited model for the first time. Instructions are counted by
+ *     valgrind --tool=callgrind --toggle-collect=counted bench_edit planar joint insert
+ */
 #include "formulate/system/system.h"
 #include "model/model.h"
 
@@ -168,6 +174,50 @@ static void bench_chain(bool planar, const char *tree, bool loop)
     mem_free(text);
 }
 
+/* --- one edit, for who counts instructions --- */
+
+static const struct CountedEdit {
+    const char *what, *planar, *spatial;
+} counted_edits[] = {
+    {"insert",
+     "delete j50; body more mass=1 inertia=1; arm s more [0.4, 0]; revolute j50 t50 more;"
+     "revolute j50b s h50",
+     "delete j50; body more mass=1 inertia=[1, 1, 1]; arm s more [0.4, 0, 0];"
+     "revolute j50 t50 more; revolute j50b s h50"},
+    {"append", "body more mass=1 inertia=1; revolute tip b99 more",
+     "body more mass=1 inertia=[1, 1, 1]; revolute tip b99 more"},
+    {"delete", "delete j99", "delete j99"},
+    {"middle", "delete j50", "delete j50"},
+};
+
+__attribute__((noinline)) static void counted(const Model *model, System **system)
+{
+    Diag diag = {0};
+
+    if (renew(model, system, &diag) != OK)
+        printf("# %s\n", diag.message);
+}
+
+static int count_once(bool planar, const char *tree, const char *what, bool anew)
+{
+    char *text = chain_text(planar, tree, false);
+    Model *model = bench_model(text);
+    System *system = NULL;
+    Diag diag = {0};
+
+    if (!anew && renew(model, &system, &diag) != OK)
+        printf("# %s\n", diag.message);
+    for (int i = 0; i < COUNT(counted_edits); i++)
+        if (strcmp(counted_edits[i].what, what) == 0)
+            edit(model, planar ? counted_edits[i].planar : counted_edits[i].spatial);
+    edit(model, strcmp(tree, "joint") == 0 ? "tree joint" : "tree absolute");
+    counted(model, &system);
+    system_free(system);
+    model_free(model);
+    mem_free(text);
+    return 0;
+}
+
 static char *ladder_text(void)
 {
     Text text = {0};
@@ -199,10 +249,12 @@ static void bench_ladder(void)
     mem_free(text);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
     static const char *const trees[] = {"joint", "absolute"};
 
+    if (argc >= 4)
+        return count_once(strcmp(argv[1], "planar") == 0, argv[2], argv[3], argc > 4);
     for (int i = 0; i < COUNT(trees); i++) {
         bench_chain(true, trees[i], false);
         bench_chain(false, trees[i], false);

@@ -129,9 +129,14 @@ family_falls_SOURCES = tests/family/family_falls.c tests/family/family.h tests/f
 family_falls_LDADD = libcotree.la $(unit_ldadd)
 
 FAMILIES += family_edits
-family_edits_SOURCES = tests/family/family_edits.c tests/family/family.h tests/random.h \
+family_edits_SOURCES = tests/family/family_edits.c tests/family/edits.h tests/family/family.h tests/random.h \
 	tests/unit/session_kit.h tests/unit/test.h
 family_edits_LDADD = libcotree.la $(unit_ldadd)
+
+FAMILIES += family_reformed
+family_reformed_SOURCES = tests/family/family_reformed.c tests/family/reformed.c \
+	tests/family/reformed.h tests/family/edits.h tests/family/family.h tests/random.h
+family_reformed_LDADD = $(unit_ldadd)
 
 FAMILIES += family_inertial_laws
 family_inertial_laws_SOURCES = tests/family/family_inertial_laws.c tests/family/family.h \
