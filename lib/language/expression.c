@@ -219,6 +219,21 @@ static Status parse_product(Parser *parser, Syntax **out)
     return parse_chain(parser, ops, parse_unary, out);
 }
 
+Status parse_derivative(Parser *parser, Syntax *item, Syntax **out)
+{
+    const Token *op = parser_token(parser);
+    Syntax *by = NULL;
+
+    *out = item;
+    if (item->kind != SYNTAX_CALL || strcmp(item->text, "d") != 0 || !parser_sees(parser, "/") ||
+        parser_peek(parser, 1)->kind != TOKEN_PATH ||
+        strcmp(parser_peek(parser, 1)->text, "d") != 0 || !token_is(parser_peek(parser, 2), "("))
+        return OK;
+    (void)parser_accept(parser, "/");
+    TRY(parse_primary(parser, &by));
+    return join(parser, op, item, by, out);
+}
+
 /* sum = product { ( "+" | "-" ) product } ; */
 Status parse_sum(Parser *parser, Syntax **out)
 {

@@ -55,7 +55,7 @@ static bool sees_operator(const Parser *parser)
     return parser_sees(parser, ">") && !parser_sees_stop(parser);
 }
 
-/* item = ( var | call { "'" } | "(" expr ")" { "'" } ) [ unit ] ; */
+/* item = ( var | call { "'" } | "d(" sum ")/d(" var ")" | "(" expr ")" { "'" } ) [ unit ] ; */
 Status parse_item(Parser *parser, Syntax **out)
 {
     int start = parser->at;
@@ -68,6 +68,7 @@ Status parse_item(Parser *parser, Syntax **out)
         return parser_expected(parser, "a variable");
     parser->lists = true;
     CHECK(parse_primary(parser, out));
+    CHECK(parse_derivative(parser, *out, out));
     if (parser_sees(parser, "["))
         CHECK(parse_unit(parser, *out));
     if (sees_operator(parser))

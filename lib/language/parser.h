@@ -63,6 +63,9 @@ MUST_USE Status syntax_accept(Parser *parser, Syntax *node, int start);
 MUST_USE Status parse_expression(Parser *parser, Syntax **out);
 MUST_USE Status parse_sum(Parser *parser, Syntax **out);
 MUST_USE Status parse_primary(Parser *parser, Syntax **out);
+/* d(h)/d(L) in a list of items: `item`, d(h), was read; *out is the whole, or item where nothing
+ * of that kind follows */
+MUST_USE Status parse_derivative(Parser *parser, Syntax *item, Syntax **out);
 MUST_USE Status parse_unit(Parser *parser, Syntax *node);         /* in brackets */
 MUST_USE Status parse_literal_unit(Parser *parser, Syntax *node); /* if there is one */
 MUST_USE Status parse_shown(Parser *parser, Syntax **out);        /* sum [ unit ] */

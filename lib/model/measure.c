@@ -374,9 +374,9 @@ static const struct {
 #define OP(id, name, args, derivative, c, latex, value, dimension) {name, dimension},
 #include "expr/ops.def"
 #undef OP
-    {"pulse", "txxttttt=x"}, {"pwl", "ttx=x"},    {"table", "...=?"}, {"mean", "xx=x"},
-    {"rms", "xx=x"},         {"final", "xx=x"},   {"first", "..=s"},  {"period", "xx=s"},
-    {"settling", "xx=s"},    {"spectrum", "xx=x"}};
+    {"pulse", "txxttttt=x"}, {"pwl", "ttx=x"},     {"table", "...=?"}, {"mean", "xx=x"},
+    {"rms", "xx=x"},         {"final", "xx=x"},    {"first", "..=s"},  {"period", "xx=s"},
+    {"settling", "xx=s"},    {"spectrum", "xx=x"}, {"d", "xx=x"}};
 
 static const char *find_rule(const char *name)
 {
@@ -542,7 +542,11 @@ static Status at_place(const MeasureWalk *w, const Syntax *call, const char *uni
 static Status call(const MeasureWalk *w, const Syntax *syntax, Measure *out)
 {
     const Thing *thing = state_thing(w->scope->state, syntax->text);
-    const char *rule = find_rule(syntax->text);
+    /* d(h)/d(L) is a derivative unless the model has a law d */
+    const bool is_law = thing != NULL && thing->kind == THING_DEFINITION &&
+                        w->scope->state->definitions.at[thing->index].kind == DEFINES_LAW &&
+                        strcmp(syntax->text, "d") == 0;
+    const char *rule = is_law ? NULL : find_rule(syntax->text);
     const char *unit = place_unit(w->scope->state, syntax->text + run_prefix(syntax->text));
     Measure *args = NEW_ARRAY(Measure, syntax->count);
     Status status = OK;

@@ -75,7 +75,9 @@ static void write_functions(Text *out)
         "selects that derivative with respect to x.\n"
         "Functions of the last run, of the continuous motion and not of its rows: min(x) max(x) "
         "mean(x) rms(x) final(x) period(x), settling(x, band), first(condition); 'keep' defines "
-        "parameters with them. spectrum(x) is for 'plot' and 'table'. Entries of the equations: "
+        "parameters with them. d(x)/d(L) is the derivative of x by a parameter ('help "
+        "sensitivities'). "
+        "spectrum(x) is for 'plot' and 'table'. Entries of the equations: "
         "mass(1,2), forces(1), lambda(1). Operators: + - * / ^, < <= > >= == != && || !. A "
         "prime is a time derivative (h8', h8'').");
 }
@@ -135,6 +137,27 @@ static void write_imports(Text *out)
 
     layout_words(out, TOPIC_WIDTH, "", "import WORD \"FILE\" takes one of these:");
     write_pairs(out, rows, COUNT(rows));
+}
+
+static void write_sensitivities(Text *out)
+{
+    layout_words(
+        out, TOPIC_WIDTH, "",
+        "d(h)/d(L) is the derivative of h along the last run by the parameter L, in 'print', "
+        "'plot', 'table', 'export csv', 'expect', 'keep=' and figures, such as max(d(h)/d(L)): how "
+        "far h(t) would move if L had another value from the start on. h is any variable or an "
+        "expression of variables; initial values and values of parts are parameters by a name.\n"
+        "The run is integrated once more with its variational equations, S' = f_y S + f_p, under "
+        "its tolerances, whose derivatives are exact. At an instant that depends on L, where a "
+        "source, a switch, a diode or a condition of the equations switches, S jumps. Constraints "
+        "hold for S, too; in 'kinematics' they alone determine it.\n"
+        "There are no sensitivities of 'inverse', of sampled states (period=), after the new "
+        "values "
+        "of an event or an impact, while friction sticks, and where ideal switches change the "
+        "number of states. Each is refused with its instant.\n"
+        "  L = 0.5 m; A = 0.1; scene planar; gravity [0, -9.81]\n"
+        "  body b mass=1; arm p b [0, L]; revolute h ground p; init h = A\n"
+        "  simulate 2; print d(h)/d(L) at 1, d(h')/d(A); plot d(h)/d(L)");
 }
 
 static void write_counting(Text *out)
@@ -229,6 +252,7 @@ static const HelpTopic topics[] = {
     {"notations", "notations of show",                          write_notations, "show"},
     {"formats", "the formats of export",                         write_formats,   "export"},
     {"imports", "the formats of import",                          write_imports,   "import"},
+    {"sensitivities", "derivatives of a run by parameters, d(h)/d(L)", write_sensitivities, "print"},
     {"counting",  "the rule by which operations are counted",   write_counting,  "count"},
     {"keys",      "keys at the prompt",                         write_keys,      NULL},
 };

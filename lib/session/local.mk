@@ -36,6 +36,7 @@ libcore_la_SOURCES += \
   lib/session/session_parameter_search.h \
   lib/session/session_plot.c \
   lib/session/session_run.c \
+  lib/session/session_sensitivity.c \
   lib/session/session_shape.c \
   lib/session/session_shape.h \
   lib/session/session_spectrum.c \

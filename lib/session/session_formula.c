@@ -143,11 +143,12 @@ static bool is_entry(const Syntax *syntax)
 }
 
 /* whether the model understands the whole subtree; run: the one that all its names have, 0: none */
-static bool is_pure(const Syntax *syntax, int *run, bool *bare)
+static bool is_pure(const ct_session *session, const Syntax *syntax, int *run, bool *bare)
 {
     const char *rest;
 
-    if (figure_is_called(syntax) || spectrum_is_called(syntax))
+    if (figure_is_called(syntax) || spectrum_is_called(syntax) ||
+        sensitivity_is_called(session, syntax))
         return false;
     if (syntax->kind == SYNTAX_VARIABLE || syntax->kind == SYNTAX_CALL) {
         const int prefix = run_prefix(syntax->text, &rest);
@@ -162,7 +163,7 @@ static bool is_pure(const Syntax *syntax, int *run, bool *bare)
             *bare = true;
     }
     for (int i = 0; i < syntax->count; i++)
-        if (!is_pure(syntax->args[i], run, bare))
+        if (!is_pure(session, syntax->args[i], run, bare))
             return false;
     return *run == 0 || !*bare;
 }
@@ -486,6 +487,54 @@ done:
     return status;
 }
 
+/* a*d(h)/d(L): `numerator` is a*d(h) */
+static Status cut_numerator(Cut *cut, const Syntax *numerator, Expr derivative, Expr *out,
+                            Diag *diag)
+{
+    Arena *arena = model_arena(cut->session->model);
+    Expr inner = NULL, factor = NULL;
+    Status status = OK;
+
+    *out = derivative;
+    if (numerator->kind == SYNTAX_CALL)
+        return OK;
+    CHECK(cut_numerator(cut, numerator->args[numerator->count - 1], derivative, &inner, diag));
+    if (numerator->count > 1)
+        CHECK(cut_any(cut, numerator->args[0], &factor, diag));
+    *out = model_operation(arena, numerator->text, numerator->count > 1 ? factor : inner,
+                           numerator->count > 1 ? inner : NULL);
+done:
+    return status;
+}
+
+static Status cut_sensitivity(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
+{
+    ct_session *session = cut->session;
+    const Syntax *item = NULL, *numerator = NULL;
+    Leaf leaf = {.kind = LEAF_SENSITIVITY};
+    int run = 0;
+    bool bare = false;
+    Pool *pool = pool_new(4096);
+    Status status = OK;
+
+    CHECK(sensitivity_read(session, syntax, &item, &numerator, &leaf.by, diag));
+    if (!is_pure(session, item, &run, &bare))
+        CHECK(diag_at(diag, E_VALUE, item->place,
+                      "a derivative is of variables of one run, not of functions of runs"));
+    if (session->runs.count == 0 || run > session->runs.count) {
+        status = diag_at(diag, E_MISSING, syntax->place, "there is no such run yet");
+        diag_hint(diag, "'simulate 10' makes one");
+        goto done;
+    }
+    CHECK(model_expression(session->model, run > 0 ? strip(pool, item) : item, &leaf.expr, diag));
+    leaf.expr = session_add_outputs(session->model, leaf.expr);
+    leaf.run = run - 1;
+    CHECK(cut_numerator(cut, numerator, push_leaf(cut, leaf), out, diag));
+done:
+    pool_free(pool);
+    return status;
+}
+
 /* a subtree that the model can't resolve as a whole: its parts, combined */
 static Status cut_joined(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
 {
@@ -533,7 +582,9 @@ static Status cut_any(Cut *cut, const Syntax *syntax, Expr *out, Diag *diag)
         return cut_fit(cut, syntax, out, diag);
     if (is_entry(syntax))
         return cut_entry(cut, syntax, out, diag);
-    if (is_pure(syntax, &run, &bare))
+    if (sensitivity_is_called(cut->session, syntax))
+        return cut_sensitivity(cut, syntax, out, diag);
+    if (is_pure(cut->session, syntax, &run, &bare))
         return cut_pure(cut, syntax, run, out, diag);
     return cut_joined(cut, syntax, out, diag);
 }

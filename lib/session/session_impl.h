@@ -277,7 +277,12 @@ void session_unit(const ct_session *session, const char *name, Text *out);
 Expr session_add_outputs(const Model *model, Expr e);
 
 /* An expression of the user's over variables, runs and counts, ready to be evaluated. */
-typedef enum LeafKind { LEAF_CONSTANT, LEAF_VARIABLE, LEAF_INTEGRAL } LeafKind;
+typedef enum LeafKind {
+    LEAF_CONSTANT,
+    LEAF_VARIABLE,
+    LEAF_INTEGRAL,
+    LEAF_SENSITIVITY /* of a variable by a parameter */
+} LeafKind;
 
 typedef struct Leaf {
     LeafKind kind;
@@ -285,6 +290,7 @@ typedef struct Leaf {
     Expr expr;    /* of a variable: over names of the user's; its integral from the run's start */
     int run;      /* place in session->runs, or -1 for what a bare name means */
     Expr symbol;  /* its placeholder in `whole` */
+    Expr by;      /* of a sensitivity: the parameter */
 } Leaf;
 
 typedef struct Formula {
@@ -325,6 +331,17 @@ bool figure_is_called(const Syntax *syntax);
  * determine such a number */
 MUST_USE Status figure_value(ct_session *session, const Syntax *call, const Formula *argument,
                              double band, double *out, Diag *diag);
+
+/* Sensitivities (session_sensitivity.c): d(h)/d(L), with a factor before it: a*d(h)/d(L). */
+bool sensitivity_is_called(const ct_session *session, const Syntax *syntax);
+/* h, the numerator with its factor, and L */
+MUST_USE Status sensitivity_read(ct_session *session, const Syntax *syntax, const Syntax **item,
+                                 const Syntax **numerator, Expr *parameter, Diag *diag);
+/* Derivatives of expressions over variables by parameters of the model, at ascending times of the
+ * last run: out is rows x items x parameters. E_MISSING for any other run. */
+MUST_USE Status session_sensitivities(ct_session *session, Run *run, const Expr *items,
+                                      int item_count, const Expr *parameters, int count,
+                                      const double *times, int rows, double *out, Diag *diag);
 
 /* Spectra (session_spectrum.c): spectrum(h8) only together with other spectra, in a table whose
  * first column is the frequency, Hz. A formula here is that of the argument; `values` is new. */

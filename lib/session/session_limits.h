@@ -103,4 +103,10 @@
 /* rounding errors: a value of no more has no significant digit */
 #define NOISE_ROUNDINGS 8
 
+/* --- sensitivities --- */
+
+/* of a parameter's size: the largest step of difference quotients of the start. Their errors are
+ * some 1e-15 of this, and what an assembly leaves, 1e-14, over it. */
+#define SENSITIVITY_STEP 0x1p-8
+
 #endif

@@ -63,7 +63,9 @@ static double run_end(const Run *run)
 /* a leaf of parameters and numbers alone needs no run */
 static bool needs_run(const Leaf *leaf)
 {
-    return leaf->kind != LEAF_CONSTANT && (expr_kinds(leaf->expr) & ~(1U << SYMBOL_PARAMETER)) != 0;
+    return leaf->kind == LEAF_SENSITIVITY ||
+           (leaf->kind != LEAF_CONSTANT &&
+            (expr_kinds(leaf->expr) & ~(1U << SYMBOL_PARAMETER)) != 0);
 }
 
 bool formula_needs_run(const Formula *formula)
@@ -116,6 +118,23 @@ static void remark_ends(ct_session *session, const Formula *formula, Run *source
     }
 }
 
+/* values of a leaf that is no number, at ascending instants of its run */
+static Status leaf_values(ct_session *session, const Leaf *leaf, Run *run, const double *times,
+                          int rows, double *out, Diag *diag)
+{
+    switch (leaf->kind) {
+    case LEAF_INTEGRAL:
+        return result_reader_integrals(run->reader, &leaf->expr, 1, times, rows, &session->watch,
+                                       out, diag);
+    case LEAF_SENSITIVITY:
+        return session_sensitivities(session, run, &leaf->expr, 1, &leaf->by, 1, times, rows, out,
+                                     diag);
+    default:
+        return result_reader_values_along(run->reader, leaf->expr, times, rows, &session->watch,
+                                          out, diag);
+    }
+}
+
 /* the value of a leaf at an instant of its run, or at its end */
 static Status evaluate_leaf(ct_session *session, const Leaf *leaf, Run *run, const double *at,
                             double *out, Diag *diag)
@@ -135,10 +154,9 @@ static Status evaluate_leaf(ct_session *session, const Leaf *leaf, Run *run, con
     }
     times = result_times(run->result);
     instant = at != NULL ? session_row_time(run->result, *at) : times[result_rows(run->result) - 1];
-    status = leaf->kind == LEAF_INTEGRAL
-                 ? result_reader_integrals(run->reader, &leaf->expr, 1, &instant, 1,
-                                           &session->watch, out, diag)
-                 : result_reader_values_at(run->reader, &leaf->expr, 1, instant, out, diag);
+    status = leaf->kind == LEAF_VARIABLE
+                 ? result_reader_values_at(run->reader, &leaf->expr, 1, instant, out, diag)
+                 : leaf_values(session, leaf, run, &instant, 1, out, diag);
     return status == E_VALUE && leaf->run >= 0 && at != NULL
                ? refuse_instant(leaf, run->result, *at, diag)
                : status;
@@ -187,7 +205,7 @@ static Status leaf_rounding(ct_session *session, const Leaf *leaf, Run *run, dou
                             double value, double *out, Diag *diag)
 {
     *out = DBL_EPSILON * fabs(value);
-    if (leaf->kind == LEAF_CONSTANT)
+    if (leaf->kind == LEAF_CONSTANT || leaf->kind == LEAF_SENSITIVITY)
         return OK;
     if (needs_run(leaf)) {
         double open;
@@ -315,11 +333,7 @@ static Status leaf_along(ct_session *session, const Leaf *leaf, Run *run, const 
 
     for (int r = 0; r < rows; r++)
         snapped[r] = session_row_time(run->result, times[r]);
-    status = leaf->kind == LEAF_INTEGRAL
-                 ? result_reader_integrals(run->reader, &leaf->expr, 1, snapped, rows,
-                                           &session->watch, out, diag)
-                 : result_reader_values_along(run->reader, leaf->expr, snapped, rows,
-                                              &session->watch, out, diag);
+    status = leaf_values(session, leaf, run, snapped, rows, out, diag);
     mem_free(snapped);
     for (int r = 0; status == E_VALUE && r < rows; r++)
         TRY(evaluate_leaf(session, leaf, run, &times[r], &out[r], diag));
@@ -340,7 +354,7 @@ static Status other_rows(ct_session *session, const Formula *formulas, int count
 
             if (leaf->kind == LEAF_VARIABLE && run == own)
                 continue;
-            if (leaf->kind == LEAF_INTEGRAL) {
+            if (leaf->kind == LEAF_INTEGRAL || leaf->kind == LEAF_SENSITIVITY) {
                 TRY(leaf_along(session, leaf, run, times, rows, columns[place], diag));
                 prepared = NULL; /* its own instants were prepared */
                 continue;

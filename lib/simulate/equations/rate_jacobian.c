@@ -23,18 +23,26 @@ struct RateJacobian {
     Motion *motion;
     bool is_asked, is_made; /* made once, if possible */
     int follow, states;     /* numbers of entries of e and of w */
-    Probe *probe;           /* E, q', rates of references, power */
-    Jacobian *jacobian;     /* derivatives of these by e, then by w */
-    double *values;         /* its entries */
-    Pattern matrix;         /* E_e, with diagonal entries for multipliers that aren't in use */
-    int *place;             /* index into it: entries of the Jacobian, diagonals; -1: none */
-    double *entries;        /* of the matrix */
+    Expr *others;           /* other_count: further symbols to differentiate by */
+    int other_count;
+    Probe *probe;       /* E, q', rates of references, power */
+    Jacobian *jacobian; /* derivatives of these by e, then by w, then by other symbols */
+    double *values;     /* its entries */
+    Pattern matrix;     /* E_e, with diagonal entries for multipliers that aren't in use */
+    int *place;         /* index into it: entries of the Jacobian, diagonals; -1: none */
+    double *entries;    /* of the matrix */
     Sparse *factors;
     double *right; /* follow */
     bool *in_use;  /* constraint rows */
 };
 
 RateJacobian *rate_jacobian_new(const VariableIndex *l, Parameters *parameters, Motion *motion)
+{
+    return rate_jacobian_new_by(l, parameters, motion, NULL, 0);
+}
+
+RateJacobian *rate_jacobian_new_by(const VariableIndex *l, Parameters *parameters, Motion *motion,
+                                   const Expr *others, int count)
 {
     RateJacobian *j = NEW(RateJacobian);
 
@@ -43,7 +51,16 @@ RateJacobian *rate_jacobian_new(const VariableIndex *l, Parameters *parameters, 
     j->motion = motion;
     j->follow = l->nu + l->m + l->nx + l->nz;
     j->states = l->n + l->nu + l->nx;
+    j->others = NEW_ARRAY(Expr, count);
+    j->other_count = count;
+    for (int i = 0; i < count; i++)
+        j->others[i] = others[i];
     return j;
+}
+
+int rate_jacobian_unknowns(const RateJacobian *j)
+{
+    return j->follow;
 }
 
 void rate_jacobian_free(RateJacobian *j)
@@ -54,7 +71,7 @@ void rate_jacobian_free(RateJacobian *j)
     probe_free(j->probe);
     pattern_free(&j->matrix);
     sparse_free(j->factors);
-    MEM_FREE(j->values, j->place, j->entries, j->right, j->in_use, j);
+    MEM_FREE(j->others, j->values, j->place, j->entries, j->right, j->in_use, j);
 }
 
 /* --- making --- */
@@ -77,7 +94,7 @@ static Status push_rows(const RateJacobian *j, RateJacobianRoots *roots)
     return OK;
 }
 
-/* the inputs that are e and w, one column each */
+/* the inputs that are e, w and other symbols, one column each */
 static void push_moves(const RateJacobian *j, ColumnMoves *moves)
 {
     const VariableIndex *l = j->l;
@@ -89,6 +106,12 @@ static void push_moves(const RateJacobian *j, ColumnMoves *moves)
     moves_push(moves, j->follow, l->q, l->n);
     moves_push(moves, j->follow + l->n, l->u, l->nu);
     moves_push(moves, j->follow + l->n + l->nu, l->x, l->nx);
+    for (int i = 0; i < j->other_count; i++) {
+        const int place = probe_place(j->probe, j->others[i]);
+
+        if (place >= 0)
+            moves_push(moves, j->follow + j->states + i, place, 1);
+    }
 }
 
 static void find_matrix(RateJacobian *j)
@@ -138,7 +161,7 @@ static bool make(RateJacobian *j)
     if (sound) {
         push_moves(j, &moves);
         j->jacobian = jacobian_new(residual_program(probe_residual(j->probe)), roots.count,
-                                   j->follow + j->states, moves.at, j->follow + j->states);
+                                   j->follow + j->states + j->other_count, moves.at, moves.count);
         find_matrix(j);
         open_room(j);
     }
@@ -172,7 +195,7 @@ static bool factor(RateJacobian *j)
     return sparse_factor(j->factors, j->entries);
 }
 
-/* derivative of e by an entry of the state: E_e de = -E_w */
+/* derivative of e by an entry of the state, or by another symbol after those: E_e de = -E_w */
 static void find_follow(RateJacobian *j, int state)
 {
     const VariableIndex *l = j->l;
@@ -223,11 +246,9 @@ static void write_column(RateJacobian *j, int state, double *out, int stride)
             add_column(j, k, j->right[k], out, stride);
 }
 
-bool rate_jacobian_at(void *context, double t, const double *y, double *out)
+/* Evaluate the derivatives of the rows at (t, y), and factor E_e. */
+static bool evaluate(RateJacobian *j, double t, const double *y)
 {
-    RateJacobian *j = context;
-    const VariableIndex *l = j->l;
-    const int n = variable_index_references(l) + l->multi_turns;
     Solved solved;
     RowValues row;
 
@@ -240,13 +261,42 @@ bool rate_jacobian_at(void *context, double t, const double *y, double *out)
     }
     if (!j->is_made)
         return false;
-    row = row_of_solved(l, motion_clock(j->motion, t), y, &solved);
+    row = row_of_solved(j->l, motion_clock(j->motion, t), y, &solved);
     probe_set(j->probe, &row);
     jacobian_at(j->jacobian, probe_inputs(j->probe), NULL, j->values);
-    if (!vector_is_finite(j->values, jacobian_pattern(j->jacobian)->count) || !factor(j))
+    return vector_is_finite(j->values, jacobian_pattern(j->jacobian)->count) && factor(j);
+}
+
+bool rate_jacobian_at(void *context, double t, const double *y, double *out)
+{
+    RateJacobian *j = context;
+    const int n = variable_index_references(j->l) + j->l->multi_turns;
+
+    if (!evaluate(j, t, y))
         return false;
     memset(out, 0, (size_t)(n + 1) * (size_t)n * sizeof(double));
     for (int state = 0; state < j->states; state++)
         write_column(j, state, out + state, n);
     return vector_is_finite(out, n * (n + 1));
+}
+
+bool rate_jacobian_by_others(RateJacobian *j, double t, const double *y, double *out,
+                             double *follow)
+{
+    const int n = variable_index_references(j->l) + j->l->multi_turns;
+    const int stride = n + j->other_count;
+
+    if (!evaluate(j, t, y))
+        return false;
+    memset(out, 0, (size_t)(n + 1) * (size_t)stride * sizeof(double));
+    if (follow != NULL)
+        memset(follow, 0, (size_t)j->follow * (size_t)stride * sizeof(double));
+    for (int k = 0; k < j->states + j->other_count; k++) {
+        const int column = k < j->states ? k : n + k - j->states;
+
+        write_column(j, k, out + column, stride);
+        for (int i = 0; follow != NULL && i < j->follow; i++)
+            follow[i * stride + column] = j->right[i];
+    }
+    return vector_is_finite(out, (n + 1) * stride);
 }

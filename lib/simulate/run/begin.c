@@ -154,6 +154,7 @@ Status run_reopen(const Result *old, const SimulationInput *setting, ActiveRun *
     CHECK(copy_phases(r, old, setting, diag));
     grid_append(&r->result->grid, &old->grid);
     grid_append(&r->result->corners, &old->corners);
+    crossings_append(&r->result->crossings, &old->crossings);
     for (int i = 0; i < old->jumps.count; i++)
         LIST_PUSH(r->result->jumps, old->jumps.at[i]);
     r->phase = r->phases->at[old->grid.phase[last]];

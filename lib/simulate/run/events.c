@@ -269,6 +269,11 @@ int events_condition_count(const Events *events)
     return events != NULL ? events->conditions.count : 0;
 }
 
+Expr events_difference(const Events *events, int condition)
+{
+    return events->conditions.at[condition].difference;
+}
+
 int events_time_only(const Events *events)
 {
     return events != NULL ? events->time_only : 0;

@@ -50,6 +50,7 @@ static inline int sign_of(double v)
 int events_condition_count(const Events *events);
 /* The first of them, which hold t alone; in a mode those that do so in the whole. */
 int events_time_only(const Events *events);
+Expr events_difference(const Events *events, int condition); /* that it compares with 0 */
 /* whether any other changes with t alone, while no state does */
 bool events_follow_time(const Events *events);
 /* values a - b of all conditions at (t, y); NAN where the equations have no solution */

@@ -187,6 +187,8 @@ static Status take_samples(Integration *m, double t, Diag *diag)
 
     m->stepper->t = fmax(m->stepper->t, t);
     TRY(integration_add_rows_before(m, diag));
+    if (integration_crossing(m) != NULL)
+        integration_crossing(m)->has_samples = true;
     return samples_read(m->segment.samples, t, m->stepper->y, &due, diag);
 }
 
@@ -203,9 +205,11 @@ static Status all_intervals(Integration *m, Diag *diag)
         /* jumps within rounding of each other are one */
         if (end - m->stepper->t > 1e-13 * (plan->to - plan->from)) {
             TRY(integration_go_on(m, m->stepper->t, m->stepper->y, &entered, diag));
+            integration_close_crossing(m);
             TRY(integrate_interval(m, fmin(end, plan->to), diag));
         }
         if (!last && !m->is_over) {
+            integration_open_crossing(m, CROSSING_TIME, -1, m->stepper->t, m->stepper->y);
             m->low = fmax(m->low, m->jumps.at[i].behind);
             TRY(integration_meet_time(m, m->jumps.at[i], diag));
             if (m->jumps.at[i].samples)
@@ -288,6 +292,7 @@ Status integrate(const IntegrationPlan *plan, const double *start, Grid *grid,
     m.control.span = plan->span > 0 ? plan->span : plan->to - plan->from;
     integration_open_segment(&m, &plan->segment);
     status = run(&m, start, diag);
+    integration_close_crossing(&m);
     if (status == E_STOPPED || status == E_SOLVER)
         keep_reached(&m, rows_before);
     integration_close_segment(&m);

@@ -15,6 +15,7 @@
 
 #include "base/call_monitor.h"
 #include "simulate/equations/remark.h"
+#include "simulate/run/crossings.h"
 #include "simulate/run/events.h"
 #include "simulate/run/grid.h"
 #include "simulate/run/onset.h"
@@ -113,7 +114,8 @@ typedef struct IntegrationPlan {
     bool skip_first;    /* the row at `from` exists already */
     bool is_sampled;    /* samples that are due at `from` have been taken */
     Grid *corners; /* rows where one segment ends and the next begins, two each; NULL: not stored */
-    Pace *pace;    /* real-time pacing; NULL: as fast as possible */
+    Crossings *crossings; /* appended to; NULL: not stored */
+    Pace *pace;           /* real-time pacing; NULL: as fast as possible */
     const CallMonitor *watch;
 } IntegrationPlan;
 

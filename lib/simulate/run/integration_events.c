@@ -31,6 +31,8 @@ Status integration_take_events(Integration *m, double t, int *sides, bool *chang
         TRY(events_happen(m->ev, t, span, m->y, sides, changed, &m->is_over, diag));
         if (*changed)
             TRY(add_instant(m, t, true, diag));
+        if (*changed && integration_crossing(m) != NULL)
+            integration_crossing(m)->has_new_values = true;
     }
     m->depths_at = NAN;
     for (int i = first; i < m->count; i++)

@@ -63,6 +63,7 @@ typedef struct Integration {
     double missed_at;    /* s */
     bool is_stopped;     /* by the receiver of rows */
     bool is_over;        /* an event has ended the run */
+    bool is_crossing;    /* the last crossing of the plan is open */
     bool needs_restart;  /* the last step was shortened, and its method has to start anew */
     bool after_event;    /* no step has been taken since a switch, */
     double initial_step; /* s: a step of this length may follow it; 0: not known */
@@ -98,6 +99,14 @@ MUST_USE Status integration_settle_surfaces(Integration *m, bool *entered, Diag 
  * (*entered). */
 MUST_USE Status integration_go_on(Integration *m, double t, const double *y, bool *entered,
                                   Diag *diag);
+
+/* --- crossings (integration_crossings.c) --- */
+
+/* Record (t, y) as the state before a crossing; does nothing while one is open. */
+void integration_open_crossing(Integration *m, CrossingKind kind, int condition, double t,
+                               const double *y);
+Crossing *integration_crossing(const Integration *m); /* the open one; NULL: there is none */
+void integration_close_crossing(Integration *m);      /* the stepper's state is that after it */
 
 /* --- surfaces (integration_slide.c) --- */
 

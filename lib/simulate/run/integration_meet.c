@@ -257,9 +257,11 @@ Status integration_meet_switch(Integration *m, int i, double when, bool *again, 
             m->stepper->next = fmin(m->stepper->next, WIDER * (m->stepper->t - m->stepper->before));
             return OK;
         }
+        integration_open_crossing(m, CROSSING_CONDITION, i, m->stepper->t, m->stepper->y);
         if (!on_surface && slope * m->mode[i] < 0 && value * m->mode[i] > 0)
             crossed = cross(m, i, value, slope);
     }
+    integration_open_crossing(m, CROSSING_CONDITION, i, m->stepper->t, m->stepper->y);
     integration_conditions_at(m, m->stepper->t);
     TRY(check_side(m, i, diag));
     m->band[i] = fmax(10 * fabs(m->conditions[i]), fmax(1e-10 * m->largest[i], m->noise[i]));
@@ -272,6 +274,7 @@ Status integration_meet_switch(Integration *m, int i, double when, bool *again, 
     m->root = on_surface || (guard.surface >= 0 && is_led_back(m, i, crossed)) ? i : ROOT_NONE;
     m->ahead = is_margin && slope < 0 ? (fabs(value) + m->noise[i]) / -slope : 0;
     TRY(integration_go_on(m, m->stepper->t, m->stepper->y, &entered, diag));
+    integration_close_crossing(m);
     if (on_surface && !entered) /* errors alone led over: the segment is on its side as before */
         m->mode[i] = guard.end != 0 ? 1 : guard.side;
     if (is_margin && !entered) {
@@ -339,11 +342,13 @@ Status integration_meet_event(Integration *m, int i, double when, bool *again, D
     memcpy(m->y, y, bytes);
     if (!motion_project(m->segment.motion, t, m->y))
         CHECK(solver_failure(diag, t, "the constraints can't be met"));
+    integration_open_crossing(m, CROSSING_EVENT, i, t, m->y);
     memcpy(sides, m->mode + first, (size_t)(m->count - first) * sizeof(int));
     events_settle(m->ev, t, span, m->y, i - first, sides);
     CHECK(integration_take_events(m, t, sides, &changed, diag));
     CHECK(check_pace(m, i, diag));
     CHECK(integration_go_on(m, t, m->y, &entered, diag));
+    integration_close_crossing(m);
 done:
     MEM_FREE(sides, y);
     return status;

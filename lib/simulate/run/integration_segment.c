@@ -251,6 +251,8 @@ static Status slide(Integration *m, bool *entered, bool *changed, Diag *diag)
     CHECK(
         m->plan->choose(m->plan->context, t, m->low, m->high, y, at, count, &next, &chosen, diag));
     *entered = chosen.entered;
+    if (chosen.jumps && integration_crossing(m) != NULL)
+        integration_crossing(m)->has_impact = true;
     if (chosen.jumps) {
         forget_reach(m);
         take_impact(m, t, y);

@@ -35,6 +35,7 @@ libcore_la_SOURCES += \
   lib/simulate/run/integration.c \
   lib/simulate/run/integration.h \
   lib/simulate/run/integration_chatter.c \
+  lib/simulate/run/crossings.h lib/simulate/run/integration_crossings.c \
   lib/simulate/run/integration_events.c \
   lib/simulate/run/integration_impl.h \
   lib/simulate/run/integration_jumps.c \

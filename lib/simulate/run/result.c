@@ -21,6 +21,7 @@ void result_free(Result *r)
     grid_free(&r->grid);
     grid_free(&r->corners);
     LIST_FREE(r->jumps);
+    crossings_free(&r->crossings);
     mem_free(r->driven.values);
     LIST_FREE(r->events);
     pool_free(r->pool);

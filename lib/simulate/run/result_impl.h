@@ -26,7 +26,8 @@ struct Result {
     Assembled start; /* of the whole model */
     Grid grid;       /* ends and starts of phases, two rows each */
     Grid corners;    /* times at which its equations change by time alone */
-    Jumps jumps;     /* where its equations change at times of their own */
+    Crossings crossings;
+    Jumps jumps; /* where its equations change at times of their own */
     Driven driven;
     LIST(EventRecord) events;
     Pool *pool; /* of names and times in these; NULL: none */

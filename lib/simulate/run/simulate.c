@@ -222,6 +222,7 @@ static Status go(ActiveRun *r, const SimulationInput *setting, const RunOptions 
     plan.from = from;
     plan.to = from + options.duration;
     plan.skip_first = skip_first;
+    plan.crossings = &r->result->crossings;
     if (setting->host != NULL && setting->host->row != NULL) {
         CHECK(forward_probe_seen(r, r->phase, setting->host, diag));
         plan.see = forward_show_row;
