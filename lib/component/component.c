@@ -374,6 +374,8 @@ static const Member frame_spatial[] = {
     {"q3",     "1",       "Euler parameter, frame to ground", 2},
 };
 
+enum { JOINT_LOADS_PLANAR = 6, JOINT_LOADS = 12 }; /* they come first */
+
 static const Member joint_planar[] = {
     {"fx",     "N",   "force on the tip, ground axes", 0},
     {"fy",     "N",   "force on the tip, ground axes", 0},
@@ -508,9 +510,13 @@ static const Member *family_members(const Component *row, bool planar, int *coun
     case FAMILY_CONTACT:
         *count = planar ? COUNT(contact_planar) : COUNT(contact_spatial);
         return planar ? contact_planar : contact_spatial;
+    case FAMILY_FORCE:
+        if (row->restore == NULL)
+            break;
+        *count = planar ? JOINT_LOADS_PLANAR : JOINT_LOADS;
+        return planar ? joint_planar : joint_spatial;
     case FAMILY_DRIVER:
     case FAMILY_COUPLER:
-    case FAMILY_FORCE:
         break;
     }
     *count = 0;

@@ -250,6 +250,10 @@ typedef struct ContactRing {
 
 enum { MOST_RINGS = 3 };
 
+/* --- parts that resist every motion of two frames --- */
+
+enum { MOST_RELATIVE = 6 }; /* coordinates of one frame against another */
+
 /* --- efforts: forces between two frames or on a joint, and transducers --- */
 
 typedef struct Motion1 { /* what an effort or relation may depend on; 0 where it doesn't apply */
@@ -380,6 +384,11 @@ struct Component {
      * the head against one component of their motion, whose norm is `speed`; NULL: there is but
      * that one */
     Expr (*rub)(const Instance *instance, Arena *arena, Expr rate, Expr speed);
+    /* Of a part that resists every motion of its frames: efforts on the head along `count`
+     * coordinates x of it in axes of the tail, 6 in space (position, rotation vector) and 3 in the
+     * plane, and the share of them that is lost. Returns the energy that it stores, J. */
+    Expr (*restore)(const Instance *instance, Arena *arena, int count, const Expr *x,
+                    const Expr *rate, Expr *effort, Expr *lost);
     /* of a part that sticks: the most that its dry friction is at this rate, or at rest the most
      * that it holds */
     Expr (*bound)(const Instance *instance, Arena *arena, Expr rate, bool at_rest);

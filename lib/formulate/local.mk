@@ -21,6 +21,7 @@ libcore_la_SOURCES += \
 	lib/formulate/kinematics/identity.c lib/formulate/kinematics/identity.h \
 	lib/formulate/kinematics/multi_turn.h lib/formulate/kinematics/multi_turn_build.c \
 	lib/formulate/kinematics/recursive.c lib/formulate/kinematics/recursive.h \
+	lib/formulate/kinematics/rotation_vector.c lib/formulate/kinematics/rotation_vector.h \
 	lib/formulate/kinematics/section_frames.c lib/formulate/kinematics/section_frames.h \
 	lib/formulate/network/ideal_share.c lib/formulate/network/ideal_sides.c \
 	lib/formulate/network/ideal_sides.h lib/formulate/network/law_ends.c \
@@ -32,6 +33,7 @@ libcore_la_SOURCES += \
 	lib/formulate/network/network_steps.c lib/formulate/network/network_steps.h \
 	lib/formulate/network/network_tree.c lib/formulate/network/scalar_edges.c \
 	lib/formulate/network/scalar_edges.h lib/formulate/network/uncharged_nodes.c \
+	lib/formulate/dynamics/bushings.c lib/formulate/dynamics/bushings.h \
 	lib/formulate/dynamics/composite.c lib/formulate/dynamics/composite.h \
 	lib/formulate/dynamics/composite_entries.c \
 	lib/formulate/dynamics/composite_mass.c lib/formulate/dynamics/composite_mass.h \

@@ -316,6 +316,21 @@ void sheet_link(Sheet *sheet, const Instance *link)
         draw_actuator(sheet->picture, ink, a, b);
 }
 
+/* a ring of rubber about the pin that it holds */
+void sheet_bushing(Sheet *sheet, const Instance *bushing)
+{
+    const Ink ring = {.stroke = INK_SPRING, .width = 4}, pin = {.stroke = INK_SPRING, .width = 1.4};
+    double far, near;
+    const Point tail = sheet_node(sheet, bushing->tail, &far),
+                head = sheet_node(sheet, bushing->head, &near);
+
+    picture_of(sheet->picture, bushing->row->name, bushing->name);
+    sheet->picture->depth = (far + near) / 2;
+    picture_circle(sheet->picture, ring, tail, JOINT_SIZE + 5);
+    picture_line(sheet->picture, pin, (Point[]){tail, head}, 2);
+    picture_circle(sheet->picture, pin, head, JOINT_SIZE);
+}
+
 /* --- wheels and balls --- */
 
 /* a rim, and a spoke that shows how it turns */

@@ -183,6 +183,8 @@ static void draw_parts(Sheet *sheet)
         else if (instance->row->places == PLACES_LINK || instance->row->places == PLACES_JOINT ||
                  instance->row->places == PLACES_JOINTS)
             sheet_link(sheet, instance);
+        else if (instance->row->restore != NULL)
+            sheet_bushing(sheet, instance);
     }
     for (int i = 0; i < sheet->mechanism->rims.count; i++)
         sheet_rim(sheet, &sheet->mechanism->rims.at[i]);

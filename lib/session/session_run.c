@@ -93,7 +93,7 @@ typedef Status RunFunction(System *system, const SimulationInput *setting,
                            const RunOptions *options, Result **out, ResultReader **reader,
                            Diag *diag);
 
-/* three-angle sequences that came near their critical angle, by joint and angle */
+/* turns that came near a critical angle, by part and angle */
 static void remark_critical(ct_session *session, ResultReader *reader)
 {
     const Result *result = result_reader_result(reader);
@@ -116,7 +116,7 @@ static void remark_critical(ct_session *session, ResultReader *reader)
         text_addf(
             &line, "the turns of %s are singular at %s = %s, which it came near at t = %.6g s",
             critical.instance, critical.coordinate, critical.angles, result_times(result)[worst]);
-        text_add(&line, "; another sequence or Euler parameters avoid it");
+        text_addf(&line, "; %s", critical.remedy);
         session_remark(session, line.at);
         text_free(&line);
     }

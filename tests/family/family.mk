@@ -320,6 +320,11 @@ family_norm_bounds_SOURCES = tests/family/family_norm_bounds.c tests/family/fami
 	tests/random.h
 family_norm_bounds_LDADD = $(unit_ldadd)
 
+FAMILIES += family_bushings
+family_bushings_SOURCES = tests/family/family_bushings.c tests/family/family.h \
+	tests/family/free_bodies.h tests/family/vectors.h tests/random.h tests/unit/session_kit.h \
+	tests/unit/test.h
+family_bushings_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_friction
 family_friction_SOURCES = tests/family/family_friction.c tests/family/family.h tests/family/units.h \
 	tests/random.h tests/unit/session_kit.h tests/unit/test.h
@@ -330,7 +335,7 @@ family_friction_limits_SOURCES = tests/family/family_friction_limits.c tests/fam
 family_friction_limits_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_rolling
 family_rolling_SOURCES = tests/family/family_rolling.c tests/family/family.h tests/unit/session_kit.h \
-	tests/random.h
+	tests/family/vectors.h tests/random.h
 family_rolling_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_rubbing
 family_rubbing_SOURCES = tests/family/family_rubbing.c tests/family/family.h \

@@ -78,6 +78,9 @@ test_friction_by_load_SOURCES = tests/unit/test_friction_by_load.c tests/unit/se
 	tests/unit/test.h
 test_friction_by_load_LDADD = $(unit_ldadd)
 
+UNIT_TESTS += test_bushing
+test_bushing_SOURCES = tests/unit/test_bushing.c tests/unit/session_kit.h tests/unit/test.h
+test_bushing_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_rolling
 test_rolling_SOURCES = tests/unit/test_rolling.c tests/unit/session_kit.h tests/unit/test.h
 test_rolling_LDADD = $(unit_ldadd)

@@ -3,6 +3,7 @@
  * Along a line from tail to head, with d = r_head - r_tail (m, 3 x 1): displacement s = |d|,
  * direction n = d/s, rate s' = n.(v_head - v_tail). */
 #include "formulate/dynamics/efforts.h"
+#include "formulate/dynamics/bushings.h"
 #include "formulate/dynamics/laws.h"
 #include "formulate/dynamics/loads.h"
 #include "formulate/dynamics/rubbing.h"
@@ -145,6 +146,7 @@ static bool find_push(System *system, const Instance *instance, Pusher *out)
     Vec force, torque;
     Effort effort;
     FrictionLoad rubbing;
+    BushingLoad bushing;
     int chain;
 
     *out = (Pusher){.name = instance->name};
@@ -157,6 +159,10 @@ static bool find_push(System *system, const Instance *instance, Pusher *out)
                rubbing_of(system, instance, TAKE_ALL, &rubbing, NULL) == OK) {
         out->count = rubbing.count;
         memcpy(out->value, rubbing.effort, sizeof rubbing.effort);
+    } else if (instance->row->restore != NULL &&
+               bushing_of(system, instance, &bushing, NULL) == OK) {
+        out->count = bushing.count;
+        memcpy(out->value, bushing.effort, sizeof bushing.effort);
     } else if (instance->row->effort != NULL && effort_of(system, instance, &effort, NULL) == OK) {
         out->count = 1;
         out->value[0] = effort.value;
@@ -237,6 +243,8 @@ Status effort_add(System *system, const Instance *instance, Loads *loads, int ta
     }
     if (instance->row->rub != NULL)
         return rubbing_add(system, instance, loads, take, diag);
+    if (instance->row->restore != NULL)
+        return take < 0 ? bushing_add(system, instance, loads, diag) : OK;
     if (instance->row->effort == NULL || (instance->joint >= 0 && take != TAKE_ALL))
         return OK;
     TRY(effort_of(system, instance, &effort, diag));

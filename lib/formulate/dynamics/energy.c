@@ -3,6 +3,7 @@
  * For masses: T = sum (m v.v + w.I w)/2 and V = -sum m g.r (J), with the velocity v of the mass
  * centre, its position r, and gravity g. Rotors, flexible parts and elements that store energy add
  * their own terms. The power P (W) of sources minus losses satisfies d/dt(T + V) = P. */
+#include "formulate/dynamics/bushings.h"
 #include "formulate/dynamics/efforts.h"
 #include "formulate/dynamics/laws.h"
 #include "formulate/dynamics/rubbing.h"
@@ -172,12 +173,15 @@ Expr system_potential(System *system)
         LIST_PUSH(terms, system->dynamics->elastics.at[i].block.stored);
     for (int i = 0; i < system->origin->instance_count; i++) {
         const Instance *instance = &system->origin->instances[i];
+        BushingLoad bushing;
         Effort effort;
         Expr stored;
 
         if (instance->row->potential != NULL && effort_of(system, instance, &effort, NULL) == OK &&
             stored_in(system, &effort, effort.displacement, &stored))
             LIST_PUSH(terms, stored);
+        if (instance->row->restore != NULL && bushing_of(system, instance, &bushing, NULL) == OK)
+            LIST_PUSH(terms, bushing.stored);
     }
     push_stored(system, &terms, false);
     sum = expr_sum(arena, terms.at, terms.count);
@@ -316,6 +320,7 @@ Expr system_power(System *system)
         const Instance *instance = &system->origin->instances[i];
         Effort effort;
         FrictionLoad rubbing;
+        BushingLoad bushing;
 
         if (instance->row->wrench != NULL)
             push_wrench(system, &terms, instance);
@@ -324,6 +329,8 @@ Expr system_power(System *system)
         if (instance->row->rub != NULL &&
             rubbing_of(system, instance, TAKE_ALL, &rubbing, NULL) == OK)
             LIST_PUSH(terms, rubbing.power);
+        if (instance->row->restore != NULL && bushing_of(system, instance, &bushing, NULL) == OK)
+            LIST_PUSH(terms, bushing.power);
     }
     for (int i = 0; i < system->dynamics->elastics.count; i++)
         push_elastic(system, &system->dynamics->elastics.at[i], &terms);

@@ -30,6 +30,7 @@ typedef struct Term {
     int sign;
     int instance; /* of all other kinds */
     Expr value;
+    bool is_long; /* the value is not multiplied out, nor are like terms collected in it */
 } Term;
 typedef LIST(Term) Terms;
 

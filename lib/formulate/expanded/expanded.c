@@ -4,6 +4,7 @@
  * dot products of those (theory 4), then trigonometric folding and collecting of common
  * factors. v_j and w_j are the velocity and angular velocity of a body per unit of u_j. */
 #include "formulate/expanded/expanded.h"
+#include "formulate/dynamics/bushings.h"
 #include "formulate/dynamics/efforts.h"
 #include "formulate/dynamics/laws.h"
 #include "formulate/dynamics/rubbing.h"
@@ -141,6 +142,27 @@ static Status push_rubbing(System *system, const Instance *instance, int j, int 
                   expr_mul(arena, rubbing.effort[k],
                            expr_diff(arena, expr_open(arena, rubbing.rate[k]),
                                      system->kinematics->u.at[j].symbol)));
+    return OK;
+}
+
+/* likewise of a bushing's force and moment */
+static Status push_bushing(System *system, const Instance *instance, int j, Terms *terms,
+                           Diag *diag)
+{
+    Arena *arena = system->arena;
+    const Expr speed = system->kinematics->u.at[j].symbol;
+    Expr term[MOST_RELATIVE];
+    BushingLoad b;
+
+    TRY(bushing_of(system, instance, &b, diag));
+    for (int i = 0; i < 3; i++) {
+        term[i] = expr_mul(arena, b.force.at[i],
+                           expr_diff(arena, expr_open(arena, b.motion.at[i]), speed));
+        term[3 + i] = expr_mul(arena, b.torque.at[i],
+                               expr_diff(arena, expr_open(arena, b.turning.at[i]), speed));
+    }
+    push_term(terms, TERM_EFFORT, instance->number, expr_sum(arena, term, MOST_RELATIVE));
+    terms->at[terms->count - 1].is_long = !system->origin->planar; /* of a rotation vector */
     return OK;
 }
 
@@ -311,6 +333,8 @@ static Status push_forces(System *system, int j, bool apart, Terms *terms, Diag 
             TRY(push_effort(system, instance, j, TAKE_AT_REST, terms, diag));
         if (instance->row->rub != NULL)
             TRY(push_rubbing(system, instance, j, TAKE_AT_REST, terms, diag));
+        if (instance->row->restore != NULL)
+            TRY(push_bushing(system, instance, j, terms, diag));
         TRY(push_rotor(system, instance, j, terms, diag));
     }
     for (int i = 0; i < system->dynamics->elastics.count; i++)
@@ -343,16 +367,21 @@ static Status forces_together(System *system, int j, int column, Terms *terms, D
 static Status show_sum(System *system, TermsFunction *terms_of, int row, int column, Expr *out,
                        Diag *diag)
 {
-    LIST(Expr) values = {0};
+    Summands values = {0}, rest = {0};
     Terms terms = {0};
     Status status = OK;
 
     CHECK(terms_of(system, row, column, &terms, diag));
     for (int i = 0; i < terms.count; i++)
-        LIST_PUSH(values, terms.at[i].value);
-    *out = expanded_tidy(system, expr_sum(system->arena, values.at, values.count));
+        if (terms.at[i].is_long)
+            LIST_PUSH(rest, expr_open(system->arena, terms.at[i].value));
+        else
+            LIST_PUSH(values, terms.at[i].value);
+    LIST_PUSH(rest, expanded_tidy(system, expr_sum(system->arena, values.at, values.count)));
+    *out = expr_sum(system->arena, rest.at, rest.count);
 done:
     LIST_FREE(values);
+    LIST_FREE(rest);
     LIST_FREE(terms);
     return status;
 }

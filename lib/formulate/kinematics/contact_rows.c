@@ -45,17 +45,17 @@ static Vec in_frame(const System *system, int node, Vec v)
     return rotation_apply(system->arena, &back, vec_express(system, v, 0, frame->chain));
 }
 
-void contact_of(System *system, const Instance *part, Contact *out)
+void frames_apart(System *system, const Instance *part, FramesApart *out)
 {
     Arena *arena = system->arena;
     const int tail = system->kinematics->frames[part->tail].chain;
     const int head = system->kinematics->frames[part->head].chain;
     const Rotation back = rotation_transpose(&system->kinematics->frames[part->tail].zero);
-    FramesApart apart = {0};
-    Vec way =
+    const Vec way =
         vec_hold(arena, in_frame(system, part->tail, node_way(system, part->tail, part->head)));
 
-    memcpy(apart.way, way.at, sizeof way.at);
+    *out = (FramesApart){0};
+    memcpy(out->way, way.at, sizeof way.at);
     for (int i = 0; i < 3; i++) {
         Vec axis = vec_zero(arena);
 
@@ -63,11 +63,18 @@ void contact_of(System *system, const Instance *part, Contact *out)
         axis = vec_express(system, frame_vector(system, part->head, axis), head, tail);
         axis = vec_hold(arena, rotation_apply(arena, &back, axis));
         for (int k = 0; k < 3; k++)
-            apart.turn[3 * k + i] = axis.at[k];
+            out->turn[3 * k + i] = axis.at[k];
     }
     if (system->origin->planar)
-        apart.angle = angle_between(system, part);
-    part->row->contact(part, arena, system->origin->planar, &apart, out);
+        out->angle = angle_between(system, part);
+}
+
+void contact_of(System *system, const Instance *part, Contact *out)
+{
+    FramesApart apart;
+
+    frames_apart(system, part, &apart);
+    part->row->contact(part, system->arena, system->origin->planar, &apart, out);
 }
 
 /* The velocity of the head's point against the tail's, all in ground axes. It begins with the rate
@@ -84,6 +91,19 @@ static Status slip_of(System *system, const Instance *part, Vec point, Vec *out,
     for (int i = 0; i < 3; i++)
         TRY(system_rate_of(system, way.at[i], &v.at[i], diag));
     *out = vec_hold(arena, vec_add(arena, v, vec_sub(arena, of_head, of_tail)));
+    return OK;
+}
+
+Status frames_rate(System *system, const Instance *part, Vec *rate, Vec *turn_rate, Diag *diag)
+{
+    Arena *arena = system->arena;
+    Vec v;
+
+    TRY(slip_of(system, part, vec_zero(arena), &v, diag));
+    *rate = vec_hold(arena, in_frame(system, part->tail, v));
+    v = vec_sub(arena, node_turn_rate(system, part->head, 0),
+                node_turn_rate(system, part->tail, 0));
+    *turn_rate = vec_hold(arena, in_frame(system, part->tail, v));
     return OK;
 }
 

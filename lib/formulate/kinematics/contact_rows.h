@@ -4,6 +4,12 @@
 
 #include "formulate/system/constraints.h"
 
+/* how far the head of a part between two frames is from its tail */
+void frames_apart(System *system, const Instance *part, FramesApart *out);
+/* The rate of FramesApart.way, and the angular velocity of the head against the tail, in axes of
+ * the tail's frame. Fails as system_rate_of(). */
+MUST_USE Status frames_rate(System *system, const Instance *part, Vec *rate, Vec *turn_rate,
+                            Diag *diag);
 /* The part's rows and its point of contact, over q, in axes of the tail's frame. */
 void contact_of(System *system, const Instance *part, Contact *out);
 /* Adds the part's rows: phi, rate, n and point of each. E_MODEL: its frames are fixed to each

@@ -428,17 +428,20 @@ MUST_USE Status system_sided(System *whole, SceneSource source, const CallMonito
 MUST_USE Status system_mode(System *whole, SceneSource source, const bool *closed,
                             const CallMonitor *watch, System **out, Diag *diag);
 
-/* --- three-angle sequences, which are singular where their first and last axis are parallel --- */
+/* --- turns that are singular: three angles where their first and last axis are parallel, and
+ * rotation vectors at half a turn --- */
 
 typedef struct Critical {
     const char *instance;   /* the instance with these turns; borrowed */
-    const char *coordinate; /* coordinate of the middle turn */
+    const char *coordinate; /* of three angles that of the middle turn */
     const char *angles;     /* critical angles, in words */
-    Expr measure;           /* 0 there, between -1 and 1 */
+    const char *effect;     /* what happens there, and what avoids it */
+    const char *remedy;
+    Expr measure; /* 0 there, between -1 and 1 */
 } Critical;
 #define CRITICAL_NEAR 0.02 /* the sine of about a degree: within it a message is given */
 /* the i-th of the system, 0, 1 ...; false after the last */
-bool system_critical(const System *system, int i, Critical *out);
+bool system_critical(System *system, int i, Critical *out);
 
 /* --- limits of the laws of storage elements --- */
 

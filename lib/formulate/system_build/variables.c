@@ -3,6 +3,7 @@
  * A name is a coordinate, an entry (lambda(1), mass(2,2)), an output, or a member of a part: the
  * tables below list the members of each family and the function that returns them. */
 #include "component/equation_block.h"
+#include "formulate/dynamics/bushings.h"
 #include "formulate/dynamics/edge_power.h"
 #include "formulate/dynamics/efforts.h"
 #include "formulate/dynamics/laws.h"
@@ -679,6 +680,8 @@ static Status member_variable(System *system, const char *path, Expr *out, Diag 
     case FAMILY_FORCE:
         if (instance->row->rub != NULL && strcmp(member, "effort") == 0)
             return rubbing_variable(system, instance, out, diag);
+        if (instance->row->restore != NULL)
+            return bushing_variable(system, instance, member, out, diag);
         if (instance->row->effort != NULL)
             return effort_variable(system, instance, member, out, diag);
         break;

@@ -199,14 +199,10 @@ static Status check_angles(const Assembly *a, Diag *diag)
         status = probe_at(a->l, a->parameters, critical.measure, &row, &measure, diag);
         if (status == OK && fabs(measure) < CRITICAL_ANGLES) {
             status =
-                diag_set(diag, E_ASSEMBLE,
-                         "%s starts at a critical angle: three angles have no rates where %s is "
-                         "%s",
-                         critical.instance, critical.coordinate, critical.angles);
-            diag_hint(diag,
-                      "give %s another value by init or guess, choose other angles, or leave "
-                      "euler= out",
-                      critical.coordinate);
+                diag_set(diag, E_ASSEMBLE, "%s starts at a critical angle: %s where %s is %s",
+                         critical.instance, critical.effect, critical.coordinate, critical.angles);
+            diag_hint(diag, "give %s another value by init or guess; %s", critical.coordinate,
+                      critical.remedy);
         }
     }
     return status;

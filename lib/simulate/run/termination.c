@@ -185,7 +185,7 @@ static bool report_leading(RunEnd *e, const Ode *ode, Diag *diag)
     return true;
 }
 
-/* Three angles of one attitude lose a freedom here: their rates are unbounded. */
+/* Turns are singular here, and their rates or moments unbounded. */
 static bool report_critical(RunEnd *e, Diag *diag)
 {
     const VariableIndex *l = e->phase->layout;
@@ -201,10 +201,8 @@ static bool report_critical(RunEnd *e, Diag *diag)
             !(fabs(measure) < CRITICAL_NEAR))
             continue;
         add_cause(diag, ": ", critical.instance, "turns through a critical angle there");
-        diag_hint(diag,
-                  "three angles have no rates where %s is %s: leave euler= out, or choose another "
-                  "sequence",
-                  critical.coordinate, critical.angles);
+        diag_hint(diag, "%s where %s is %s: %s", critical.effect, critical.coordinate,
+                  critical.angles, critical.remedy);
         return true;
     }
     return false;
