@@ -43,6 +43,7 @@ libcore_la_SOURCES += \
 	lib/formulate/dynamics/laws.c lib/formulate/dynamics/laws.h \
 	lib/formulate/dynamics/loads.c lib/formulate/dynamics/loads.h lib/formulate/dynamics/reactions.c \
 	lib/formulate/dynamics/reactions.h lib/formulate/dynamics/redundancy.c \
+	lib/formulate/dynamics/rests.c lib/formulate/dynamics/rests.h \
 	lib/formulate/dynamics/sections.c lib/formulate/dynamics/sections.h \
 	lib/formulate/dynamics/shapes.c lib/formulate/dynamics/shapes.h \
 	lib/formulate/expanded/block_entry.c lib/formulate/expanded/block_entry.h \

@@ -130,6 +130,9 @@ MUST_USE Status session_system_of(ct_session *session, NetworkForm form, bool ha
                                   System **out, Diag *diag);
 /* the same to be run: of a large model numbers of parts are parameters there */
 MUST_USE Status session_running(ct_session *session, System **out, Diag *diag);
+/* the same, in which the guards of such events may be held (SystemOptions.rests) */
+MUST_USE Status session_resting(ct_session *session, const Expr *rests, int rest_count,
+                                System **out, Diag *diag);
 /* The equations to show: those of the present trees, even if runs use a network in state form. */
 MUST_USE Status session_shown(ct_session *session, System **out, Diag *diag);
 /* the equations that something needs which is to be shown */

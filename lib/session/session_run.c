@@ -141,12 +141,50 @@ static void keep_run(ct_session *session, RunInput *input, Result *result, Resul
     text_free(&line);
 }
 
+typedef LIST(Expr) Rests;
+
+static bool has_rest(const Rests *rests, Expr when)
+{
+    for (int i = 0; i < rests->count; i++)
+        if (rests->at[i] == when)
+            return true;
+    return false;
+}
+
+/* Adds the conditions of events that happened ever faster, for another run to hold their guards.
+ * False: there are no further ones. */
+static bool add_rests(const Model *model, const Result *result, Rests *rests)
+{
+    const int before = rests->count;
+
+    for (int e = 0; result != NULL && e < result_event_count(result); e++) {
+        const EventRecord record = result_event(result, e);
+
+        for (int i = 0; i < model_event_count(model) && record.accumulates; i++) {
+            const Event *event = model_event(model, i);
+
+            if (strcmp(event->name, record.name) == 0 &&
+                strcmp(event->condition, record.condition) == 0 && !has_rest(rests, event->when))
+                LIST_PUSH(*rests, event->when);
+        }
+    }
+    return rests->count > before;
+}
+
+/* A run whose events happened ever faster is taken again from its start, with equations that hold
+ * their guards. Not where it has been seen by others. */
+static bool takes_again(const RunOptions *options, const Host *host, Status status)
+{
+    return status == E_SOLVER && host == NULL && !options->realtime;
+}
+
 static Status run_new(ct_session *session, const RunOptions *options, RunFunction *function,
                       const Host *host, Diag *diag)
 {
     RunInput input = {0};
     Result *result = NULL;
     ResultReader *reader = NULL;
+    Rests rests = {0};
     System *system;
     Status status;
 
@@ -156,13 +194,21 @@ static Status run_new(ct_session *session, const RunOptions *options, RunFunctio
         diag_hint(diag, "body m1 mass=1 and capacitor C1 a 0 1 are parts; 'help' lists them all");
         return E_MODEL;
     }
-    CHECK(session_running(session, &system, diag));
-    run_input_make(session, system, &input);
-    run_input_host(&input, host, NULL);
-    CHECK(session_check_freedoms(session, system, &input.setting, diag));
-    if (function == run_simulate)
-        watch_bounds(system, NULL, &input);
-    status = function(system, &input.setting, options, &result, &reader, diag);
+    do {
+        result_reader_free(reader);
+        result_free(result);
+        run_input_free(&input);
+        input = (RunInput){0};
+        result = NULL;
+        reader = NULL;
+        CHECK(session_resting(session, rests.at, rests.count, &system, diag));
+        run_input_make(session, system, &input);
+        run_input_host(&input, host, NULL);
+        CHECK(session_check_freedoms(session, system, &input.setting, diag));
+        if (function == run_simulate)
+            watch_bounds(system, NULL, &input);
+        status = function(system, &input.setting, options, &result, &reader, diag);
+    } while (takes_again(options, host, status) && add_rests(session->model, result, &rests));
     if (result == NULL)
         goto done;
     status = check_bounds(&input, reader, status, diag);
@@ -170,6 +216,7 @@ static Status run_new(ct_session *session, const RunOptions *options, RunFunctio
     keep_run(session, &input, result, reader);
 done:
     run_input_free(&input);
+    LIST_FREE(rests);
     return status;
 }
 

@@ -88,7 +88,7 @@ void session_free_unused(ct_session *session)
 
     mem_keep(session->systems.at);
     for (int i = 0; i < session->systems.count; i++)
-        if (!system_serves(session->systems.at[i], false)) {
+        if (!system_serves(session->systems.at[i], &(SystemOptions){0})) {
             before = last;
             last = session->systems.at[i];
         }
@@ -113,8 +113,7 @@ static System *find_system(const ct_session *session, const SystemOptions *optio
     for (int i = session->systems.count - 1; i >= 0; i--) {
         System *system = session->systems.at[i];
 
-        if (system_network_form(system) == options->form &&
-            system_serves(system, options->has_lifted) &&
+        if (system_network_form(system) == options->form && system_serves(system, options) &&
             (scene == NULL || system_follows(system, scene)) && is_current(session, system))
             return system;
     }
@@ -134,26 +133,24 @@ static void put_last(ct_session *session, System *system)
     session->systems.at[count - 1] = system;
 }
 
-Status session_system_of(ct_session *session, NetworkForm form, bool has_lifted, System **out,
-                         Diag *diag)
+static Status find_or_make(ct_session *session, const SystemOptions *options, System **out,
+                           Diag *diag)
 {
-    const SystemOptions options = {
-        .form = form, .has_lifted = has_lifted, .watch = &session->watch};
     System *system = NULL;
     Scene scene = {0};
     Status status = OK;
 
-    *out = find_system(session, &options, NULL);
+    *out = find_system(session, options, NULL);
     if (*out != NULL)
         return OK;
     CHECK(model_scene(session->model, &scene, diag));
-    *out = find_system(session, &options, &scene);
+    *out = find_system(session, options, &scene);
     if (*out != NULL) {
         put_last(session, *out);
         goto done;
     }
     monitor_report(&session->watch, "equations", -1);
-    CHECK(system_new_view(&scene, &options, &system, diag));
+    CHECK(system_new_view(&scene, options, &system, diag));
     system_set_watch(system, &session->watch);
     LIST_PUSH(session->systems, system);
     session_free_unused(session);
@@ -163,6 +160,15 @@ done:
     return status;
 }
 
+Status session_system_of(ct_session *session, NetworkForm form, bool has_lifted, System **out,
+                         Diag *diag)
+{
+    const SystemOptions options = {
+        .form = form, .has_lifted = has_lifted, .watch = &session->watch};
+
+    return find_or_make(session, &options, out, diag);
+}
+
 Status session_system(ct_session *session, System **out, Diag *diag)
 {
     return session_system_of(session,
@@ -170,11 +176,22 @@ Status session_system(ct_session *session, System **out, Diag *diag)
                              false, out, diag);
 }
 
+Status session_resting(ct_session *session, const Expr *rests, int rest_count, System **out,
+                       Diag *diag)
+{
+    const SystemOptions options = {
+        .form = (NetworkForm)model_setting_value(session->model, SETTING_NETWORK),
+        .has_lifted = true,
+        .rests = rests,
+        .rest_count = rest_count,
+        .watch = &session->watch};
+
+    return find_or_make(session, &options, out, diag);
+}
+
 Status session_running(ct_session *session, System **out, Diag *diag)
 {
-    return session_system_of(session,
-                             (NetworkForm)model_setting_value(session->model, SETTING_NETWORK),
-                             true, out, diag);
+    return session_resting(session, NULL, 0, out, diag);
 }
 
 Status session_shown(ct_session *session, System **out, Diag *diag)

@@ -45,6 +45,9 @@ UNIT_TESTS += test_state
 test_state_SOURCES = tests/unit/test_state.c tests/unit/session_kit.h tests/unit/test.h \
 	tests/random.h
 test_state_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_event_rests
+test_event_rests_SOURCES = tests/unit/test_event_rests.c tests/unit/session_kit.h tests/unit/test.h
+test_event_rests_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_events
 test_events_SOURCES = tests/unit/test_events.c tests/unit/session_kit.h tests/unit/test.h
 test_events_LDADD = $(unit_ldadd)

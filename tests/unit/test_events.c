@@ -472,24 +472,21 @@ static void energy_that_events_take_is_no_drift(void)
 
 /* --- without end --- */
 
-static void bounces_that_pile_up_end_with_a_message(void)
+/* capacitors that fall and bounce as a ball does: no equations hold such a state */
+static void states_that_pile_up_end_with_a_message(void)
 {
-    static const char *const methods[] = {"auto", "dop853", "radau", "bdf", "adams", "ida", "rk4"};
+    Kit kit = kit_new();
 
-    for (size_t i = 0; i < sizeof methods / sizeof methods[0]; i++) {
-        Kit kit = kit_new();
-        char line[100];
-
-        (void)snprintf(line, sizeof line, "simulate 10 every=0.01 method=%s", methods[i]);
-        EXPECT_DONE(&kit, BALL BOUNCE);
-        EXPECT(kit_do(&kit, line) == CT_FAILED);
-        EXPECT_HOLDS(kit.error.message, "event hit happens without end: s1 < 0 became true");
-        EXPECT(kit.error.hint[0] != '\0');
-        /* what was computed is kept: up to 9 times the first fall */
-        EXPECT_NEAR(kit_value(&kit, "t"), 9 * sqrt(2 / 9.81), 0.01);
-        EXPECT(kit_value(&kit, "min(s1)") > -1e-6);
-        kit_free(&kit);
-    }
+    EXPECT_DONE(&kit, "capacitor C2 b 0 1\nisource J2 0 b -9.81\n"
+                      "capacitor C1 a 0 1\nisource J1 0 a C2.v\ninit C1.v = 1, C2.v = 0\n"
+                      "event hit when=C1.v < 0 C2.v=-0.8*C2.v");
+    EXPECT(kit_do(&kit, "simulate 10 every=0.01") == CT_FAILED);
+    EXPECT_HOLDS(kit.error.message, "event hit happens without end: C1.v < 0 became true");
+    EXPECT(kit.error.hint[0] != '\0');
+    /* what was computed is kept: up to 9 times the first fall */
+    EXPECT_NEAR(kit_value(&kit, "t"), 9 * sqrt(2 / 9.81), 0.01);
+    EXPECT(kit_value(&kit, "min(C1.v)") > -1e-6);
+    kit_free(&kit);
 }
 
 static void events_that_set_each_other_off_end_with_a_message(void)
@@ -731,7 +728,7 @@ int main(void)
     RUN(a_floating_chain_turns_with_the_body_that_is_named);
     RUN(a_spinning_body_is_stopped);
     RUN(energy_that_events_take_is_no_drift);
-    RUN(bounces_that_pile_up_end_with_a_message);
+    RUN(states_that_pile_up_end_with_a_message);
     RUN(events_that_set_each_other_off_end_with_a_message);
     RUN(new_values_against_the_constraints_end_with_a_message);
     RUN(driven_runs_mark_and_stop);

@@ -12,6 +12,7 @@
 #include "formulate/dynamics/efforts.h"
 #include "formulate/dynamics/laws.h"
 #include "formulate/dynamics/loads.h"
+#include "formulate/dynamics/rests.h"
 #include "formulate/dynamics/shapes.h"
 #include "formulate/kinematics/coordinate.h"
 #include "formulate/kinematics/frames.h"
@@ -561,6 +562,13 @@ static Status joint_efforts(System *system, Diag *diag)
         TRY(drive_coordinate(system, i, &s, diag));
         if (s != NULL)
             add_on_coordinate(system, s, system->constraints->drives.at[i].effort);
+    }
+    for (int i = 0; i < system->origin->rest_count; i++) {
+        Expr guard, effort;
+
+        TRY(rest_effort(system, i, &guard, &effort, diag));
+        if (guard != NULL)
+            add_on_coordinate(system, guard, effort);
     }
     if (system->dynamics->has_inertial_laws && system->run.mass == NULL)
         TRY(mass_matrix(system));

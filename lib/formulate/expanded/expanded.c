@@ -7,6 +7,7 @@
 #include "formulate/dynamics/bushings.h"
 #include "formulate/dynamics/efforts.h"
 #include "formulate/dynamics/laws.h"
+#include "formulate/dynamics/rests.h"
 #include "formulate/dynamics/rubbing.h"
 #include "formulate/dynamics/shapes.h"
 #include "formulate/expanded/derivation.h"
@@ -347,6 +348,14 @@ static Status push_forces(System *system, int j, bool apart, Terms *terms, Diag 
             push_term(terms, TERM_DRIVE, system->constraints->drives.at[i].instance,
                       expr_mul(system->arena, system->constraints->drives.at[i].effort,
                                speed_partial(system, s, j)));
+    }
+    for (int i = 0; i < system->origin->rest_count; i++) {
+        Expr guard, effort;
+
+        TRY(rest_effort(system, i, &guard, &effort, diag));
+        if (guard != NULL)
+            push_term(terms, TERM_EFFORT, -1,
+                      expr_mul(system->arena, effort, speed_partial(system, guard, j)));
     }
     return OK;
 }

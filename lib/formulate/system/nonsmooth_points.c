@@ -74,6 +74,11 @@ Expr surface_part(Expr call)
     return expr_op(call) == OP_DIRECTION ? expr_arg(call, 0) : NULL;
 }
 
+bool surface_rests(Expr ratio)
+{
+    return ratio != NULL && expr_is_number(ratio) && expr_value(ratio) < 0;
+}
+
 bool surface_is_unilateral(Expr call)
 {
     return expr_op(call) == OP_UNILATERAL;

@@ -38,6 +38,8 @@ typedef struct Origin {
     int output_count;
     Instanced *uses;
     int use_count;
+    Expr *rests; /* as in SystemOptions */
+    int rest_count;
     /* as at the time of the build: the user's, then lifted constants */
     LIST(GivenParameter) parameters;
     int lifted_count; /* the last ones */

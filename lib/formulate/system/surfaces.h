@@ -42,6 +42,8 @@ bool surface_is_same(Expr surface, Expr condition, int *way);
 /* r of a call that jumps; NULL: 1; of unilateral() its coefficient of restitution */
 Expr surface_ratio(Expr call);
 bool surface_is_unilateral(Expr call);
+/* whether a coefficient of restitution is the one of a surface whose impacts an event has */
+bool surface_rests(Expr ratio);
 /* the component of a vector that direction() has; NULL: it is another call */
 Expr surface_part(Expr call);
 /* h of a call that jumps, as surface_of(); of unilateral() with its own sign: *way is 1. NULL: it

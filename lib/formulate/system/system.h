@@ -30,8 +30,11 @@ typedef struct SystemOptions {
     /* S, in parallel to every scalar edge whose through variable is an expression of its across
      * variable: a start for the search of its state; NULL: none */
     Expr gmin;
-    const System *like; /* in the same mode as this system; NULL: in none */
-    bool has_lifted;    /* numbers of parts may be parameters in it (lifted_constants.h) */
+    const System *like; /* in the same mode as this system, with its rests; NULL: in none */
+    /* conditions of events whose guards may be held at 0 (system_rest_guard()) */
+    const Expr *rests;
+    int rest_count;
+    bool has_lifted; /* numbers of parts may be parameters in it (lifted_constants.h) */
     const CallMonitor *watch;
 } SystemOptions;
 
@@ -55,8 +58,8 @@ void system_free(const System *system); /* NULL is fine */
  * numbers that are parameters of the equations. If so the view takes the scene's revision. What was
  * formed remains valid. */
 bool system_follows(System *view, const Scene *scene);
-/* whether it can be used where a System with that option is needed */
-bool system_serves(const System *system, bool has_lifted);
+/* whether it can be used where a System with these lifted constants and rests is needed */
+bool system_serves(const System *system, const SystemOptions *options);
 Expr system_lifted_constant(const System *system, int i); /* such a parameter; NULL at the end */
 uint64_t system_revision(const System *system);
 /* Whether it is valid for the current scene: it has this revision, and rows that vanished when the
@@ -361,6 +364,11 @@ typedef struct SystemSurface {
     Expr part[3];
 } SystemSurface;
 bool system_surface(System *system, int i, SystemSurface *out); /* false at the end */
+/* h of an event's condition h > 0, on positions and t, of a resolved condition: alone, or with
+ * other comparisons that are true too. NULL: it has none, or several. */
+Expr system_rest_guard(const System *system, Expr when);
+/* the surface on which that is held (SystemOptions.rests); -1: none */
+int system_rest_surface(System *system, Expr guard);
 /* The surfaces on which a part (instance_sticks()) may rest, one or, of two limits, two: their
  * number. O(its law). */
 int system_surfaces_of_part(System *system, const char *part, int *out, int room);

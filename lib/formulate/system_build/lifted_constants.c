@@ -313,11 +313,17 @@ bool system_follows(System *view, const Scene *scene)
     return true;
 }
 
-bool system_serves(const System *system, bool has_lifted)
+bool system_serves(const System *system, const SystemOptions *options)
 {
     const Origin *origin = system->origin;
 
-    return has_lifted ? origin->wants_lifted || origin->is_small : origin->lifted_count == 0;
+    if (origin->rest_count != options->rest_count)
+        return false;
+    for (int i = 0; i < origin->rest_count; i++)
+        if (origin->rests[i] != options->rests[i])
+            return false;
+    return options->has_lifted ? origin->wants_lifted || origin->is_small
+                               : origin->lifted_count == 0;
 }
 
 Expr system_lifted_constant(const System *system, int i)

@@ -523,6 +523,24 @@ static int number_of_surface(System *system, Expr call)
     return -1;
 }
 
+int system_rest_surface(System *system, Expr guard)
+{
+    const Switch *switches;
+    int time_only;
+    const int count = system_switches(system, &switches, &time_only);
+
+    for (int i = 0; i < count; i++) {
+        int way;
+
+        if (switches[i].surface < 0 || !surface_rests(surface_ratio(switches[i].call)))
+            continue;
+        if (expr_arg(switches[i].call, 0) == guard ||
+            (surface_is_same(expr_arg(switches[i].call, 0), guard, &way) && way > 0))
+            return switches[i].surface;
+    }
+    return -1;
+}
+
 int system_surfaces_of_part(System *system, const char *part, int *out, int room)
 {
     SwitchesExprs stack = {0};

@@ -181,6 +181,16 @@ static void copy_uses(System *system, const Scene *scene)
     }
 }
 
+static void copy_rests(System *system, const SystemOptions *options)
+{
+    Origin *origin = system->origin;
+    const Origin *like = options->like != NULL ? options->like->origin : NULL;
+
+    origin->rest_count = like != NULL ? like->rest_count : options->rest_count;
+    origin->rests = copy_array(system, like != NULL ? like->rests : options->rests,
+                               origin->rest_count, sizeof *origin->rests);
+}
+
 static void copy_form(System *system, const Scene *scene)
 {
     system->origin->form = scene->form;
@@ -479,6 +489,7 @@ static void take_scene(System *system, const SystemBuilder *making)
     copy_outputs(system, scene);
     copy_form(system, scene);
     copy_uses(system, scene);
+    copy_rests(system, options);
 }
 
 static Status build_system_as(const SystemBuilder *making, bool *has_no_states, System **out,
@@ -582,7 +593,10 @@ Status system_new_view(const Scene *scene, const SystemOptions *options, System 
 static Status make_sided(System *whole, SceneSource source, const bool *closed, bool takes_all,
                          const CallMonitor *watch, System **out, Diag *diag)
 {
-    const SystemOptions options = {.watch = watch, .has_lifted = whole->origin->wants_lifted};
+    const SystemOptions options = {.watch = watch,
+                                   .has_lifted = whole->origin->wants_lifted,
+                                   .rests = whole->origin->rests,
+                                   .rest_count = whole->origin->rest_count};
     Scene scene = {0};
     System *made;
     Status status = OK;

@@ -200,6 +200,7 @@ static void push_conditions(CompiledEquations *nb, Conditions *c)
             push_condition(nb, c, variable_index_on_surfaces(l, surface.condition),
                            (Guard){.surface = number,
                                    .is_unilateral = surface.is_unilateral,
+                                   .is_of_event = surface_rests(surface.ratio),
                                    .is_norm = surface.part_count > 0});
         else if (on < 0) /* else a surface monitors its kink */
             push_condition(nb, c, variable_index_on_surfaces(l, switches[i].condition),
@@ -358,6 +359,7 @@ static void set_guards(Guard *both, const OnSurface *on, SurfaceGuards own, cons
                                          .held = on->held,
                                          .solved = own.stage == STAGE_NETWORK,
                                          .is_unilateral = surface->is_unilateral,
+                                         .is_of_event = surface_rests(surface->ratio),
                                          .is_norm = is_norm}
                                : none;
     both[1] = none;

@@ -34,6 +34,7 @@ typedef struct Guard {
     bool solved;  /* its measure is solved for with the jump: always on one side */
     bool is_idle; /* it tells nothing in the current mode */
     bool is_unilateral; /* what meets its surface has an impact */
+    bool is_of_event;   /* of an event, which says when its surface is met */
     bool is_norm;       /* its condition is the norm of a vector, or of the vector's signs: never
                            negative */
 } Guard;

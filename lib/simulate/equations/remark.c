@@ -209,6 +209,15 @@ static void write_happened(const Remark *r, Text *out)
         text_addf(out, "event %s: %s became true ", r->what, r->more);
         write_times(r, out);
         break;
+    case REMARK_EVENT_RESTS:
+        text_addf(out, "event %s: at rest from t = %.9g s ", r->what, r->t);
+        if (isfinite(r->size))
+            text_addf(out, "to t = %.9g s", r->size);
+        else
+            text_add(out, "on");
+        if (r->count > 1)
+            text_addf(out, ", and %d time%s before", r->count - 1, r->count == 2 ? "" : "s");
+        break;
     case REMARK_EVENT_ENDED:
     case REMARK_EVENT_ENDED_FIRST:
     case REMARK_BOUND_MET:

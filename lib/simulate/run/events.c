@@ -4,17 +4,10 @@
 #include <math.h>
 #include <string.h>
 
-#define AT_ZERO     1e-12 /* of the run: instants that are not told apart */
-#define AHEAD       1e-7  /* of the run: how far to look for the way a condition goes */
-#define NEAR_ZERO   1e-13 /* of a condition's largest size, where it was zero just before */
-#define ROUNDS      100   /* events that set each other off at one instant */
-#define PACKED      1e-9  /* of the run: events as close as that, */
-#define PACKED_MOST 100   /* so many of them in a row, are without end */
-#define FASTER_MOST 8     /* events ever sooner after one another, */
-#define FASTER_SPAN 1e-6  /* that add up to less than this, of the run, likewise: */
-#define SHRUNK      1e-3  /* bounces, whose pauses are this part of the longest one */
-#define SOONER      0.999 /* of the pause before: a shorter one */
-#define BOUNCES     4     /* so many of them at least */
+#define AT_ZERO   1e-12 /* of the run: instants that are not told apart */
+#define AHEAD     1e-7  /* of the run: how far to look for the way a condition goes */
+#define NEAR_ZERO 1e-13 /* of a condition's largest size, where it was zero just before */
+#define ROUNDS    100   /* events that set each other off at one instant */
 
 /* --- reading --- */
 
@@ -137,6 +130,15 @@ static Status read_values(Events *events, EventItem *item, const Event *event, D
     return OK;
 }
 
+static void find_guard(const Events *events, EventItem *item)
+{
+    System *system = events->plan.layout->system;
+
+    item->guard = system_rest_guard(system, item->when);
+    if (item->guard != NULL)
+        item->surface = system_rest_surface(system, item->guard);
+}
+
 static Status read_event(Events *events, const Event *event, Diag *diag)
 {
     EventItem item = {.name = events_store(events, event->name),
@@ -144,12 +146,15 @@ static Status read_event(Events *events, const Event *event, Diag *diag)
                       .action = event->action,
                       .is_bound = event->is_bound,
                       .is_live = true,
+                      .surface = -1,
                       .course = {.last = -INFINITY, .gap = INFINITY}};
     Diag why = {0};
     Status status = read_condition(events, &item, event, &why);
 
     if (status == OK)
         status = read_values(events, &item, event, &why);
+    if (status == OK && event->action == EVENT_SET)
+        find_guard(events, &item);
     if (status == E_VALUE && events->plan.whole != NULL) { /* said where it comes to that */
         item.refused = events_store(events, why.message);
         status = OK;
@@ -329,7 +334,8 @@ static bool is_true(const Events *events, const EventItem *item, const int *side
 {
     const void *context[] = {events, sides};
 
-    return item->is_live && expr_evaluate(item->formula, symbol_value, (void *)context) != 0;
+    return item->is_live && !item->course.is_held &&
+           expr_evaluate(item->formula, symbol_value, (void *)context) != 0;
 }
 
 /* --- sides --- */
@@ -461,66 +467,17 @@ bool events_follow(Events *events, const int *sides)
     return due;
 }
 
-static Status happens_endlessly(const EventItem *item, double t, Diag *diag)
-{
-    Text how = {0};
-
-    if (item->course.times.count > 1 && isfinite(item->course.gap))
-        text_addf(&how, ": %s became true %d times, at last %.3g s after the time before",
-                  item->condition, item->course.times.count, item->course.gap);
-    else
-        text_addf(&how, ": %s changes to and fro within an instant", item->condition);
-    (void)diag_set(diag, E_SOLVER, "at t = %.9g s: event %s happens without end%s", t, item->name,
-                   how.at);
-    text_free(&how);
-    diag_hint(diag, "another event can end the run before it comes to that, do=stop, for instance "
-                    "where the speed is small");
-    return E_SOLVER;
-}
-
-Status events_are_stuck(const Events *events, int condition, double t, Diag *diag)
-{
-    const Expr symbol = events->conditions.at[condition].symbol;
-
-    for (int i = 0; i < events->items.count; i++)
-        if (events->items.at[i].is_live && expr_depends(events->items.at[i].formula, symbol))
-            return happens_endlessly(&events->items.at[i], t, diag);
-    return diag_set(diag, E_SOLVER, "at t = %.9g s: an event happens without end", t);
-}
-
-/* ever sooner after one another, so that they add up to an instant, or without a pause at all */
-static Status check_pace(EventItem *item, double t, double span, Diag *diag)
-{
-    double gap = t - item->course.last;
-    double ratio = gap / item->course.gap;
-    double left = ratio < 1 ? gap * ratio / (1 - ratio) : INFINITY;
-
-    item->course.faster = gap < SOONER * item->course.gap ? item->course.faster + 1 : 0;
-    item->course.packed = gap <= PACKED * span ? item->course.packed + 1 : 0;
-    item->course.last = t;
-    item->course.gap = gap;
-    if (isfinite(gap))
-        item->course.longest = fmax(item->course.longest, gap);
-    if (item->course.packed <= PACKED_MOST &&
-        !(item->course.faster >= FASTER_MOST && gap <= SHRUNK * item->course.longest &&
-          gap <= FASTER_SPAN * span && left <= FASTER_SPAN * span))
-        return OK;
-    return happens_endlessly(item, t, diag);
-}
-
 /* Bounces too small to be told from rest: ever sooner after one another, and the new values no
  * longer lead away from the condition. A thermostat switches at an even pace, also where its first
  * pause was long. */
-static Status check_away(const Events *events, double t, const bool *due, const int *sides,
-                         Diag *diag)
+static Status check_away(Events *events, double t, const bool *due, const int *sides, Diag *diag)
 {
     for (int i = 0; i < events->items.count; i++) {
-        const EventItem *item = &events->items.at[i];
+        EventItem *item = &events->items.at[i];
 
-        if (due[i] && item->value_count > 0 && item->course.times.count >= BOUNCES &&
-            item->course.faster >= BOUNCES && item->course.gap <= SHRUNK * item->course.longest &&
+        if (due[i] && !item->course.settles && events_is_at_rounding(item) &&
             is_true(events, item, sides))
-            return happens_endlessly(item, t, diag);
+            TRY(events_end_series(item, t, diag));
     }
     return OK;
 }
@@ -545,7 +502,7 @@ static Status apply_values(Events *events, double t, const bool *due, double *y,
     for (int i = 0; i < events->items.count; i++) {
         const EventItem *item = &events->items.at[i];
 
-        if (!due[i] || item->value_count == 0)
+        if (!due[i] || item->value_count == 0 || item->course.settles)
             continue;
         text_addf(&names, "%s%s", names.length > 0 ? ", " : "", item->name);
         for (int k = 0; k < item->value_count && values != NULL; k++)
@@ -571,7 +528,7 @@ static Status happen_once(Events *events, double t, double span, bool *due, doub
         if (due[i]) {
             note(&events->items.at[i], t);
             *stop = *stop || events->items.at[i].action == EVENT_STOP;
-            TRY(check_pace(&events->items.at[i], t, span, diag));
+            TRY(events_note_pace(&events->items.at[i], t, span, diag));
         }
     return apply_values(events, t, due, y, changed, diag);
 }
@@ -625,9 +582,7 @@ Status events_happen(Events *events, double t, double span, double *y, int *side
         CHECK(check_away(events, t, due, sides, diag));
     }
 done:
-    mem_free(due);
-    mem_free(zero);
-    mem_free(values);
+    MEM_FREE(due, zero, values);
     return status;
 }
 
@@ -658,7 +613,7 @@ Status events_read(Events *events, double t, double span, const double *y, bool 
             note(item, t);
             *happened = true;
             *stop = *stop || item->action == EVENT_STOP;
-            TRY(check_pace(item, t, span, diag));
+            TRY(events_note_pace(item, t, span, diag));
         }
         item->course.holds = now;
     }

@@ -80,8 +80,18 @@ bool events_would_happen(const Events *events, const int *sides);
 MUST_USE Status events_happen(Events *events, double t, double span, double *y, int *sides,
                               bool *changed, bool *stop, Diag *diag);
 
-/* E_SOLVER: the event of that condition comes true again and again. */
-MUST_USE Status events_are_stuck(const Events *events, int condition, double t, Diag *diag);
+/* Whether an event has come to the limit of a series, and the surface that holds its guard is met.
+ * Unless that was held until now, its last new values are left out. */
+bool events_settle_on(const Events *events, int surface);
+/* The surfaces that are slid along from t on are those of these equations: events whose guards
+ * they hold don't happen, and none settles any more. */
+void events_hold(Events *events, const Equations *eq, double t);
+/* whether that condition belongs to events whose guards are held alone */
+bool events_condition_is_held(const Events *events, int condition);
+
+/* The event of that condition comes true again and again: E_SOLVER, unless its series has an end.
+ */
+MUST_USE Status events_are_stuck(Events *events, int condition, double t, Diag *diag);
 
 /* In driven runs, where y is known at any t: whether a condition that did not hold does at (t, y);
  * and the same with its consequences. */

@@ -24,6 +24,12 @@ typedef struct Course {
     int earlier;               /* times that an earlier run brought */
     double last, gap, longest; /* of times, and pauses between them */
     int faster, packed;
+    bool accumulates; /* ever faster, and its guard could be held */
+    bool settles;     /* it has come to the limit: its guard is to be held from here on, */
+    bool is_held;     /* or is held, and it can't happen */
+    int rests;        /* number of times that it came to rest, */
+    double rest;      /* s: the last time, */
+    double left;      /* and until then; INFINITY */
 } Course;
 
 typedef struct EventItem {
@@ -33,6 +39,8 @@ typedef struct EventItem {
     bool is_live;  /* the model has it still */
     Expr when;     /* over the layout's symbols */
     Expr formula;  /* over the symbols of conditions */
+    Expr guard;    /* what its series may come to rest on (system_rest_guard()); NULL */
+    int surface;   /* on which the equations hold that; -1: none */
     int first_value, value_count;
     const char
         *refused; /* why ideal switches, as they are, let no values be given; NULL: they do */
@@ -57,6 +65,14 @@ struct Events {
     double *rate;
     double *here[3];
 };
+
+/* (events_series.c) The event's series ends at t: it settles there, or E_SOLVER. */
+MUST_USE Status events_end_series(EventItem *item, double t, Diag *diag);
+/* It happens at t: ever sooner, so that it settles, or that its instants add up to one, or without
+ * a pause at all, in a run of `span`: E_SOLVER. */
+MUST_USE Status events_note_pace(EventItem *item, double t, double span, Diag *diag);
+/* whether its pauses have become so short that rounding may decide where its values lead */
+bool events_is_at_rounding(const EventItem *item);
 
 const char *events_store(Events *events, const char *text); /* a copy in the pool */
 

@@ -25,6 +25,8 @@ EventRecord events_record(const Events *events, int i)
                          .from_start = item->course.from_start,
                          .holds = item->course.holds,
                          .ended = item->course.ended,
+                         .accumulates = item->course.accumulates,
+                         .is_held = item->course.is_held,
                          .count = item->course.times.count,
                          .times = item->course.times.at};
 }
@@ -50,6 +52,8 @@ static void take_over(Events *events, const EventRecord *old)
     item->course.is_resumed = old->is_known;
     item->course.holds = old->holds;
     item->course.from_start = old->from_start;
+    item->course.settles = old->is_held;
+    item->course.rest = old->is_held && old->count > 0 ? old->times[old->count - 1] : 0;
     for (int i = 0; i < old->count; i++)
         LIST_PUSH(item->course.times, old->times[i]);
     item->course.earlier = item->course.times.count;
@@ -103,6 +107,12 @@ void events_remark(const Events *events, Remarks *out)
         remark.times = item->course.times.at + item->course.earlier;
         remark.time_count = count;
         remarks_add(out, remark);
+        if (item->course.rests > 0)
+            remarks_add(out, (Remark){.kind = REMARK_EVENT_RESTS,
+                                      .what = item->name,
+                                      .count = item->course.rests,
+                                      .t = item->course.rest,
+                                      .size = item->course.left});
     }
     for (int i = 0; i < events_count(events); i++) {
         const EventItem *item = &events->items.at[i];

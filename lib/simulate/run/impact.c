@@ -13,19 +13,22 @@
  * it is Newton's, h_+' = -e h'.
  *
  * Flights between impacts on one surface shorten with e: the rest of them, of h'' = a, takes
- * 2 h_+'/(a (1 - e)) together. Where that is next to nothing they are left out. */
+ * 2 h_+'/(a (1 - e)) together. Where that is next to nothing they are left out. The impacts of a
+ * surface that an event has are the event's, until it settles there (events_series.c). */
 #include "simulate/run/impact.h"
 
 #include "algebra/complementarity.h"
 #include "algebra/linear.h"
 #include "base/memory.h"
+#include "simulate/run/series.h"
 
 #include <math.h>
 #include <string.h>
 
-#define STILL 1e-8  /* of y: an approach that is none */
-#define SOON  1e-10 /* of the run: flights as short as that in all are left out */
-#define LOW   1e-13 /* of y: or as low as that */
+#define STILL     1e-8  /* of y: an approach that is none */
+#define SOON      1e-10 /* of the run: flights as short as that in all are left out */
+#define MOST_PULL 1e3   /* times the impulse that stops what leaves one surface */
+#define LOW       1e-13 /* of y: or as low as that */
 
 typedef struct Impact {
     const ImpactAt *here;
@@ -121,6 +124,17 @@ static void departures(const Impact *m, const double *approach, const double *x,
     }
 }
 
+/* 0; where the motion settles it may pull what leaves already, by far more than a surface alone
+ * takes */
+static double least_impulse(const Impact *m, int k)
+{
+    const double own = m->matrix[k * m->count + k];
+
+    return m->here->at[m->place[k]].settles && m->approach[k] < 0 && own > 0
+               ? MOST_PULL * m->approach[k] / own
+               : 0;
+}
+
 /* both phases; false: there is no impulse */
 static bool find_impulses(Impact *m)
 {
@@ -130,6 +144,8 @@ static bool find_impulses(Impact *m)
     bool found;
 
     departures(m, m->approach, low, q);
+    for (int k = 0; k < n; k++)
+        low[k] = least_impulse(m, k);
     found = solve(m, q, low, compression);
     if (found) {
         departures(m, m->approach, compression, q);
@@ -184,7 +200,7 @@ static bool is_next_to_nothing(const Impact *m, int k, double size, double *rest
     *rest = 0;
     if (!(e > 0) || !(e < 1) || !(speed > 0) || !(back > 0))
         return false;
-    *rest = 2 * speed / back / (1 - e);
+    *rest = series_left(2 * speed / back, e);
     return *rest <= SOON * m->here->span || speed * speed / back <= LOW * size ||
            speed <= STILL * size;
 }
@@ -205,6 +221,13 @@ static ImpactTally *tally_of(ImpactTallies *tallies, const ImpactAt *here, int i
     return &tallies->at[tallies->count - 1];
 }
 
+static bool is_of_event(const Impact *m, int k)
+{
+    const CompiledEquations *numbers = m->here->phase->numbers;
+
+    return compiled_equations(numbers)->sign_ranges[m->place[k]].restitution < 0;
+}
+
 static void count_impact(const Impact *m, double lost, ImpactTallies *tallies)
 {
     int taking_part = 0;
@@ -212,7 +235,7 @@ static void count_impact(const Impact *m, double lost, ImpactTallies *tallies)
     for (int k = 0; k < m->count; k++)
         taking_part += m->impulse[k] > 0;
     for (int k = 0; k < m->count; k++)
-        if (m->impulse[k] > 0) {
+        if (m->impulse[k] > 0 && !is_of_event(m, k)) {
             ImpactTally *tally = tally_of(tallies, m->here, m->place[k]);
 
             tally->count++;
@@ -247,8 +270,10 @@ static bool is_met(const Impact *m, double size)
     bool met = false;
 
     for (int k = 0; k < m->count; k++) {
-        m->approach[k] = m->off[m->place[k]];
-        met = met || m->approach[k] > STILL * size;
+        const double approach = m->approach[k] = m->off[m->place[k]];
+
+        met = met || approach > STILL * size ||
+              (m->here->at[m->place[k]].settles && approach < -STILL * size);
     }
     return met;
 }

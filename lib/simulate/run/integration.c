@@ -290,7 +290,7 @@ Status integrate(const IntegrationPlan *plan, const double *start, Grid *grid,
     if (method->has_fixed_step && !(m.control.step > 0))
         m.control.step = plan->every;
     m.control.span = plan->span > 0 ? plan->span : plan->to - plan->from;
-    integration_open_segment(&m, &plan->segment);
+    integration_open_segment(&m, &plan->segment, plan->from);
     status = run(&m, start, diag);
     integration_close_crossing(&m);
     if (status == E_STOPPED || status == E_SOLVER)

@@ -89,8 +89,8 @@ MUST_USE Status integration_cut(Integration *m, double t, Diag *diag);
 
 Stepper *integration_new_stepper(Integration *m, const Method *method);
 void integration_discard_stepper(Integration *m); /* its counts are added */
-void integration_open_segment(Integration *m,
-                              const Segment *segment); /* the data of its equations */
+/* the data of its equations, which hold from t on */
+void integration_open_segment(Integration *m, const Segment *segment, double t);
 void integration_close_segment(Integration *m);
 /* Choose the segment that continues from the stepper's state: another one where that is on surfaces
  * (*entered). */

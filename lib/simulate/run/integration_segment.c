@@ -51,7 +51,7 @@ static void open_surfaces(Integration *m)
 }
 
 /* open the data that belong to the equations of the segment */
-void integration_open_segment(Integration *m, const Segment *segment)
+void integration_open_segment(Integration *m, const Segment *segment, double t)
 {
     const Equations *in_time = m->plan->in_time;
     int conditions, length;
@@ -85,6 +85,7 @@ void integration_open_segment(Integration *m, const Segment *segment)
     m->looked_at = NEW_ARRAY(int, conditions);
     for (int i = 0; i < conditions; i++)
         m->band_ends[i] = INFINITY;
+    events_hold(m->ev, m->eq, t);
     integration_choose_conditions(m);
     open_surfaces(m);
     if (m->count > 0)
@@ -125,7 +126,7 @@ static Status enter(Integration *m, const Segment *segment, double t, const doub
     integration_close_segment(m);
     if (method != NULL)
         m->out->method = method;
-    integration_open_segment(m, segment);
+    integration_open_segment(m, segment, t);
     motion_window(m->segment.motion, m->low, m->high);
     add_corner(m, t, y);
     motion_partition(segment->motion, t, y);
@@ -167,15 +168,18 @@ static double distance_from(const Integration *m, int i)
 static void meet_surface(Integration *m, int i, Meeting *out)
 {
     const Guard guard = equations_guard(m->eq, i);
+    const bool settles = guard.is_of_event && events_settle_on(m->ev, guard.surface);
     bool near;
 
     m->largest[i] = fmax(m->largest[i], fabs(m->conditions[i]));
-    near = i == m->root || guard.solved || guard.held || distance_from(m, i) <= 0;
+    near = guard.is_of_event
+               ? settles
+               : i == m->root || guard.solved || guard.held || distance_from(m, i) <= 0;
     *out = (Meeting){guard.surface, .far = !near,
-                     .settles = i == m->root && m->chatters[guard.surface].settles,
+                     .settles = settles || (i == m->root && m->chatters[guard.surface].settles),
                      .rest = guard.is_norm ? integration_rest(m, i) : 0};
     if (!near)
-        out->side = guard.is_norm || m->conditions[i] > 0 ? 1 : -1;
+        out->side = guard.is_norm || (m->conditions[i] > 0 && !guard.is_of_event) ? 1 : -1;
 }
 
 /* The surfaces that the run is on, and all others, so that no step evaluates the other side of one.
@@ -259,7 +263,9 @@ static Status slide(Integration *m, bool *entered, bool *changed, Diag *diag)
     }
     if (*entered)
         CHECK(enter(m, &next, t, y, changed, diag));
-    else if (chosen.moved)
+    else
+        events_hold(m->ev, m->eq, t); /* where it settled, it is led away from there */
+    if (!*entered && chosen.moved)
         memcpy(m->stepper->y, y, (size_t)m->length * sizeof(double));
     integration_enter_row(m);
     motion_window(m->segment.motion, m->low, m->high);

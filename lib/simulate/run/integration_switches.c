@@ -78,8 +78,10 @@ static bool is_left_out(const Integration *m, int i)
     if (is_of_time(m, i))
         return true;
     if (integration_is_of_event(m, i))
-        return false;
+        return events_condition_is_held(m->ev, i - m->eq->switch_count);
     guard = equations_guard(m->eq, i);
+    if (guard.is_of_event && guard.end == 0)
+        return true;
     if (guard.held || guard.is_idle || !(m->plan->span > 0))
         return guard.held || guard.is_idle;
     return integration_is_margin(m, i) || guard.side != 0 || guard.end != 0;

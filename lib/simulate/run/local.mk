@@ -20,6 +20,7 @@ libcore_la_SOURCES += \
   lib/simulate/run/events.h \
   lib/simulate/run/events_impl.h \
   lib/simulate/run/events_record.c \
+  lib/simulate/run/events_series.c \
   lib/simulate/run/forward.c \
   lib/simulate/run/forward.h \
   lib/simulate/run/global_error.c \
@@ -65,6 +66,7 @@ libcore_la_SOURCES += \
   lib/simulate/run/run.h \
   lib/simulate/run/run_limits.h \
   lib/simulate/run/samples.c \
+  lib/simulate/run/series.h \
   lib/simulate/run/samples.h \
   lib/simulate/run/charge_sharing.c \
   lib/simulate/run/charge_sharing.h \

@@ -49,6 +49,8 @@ typedef struct EventRecord {
     bool from_start;     /* it held at the start already */
     bool holds;          /* at the end */
     bool ended;          /* the run */
+    bool accumulates;    /* it ended the run, as it happened ever faster; its guard may be held */
+    bool is_held;        /* its guard is held at the end */
     int count;           /* number of times it happened */
     const double *times; /* s; count, ascending */
 } EventRecord;
