@@ -61,6 +61,7 @@ libcore_la_SOURCES += \
 	lib/formulate/system_build/tree_search.h lib/formulate/system_build/variables.c \
 	lib/formulate/reduced/accelerations.c lib/formulate/reduced/accelerations.h \
 	lib/formulate/reduced/along_trees.c lib/formulate/reduced/along_trees.h \
+	lib/formulate/reduced/common_denominator.c lib/formulate/reduced/common_denominator.h \
 	lib/formulate/reduced/constrained.c lib/formulate/reduced/constrained.h \
 	lib/formulate/reduced/groups.c lib/formulate/reduced/groups.h lib/formulate/reduced/linear_network.c \
 	lib/formulate/reduced/linear_network.h lib/formulate/reduced/prescribed.c lib/formulate/reduced/prescribed.h \

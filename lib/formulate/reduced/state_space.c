@@ -5,6 +5,7 @@
  * rule. So the results have no common factors that cancel, except single terms. */
 #include "formulate/reduced/state_space.h"
 
+#include "formulate/reduced/common_denominator.h"
 #include "formulate/reduced/linear_network.h"
 
 #include <stdlib.h>
@@ -25,121 +26,36 @@ typedef struct Space {
 
 /* --- fractions --- */
 
-/* the base of a factor that is a divisor, and its multiplicity; 0: it is none */
-static int64_t divisor_power(Expr factor, Expr *base)
-{
-    int64_t num, den;
-
-    if (expr_kind(factor) != EXPR_POWER || !expr_rational_parts(expr_arg(factor, 1), &num, &den) ||
-        den != 1 || num >= 0)
-        return 0;
-    *base = expr_arg(factor, 0);
-    return -num;
-}
-
-static int factor_count(Expr term)
-{
-    return expr_kind(term) == EXPR_PRODUCT ? expr_arg_count(term) : 1;
-}
-
-static Expr factor_at(Expr term, int i)
-{
-    return expr_kind(term) == EXPR_PRODUCT ? expr_arg(term, i) : term;
-}
-
-/* The smallest product that all divisors of the terms seen so far divide. */
-typedef struct Divisor {
-    LIST(Expr) bases;
-    LIST(int64_t) powers;
-} Divisor;
-
-static void divisor_add_term(Divisor *divisors, Expr term)
-{
-    for (int k = 0; k < factor_count(term); k++) {
-        Expr base = NULL;
-        const int64_t power = divisor_power(factor_at(term, k), &base);
-        int at = 0;
-
-        if (power == 0)
-            continue;
-        while (at < divisors->bases.count && divisors->bases.at[at] != base)
-            at++;
-        if (at == divisors->bases.count) {
-            LIST_PUSH(divisors->bases, base);
-            LIST_PUSH(divisors->powers, (int64_t)0);
-        }
-        if (power > divisors->powers.at[at])
-            divisors->powers.at[at] = power;
-    }
-}
-
-static int term_count(Expr e)
-{
-    return expr_kind(e) == EXPR_SUM ? expr_arg_count(e) : 1;
-}
-
-static Expr term_at(Expr e, int i)
-{
-    return expr_kind(e) == EXPR_SUM ? expr_arg(e, i) : e;
-}
-
-static void divisor_add(Divisor *divisors, Expr e)
-{
-    for (int i = 0; i < term_count(e); i++)
-        divisor_add_term(divisors, term_at(e, i));
-}
-
-/* the product; frees what the divisor owns */
-static Expr divisor_done(Arena *arena, Divisor *divisors)
-{
-    Expr out = expr_int(arena, 1);
-
-    for (int i = 0; i < divisors->bases.count; i++)
-        out = expr_mul(
-            arena, out,
-            expr_pow(arena, divisors->bases.at[i], expr_int(arena, divisors->powers.at[i])));
-    LIST_FREE(divisors->bases);
-    LIST_FREE(divisors->powers);
-    return out;
-}
-
 /* e * factor, term by term, multiplied out */
 static Expr times(Arena *arena, Expr e, Expr factor)
 {
-    Expr *terms = NEW_ARRAY(Expr, term_count(e));
-    Expr sum;
-
-    for (int i = 0; i < term_count(e); i++)
-        terms[i] = expr_mul(arena, term_at(e, i), factor);
-    sum = expr_expand(arena, expr_sum(arena, terms, term_count(e)), LINEAR_TERMS);
-    mem_free(terms);
-    return sum;
+    return expr_expand(arena, terms_times(arena, e, factor), LINEAR_TERMS);
 }
 
 /* a sum of fractions as one: its numerator multiplied out and collected */
 static Expr tidy(Arena *arena, Expr e)
 {
-    Divisor divisors = {.bases = {0}};
+    CommonDenominator denominator = {.bases = {0}};
     Expr under;
 
     if (expr_kind(e) != EXPR_SUM)
         return e;
-    divisor_add(&divisors, e);
-    under = divisor_done(arena, &divisors);
+    denominator_add(&denominator, e);
+    under = denominator_done(arena, &denominator);
     return expr_div(arena, expr_collect(arena, times(arena, e, under)), under);
 }
 
 /* Multiplies an equation by the denominators of its fractions. */
 static void clear_row(Space *s, int row)
 {
-    Divisor divisors = {.bases = {0}};
+    CommonDenominator denominator = {.bases = {0}};
     Expr factor;
 
     for (int k = s->net.row_start[row]; k < s->net.row_start[row + 1]; k++)
-        divisor_add(&divisors, s->net.entry[k].value);
+        denominator_add(&denominator, s->net.entry[k].value);
     for (int c = 0; c < s->net.columns; c++)
-        divisor_add(&divisors, s->net.right[row * s->net.columns + c]);
-    factor = divisor_done(s->net.arena, &divisors);
+        denominator_add(&denominator, s->net.right[row * s->net.columns + c]);
+    factor = denominator_done(s->net.arena, &denominator);
     if (expr_is(factor, 1))
         return;
     for (int k = s->net.row_start[row]; k < s->net.row_start[row + 1]; k++)

@@ -8,6 +8,7 @@
 #include "algebra/block_triangular.h"
 #include "base/memory.h"
 #include "base/random.h"
+#include "formulate/reduced/common_denominator.h"
 
 #include <math.h>
 #include <string.h>
@@ -52,80 +53,20 @@ static Expr tidy_sum(Arena *arena, Expr e)
     return smaller(folded, expr_collect(arena, expanded));
 }
 
-/* the base of a factor below the fraction line, and its power; 0: it is above */
-static int64_t power_below(Expr factor, Expr *base)
-{
-    int64_t num, den;
-
-    if (expr_kind(factor) != EXPR_POWER || !expr_rational_parts(expr_arg(factor, 1), &num, &den) ||
-        den != 1 || num >= 0)
-        return 0;
-    *base = expr_arg(factor, 0);
-    return -num;
-}
-
-typedef struct Below {
-    LIST(Expr) bases;
-    LIST(int64_t) powers;
-} Below;
-
-static void add_below(Below *below, Expr factor)
-{
-    Expr base = NULL;
-    const int64_t power = power_below(factor, &base);
-    int at = 0;
-
-    if (power == 0)
-        return;
-    while (at < below->bases.count && below->bases.at[at] != base)
-        at++;
-    if (at == below->bases.count) {
-        LIST_PUSH(below->bases, base);
-        LIST_PUSH(below->powers, (int64_t)0);
-    }
-    if (power > below->powers.at[at])
-        below->powers.at[at] = power;
-}
-
-/* the least common denominator of the terms of a sum */
-static Expr denominator(Arena *arena, Expr sum)
-{
-    Below below = {.bases = {0}};
-    Expr out = expr_int(arena, 1);
-
-    for (int i = 0; i < expr_arg_count(sum); i++) {
-        const Expr term = expr_arg(sum, i);
-
-        if (expr_kind(term) != EXPR_PRODUCT)
-            add_below(&below, term);
-        for (int k = 0; expr_kind(term) == EXPR_PRODUCT && k < expr_arg_count(term); k++)
-            add_below(&below, expr_arg(term, k));
-    }
-    for (int i = 0; i < below.bases.count; i++)
-        out = expr_mul(arena, out,
-                       expr_pow(arena, below.bases.at[i], expr_int(arena, below.powers.at[i])));
-    LIST_FREE(below.bases);
-    LIST_FREE(below.powers);
-    return out;
-}
-
 Expr symbolic_tidy(Arena *arena, Expr e)
 {
-    Expr under, *terms, over;
+    CommonDenominator denominator = {.bases = {0}};
+    Expr under;
 
     if (op_count_total(expr_count(&e, 1)) > MOST_TIDIED)
         return e;
     if (expr_kind(e) != EXPR_SUM)
         return smaller(e, tidy_sum(arena, e));
-    under = denominator(arena, e);
+    denominator_add(&denominator, e);
+    under = denominator_done(arena, &denominator);
     if (expr_is(under, 1))
         return smaller(e, tidy_sum(arena, e));
-    terms = NEW_ARRAY(Expr, expr_arg_count(e));
-    for (int i = 0; i < expr_arg_count(e); i++)
-        terms[i] = expr_mul(arena, expr_arg(e, i), under);
-    over = expr_sum(arena, terms, expr_arg_count(e));
-    mem_free(terms);
-    return smaller(e, expr_div(arena, tidy_sum(arena, over), under));
+    return smaller(e, expr_div(arena, tidy_sum(arena, terms_times(arena, e, under)), under));
 }
 
 /* --- the sample --- */
