@@ -18,6 +18,7 @@ libcore_la_SOURCES += \
 	lib/formulate/kinematics/euler_parameters.c lib/formulate/kinematics/frames.c \
 	lib/formulate/kinematics/frames.h lib/formulate/kinematics/framesum.c \
 	lib/formulate/kinematics/framesum.h lib/formulate/kinematics/multi_turn.c \
+	lib/formulate/kinematics/identities_build.c \
 	lib/formulate/kinematics/identity.c lib/formulate/kinematics/identity.h \
 	lib/formulate/kinematics/multi_turn.h lib/formulate/kinematics/multi_turn_build.c \
 	lib/formulate/kinematics/recursive.c lib/formulate/kinematics/recursive.h \

@@ -143,13 +143,15 @@ static void make_symbols(const Roots *roots, Arena *arena)
     mem_free(symbols);
 }
 
-static int differs_at(const char *one, const char *other)
+/* the first line in which they differ */
+static void add_difference(Text *story, const char *one, const char *other)
 {
-    int line = 1;
+    size_t same = 0;
 
-    for (; *one == *other && *one != '\0'; one++, other++)
-        line += *one == '\n';
-    return *one == *other ? 0 : line;
+    for (size_t i = 0; one[i] == other[i] && one[i] != '\0'; i++)
+        same = one[i] == '\n' ? i + 1 : same;
+    text_addf(story, "edited: %.*s\ntyped: %.*s\n", (int)strcspn(one + same, "\n"), one + same,
+              (int)strcspn(other + same, "\n"), other + same);
 }
 
 static bool is_typed_anew(const Reformed *reformed, Text *story)
@@ -171,9 +173,10 @@ static bool is_typed_anew(const Reformed *reformed, Text *story)
     edited = program_text(&roots, &diag);
     typed = program_text(&fresh_roots, &diag);
     same = roots.count == fresh_roots.count && strcmp(edited, typed) == 0;
-    if (!same)
-        text_addf(story, "%d roots, %d typed anew; programs differ from line %d on\n%s",
-                  roots.count, fresh_roots.count, differs_at(edited, typed), saved);
+    if (!same) {
+        text_addf(story, "%d roots, %d typed anew, of\n%s", roots.count, fresh_roots.count, saved);
+        add_difference(story, edited, typed);
+    }
 done:
     system_free(fresh);
     model_free(anew);

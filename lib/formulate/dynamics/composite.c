@@ -112,7 +112,6 @@ Composite composite_at(const System *system, const Composites *all, int node)
         own.inertia.at[k] = isomorphic_take(follower, own.inertia.at[k]);
     all->at[node] = own;
     all->is_known[node] = true;
-    isomorphic_keep(system, follower, all->key[node], DERIVED_COMPOSITE, &own, sizeof own);
     return own;
 }
 
@@ -141,11 +140,14 @@ static void place_masses(const System *system, Composites *all)
         const Frame *frame = &system->kinematics->frames[mass->node];
         Composite *own = &all->at[mass->node];
         Key key = key_of(system->kinematics->chains.at[0].identity);
+        int first;
 
         own->mass = expr_add(arena, own->mass, mass->mass);
         own->inertia =
             tensor_express(system, mass->inertia, frame->chain, node_axes(system, mass->node));
         key_add(&key, own, sizeof *own);
+        if (isomorphic_node(system, mass->node, &first) != NULL)
+            key_add(&key, &system->kinematics->frames[first].identity, sizeof(Expr));
         all->key[mass->node] = key_end(system, &key);
     }
 }

@@ -299,16 +299,12 @@ static Inertia find_inertia(const System *system, const Loads *loads, const Mass
 {
     const Kinematics *kinematics = system->kinematics;
     const bool takes = follower != NULL && isomorphic_moves(follower);
-    const Expr identity =
-        !takes || isomorphic_is_heir(follower) ? key_of_inertia(system, mass) : NULL;
+    const Expr identity = takes ? NULL : key_of_inertia(system, mass);
     Inertia inertia;
 
-    if (takes) {
-        inertia = (Inertia){isomorphic_vec(follower, loads->force[first]),
-                            isomorphic_vec(follower, loads->torque[first])};
-        isomorphic_keep(system, follower, identity, DERIVED_INERTIA, &inertia, sizeof inertia);
-        return inertia;
-    }
+    if (takes)
+        return (Inertia){isomorphic_vec(follower, loads->force[first]),
+                         isomorphic_vec(follower, loads->torque[first])};
     if (derived_recall(system, identity, DERIVED_INERTIA, &inertia, sizeof inertia))
         return inertia;
     inertia = inertia_of(system, mass, gravity, kinematics->alpha0, kinematics->a0);

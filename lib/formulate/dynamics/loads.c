@@ -55,12 +55,13 @@ typedef struct Summing {
 
 enum { FORCE, TORQUE };
 
-static Expr load_key(const System *system, int node, int what, Vec load)
+static Expr load_key(const Summing *s, int node, int what, Vec load)
 {
-    const Expr instance_key = expr_int(system->arena, what);
+    const System *system = s->system;
+    const Expr of[] = {expr_int(system->arena, what), expr_int(system->arena, s->alike[node])};
     Key key = key_of(system->kinematics->frames[node].identity);
 
-    key_add(&key, &instance_key, sizeof instance_key);
+    key_add(&key, of, sizeof of);
     key_add(&key, &load, sizeof load);
     return vec_is_zero(load) ? NULL : key_end(system, &key);
 }
@@ -82,8 +83,8 @@ static void recall_forces(Summing *s)
 
         if (!s->asks_force[n])
             continue;
-        s->knows_force[n] =
-            recall_sum(system, n, s->force_key[n], DERIVED_FORCE, &s->sums->force[n]);
+        s->knows_force[n] = !s->alike[n] && recall_sum(system, n, s->force_key[n], DERIVED_FORCE,
+                                                       &s->sums->force[n]);
         if (s->asks_force[parent])
             s->force_key[parent] = key_join(system, frames[parent].identity, s->force_key[parent],
                                             PASSED_FORCE, s->force_key[n]);
@@ -102,8 +103,8 @@ static void recall_torques(Summing *s)
 
         if (!s->asks_torque[n])
             continue;
-        s->knows_torque[n] =
-            recall_sum(system, n, s->torque_key[n], DERIVED_TORQUE, &s->sums->torque[n]);
+        s->knows_torque[n] = !s->alike[n] && recall_sum(system, n, s->torque_key[n], DERIVED_TORQUE,
+                                                        &s->sums->torque[n]);
         if (s->asks_torque[parent])
             s->torque_key[parent] =
                 key_join(system, system->kinematics->frames[parent].identity, s->torque_key[parent],
@@ -126,8 +127,8 @@ static bool loaded_alike(const System *system, const Follower *follower, const L
     return alike;
 }
 
-/* Finds instances whose sums equal those of the first, at all or none of their nodes. Their sums
- * are computed where something has to be derived. */
+/* Finds instances whose sums equal those of the first, at all or none of their nodes: these are
+ * renamed and not recalled, as in a System without an earlier one. */
 static void find_alike(const Summing *s, const Loads *loads)
 {
     const int count = graph_node_count(s->system->origin->graph);
@@ -138,9 +139,7 @@ static void find_alike(const Summing *s, const Loads *loads)
         const Follower *follower = isomorphic_node(s->system, n, &first);
         const int *member;
 
-        if (follower == NULL || asked[n] ||
-            ((s->knows_force[n] || !s->asks_force[n]) &&
-             (s->knows_torque[n] || !s->asks_torque[n])))
+        if (follower == NULL || asked[n] || !(s->asks_force[n] || s->asks_torque[n]))
             continue;
         member = isomorphic_members(follower, &members);
         for (int k = 0; k < members; k++)
@@ -207,7 +206,6 @@ static void end_sum(const Summing *s, int n, bool is_known, Expr key, Derived wh
         const Follower *follower = isomorphic_node(s->system, n, &first);
 
         of[n] = isomorphic_vec(follower, of[first]);
-        isomorphic_keep(s->system, follower, key, which, &of[n], sizeof of[n]);
         return;
     }
     of[n] = vec_hold(s->system->arena, of[n]);
@@ -276,6 +274,7 @@ Sums *loads_sum(const System *system, const Loads *loads, SumsFor whom)
                  .alike = NEW_ARRAY(bool, count)};
 
     find_asked(&s, whom);
+    find_alike(&s, loads);
     sums->own = loads->own;
     sums->tied = loads->tied;
     sums->force = pool_alloc(system->pool, size);
@@ -286,15 +285,14 @@ Sums *loads_sum(const System *system, const Loads *loads, SumsFor whom)
         sums->force[n] = loads->force[n];
         sums->torque[n] = loads->torque[n];
         if (s.asks_force[n])
-            s.force_key[n] = load_key(system, n, FORCE, loads->force[n]);
+            s.force_key[n] = load_key(&s, n, FORCE, loads->force[n]);
         if (s.asks_torque[n])
-            s.torque_key[n] = load_key(system, n, TORQUE, loads->torque[n]);
+            s.torque_key[n] = load_key(&s, n, TORQUE, loads->torque[n]);
     }
     s.forces = isomorphic_inward(system, TREE_TRANSLATION, &s.force_count);
     s.torques = isomorphic_inward(system, TREE_ROTATION, &s.torque_count);
     recall_forces(&s);
     recall_torques(&s);
-    find_alike(&s, loads);
     sum_forces(&s);
     sum_torques(&s);
     MEM_FREE(s.asks_force, s.asks_torque, s.forces, s.torques, s.force_key, s.torque_key,

@@ -1,4 +1,4 @@
-/* identity.c: identities of orientation classes and frames, and keys made of them */
+/* identity.c: keys made of identities, and what is stored under them */
 #include "formulate/kinematics/identity.h"
 
 #include "formulate/system/origin.h"
@@ -31,8 +31,7 @@ Expr key_end(const System *system, const Key *key)
     return key->is_determined ? expr_tuple(system->arena, key->at, key->count) : NULL;
 }
 
-/* the turn of an orientation class relative to the class before it */
-static void add_turn(Key *key, const OrientationClass *chain)
+void key_add_turn(Key *key, const OrientationClass *chain)
 {
     if (chain->is_free) {
         key_add(key, &chain->matrix, sizeof chain->matrix);
@@ -59,7 +58,7 @@ static Expr turn_key(const System *system, int from, int to)
                      chains[c].parent == from || chains[chains[c].run].depth > chains[from].depth);
         Key key = key_of(turns);
 
-        add_turn(&key, &chains[c]);
+        key_add_turn(&key, &chains[c]);
         key_add(&key, &is_whole, sizeof is_whole);
         turns = key_end(system, &key);
     }
@@ -113,61 +112,4 @@ void derived_store(const System *system, Expr key, Derived which, const void *va
 {
     if (key != NULL)
         expr_remember(system->arena, key, which, values, size);
-}
-
-/* distinguishes a plane from space, where each orientation class has axes of its own */
-static Expr datum_identity(const System *system)
-{
-    return expr_tuple(system->arena, (Expr[]){expr_int(system->arena, system->origin->planar)}, 1);
-}
-
-static Expr orientation_identity(const System *system, int c)
-{
-    const Kinematics *kinematics = system->kinematics;
-    const OrientationClass *chain = &kinematics->chains.at[c];
-    Key key = key_of(kinematics->chains.at[chain->parent].identity);
-
-    add_turn(&key, chain);
-    for (int j = chain->speed; j < chain->speed + chain->speed_count; j++) {
-        const Speed *speed = &kinematics->speeds[j];
-        const Expr is_own = expr_int(system->arena, speed->axis_chain == c);
-
-        key_add(&key, &kinematics->u.at[j].symbol, sizeof(Expr));
-        key_add(&key, &speed->axis, sizeof speed->axis);
-        key_add(&key, &is_own, sizeof is_own);
-    }
-    return key_end(system, &key);
-}
-
-static Expr frame_identity(const System *system, int node)
-{
-    const Kinematics *kinematics = system->kinematics;
-    const Frame *frame = &kinematics->frames[node];
-    Key key = key_of(kinematics->frames[frame->parent].identity);
-
-    key_add(&key, &kinematics->chains.at[frame->chain].identity, sizeof(Expr));
-    key_add(&key, &kinematics->chains.at[frame->step_chain].identity, sizeof(Expr));
-    key_add(&key, &frame->shift, sizeof frame->shift);
-    for (int k = 0; k < frame->slide_count; k++) {
-        key_add(&key, &kinematics->u.at[frame->slide[k].speed].symbol, sizeof(Expr));
-        key_add(&key, &frame->slide[k].axis, sizeof frame->slide[k].axis);
-    }
-    return key_end(system, &key);
-}
-
-void identities_build(System *system)
-{
-    Kinematics *kinematics = system->kinematics;
-    int nodes;
-    const int *order;
-
-    if (system->origin->trees[TREE_TRANSLATION] == NULL || kinematics->dependents.count > 0)
-        return;
-    kinematics->chains.at[0].identity = datum_identity(system);
-    for (int c = 1; c < kinematics->chains.count; c++)
-        kinematics->chains.at[c].identity = orientation_identity(system, c);
-    order = tree_nodes(system->origin->trees[TREE_TRANSLATION], &nodes);
-    kinematics->frames[order[0]].identity = kinematics->chains.at[0].identity;
-    for (int i = 1; i < nodes; i++)
-        kinematics->frames[order[i]].identity = frame_identity(system, order[i]);
 }

@@ -2,7 +2,9 @@
  *
  * The identity of an orientation class is a tuple of its parent's identity, its axis, its angle and
  * its speeds. The identity of a frame is a tuple of its parent's, its classes' and its shift. Where
- * two identities are the same pointer, all results of the motion are the same expressions. So
+ * two identities are the same pointer, all results of the motion are the same expressions. A part
+ * of an instance that follows another one (isomorphic.h) has the identity of its counterpart in its
+ * own, since a result that is renamed may differ from a derived one in the order of its terms. So
  * results that an earlier System derived for parts that an edit did not change are recalled and not
  * derived again. There is no list of what an edit affects, so none can be wrong. */
 #ifndef COTREE_FORMULATE_KINEMATICS_IDENTITY_H
@@ -31,8 +33,8 @@ typedef enum Derived {
     DERIVED_NETWORK_SLOPES
 } Derived;
 
-/* Of all orientation classes and frames; after these are built. Where parts are flexible, all are
- * NULL. */
+/* Of all orientation classes and frames; after these are built, and after isomorphic_build(). Where
+ * parts are flexible, all are NULL. */
 void identities_build(System *system);
 
 /* Combines an identity and other data that a result follows from. */
@@ -44,7 +46,9 @@ typedef struct Key {
 } Key;
 Key key_of(Expr identity);
 void key_add(Key *key, const void *entries, size_t size); /* an array or a struct of expressions */
-Expr key_end(const System *system, const Key *key);       /* NULL: unknown identity */
+/* the turn of an orientation class relative to the class before it */
+void key_add_turn(Key *key, const OrientationClass *chain);
+Expr key_end(const System *system, const Key *key);          /* NULL: unknown identity */
 Expr key_of_inertia(const System *system, const Mass *mass); /* of DERIVED_INERTIA */
 /* Key of the loads at a frame and beyond it relative to its parent: equal where the frame has the
  * same position and turn against the parent, wherever the parent is. After its motion. */

@@ -25,14 +25,13 @@ typedef struct Inside { /* what an instance made, including the instances inside
     IntList nodes, chains, speeds, masses;
     bool is_open; /* something else hangs on it */
     LIST(FirstWay) ways;
-    bool has_heir;
 } Inside;
 
 struct Follower {
     const Inside *own;
     Inside *first;
     Renaming *renaming;
-    bool moves, is_heir;
+    bool moves;
 };
 
 struct IsomorphicSubsystems {
@@ -138,25 +137,6 @@ static void find_open(const System *system, IsomorphicSubsystems *alike)
         hang(system, alike, order[i], system->kinematics->frames[order[i]].base);
         hang(system, alike, order[i], tree_parent(system->origin->trees[TREE_ROTATION], order[i]));
     }
-}
-
-/* whether an earlier System derived its motion and its masses; this one has derived none yet */
-static bool is_recalled(const System *system, const Inside *inside)
-{
-    const Kinematics *kinematics = system->kinematics;
-    bool known = inside->nodes.count > 0;
-
-    for (int k = 0; known && k < inside->chains.count; k++)
-        known = derived_is_kept(system, kinematics->chains.at[inside->chains.at[k]].identity,
-                                DERIVED_TURN);
-    for (int k = 0; known && k < inside->nodes.count; k++)
-        known =
-            derived_is_kept(system, kinematics->frames[inside->nodes.at[k]].identity, DERIVED_STEP);
-    for (int k = 0; known && k < inside->masses.count; k++)
-        known = derived_is_kept(
-            system, key_of_inertia(system, &system->dynamics->masses.at[inside->masses.at[k]]),
-            DERIVED_INERTIA);
-    return known;
 }
 
 /* --- whether two are isomorphic --- */
@@ -319,8 +299,7 @@ static void follow(IsomorphicSubsystems *alike, const Pairing *p, int use)
 {
     Follower *follower = NEW(Follower);
 
-    *follower = (Follower){p->own, p->first, p->renaming, true, !p->first->has_heir};
-    p->first->has_heir = true;
+    *follower = (Follower){p->own, p->first, p->renaming, true};
     alike->of[use] = follower;
     for (int k = 0; k < p->own->nodes.count; k++)
         alike->of_node[p->own->nodes.at[k]] = follower;
@@ -363,7 +342,7 @@ static void look_for_first(const System *system, IsomorphicSubsystems *alike, co
         if (are_isomorphic(&p)) {
             follow(alike, &p, use);
             made[use].first = first;
-            made[use].is_recalled = made[first].is_recalled && !is_new;
+            made[use].is_recalled = !is_new; /* until isomorphic_find_recalled() */
             return;
         }
         if (is_new)
@@ -440,14 +419,51 @@ void isomorphic_build(System *system)
     gather(system, uses, alike);
     names_free(uses);
     find_open(system, alike);
-    for (int i = 0; i < origin->use_count; i++)
-        origin->uses[i].is_recalled = is_recalled(system, &alike->inside[i]);
     order = NEW_ARRAY(int, origin->use_count);
     count = in_order(alike, order);
     for (int i = 1; i < count; i++)
         if (!is_taken(system, alike, order[i]))
             look_for_first(system, alike, order, i);
     mem_free(order);
+}
+
+/* whether an earlier System derived its motion and its masses; this one has derived none yet. What
+ * follows another instance is renamed. */
+static bool is_recalled(const System *system, const Inside *inside)
+{
+    const IsomorphicSubsystems *alike = system->alike;
+    const Kinematics *kinematics = system->kinematics;
+    bool known = inside->nodes.count > 0;
+
+    for (int k = 0; known && k < inside->chains.count; k++)
+        known = alike->of_chain[inside->chains.at[k]] != NULL ||
+                derived_is_kept(system, kinematics->chains.at[inside->chains.at[k]].identity,
+                                DERIVED_TURN);
+    for (int k = 0; known && k < inside->nodes.count; k++)
+        known =
+            alike->of_node[inside->nodes.at[k]] != NULL ||
+            derived_is_kept(system, kinematics->frames[inside->nodes.at[k]].identity, DERIVED_STEP);
+    for (int k = 0; known && k < inside->masses.count; k++) {
+        const Mass *mass = &system->dynamics->masses.at[inside->masses.at[k]];
+
+        known = alike->of_node[mass->node] != NULL ||
+                derived_is_kept(system, key_of_inertia(system, mass), DERIVED_INERTIA);
+    }
+    return known;
+}
+
+void isomorphic_find_recalled(System *system)
+{
+    Instanced *uses = system->origin->uses;
+
+    if (system->alike == NULL)
+        return;
+    for (int i = 0; i < system->origin->use_count; i++)
+        if (!is_taken(system, system->alike, i))
+            uses[i].is_recalled = is_recalled(system, &system->alike->inside[i]);
+    for (int i = 0; i < system->origin->use_count; i++)
+        if (uses[i].first >= 0)
+            uses[i].is_recalled = uses[i].is_recalled && uses[uses[i].first].is_recalled;
 }
 
 void isomorphic_free(IsomorphicSubsystems *alike)
@@ -562,18 +578,6 @@ bool isomorphic_moves(const Follower *follower)
 bool isomorphic_ends(const Follower *follower)
 {
     return !follower->own->is_open && !follower->first->is_open;
-}
-
-bool isomorphic_is_heir(const Follower *follower)
-{
-    return follower->is_heir;
-}
-
-void isomorphic_keep(const System *system, const Follower *follower, Expr key, Derived which,
-                     const void *values, size_t size)
-{
-    if (follower->is_heir && !derived_is_kept(system, key, which))
-        derived_store(system, key, which, values, size);
 }
 
 Expr isomorphic_take(const Follower *follower, Expr e)

@@ -14,8 +14,11 @@
 
 typedef struct Follower Follower; /* an instance that follows another one */
 
-/* after the frames and masses, before any results; the data that system_instanced() returns */
+/* after the frames and masses, before identities and results; the data that system_instanced()
+ * returns */
 void isomorphic_build(System *system);
+/* finds instances that an earlier System has derived; after identities, before any results */
+void isomorphic_find_recalled(System *system);
 void isomorphic_free(struct IsomorphicSubsystems *alike); /* NULL is fine */
 
 /* The follower that a node belongs to, and its counterpart in the first; NULL: it follows none. */
@@ -49,12 +52,6 @@ bool isomorphic_ends(const Follower *follower);
 bool isomorphic_fill(const Follower *follower, Expr hole, Expr value);
 Expr isomorphic_take(const Follower *follower, Expr e);
 Vec isomorphic_vec(const Follower *follower, Vec v);
-
-/* Results that are taken over need no key: the first's key finds them. Where the first no longer
- * exists, the first follower, the heir, stores them under keys of its own. */
-bool isomorphic_is_heir(const Follower *follower);
-void isomorphic_keep(const System *system, const Follower *follower, Expr key, Derived which,
-                     const void *values, size_t size);
 
 /* How many first instances precede a node: that of its instance, that of the first's instance,
  * ... */

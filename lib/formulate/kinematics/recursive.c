@@ -62,8 +62,6 @@ static void find_turn_motion(const System *system, int c)
     if (is_alike) {
         motions[c] = (OrientationMotion){isomorphic_vec(follower, motions[first].w),
                                          isomorphic_vec(follower, motions[first].product)};
-        isomorphic_keep(system, follower, chain->identity, DERIVED_TURN, &motions[c],
-                        sizeof motions[c]);
         return;
     }
     if (derived_recall(system, chain->identity, DERIVED_TURN, &motions[c], sizeof motions[c]))
@@ -130,7 +128,6 @@ static void find_step_motion(System *system, int node)
         motion =
             (StepMotion){isomorphic_vec(follower, like->step), isomorphic_vec(follower, like->v),
                          isomorphic_vec(follower, like->product)};
-        isomorphic_keep(system, follower, frame->identity, DERIVED_STEP, &motion, sizeof motion);
     } else if (!derived_recall(system, frame->identity, DERIVED_STEP, &motion, sizeof motion)) {
         motion = step_motion(system, node);
         derived_store(system, frame->identity, DERIVED_STEP, &motion, sizeof motion);
@@ -197,7 +194,6 @@ static Vec orientation_rest(const System *system, int c, const Vec *alpha)
 
     if (is_alike) {
         rest = isomorphic_vec(follower, alpha[first]);
-        isomorphic_keep(system, follower, chain->identity, DERIVED_TURN_REST, &rest, sizeof rest);
         return rest;
     }
     if (derived_recall(system, chain->identity, DERIVED_TURN_REST, &rest, sizeof rest))
@@ -219,7 +215,6 @@ static Vec node_rest(const System *system, int n, const Vec *alpha, const Vec *a
 
     if (is_alike) {
         rest = isomorphic_vec(follower, a[first]);
-        isomorphic_keep(system, follower, frame->identity, DERIVED_STEP_REST, &rest, sizeof rest);
         return rest;
     }
     if (derived_recall(system, frame->identity, DERIVED_STEP_REST, &rest, sizeof rest))

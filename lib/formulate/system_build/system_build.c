@@ -413,8 +413,9 @@ static Status build(System *system, Diag *diag)
     }
     add_drives(system);
     frames_build(system);
-    identities_build(system);
     isomorphic_build(system);
+    identities_build(system);
+    isomorphic_find_recalled(system);
     multi_turn_build(system);
     motion_build(system);
     elastics_build(system);
