@@ -460,3 +460,114 @@ bool complementarity_solve(const Complementarity *problem, int *side, double *z,
         z[i] = s.z[i] * s.scale[i];
     return found;
 }
+
+/* --- with loads --- */
+
+/* With y = z + c z_k and w = w+ - w-, both parts >= 0:
+ *
+ *     w+      = M z + q + w-     y  >= 0, w+ >= 0, one of them 0
+ *     c z_k - z = 2 c z_k - y    w- >= 0, and that >= 0, one of them 0
+ *
+ * w- is scaled by the root of M_ii as w is. */
+typedef struct Loaded {
+    const LoadComplementarity *p;
+    int n, size; /* of the problem with the doubled rows */
+    int *extra;  /* n: the row of w- of each; -1: it has no load */
+    int *side;   /* size */
+    double *matrix, *q, *low, *high, *z;
+} Loaded;
+
+static double own_root(const Loaded *l, int i)
+{
+    const double own = l->p->box.matrix[i * l->n + i];
+
+    return own > 0 ? sqrt(own) : 1;
+}
+
+static void place_extra(Loaded *l)
+{
+    l->size = l->n;
+    for (int i = 0; i < l->n; i++)
+        l->extra[i] = l->p->load[i] >= 0 ? l->size++ : -1;
+}
+
+static void fill_row(const Loaded *l, int i)
+{
+    const LoadComplementarity *p = l->p;
+    double *row = l->matrix + (ptrdiff_t)i * l->size;
+
+    l->q[i] = p->box.q[i];
+    l->low[i] = l->extra[i] >= 0 ? 0 : p->box.low[i];
+    l->high[i] = l->extra[i] >= 0 ? INFINITY : p->box.high[i];
+    for (int k = 0; k < l->n; k++)
+        row[k] = p->box.matrix[i * l->n + k];
+    for (int k = 0; k < l->n; k++)
+        if (l->extra[k] >= 0)
+            row[p->load[k]] -= p->share[k] * p->box.matrix[i * l->n + k];
+}
+
+static void fill_extra(const Loaded *l, int i)
+{
+    const LoadComplementarity *p = l->p;
+    const int at = l->extra[i];
+    const double root = own_root(l, i);
+    double *row = l->matrix + (ptrdiff_t)at * l->size;
+
+    l->matrix[(ptrdiff_t)i * l->size + at] = root;
+    row[p->load[i]] = 2 * p->share[i] * root;
+    row[i] = -root;
+    l->q[at] = l->low[at] = 0;
+    l->high[at] = INFINITY;
+}
+
+/* first guesses */
+static void guess_sides(const Loaded *l, const int *side)
+{
+    for (int i = 0; i < l->n; i++) {
+        l->side[i] = l->extra[i] >= 0 && side[i] == AT_HIGH ? BETWEEN : side[i];
+        if (l->extra[i] >= 0)
+            l->side[l->extra[i]] = side[i] == AT_HIGH ? BETWEEN : AT_LOW;
+    }
+}
+
+static void read_loaded(const Loaded *l, int *side, double *z)
+{
+    for (int i = 0; i < l->n; i++) {
+        const int extra = l->extra[i];
+
+        z[i] = l->z[i];
+        side[i] = l->side[i];
+        if (extra >= 0) {
+            z[i] -= l->p->share[i] * l->z[l->p->load[i]];
+            side[i] = l->side[i] == AT_LOW ? AT_LOW : l->side[extra] == AT_LOW ? BETWEEN : AT_HIGH;
+        }
+    }
+}
+
+bool load_complementarity_solve(const LoadComplementarity *problem, int *side, double *z,
+                                double *room, int *integers)
+{
+    Loaded l = {.p = problem, .n = problem->box.n, .extra = integers};
+    Complementarity box;
+
+    place_extra(&l);
+    l.side = integers + l.n;
+    l.matrix = take(&room, (size_t)l.size * (size_t)l.size);
+    l.q = take(&room, (size_t)l.size);
+    l.low = take(&room, (size_t)l.size);
+    l.high = take(&room, (size_t)l.size);
+    l.z = take(&room, (size_t)l.size);
+    for (int i = 0; i < l.size * l.size; i++)
+        l.matrix[i] = 0;
+    for (int i = 0; i < l.n; i++)
+        fill_row(&l, i);
+    for (int i = 0; i < l.n; i++)
+        if (l.extra[i] >= 0)
+            fill_extra(&l, i);
+    guess_sides(&l, side);
+    box = (Complementarity){l.size, l.matrix, l.q, l.low, l.high};
+    if (!complementarity_solve(&box, l.side, l.z, room))
+        return false;
+    read_loaded(&l, side, z);
+    return true;
+}

@@ -43,4 +43,22 @@ bool complementarity_eliminate(double *a, int n, double *b, double regular, doub
  * Lemke's method. */
 bool complementarity_solve(const Complementarity *problem, int *side, double *z, double *room);
 
+/* The same where some unknowns are bounded by another one, their load: |z_i| <= c_i z_k, with
+ * z_k >= 0 by its own bounds. Of dry friction in a contact z_k is the normal force. */
+typedef struct LoadComplementarity {
+    Complementarity box; /* of a row with a load low and high aren't read */
+    const int *load;     /* n: the k of each row; -1: it has none */
+    const double *share; /* n: c */
+} LoadComplementarity;
+
+/* numbers and integers of workspace for n unknowns */
+#define LOAD_COMPLEMENTARITY_ROOM(n)     (COMPLEMENTARITY_ROOM(2 * (n)) + 4 * (n) * (n) + 8 * (n))
+#define LOAD_COMPLEMENTARITY_INTEGERS(n) (4 * (n))
+
+/* Solves it by complementarity_solve() in z_i + c_i z_k >= 0 and the part of w_i that is below 0,
+ * which doubles those rows; arguments, result and cost are as there. M needn't be symmetric in
+ * effect: there may be several solutions, or none (Painleve). */
+bool load_complementarity_solve(const LoadComplementarity *problem, int *side, double *z,
+                                double *room, int *integers);
+
 #endif

@@ -36,6 +36,23 @@ static double norm_of(const double *v, int count)
     return sqrt(sum);
 }
 
+static bool has_load(const Cones *c, int first)
+{
+    return c->p->load != NULL && c->p->load[first] >= 0;
+}
+
+/* r of a cone, or the upper bound of a row */
+static double bound_of(const Cones *c, int first)
+{
+    return has_load(c, first) ? fmax(0, c->p->share[first] * c->z[c->p->load[first]])
+                              : c->p->box.high[first];
+}
+
+static double low_of(const Cones *c, int i)
+{
+    return has_load(c, i) ? -bound_of(c, i) : c->p->box.low[i];
+}
+
 /* w_i at z */
 static double row_of(const Cones *c, int i)
 {
@@ -64,7 +81,7 @@ static bool solve_block(const Cones *c, int first, int rows, const double *b, do
 /* x where |x| = r, by halving the interval of c: |x| falls as c grows. */
 static void meet_bound(const Cones *c, int first, int rows, const double *b, double *x)
 {
-    const double r = c->p->box.high[first];
+    const double r = bound_of(c, first);
     double low = 0, high = norm_of(b, rows) / r, size;
 
     for (int turn = 0; turn < HALVINGS; turn++) {
@@ -86,7 +103,7 @@ static void meet_bound(const Cones *c, int first, int rows, const double *b, dou
 /* z of a cone alone, with the others as they are: A z = -b, or (A + c) z = -b with |z| = r */
 static void sweep_cone(const Cones *c, int first, int rows)
 {
-    const double r = c->p->box.high[first];
+    const double r = bound_of(c, first);
     double b[CONE_ROWS], x[CONE_ROWS] = {0};
     double size;
 
@@ -107,7 +124,7 @@ static void sweep_cone(const Cones *c, int first, int rows)
 
 static void sweep_row(const Cones *c, int i)
 {
-    const double low = c->p->box.low[i], high = c->p->box.high[i];
+    const double low = low_of(c, i), high = bound_of(c, i);
     const double own = c->p->box.matrix[i * c->n + i];
     const double w = row_of(c, i);
 
@@ -161,9 +178,9 @@ static double find_left(const Cones *c)
         double at = c->point[i];
 
         if (rows == 1)
-            at = fmax(c->p->box.low[i], fmin(c->p->box.high[i], at));
+            at = fmax(low_of(c, i), fmin(bound_of(c, i), at));
         else {
-            const double norm = norm_of(c->point + first, rows), r = c->p->box.high[first];
+            const double norm = norm_of(c->point + first, rows), r = bound_of(c, first);
 
             if (norm > r || (c->p->slips[first] && norm > 0))
                 at *= r / norm;
@@ -179,12 +196,12 @@ static void derive_row(const Cones *c, int i)
 {
     const int n = c->n, first = first_of(c, i), rows = c->p->rows[first];
     const double norm = norm_of(c->point + first, rows);
-    const double r = c->p->box.high[first];
+    const double r = bound_of(c, first);
     double *row = c->matrix + (ptrdiff_t)i * n;
     bool is_at_bound;
 
     if (rows == 1)
-        is_at_bound = c->point[i] < c->p->box.low[i] || c->point[i] > c->p->box.high[i];
+        is_at_bound = c->point[i] < low_of(c, i) || c->point[i] > r;
     else
         is_at_bound = norm > r || c->p->slips[first];
     for (int k = 0; k < n; k++)
@@ -200,6 +217,8 @@ static void derive_row(const Cones *c, int i)
         for (int k = 0; k < n; k++)
             row[k] += share * c->step[j] * c->p->box.matrix[j * n + k];
     }
+    if (has_load(c, first) && norm > 0 && r > 0)
+        row[c->p->load[first]] -= c->p->share[first] * c->point[i] / norm; /* dP_i/dr dr/dz */
 }
 
 /* The step, in place of `left`. Where rows are dependent it is nearly the shortest one. */
@@ -251,11 +270,11 @@ static void read_sides(const Cones *c, int *side)
         const int first = first_of(c, i), rows = c->p->rows[first];
 
         if (rows == 1)
-            side[i] = c->point[i] < c->p->box.low[i]    ? AT_LOW
-                      : c->point[i] > c->p->box.high[i] ? AT_HIGH
-                                                        : BETWEEN;
+            side[i] = c->point[i] < low_of(c, i)     ? AT_LOW
+                      : c->point[i] > bound_of(c, i) ? AT_HIGH
+                                                     : BETWEEN;
         else
-            side[i] = c->p->slips[first] || norm_of(c->point + first, rows) > c->p->box.high[first]
+            side[i] = c->p->slips[first] || norm_of(c->point + first, rows) > bound_of(c, first)
                           ? AT_HIGH
                           : BETWEEN;
     }

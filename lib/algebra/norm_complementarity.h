@@ -27,6 +27,10 @@ enum { CONE_ROWS = 3 }; /* of a cone, at most */
 typedef struct NormComplementarity {
     Complementarity box; /* of the first row of a cone `high` is r; its other bounds aren't read */
     const int *rows;     /* at the first row of a cone how many it has; 0: at its others; 1: none */
+    const int *load;     /* at a row or the first one of a cone the row whose unknown times `share`
+                            is its bound, in place of `low` and `high`; -1: none. NULL: there are
+                            none */
+    const double *share; /* likewise */
     const int *slips;    /* at the first row of a cone: not 0 where it is AT_HIGH, whatever c is */
 } NormComplementarity;
 

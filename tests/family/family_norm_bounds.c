@@ -69,7 +69,8 @@ static void draw_matrix(Member *member, Problem *p, double range)
 
 static bool solve(Problem *p)
 {
-    const NormComplementarity c = {{p->n, p->scaled, p->q, p->low, p->high}, p->rows, p->slips};
+    const NormComplementarity c = {
+        .box = {p->n, p->scaled, p->q, p->low, p->high}, .rows = p->rows, .slips = p->slips};
     static double room[NORM_COMPLEMENTARITY_ROOM(MOST)];
     bool found;
 
