@@ -30,7 +30,7 @@ body b mass=1 inertia=1
 prismatic s ground b axis=y
 force F b [0, -9.81]
 init s = 1
-event hit when=s < 0 s'=-e*s'
+stop floor s low=0 e=e
 simulate 1
 print d(s)/d(e) at 0.6
 expect d(s)/d(e) ~ 0 within 1e-12 at 0.3

@@ -15,6 +15,13 @@ const Equations *compiled_equations(const CompiledEquations *numbers);
 /* Prepare for modes that slide along the layout's surfaces where `on` does. E_MISSING: how one of
  * them is left can't be determined. */
 MUST_USE Status compiled_slide(CompiledEquations *numbers, const OnSurface *on, Diag *diag);
+/* The expression that stays 0 while the motion slides along a surface, which determines its k-th
+ * unknown sign, in the layout's mode; it is of the level of that sign: of u', x' or z. Fails as
+ * system_rate() does. */
+MUST_USE Status compiled_slip(const VariableIndex *layout, int k, Expr *out, Diag *diag);
+/* What becomes 0 where the k-th sign reaches its lower or upper bound (end: -1, 1), over the
+ * layout's symbols; NULL: it is one of a vector, or has no such bound. */
+Expr compiled_bound(const VariableIndex *layout, int k, int end);
 /* Set conditions and surfaces to the layout's mode, when that has changed. */
 void compiled_enter_mode(CompiledEquations *numbers);
 /* Set a parameter in all of its programs that contain it. */

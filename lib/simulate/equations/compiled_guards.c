@@ -276,6 +276,30 @@ static int measures_of(const VariableIndex *l, int i, Expr out[SURFACE_PARTS])
     return surface->part_count > 0 ? surface->part_count : 1;
 }
 
+Status compiled_slip(const VariableIndex *l, int k, Expr *out, Diag *diag)
+{
+    const int i = l->slid_surface[k];
+    Expr measures[SURFACE_PARTS], off;
+
+    (void)measures_of(l, i, measures);
+    return slip_of(l, measures[l->surfaces[i].part_count > 0 ? l->slid[k] - l->first_part[i] : 0],
+                   out, &off, diag);
+}
+
+Expr compiled_bound(const VariableIndex *l, int k, int end)
+{
+    Arena *arena = system_arena(l->system);
+    const Surface *surface = &l->surfaces[l->slid_surface[k]];
+    const Expr sign = l->symbols[l->signs + l->slid[k]];
+    const Expr bound = surface->ratio != NULL ? surface->ratio : expr_int(arena, 1);
+
+    if (surface->part_count > 0 || (surface->is_unilateral && end > 0))
+        return NULL;
+    if (surface->is_unilateral)
+        return sign;
+    return end > 0 ? expr_sub(arena, bound, sign) : expr_add(arena, bound, sign);
+}
+
 static Status push_slip(const VariableIndex *l, Expr measure, CompiledRoots *slip,
                         CompiledRoots *off, Diag *diag)
 {

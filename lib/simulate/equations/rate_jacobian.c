@@ -10,6 +10,7 @@
 #include "algebra/sparse.h"
 #include "base/memory.h"
 #include "compile/jacobian.h"
+#include "simulate/equations/compiled_equations.h"
 #include "simulate/equations/probe.h"
 #include "simulate/equations/rows.h"
 
@@ -25,6 +26,7 @@ struct RateJacobian {
     int follow, states;     /* numbers of entries of e and of w */
     Expr *others;           /* other_count: further symbols to differentiate by */
     int other_count;
+    int slides;         /* signs of surfaces that the motion slides along, which are unknowns too */
     Probe *probe;       /* E, q', rates of references, power */
     Jacobian *jacobian; /* derivatives of these by e, then by w, then by other symbols */
     double *values;     /* its entries */
@@ -36,21 +38,30 @@ struct RateJacobian {
     bool *in_use;  /* constraint rows */
 };
 
-RateJacobian *rate_jacobian_new(const VariableIndex *l, Parameters *parameters, Motion *motion)
-{
-    return rate_jacobian_new_by(l, parameters, motion, NULL, 0);
-}
-
-RateJacobian *rate_jacobian_new_by(const VariableIndex *l, Parameters *parameters, Motion *motion,
-                                   const Expr *others, int count)
+static RateJacobian *create(const VariableIndex *l, Parameters *parameters, Motion *motion,
+                            int slides)
 {
     RateJacobian *j = NEW(RateJacobian);
 
     j->l = l;
     j->parameters = parameters;
     j->motion = motion;
-    j->follow = l->nu + l->m + l->nx + l->nz;
+    j->slides = slides;
+    j->follow = l->nu + l->m + l->nx + l->nz + slides;
     j->states = l->n + l->nu + l->nx;
+    return j;
+}
+
+RateJacobian *rate_jacobian_new(const VariableIndex *l, Parameters *parameters, Motion *motion)
+{
+    return create(l, parameters, motion, 0);
+}
+
+RateJacobian *rate_jacobian_new_by(const VariableIndex *l, Parameters *parameters, Motion *motion,
+                                   const Expr *others, int count)
+{
+    RateJacobian *j = create(l, parameters, motion, l->slides);
+
     j->others = NEW_ARRAY(Expr, count);
     j->other_count = count;
     for (int i = 0; i < count; i++)
@@ -87,6 +98,12 @@ static Status push_rows(const RateJacobian *j, RateJacobianRoots *roots)
         LIST_PUSH(*roots, row_acceleration(l, k));
     for (int i = 0; i < l->nx + l->nz; i++)
         LIST_PUSH(*roots, row_network(l, i));
+    for (int k = 0; k < j->slides; k++) {
+        Expr slip;
+
+        TRY(compiled_slip(l, k, &slip, NULL));
+        LIST_PUSH(*roots, slip);
+    }
     LIST_ROOM(*roots, j->follow + l->n + l->multi_turns);
     TRY(rows_kinematic(l, roots->at + j->follow, NULL));
     roots->count = j->follow + l->n + l->multi_turns;
@@ -103,6 +120,8 @@ static void push_moves(const RateJacobian *j, ColumnMoves *moves)
     moves_push(moves, l->nu, l->multipliers, l->m);
     moves_push(moves, l->nu + l->m, l->rates, l->nx);
     moves_push(moves, l->nu + l->m + l->nx, l->z, l->nz);
+    for (int k = 0; k < j->slides; k++)
+        moves_push(moves, l->nu + l->m + l->nx + l->nz + k, l->signs + l->slid[k], 1);
     moves_push(moves, j->follow, l->q, l->n);
     moves_push(moves, j->follow + l->n, l->u, l->nu);
     moves_push(moves, j->follow + l->n + l->nu, l->x, l->nx);
@@ -246,13 +265,25 @@ static void write_column(RateJacobian *j, int state, double *out, int stride)
             add_column(j, k, j->right[k], out, stride);
 }
 
+/* the solution with the constraint rows in use; on surfaces that the motion slides along only
+ * where those are all */
+static bool solve(const RateJacobian *j, double t, const double *y, Solved *out)
+{
+    int used;
+
+    if (j->slides == 0)
+        return motion_solve_in_use(j->motion, t, y, out);
+    (void)motion_rows(j->motion, &used);
+    return used == j->l->m && motion_solve(j->motion, t, y, out);
+}
+
 /* Evaluate the derivatives of the rows at (t, y), and factor E_e. */
 static bool evaluate(RateJacobian *j, double t, const double *y)
 {
     Solved solved;
     RowValues row;
 
-    if (!motion_solve_in_use(j->motion, t, y, &solved))
+    if (j->l->slides != j->slides || !solve(j, t, y, &solved))
         return false;
     if (!j->is_asked) {
         mem_keep(j);

@@ -16,7 +16,9 @@ typedef struct RateJacobian RateJacobian;
 /* New; free with rate_jacobian_free(). Borrows all. */
 RateJacobian *rate_jacobian_new(const VariableIndex *layout, Parameters *parameters,
                                 Motion *motion);
-/* The same, also by these `count` symbols, which are parameters; copied. */
+/* The same, also by these `count` symbols, which are parameters or the time; copied. It belongs to
+ * the layout's mode: signs of surfaces that the motion slides along are unknowns too, after those
+ * of e, and slip is one more equation each. */
 RateJacobian *rate_jacobian_new_by(const VariableIndex *layout, Parameters *parameters,
                                    Motion *motion, const Expr *others, int count);
 void rate_jacobian_free(RateJacobian *jacobian);          /* NULL is fine */

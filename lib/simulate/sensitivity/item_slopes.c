@@ -71,6 +71,8 @@ static void move_solved(const ItemSlopes *s, int lane, const double *solved, int
     for (int part = 0; part < COUNT(first); part++)
         for (int i = 0; i < length[part]; i++, solved += s->by->count)
             move(s, lane, first[part] + i, solved[parameter] / s->by->sizes[parameter]);
+    for (int k = 0; k < l->slides; k++, solved += s->by->count)
+        move(s, lane, l->signs + l->slid[k], solved[parameter] / s->by->sizes[parameter]);
 }
 
 static void move_parameters(const ItemSlopes *s, int lane, int parameter)

@@ -74,14 +74,36 @@ static Status point_open(SensitivityPass *pass, JumpPoint *point, Diag *diag)
 
 /* --- the instant --- */
 
+/* where a sign reaches its bound, and the motion leaves a surface that it slides along */
+static Status bound_of(const Phase *phase, const Crossing *crossing, Guard guard, Expr *out,
+                       Diag *diag)
+{
+    const VariableIndex *l = phase->layout;
+
+    *out = NULL;
+    for (int k = 0; k < l->slides && *out == NULL; k++)
+        if (l->surfaces[l->slid_surface[k]].number == guard.surface)
+            *out = compiled_bound(l, k, guard.end);
+    if (*out != NULL)
+        return OK;
+    return diag_set(diag, E_MODEL,
+                    "at t = %.6g s: what sticks in two or three directions begins to slip: there "
+                    "are no sensitivities after that",
+                    crossing->before);
+}
+
 /* what becomes 0 at a crossing of a condition in the state */
 static Status difference_of(const Phase *phase, const Crossing *crossing, Expr *out, Diag *diag)
 {
     IdealSwitch ideal;
+    Guard guard;
 
     *out = crossing->difference;
     if (crossing->kind == CROSSING_EVENT)
         return OK;
+    guard = equations_guard(compiled_equations(phase->numbers), crossing->condition);
+    if (guard.end != 0)
+        return bound_of(phase, crossing, guard, out, diag);
     *out = compiled_condition(phase->numbers, crossing->condition);
     if (*out != NULL)
         return OK;
@@ -230,14 +252,12 @@ done:
 
 /* --- the state --- */
 
-static Status refuse_values(const Crossing *crossing, Diag *diag)
+static Status refuse_impact(const Crossing *crossing, Diag *diag)
 {
-    const char *what = crossing->has_impact ? "an impact" : "an event's new values";
-
-    if (!crossing->has_impact && !crossing->has_new_values)
+    if (!crossing->has_impact)
         return OK;
-    return diag_set(diag, E_MODEL, "at t = %.6g s: there are no sensitivities through %s yet",
-                    crossing->before, what);
+    return diag_set(diag, E_MODEL, "at t = %.6g s: there are no sensitivities through an impact",
+                    crossing->before);
 }
 
 static Status refuse_states(double t, Diag *diag)
@@ -250,29 +270,45 @@ static Status refuse_states(double t, Diag *diag)
     return E_MODEL;
 }
 
-/* S+ = S- + (f- - f+) dt* */
-static Status shift(SensitivityPass *pass, const JumpPoint *point, const Crossing *crossing,
-                    const double *after, int phase, const double *instants, Diag *diag)
+/* derivatives of y+ at the instant: S- + f- dt*, or through new values; new */
+static Status arrive(SensitivityPass *pass, const JumpPoint *point, const Crossing *crossing,
+                     const double *after, const double *instants, double **out, Diag *diag)
 {
     const int count = pass->order->by.count, n = point->n;
-    const double *slope = point->unknowns + (ptrdiff_t)n * (count + 1);
+    const CrossingPoint at = {.t = point->t,
+                              .n = n,
+                              .unknowns = point->unknowns,
+                              .rate = point->unknowns + (ptrdiff_t)n * (count + 1),
+                              .instants = instants};
+
+    *out = NEW_ARRAY(double, n *count);
+    if (crossing->has_new_values)
+        return sensitivity_new_values(pass, &at, after, *out, diag);
+    for (int p = 0; p < count; p++)
+        for (int i = 0; i < n; i++)
+            (*out)[p * n + i] = at.unknowns[(p + 1) * n + i] + at.rate[i] * instants[p];
+    return OK;
+}
+
+/* S+ = d y+ - f+ dt* */
+static Status leave(SensitivityPass *pass, const Crossing *crossing, const double *after, int phase,
+                    int n, const double *arrived, const double *instants, Diag *diag)
+{
+    const int count = pass->order->by.count;
     double *rate = NEW_ARRAY(double, n + 1);
     Status status = OK;
 
     CHECK(sensitivity_open(pass, phase, diag));
     if (variational_states(pass->variational) != n)
-        CHECK(refuse_states(point->t, diag));
+        CHECK(refuse_states(crossing->before, diag));
     pass->t = crossing->after;
     motion_window(pass->phase->motion, crossing->after, INFINITY);
     memcpy(pass->unknowns, after, (size_t)n * sizeof(double));
     if (!variational_rate(pass->variational, pass->t, pass->unknowns, rate))
         CHECK(solver_failure(diag, pass->t, "the rates are undefined"));
     for (int p = 0; p < count; p++)
-        for (int i = 0; i < n; i++) {
-            const ptrdiff_t at = (ptrdiff_t)(p + 1) * n + i;
-
-            pass->unknowns[at] = point->unknowns[at] + (slope[i] - rate[i]) * instants[p];
-        }
+        for (int i = 0; i < n; i++)
+            pass->unknowns[(ptrdiff_t)(p + 1) * n + i] = arrived[p * n + i] - rate[i] * instants[p];
     if (!variational_project(pass->variational, pass->t, pass->unknowns))
         CHECK(solver_failure(diag, pass->t, "the constraints have no derivatives"));
 done:
@@ -285,11 +321,13 @@ Status sensitivity_jump(SensitivityPass *pass, int which, Diag *diag)
     const Crossings *crossings = &pass->reader->result->crossings;
     const Crossing *crossing = &crossings->list.at[which];
     double *instants = NEW_ARRAY(double, pass->order->by.count);
+    double *arrived = NULL;
+    const double *after;
     JumpPoint point = {0};
     Expr difference = NULL;
     Status status = OK;
 
-    CHECK(refuse_values(crossing, diag));
+    CHECK(refuse_impact(crossing, diag));
     CHECK(point_open(pass, &point, diag));
     if (crossing->kind == CROSSING_TIME) {
         CHECK(instant_in_time(pass, &point, crossing, instants, diag));
@@ -297,9 +335,12 @@ Status sensitivity_jump(SensitivityPass *pass, int which, Diag *diag)
         CHECK(difference_of(pass->phase, crossing, &difference, diag));
         CHECK(instant_of(pass, &point, difference, instants, diag));
     }
-    CHECK(shift(pass, &point, crossing, grid_row(&crossings->states, 2 * which + 1),
-                crossings->states.phase[2 * which + 1], instants, diag));
+    after = grid_row(&crossings->states, 2 * which + 1);
+    CHECK(arrive(pass, &point, crossing, after, instants, &arrived, diag));
+    CHECK(leave(pass, crossing, after, crossings->states.phase[2 * which + 1], point.n, arrived,
+                instants, diag));
 done:
+    mem_free(arrived);
     point_close(&point);
     mem_free(instants);
     return status;
