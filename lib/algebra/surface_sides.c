@@ -192,7 +192,7 @@ static int place_free(Search *s)
 /* With bounds on norms: the signs as they are are first guesses. */
 static bool solve_cones(Search *s, const Complementarity *box)
 {
-    const NormComplementarity problem = {*box, s->rows, s->slips};
+    const NormComplementarity problem = {.box = *box, .rows = s->rows, .slips = s->slips};
 
     for (int i = 0; i < box->n; i++) {
         const SurfaceSide *at = &s->at[s->place[i]];
