@@ -20,6 +20,7 @@ typedef struct FitWork {
     ParameterSearch search;
     FitPlan plan;
     int left;
+    bool has_no_sensitivities; /* the signals have none: not tried again */
 } FitWork;
 
 static const FitWork *work_of(const ParameterSearch *search)
@@ -69,6 +70,66 @@ static Status read_residuals(const ParameterSearch *search, double *out, Diag *d
     return OK;
 }
 
+/* --- derivatives --- */
+
+/* of a signal, along its instants: count x unknowns; E_MODEL where it is no plain variable */
+static Status signal_slopes(const FitWork *work, const FitTarget *target, double *out, Diag *diag)
+{
+    ct_session *session = work->search.session;
+    const int n = work->search.unknowns.count;
+    Expr *parameters = NEW_ARRAY(Expr, n);
+    Formula formula = {0};
+    Run *run = &session->runs.at[session->runs.count - 1];
+    const Leaf *leaf;
+    Status status;
+
+    for (int i = 0; i < n; i++)
+        parameters[i] = session_parameter(session, work->search.unknowns.at[i].name);
+    CHECK(formula_new(session, target->by, &formula, diag));
+    leaf = formula.leaves.count == 1 ? formula.leaves.at : NULL;
+    if (leaf == NULL || leaf->kind != LEAF_VARIABLE || leaf->run >= 0 ||
+        formula.whole != leaf->symbol)
+        CHECK(E_MODEL);
+    CHECK(session_sensitivities(session, run, &leaf->expr, 1, parameters, n, target->times,
+                                target->count, out, diag));
+    for (int k = 0; k < target->count * n; k++)
+        out[k] *= formula.scale / sigma_of(target);
+done:
+    formula_free(&formula);
+    mem_free(parameters);
+    return status;
+}
+
+/* the DerivativesFunction of a fit: of one run, by its sensitivities */
+static Status find_derivatives(void *context, const double *x, double *out, bool *has, Diag *diag)
+{
+    FitWork *work = context;
+    ParameterSearch *search = &work->search;
+    const int n = search->unknowns.count;
+    Diag why = {0};
+    Status status = OK;
+
+    *has = false;
+    for (int i = 0; i < work->plan.targets.count; i++)
+        if (work->plan.targets.at[i].curve == NULL)
+            work->has_no_sensitivities = true;
+    if (work->has_no_sensitivities)
+        return OK;
+    CHECK(parameter_search_run(search, x, &why));
+    for (int i = 0; i < work->plan.targets.count; i++) {
+        const FitTarget *target = &work->plan.targets.at[i];
+
+        CHECK(signal_slopes(work, target, out, &why));
+        out += (ptrdiff_t)target->count * n;
+    }
+    search->evaluations++;
+    *has = true;
+done:
+    parameter_search_forget(search);
+    work->has_no_sensitivities = status != OK;
+    return status == E_STOPPED ? diag_set(diag, status, "%s", why.message) : OK;
+}
+
 /* --- the search --- */
 
 static FitProblem problem_of(FitWork *work, double *numbers)
@@ -82,6 +143,7 @@ static FitProblem problem_of(FitWork *work, double *numbers)
                           .sigma_is_known = work->plan.has_sigma,
                           .step = SEARCH_STEP,
                           .function = parameter_search_evaluate,
+                          .derivatives = find_derivatives,
                           .context = &work->search};
 
     for (int i = 0; i < n; i++) {

@@ -335,6 +335,8 @@ bool figure_is_called(const Syntax *syntax);
 MUST_USE Status figure_value(ct_session *session, const Syntax *call, const Formula *argument,
                              double band, double *out, Diag *diag);
 
+/* the parameter of that name, which there is */
+Expr session_parameter(const ct_session *session, const char *name);
 /* Sensitivities (session_sensitivity.c): d(h)/d(L), with a factor before it: a*d(h)/d(L). */
 bool sensitivity_is_called(const ct_session *session, const Syntax *syntax);
 /* h, the numerator with its factor, and L */

@@ -50,10 +50,22 @@ static Status refuse_alone(const Syntax *syntax, Diag *diag)
     return E_SYNTAX;
 }
 
+Expr session_parameter(const ct_session *session, const char *name)
+{
+    const Model *model = session->model;
+    Expr definition, symbol = NULL;
+
+    for (int i = 0; i < model_parameter_count(model); i++) {
+        symbol = model_parameter(model, i, &definition);
+        if (strcmp(expr_name(symbol), name) == 0)
+            return symbol;
+    }
+    return NULL;
+}
+
 Status sensitivity_read(ct_session *session, const Syntax *syntax, const Syntax **item,
                         const Syntax **numerator, Expr *parameter, Diag *diag)
 {
-    const Model *model = session->model;
     const Syntax *by;
 
     if (syntax->kind == SYNTAX_CALL || syntax->args[1]->count != 1)
@@ -64,14 +76,11 @@ Status sensitivity_read(ct_session *session, const Syntax *syntax, const Syntax 
         return refuse_alone(*item, diag);
     *item = (*item)->args[0];
     by = syntax->args[1]->args[0];
-    for (int i = 0; i < model_parameter_count(model); i++) {
-        Expr definition;
-
-        *parameter = model_parameter(model, i, &definition);
-        if (by->kind == SYNTAX_VARIABLE && by->primes == 0 &&
-            strcmp(expr_name(*parameter), by->text) == 0)
-            return OK;
-    }
+    *parameter = by->kind == SYNTAX_VARIABLE && by->primes == 0
+                     ? session_parameter(session, by->text)
+                     : NULL;
+    if (*parameter != NULL)
+        return OK;
     (void)diag_at(diag, E_NAME, by->place, "a derivative is by a parameter, which this is not");
     diag_hint(diag, "an initial value or a value of a part is one by a name: A = 30 deg, "
                     "init h = A, then d(h)/d(A)");
@@ -214,17 +223,24 @@ done:
     return status;
 }
 
-/* Derivatives of the start by one parameter, times its size: quotients with steps h, h/2, h/4,
- * extrapolated to 0 (their errors are series in h^2). */
+/* Derivatives of the start by one parameter, times its size: 0 where it doesn't move, else
+ * quotients with steps h, h/2, h/4, extrapolated to 0 (their errors are series in h^2). */
 static Status start_slope(ct_session *session, const Run *run, const char *name, double value,
                           double size, int length, double *out, Diag *diag)
 {
     enum { LEVELS = 3 };
     double *table = NEW_ARRAY(double, LEVELS *length);
     double step = SENSITIVITY_STEP * size;
+    const double *start;
     Diag why = {0};
     Status status = OK;
 
+    (void)result_reader_start(run->reader, &start);
+    if (start_at(session, run, name, value + step, length, table, &why) == OK &&
+        memcmp(table, start, (size_t)length * sizeof(double)) == 0) {
+        memset(out, 0, (size_t)length * sizeof(double));
+        goto done;
+    }
     for (int level = 0; level < LEVELS; level++, step /= 2) {
         double *row = table + (ptrdiff_t)level * length;
 

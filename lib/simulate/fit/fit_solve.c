@@ -77,6 +77,14 @@ static Status find_jacobian(FitSearch *search, Diag *diag)
                                      .function = problem->function,
                                      .context = problem->context};
 
+    if (problem->derivatives != NULL) {
+        bool has = false;
+
+        TRY(problem->derivatives(problem->context, at->x, at->jacobian, &has, diag));
+        at->evaluations += has;
+        if (has)
+            return OK;
+    }
     for (int i = 0; i < problem->unknowns; i++)
         search->step[i] = fmin(problem->step * fit_size(problem, at->x, i),
                                (problem->high[i] - problem->low[i]) / 2);

@@ -2,8 +2,8 @@
  *
  * Levenberg and Marquardt's method (Marquardt 1963, with the damping of Nielsen 1999) between
  * bounds: unknowns at a bound from which the losses would decrease outwards are held. Derivatives
- * are difference quotients (differences.h). Each residual is z = (model - data)/sigma. A point at
- * which the model has no values is as if its losses were infinite. */
+ * are those of the problem, or difference quotients (differences.h). Each residual is z = (model -
+ * data)/sigma. A point at which the model has no values is as if its losses were infinite. */
 #ifndef COTREE_SIMULATE_FIT_FIT_SOLVE_H
 #define COTREE_SIMULATE_FIT_FIT_SOLVE_H
 
@@ -12,15 +12,21 @@
 
 #include <stdbool.h>
 
+/* Derivatives of the residuals at x: residuals x unknowns. *has: whether there are such; otherwise
+ * they are difference quotients. */
+typedef Status DerivativesFunction(void *context, const double *x, double *out, bool *has,
+                                   Diag *diag);
+
 typedef struct FitProblem {
     int unknowns, residuals;
     const double *start;
     const double *low, *high; /* infinite: no bound */
     Loss loss;
-    bool sigma_is_known;      /* else the scale of the losses is that of the residuals */
-    double step;              /* of difference quotients, relative */
-    double noise;             /* of a residual, from the accuracy of the model */
-    PointsFunction *function; /* residuals */
+    bool sigma_is_known;              /* else the scale of the losses is that of the residuals */
+    double step;                      /* of difference quotients, relative */
+    double noise;                     /* of a residual, from the accuracy of the model */
+    PointsFunction *function;         /* residuals */
+    DerivativesFunction *derivatives; /* NULL: they are difference quotients */
     void *context;
 } FitProblem;
 
