@@ -145,6 +145,7 @@ typedef struct Code {
     int group_count;
     bool is_explicit;     /* u', and lambda, are written out: function `accelerations` */
     bool is_redundant;    /* constraints repeat each other */
+    bool is_augmented;    /* the embedded form was asked for, and is too long to be written out */
     LIST(char *) outputs; /* the requested items, as text */
     LIST(char *) conditions;
     CodeLive live;

@@ -124,6 +124,8 @@ void code_head(const Code *code, const Language *language, const char *lead, Tex
     SAY(&head, "%s", "");
     SAY(&head, "q' = N u,  Phi(q, t) = 0,  Phi_u u = nu,  Phi_u u' = gamma,");
     SAY(&head, "M u' + Phi_u^T lambda = F,  A [x'; z] = b");
+    if (code->is_augmented)
+        SAY(&head, "(%s)", form_too_long);
     if (brief[0] != '\0')
         SAY(&head, "trees: %s", brief);
     SAY(&head, "%s", "");

@@ -7,6 +7,7 @@
 #include "formulate/reduced/accelerations.h"
 #include "formulate/reduced/prescribed.h"
 #include "model/model.h"
+#include "present/count.h"
 
 #include <ctype.h>
 #include <stdio.h>
@@ -207,6 +208,68 @@ static void add_blocks(Code *code)
     code_add_function(code, "forces", "the right side F", r->force, l->nu, 1);
     add_matrix(code, "map", "N in q' = N u", map, l->n, l->nu);
     mem_free(map);
+}
+
+/* the speeds of the rows: "h1', h2'" */
+static Status embedded_rows_named(System *system, Text *out, Diag *diag)
+{
+    int *speeds, dependent;
+
+    TRY(system_partition(system, &speeds, &dependent, diag));
+    for (int i = dependent; i < system_nu(system); i++)
+        layout_item(out, system_u(system, speeds[i])->name);
+    mem_free(speeds);
+    return OK;
+}
+
+static Status add_embedded_block(Code *code, Block block, const char *what, Diag *diag)
+{
+    System *system = code->layout->system;
+    int rows, columns;
+    Expr *entries;
+    Status status = OK;
+
+    system_block_size(system, block, &rows, &columns);
+    entries = NEW_ARRAY(Expr, rows * columns);
+    for (int i = 0; i < rows * columns; i++)
+        CHECK(system_show_alone(system, block, i / columns, i % columns, &entries[i], diag));
+    if (block == BLOCK_EMBEDDED_MASS)
+        add_matrix(code, block_name(block), what, entries, rows, columns);
+    else
+        code_add_function(code, block_name(block), what, entries, rows, columns);
+done:
+    mem_free(entries);
+    return status;
+}
+
+/* With `form embedded`, as far as it can be written out: Mt = G^T M and Ft = G^T F, with Mt u' = Ft
+ * but for drivers. */
+static Status add_embedded(Code *code, Diag *diag)
+{
+    System *system = code->layout->system;
+    const char *const *independent;
+    int count;
+    Text names = {0}, mass = {0}, forces = {0};
+    Status status = OK;
+
+    if (code->layout->m == 0 ||
+        model_form(code->view->model, &independent, &count) != FORM_EMBEDDED)
+        return OK;
+    code->is_augmented = form_written(system, FORM_EMBEDDED) != FORM_EMBEDDED;
+    if (code->is_augmented)
+        return OK;
+    CHECK(embedded_rows_named(system, &names, diag));
+    text_addf(&mass, "the mass matrix G^T M of the embedded form, rows %s", names.at);
+    text_addf(&forces, "the right side G^T F of the embedded form, rows %s", names.at);
+    CHECK(add_embedded_block(code, BLOCK_EMBEDDED_MASS,
+                             pool_text(code->texts, mass.at, mass.length), diag));
+    CHECK(add_embedded_block(code, BLOCK_EMBEDDED_FORCES,
+                             pool_text(code->texts, forces.at, forces.length), diag));
+done:
+    text_free(&names);
+    text_free(&mass);
+    text_free(&forces);
+    return status;
 }
 
 static Status add_derivative(Code *code, Diag *diag)
@@ -569,6 +632,8 @@ Status code_form(const Exported *what, Code *code, Diag *diag)
     }
     CHECK(code_find_modes(code, diag));
     add_blocks(code);
+    if (!code->live.is_wanted && code->inverse == NULL)
+        CHECK(add_embedded(code, diag));
     CHECK(add_derivative(code, diag));
     add_angles(code);
     if (code_has_modes(code))

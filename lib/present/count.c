@@ -41,6 +41,9 @@ static Form form_of(const View *view)
     return model_form(view->model, &independent, &count);
 }
 
+const char form_too_long[] =
+    "of the augmented form: the embedded one has too many constraints to be written out";
+
 Form form_written(System *system, Form form)
 {
     int rows, columns;
@@ -160,8 +163,7 @@ static Status print_blocks(const View *view, const Statement *statement, Text *o
     }
     text_add(out, "operations as written, and after common subexpressions are shared\n");
     if (form_of(view) != form_written(view->system, form_of(view)))
-        text_add(out, "(of the augmented form: the embedded one has too many constraints to be "
-                      "written out)\n");
+        text_addf(out, "(%s)\n", form_too_long);
     table_print(out, &table, 0);
 done:
     table_free(&table);

@@ -9,6 +9,7 @@
 const char *count_block_name(int i);
 /* the form that can be written out: the embedded one has a bound on constraints */
 Form form_written(System *system, Form form);
+extern const char form_too_long[]; /* a remark where it isn't the form that was asked for */
 /* additions, multiplications and functions of one block ("mass", "total"), as written or after
  * sharing; the total is that of the equations in their form. Fails with E_NAME where there is no
  * such block. */

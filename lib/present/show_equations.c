@@ -243,9 +243,7 @@ static Form shown_form(Text *out, const View *view, const Selection *selection)
     const Form written = form_written(view->system, form);
 
     if (form != written && selection->number_count == 0)
-        view_comment(out, view,
-                     "of the augmented form: the embedded one has too many constraints to be "
-                     "written out");
+        view_comment(out, view, form_too_long);
     return written;
 }
 
