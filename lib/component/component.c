@@ -421,6 +421,12 @@ static const Member contact_spatial[] = {
     {"z",  "m", "of the point of contact, ground axes", 1},
 };
 
+static const Member coupling_spatial[] = {
+    {"tx", "N*m", "moment on the tip, ground axes", 0},
+    {"ty", "N*m", "moment on the tip, ground axes", 0},
+    {"tz", "N*m", "moment on the tip, ground axes", 0},
+};
+
 static const Member electrical[] = {
     {"v",     "V", "voltage, plus against minus", 2},
     {"i",     "A", "current, from plus to minus inside", 2},
@@ -508,6 +514,10 @@ static const Member *family_members(const Component *row, bool planar, int *coun
     case FAMILY_TRANSDUCER:
         return scalar_members(row, count);
     case FAMILY_CONTACT:
+        if (row->turns) {
+            *count = COUNT(coupling_spatial);
+            return coupling_spatial;
+        }
         *count = planar ? COUNT(contact_planar) : COUNT(contact_spatial);
         return planar ? contact_planar : contact_spatial;
     case FAMILY_FORCE:
@@ -590,6 +600,14 @@ void steps_freedom(const Steps *steps, int freedom[2])
 {
     freedom[0] = steps->shift_count;
     freedom[1] = steps->turn_count + (steps->quaternion ? 3 : 0);
+}
+
+Expr axis_dot(Arena *arena, const Expr a[3], const Expr b[3])
+{
+    return expr_sum(arena,
+                    (Expr[]){expr_mul(arena, a[0], b[0]), expr_mul(arena, a[1], b[1]),
+                             expr_mul(arena, a[2], b[2])},
+                    3);
 }
 
 void axis_cross(Arena *arena, const Expr a[3], const Expr b[3], Expr out[3])

@@ -226,12 +226,14 @@ typedef struct FramesApart {
     Expr angle;   /* planar: of the head against the tail (rad); otherwise NULL */
 } FramesApart;
 
-/* The velocity of the head's point against the tail's point has no component along `along`. */
+/* The velocity of the head's point against the tail's point has no component along `along`, or its
+ * angular velocity has none. */
 typedef struct ContactRow {
     const char *direction; /* for messages */
-    Expr along[3];         /* unit vector */
-    /* the position whose rate that component is, 0 in contact (m); NULL: there is none */
+    Expr along[3];         /* a unit vector, of a turn of any length */
+    /* the position whose rate that component is, 0 in contact (m, rad); NULL: there is none */
     Expr gap;
+    bool turns;
 } ContactRow;
 
 enum { CONTACT_ROWS = 3 };
@@ -372,6 +374,8 @@ struct Component {
     /* FAMILY_CONTACT: its rows, and the point at which their forces act */
     void (*contact)(const Instance *instance, Arena *arena, bool planar, const FramesApart *apart,
                     Contact *out);
+    bool turns; /* its rows are of turns: it acts with a moment, and at no point */
+    bool joins; /* it is a rod from the tail's origin to the head's: to draw */
     /* what a picture shows of a round tip: the number of rings; NULL: nothing */
     int (*rings)(const Instance *instance, Arena *arena, bool planar, ContactRing out[MOST_RINGS]);
     /* PLACES_COORDINATE: the prescribed value, an expression of t and parameters; for a coupler one

@@ -14,6 +14,7 @@
 MUST_USE Status check_positive(const Instance *instance, const char *param, Diag *diag);
 MUST_USE Status check_not_negative(const Instance *instance, const char *param, Diag *diag);
 
+Expr axis_dot(Arena *arena, const Expr a[3], const Expr b[3]);
 void axis_cross(Arena *arena, const Expr a[3], const Expr b[3], Expr out[3]); /* a x b */
 
 /* --- attitude.c: three shifts along the tail's axes, then any rotation --- */

@@ -73,10 +73,7 @@ static const Member knife_members[] = {
 
 static Expr dot(Arena *arena, const Expr a[3], const Expr b[3])
 {
-    return expr_sum(arena,
-                    (Expr[]){expr_mul(arena, a[0], b[0]), expr_mul(arena, a[1], b[1]),
-                             expr_mul(arena, a[2], b[2])},
-                    3);
+    return axis_dot(arena, a, b);
 }
 
 /* out = a + s b; out may be either */
@@ -509,6 +506,7 @@ const Component component_link = {
     .rotation = BRANCH_NEVER,
     .preference = 95,
     .contact = link_contact,
+    .joins = true,
     .members = link_members,
     .member_count = COUNT(link_members),
     .check = link_check,

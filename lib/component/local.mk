@@ -4,7 +4,7 @@ libcore_la_SOURCES += \
 	lib/component/attitude.c lib/component/beam.c lib/component/beam.h lib/component/beam_axis.c \
 	lib/component/beam_graded.c lib/component/beam_graded.h lib/component/beam_inertia.c lib/component/beam_rotary.c \
 	lib/component/beam_section.c lib/component/beam_shapes.c lib/component/bodies.c \
-	lib/component/bushing.c lib/component/driver.c \
+	lib/component/bushing.c lib/component/constvel.c lib/component/driver.c \
 	lib/component/control.c lib/component/control.h lib/component/controlled.c \
 	lib/component/electrical.c lib/component/forces.c lib/component/friction.c lib/component/equation_block.c \
 	lib/component/equation_block.h lib/component/hydraulic.c \

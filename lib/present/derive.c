@@ -173,6 +173,11 @@ static void write_projection(Text *out, const View *view, int row)
         narrative_add_word(&words, view, system_instance_name(view->system, row_shown->instance));
         text_add(&words, " ties the coordinate to others, with an unknown effort");
         break;
+    case ALONG_SPIN:
+        text_add(&words, "on ");
+        narrative_add_direction(&words, view, &on.a);
+        text_add(&words, ", about which the frames don't turn against each other");
+        break;
     case ALONG_CONTACT:
         text_add(&words, "on ");
         narrative_add_direction(&words, view, &on.a);

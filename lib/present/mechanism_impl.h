@@ -40,6 +40,7 @@ int mechanism_color(const Mechanism *mechanism, int node);
 void sheet_joint(Sheet *sheet, const Instance *joint);
 /* a spring, damper or actuator */
 void sheet_link(Sheet *sheet, const Instance *link);
+void sheet_contact(Sheet *sheet, const Instance *contact);
 void sheet_bushing(Sheet *sheet, const Instance *bushing);
 void sheet_rim(Sheet *sheet, const Rim *rim);
 void sheet_load(Sheet *sheet, const Load *load);

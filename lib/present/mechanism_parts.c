@@ -316,6 +316,27 @@ void sheet_link(Sheet *sheet, const Instance *link)
         draw_actuator(sheet->picture, ink, a, b);
 }
 
+/* a rod with its eyes, a coupling of two shafts, or the point that is guided */
+void sheet_contact(Sheet *sheet, const Instance *contact)
+{
+    const Ink line = {.stroke = INK_DARK, .width = 2.4}, thin = {.stroke = INK_DARK, .width = 1.4};
+    const Ink eye = {.stroke = INK_DARK, .fill = "#ffffff", .width = 1.4};
+    double far, near;
+    const Point tail = sheet_node(sheet, contact->tail, &far),
+                head = sheet_node(sheet, contact->head, &near);
+
+    picture_of(sheet->picture, contact->row->name, contact->name);
+    sheet->picture->depth = near;
+    if (contact->row->joins) {
+        sheet->picture->depth = (far + near) / 2;
+        picture_line(sheet->picture, line, (Point[]){tail, head}, 2);
+        picture_circle(sheet->picture, eye, tail, JOINT_SIZE - 1);
+    }
+    if (contact->row->turns)
+        picture_circle(sheet->picture, thin, head, JOINT_SIZE + 4);
+    picture_circle(sheet->picture, eye, head, JOINT_SIZE - 1);
+}
+
 /* a ring of rubber about the pin that it holds */
 void sheet_bushing(Sheet *sheet, const Instance *bushing)
 {

@@ -185,6 +185,8 @@ static void draw_parts(Sheet *sheet)
             sheet_link(sheet, instance);
         else if (instance->row->restore != NULL)
             sheet_bushing(sheet, instance);
+        else if (instance->row->family == FAMILY_CONTACT && instance->row->rings == NULL)
+            sheet_contact(sheet, instance);
     }
     for (int i = 0; i < sheet->mechanism->rims.count; i++)
         sheet_rim(sheet, &sheet->mechanism->rims.at[i]);

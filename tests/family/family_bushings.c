@@ -1,5 +1,6 @@
-/* family_bushings.c: bodies on bushings of any stiffness and damping, with rods and ball joints
- * between them, in any tree, against Newton and Euler in absolute coordinates (free_bodies.h) */
+/* family_bushings.c: bodies on bushings of any stiffness and damping, with rods, ball joints and
+ * constant-velocity couplings between them, in any tree, against Newton and Euler in absolute
+ * coordinates (free_bodies.h) */
 #include "../unit/session_kit.h"
 #include "base/text.h"
 #include "family.h"
@@ -63,7 +64,7 @@ static void draw_rod(Member *member, FreeBodies *s, int from, int to)
     SpotMotion tail, tip;
     V apart, v;
 
-    *rod = (Tie){.tail = draw_spot(member, from), .tip = draw_spot(member, to), .is_rod = true};
+    *rod = (Tie){.tail = draw_spot(member, from), .tip = draw_spot(member, to), .kind = TIE_ROD};
     tail = spot_motion(s, &rod->tail);
     tip = spot_motion(s, &rod->tip);
     apart = plus(tip.r, -1, tail.r);
@@ -85,6 +86,27 @@ static void draw_ball(Member *member, FreeBodies *s, int from, int to)
     s->body[to].v = plus(s->body[to].v, 1, plus(tail.v, -1, tip.v));
 }
 
+/* Shafts along z of both bodies, the second bent against the first without a spin; its angular
+ * velocity is corrected to that. */
+static void draw_coupling(Member *member, FreeBodies *s, int from, int to)
+{
+    const double bend = member_between(member, 0, 0.4), across = member_between(member, 0, 6);
+    const V z = {{0, 0, 1}}, lean = {{cos(across), sin(across), 0}};
+    const FreeBody *first = &s->body[from];
+    FreeBody *second = &s->body[to];
+    const M turn_first = matrix_of(first->q);
+    M turn_second;
+    V bisector;
+
+    turn(first->q, plus(zero_vector(), 2 * bend, apply(&turn_first, lean)), second->q);
+    turn_second = matrix_of(second->q);
+    bisector = plus(apply(&turn_first, z), 1, apply(&turn_second, z));
+    second->w =
+        plus(second->w, -dot(plus(second->w, -1, first->w), bisector) / dot(bisector, bisector),
+             bisector);
+    s->tie[s->ties++] = (Tie){.tail = {.body = from}, .tip = {.body = to}, .kind = TIE_SPIN};
+}
+
 static void draw(Member *member, FreeBodies *s)
 {
     *s = (FreeBodies){.count = 1 + (member_one_of(member, 8) + 2) / 4};
@@ -99,6 +121,8 @@ static void draw(Member *member, FreeBodies *s)
         *bush = (Bush){.tail = draw_spot(member, from), .tip = draw_spot(member, i)};
         draw_matrix(member, is_full, 20, 5, bush->k);
         draw_matrix(member, is_full, damps ? 1 : 0, damps ? 0.3 : 0, bush->d);
+        if (i > 0 && member_one_of(member, 3) == 0)
+            draw_coupling(member, s, i - 1, i);
         if (i > 0 && member_one_of(member, 3) == 0)
             draw_ball(member, s, i - 1, i);
         else if (i > 0 && member_one_of(member, 2) == 0)
@@ -154,7 +178,9 @@ static void write(Member *member, const FreeBodies *s, Text *out)
 
         write_spot(&tie->tail, "e", i, out);
         write_spot(&tie->tip, "f", i, out);
-        if (tie->is_rod)
+        if (tie->kind == TIE_SPIN)
+            text_addf(out, "constvel t%d e%d f%d\n", i, i, i);
+        else if (tie->kind == TIE_ROD)
             text_addf(out, "link t%d e%d f%d %.17g\n", i, i, i, tie->length);
         else
             text_addf(out, "spherical t%d e%d f%d\n", i, i, i);
@@ -211,8 +237,9 @@ static bool agrees(Member *member, Kit *kit, const FreeBodies *s, double energy,
     }
     for (int i = 0; i < s->ties; i++) {
         (void)snprintf(name, sizeof name, "t%d.fn", i);
-        near =
-            (!s->tie[i].is_rod || is_near(member, kit, name, s->tie[i].force, 10 * bound)) && near;
+        near = (s->tie[i].kind != TIE_ROD ||
+                is_near(member, kit, name, s->tie[i].force, 10 * bound)) &&
+               near;
     }
     return is_near(member, kit, "energy.total", energy, 10 * bound) && near;
 }

@@ -37,9 +37,13 @@ typedef struct Bush {
     double k[6][6], d[6][6];
 } Bush;
 
-typedef struct Tie { /* a ball joint, or a rod of that length */
+/* a ball joint, a rod of that length, or a coupling of two shafts along z, which holds
+ * (z_tip + z_tail).(w_tip - w_tail) = 0 */
+typedef enum TieKind { TIE_BALL, TIE_ROD, TIE_SPIN } TieKind;
+
+typedef struct Tie {
     Spot tail, tip;
-    bool is_rod;
+    TieKind kind;
     double length, force; /* of a rod: on its tip, away from the tail */
 } Tie;
 
@@ -205,26 +209,44 @@ static void spot_row(const Spot *spot, V way, V n, double sign, double *row)
     }
 }
 
-/* rows of a tie on accelerations, and their right-hand sides; their number */
-static int tie_rows(const FreeBodies *s, const Tie *tie, double row[3][MOST_SIZE], double right[3])
+/* what angular accelerations add to n . (that of the spot) */
+static void turn_row(const Spot *spot, V n, double sign, double *row)
+{
+    for (int i = 0; i < 3 && spot->body != GROUND; i++)
+        row[6 * spot->body + 3 + i] += sign * n.at[i];
+}
+
+static int tie_count(const Tie *tie)
+{
+    return tie->kind == TIE_BALL ? 3 : 1;
+}
+
+/* rows of a tie on accelerations, and their right-hand sides */
+static void tie_rows(const FreeBodies *s, const Tie *tie, double row[3][MOST_SIZE], double right[3])
 {
     const SpotMotion tail = spot_motion(s, &tie->tail), tip = spot_motion(s, &tie->tip);
     const V apart = plus(tip.r, -1, tail.r), v = plus(tip.v, -1, tail.v);
     const V rest =
         plus(cross(tip.w, cross(tip.w, tip.way)), -1, cross(tail.w, cross(tail.w, tail.way)));
-    const int count = tie->is_rod ? 1 : 3;
+    const V z = {{0, 0, 1}}, far = apply(&tip.turn, z), near = apply(&tail.turn, z);
+    const V w = plus(tip.w, -1, tail.w), bisector = plus(far, 1, near);
 
-    for (int k = 0; k < count; k++) {
+    for (int k = 0; k < tie_count(tie); k++) {
         V n = {{k == 0, k == 1, k == 2}};
 
         memset(row[k], 0, sizeof row[k]);
-        if (tie->is_rod)
+        if (tie->kind == TIE_SPIN) {
+            turn_row(&tie->tip, bisector, 1, row[k]);
+            turn_row(&tie->tail, bisector, -1, row[k]);
+            right[k] = -dot(w, plus(cross(tip.w, far), 1, cross(tail.w, near)));
+            continue;
+        }
+        if (tie->kind == TIE_ROD)
             n = plus(zero_vector(), 1 / tie->length, apart);
         spot_row(&tie->tip, tip.way, n, 1, row[k]);
         spot_row(&tie->tail, tail.way, n, -1, row[k]);
-        right[k] = -dot(n, rest) - (tie->is_rod ? dot(v, v) / tie->length : 0);
+        right[k] = -dot(n, rest) - (tie->kind == TIE_ROD ? dot(v, v) / tie->length : 0);
     }
-    return count;
 }
 
 /* a x = b by elimination with pivots; x over b */
@@ -298,9 +320,9 @@ static double free_rates(FreeBodies *s, double *rate, double *largest)
     }
     for (int i = 0; i < s->ties; i++) {
         double row[3][MOST_SIZE], right[3];
-        const int count = tie_rows(s, &s->tie[i], row, right);
 
-        for (int k = 0; k < count; k++, size++) {
+        tie_rows(s, &s->tie[i], row, right);
+        for (int k = 0; k < tie_count(&s->tie[i]); k++, size++) {
             for (int j = 0; j < 6 * s->count; j++)
                 a[size][j] = a[j][size] = row[k][j];
             b[size] = right[k];
@@ -310,7 +332,7 @@ static double free_rates(FreeBodies *s, double *rate, double *largest)
     memcpy(rate, b, (size_t)(6 * s->count) * sizeof *rate);
     for (int i = 0, at = 6 * s->count; i < s->ties; i++) {
         s->tie[i].force = -b[at];
-        at += s->tie[i].is_rod ? 1 : 3;
+        at += tie_count(&s->tie[i]);
     }
     return energy;
 }

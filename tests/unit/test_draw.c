@@ -112,6 +112,29 @@ static void wheels_are_to_scale_and_turn(void)
     kit_free(&kit);
 }
 
+/* a rod from eye to eye; a coupling and a bushing at their frames */
+static void rods_couplings_and_bushings_are_drawn(void)
+{
+    Kit kit = kit_new();
+    char *svg;
+    double rod[4] = {0}, ring[2] = {0}, coupling[2] = {0}, scale;
+
+    EXPECT_DONE(&kit, "body w mass=1 inertia=[1, 1, 1]\narm m w [1, 0, 0]\narm p ground [0, 1, 0]\n"
+                      "link L p m length=sqrt(2)\nbushing k ground w k=[1, 1, 1, 1, 1, 1]\n"
+                      "constvel c ground m\n");
+    svg = drawn(&kit, "draw mechanism view=xy", "svg");
+    scale = scale_of(svg);
+    points(svg, "link L", rod);
+    circle(svg, "bushing k", ring);
+    circle(svg, "constvel c", coupling);
+    EXPECT_NEAR((rod[2] - rod[0]) / scale, 1, 5e-3);
+    EXPECT_NEAR((rod[3] - rod[1]) / scale, 1, 5e-3);
+    EXPECT_NEAR((coupling[0] - ring[0]) / scale, 1, 5e-3);
+    EXPECT_NEAR(coupling[1], ring[1], 0.11);
+    ct_free(svg);
+    kit_free(&kit);
+}
+
 static void every_part_is_drawn_once_by_its_name(void)
 {
     static const char *const parts[] = {"body m1",       "body m2",     "body m3",
@@ -688,6 +711,7 @@ int main(void)
 {
     RUN(places_are_to_scale);
     RUN(wheels_are_to_scale_and_turn);
+    RUN(rods_couplings_and_bushings_are_drawn);
     RUN(every_part_is_drawn_once_by_its_name);
     RUN(forces_are_to_scale_and_of_the_instant);
     RUN(beams_are_drawn_bent);

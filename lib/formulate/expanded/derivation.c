@@ -231,7 +231,7 @@ Projection system_projection(const System *view, int row)
         out.along = ALONG_COUPLED;
         break;
     case ROW_CONTACT:
-        out.along = ALONG_CONTACT;
+        out.along = at->reported.rotation ? ALONG_SPIN : ALONG_CONTACT;
         break;
     }
     return out;

@@ -67,6 +67,7 @@ typedef enum ConstraintDirection {
     ALONG_TIE,     /* `a`: the shift minus its value by the turn */
     ALONG_DRIVEN,  /* none: a prescribed coordinate */
     ALONG_COUPLED, /* none: a coordinate that follows others */
+    ALONG_SPIN,    /* `a`, about which the head doesn't turn against the tail */
     ALONG_CONTACT  /* `a`, along which a point of the head has no velocity against the tail */
 } ConstraintDirection;
 typedef struct Projection {

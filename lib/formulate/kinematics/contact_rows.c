@@ -1,4 +1,5 @@
-/* contact_rows.c: velocity of one frame's point against another's, projected on directions
+/* contact_rows.c: velocity of one frame's point against another's, projected on directions, or the
+ * angular velocity of one frame against another
  *
  * With the way d (m) from the tail's origin to the head's and rho (m) from there to the point,
  *
@@ -125,7 +126,7 @@ Status contact_rows_push(System *system, const Instance *part, Diag *diag)
     Arena *arena = system->arena;
     const int tail = system->kinematics->frames[part->tail].chain;
     Contact contact;
-    Vec point, slip;
+    Vec point, slip, turning;
 
     if (is_fixed_to(system, part->tail, part->head)) {
         (void)diag_set(diag, E_MODEL, "the frames of %s, %s and %s, do not move against each other",
@@ -139,17 +140,21 @@ Status contact_rows_push(System *system, const Instance *part, Diag *diag)
                      frame_vector(system, part->tail,
                                   (Vec){{contact.point[0], contact.point[1], contact.point[2]}}));
     TRY(slip_of(system, part, vec_express(system, point, tail, 0), &slip, diag));
+    turning = vec_sub(arena, node_turn_rate(system, part->head, 0),
+                      node_turn_rate(system, part->tail, 0));
     for (int i = 0; i < contact.count; i++) {
         const ContactRow *own = &contact.row[i];
         const Vec along = {{own->along[0], own->along[1], own->along[2]}};
         Row row = {.kind = ROW_CONTACT, .tail = part->tail, .head = part->head, .point = point};
 
         row.n = vec_hold(arena, frame_vector(system, part->tail, along));
-        row.rate =
-            expr_name_temporary(arena, vec_dot(arena, vec_express(system, row.n, tail, 0), slip));
+        row.rate = expr_name_temporary(arena, vec_dot(arena, vec_express(system, row.n, tail, 0),
+                                                      own->turns ? turning : slip));
         row.phi = own->gap != NULL ? own->gap : expr_int(arena, 0);
-        row.reported = (ConstraintRow){
-            .edge = part->edge, .instance = part->number, .is_rate = own->gap == NULL};
+        row.reported = (ConstraintRow){.edge = part->edge,
+                                       .instance = part->number,
+                                       .is_rate = own->gap == NULL,
+                                       .rotation = own->turns};
         (void)strncpy(row.reported.direction, own->direction, sizeof row.reported.direction - 1);
         LIST_PUSH(system->constraints->rows, row);
     }
