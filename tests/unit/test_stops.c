@@ -2,6 +2,9 @@
  */
 #include "session_kit.h"
 
+#include "base/random.h"
+#include "base/text.h"
+
 #define G 9.81
 #define BALL                                                                                       \
     "scene planar; gravity [0, -9.81]\nbody m mass=1 inertia=0.1\nprismatic s ground m axis=y\n"
@@ -291,6 +294,125 @@ static void a_diode_turns_on_beside_a_rigid_clutch(void)
     }
 }
 
+/* --- at rest --- */
+
+/* the start of a model is in the mode that it goes on in */
+static void a_start_at_rest_is_held(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, BALL "stop floor s low=0 e=0.5\ninit s = 0, s' = 0\nassemble\n");
+    EXPECT(is_near(kit_value(&kit, "floor.effort"), G, 1e-12));
+    EXPECT(kit_value(&kit, "s''") == 0);
+    EXPECT_DONE(&kit, "clear\nscene planar\ngravity [9.81*sin(0.1), -9.81*cos(0.1)]\n"
+                      "body m mass=2 inertia=0.1\nprismatic s ground m axis=x\n"
+                      "friction f s force=3\ninit s = 0, s' = 0\nassemble\n");
+    EXPECT(is_near(kit_value(&kit, "f.effort"), -2 * G * sin(0.1), 1e-12));
+    EXPECT(kit_value(&kit, "s''") == 0);
+    kit_free(&kit);
+}
+
+static void a_ball_lies_on_a_floor_in_equilibrium(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, BALL "stop floor s low=0 e=0.5\nguess s = 1\nequilibrium\n");
+    EXPECT(is_near(kit_value(&kit, "s"), 0, 1e-14));
+    EXPECT(is_near(kit_value(&kit, "floor.effort"), G, 1e-12));
+    /* it remains there */
+    EXPECT_DONE(&kit, "simulate 1\n");
+    EXPECT(is_near(kit_value(&kit, "s"), 0, 1e-14));
+    kit_free(&kit);
+}
+
+/* a rope that hangs, and a rod against a stop, in two trees */
+static void ropes_and_rods_rest_in_equilibrium(void)
+{
+    static const char *const trees[] = {"", "tree absolute\n"};
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "scene planar; gravity [0, -9.81]\nbody m mass=2 inertia=0.1\n"
+                      "planarjoint j ground m\nstop rope ground m high=1 e=0\n"
+                      "guess j.s1 = 0.6, j.s2 = -0.2\nequilibrium\n");
+    EXPECT(is_near(kit_value(&kit, "j.s1"), 0, 1e-9));
+    EXPECT(is_near(kit_value(&kit, "j.s2"), -1, 1e-12));
+    EXPECT(is_near(kit_value(&kit, "rope.effort"), -2 * G, 1e-9));
+    kit_free(&kit);
+    for (int i = 0; i < 2; i++) {
+        char text[500];
+
+        kit = kit_new();
+        (void)snprintf(text, sizeof text,
+                       "scene planar; gravity [0, -9.81]\nbody r mass=1.3 inertia=0.1\n"
+                       "arm top r [0, 0.4]\nrevolute h ground top\n%s"
+                       "stop w h low=0.35 high=2\nguess h = 1\nequilibrium\n",
+                       trees[i]);
+        EXPECT_DONE(&kit, text);
+        EXPECT(is_near(kit_value(&kit, "h"), 0.35, 1e-12));
+        EXPECT(is_near(kit_value(&kit, "w.effort"), 1.3 * G * 0.4 * sin(0.35), 1e-9));
+        kit_free(&kit);
+    }
+}
+
+/* Masses in a row, tied by springs and to ground, each between two stops: their potential energy is
+ * convex, and projected coordinate descent finds its least value between the stops. */
+static void masses_between_stops_lie_where_their_energy_is_least(void)
+{
+    enum { COUNT = 6, MODELS = 8 };
+    uint64_t seed = 29;
+
+    for (int model = 0; model < MODELS; model++) {
+        double k[COUNT], own[COUNT], rest[COUNT], low[COUNT], high[COUNT], x[COUNT] = {0};
+        Kit kit = kit_new();
+        Text text = {0};
+
+        text_add(&text, "scene planar\n");
+        for (int i = 0; i < COUNT; i++) {
+            const double middle = random_unit(&seed), width = 0.1 + fabs(random_unit(&seed));
+
+            k[i] = exp(3 * random_unit(&seed) + 4);
+            own[i] = exp(3 * random_unit(&seed) + 4);
+            rest[i] = 2 * random_unit(&seed);
+            low[i] = middle - width / 2;
+            high[i] = middle + width / 2;
+            text_addf(&text, "body m%d mass=1 inertia=0.1\nprismatic s%d ground m%d axis=x\n", i, i,
+                      i);
+            text_addf(&text, "spring o%d s%d k=%.17g rest=%.17g\nguess s%d = %.17g\n", i, i, own[i],
+                      rest[i], i, middle);
+            if (i > 0)
+                text_addf(&text,
+                          "actuator t%d s%d force=-%.17g*(s%d - s%d)\n"
+                          "actuator u%d s%d force=%.17g*(s%d - s%d)\n",
+                          i, i, k[i], i, i - 1, i, i - 1, k[i], i, i - 1);
+            text_addf(&text, "stop w%d s%d low=%.17g high=%.17g\n", i, i, low[i], high[i]);
+        }
+        text_add(&text, "equilibrium\n");
+        EXPECT_DONE(&kit, text.at);
+        for (int sweep = 0; sweep < 20000; sweep++)
+            for (int i = 0; i < COUNT; i++) {
+                double sum = own[i], pull = own[i] * rest[i];
+
+                if (i > 0) {
+                    sum += k[i];
+                    pull += k[i] * x[i - 1];
+                }
+                if (i + 1 < COUNT) {
+                    sum += k[i + 1];
+                    pull += k[i + 1] * x[i + 1];
+                }
+                x[i] = fmin(high[i], fmax(low[i], pull / sum));
+            }
+        for (int i = 0; i < COUNT; i++) {
+            char name[20];
+
+            (void)snprintf(name, sizeof name, "s%d", i);
+            EXPECT(is_near(kit_value(&kit, name), x[i], 1e-11));
+        }
+        text_free(&text);
+        kit_free(&kit);
+    }
+}
+
 static void values_are_checked(void)
 {
     Kit kit = kit_new();
@@ -327,6 +449,10 @@ int main(void)
     RUN(stops_beside_friction);
     RUN(a_stop_holds_while_a_diode_turns_off);
     RUN(a_diode_turns_on_beside_a_rigid_clutch);
+    RUN(a_start_at_rest_is_held);
+    RUN(a_ball_lies_on_a_floor_in_equilibrium);
+    RUN(ropes_and_rods_rest_in_equilibrium);
+    RUN(masses_between_stops_lie_where_their_energy_is_least);
     RUN(values_are_checked);
     return test_end();
 }

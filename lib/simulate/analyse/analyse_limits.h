@@ -26,6 +26,20 @@
 /* S; its last value before 0 [test_equilibrium] */
 #define LEAST_GMIN 1e-14
 
+/* --- equilibrium_residual.c --- */
+
+/* 1/m or 1/rad; stiffness of a unilateral surface for a force of 1, at first, */
+#define EFFORT_STIFFNESS 1e4
+
+/* and how often it grows by what factor where the effort changes by more than a part of the last
+ * change */
+#define EFFORT_SLOW    0.1
+#define EFFORT_STIFFER 10
+
+/* change of the effort that is none; how often it is found at most */
+#define EFFORT_CHANGE 1e-13
+#define EFFORT_ROUNDS 60
+
 /* --- freedoms.c --- */
 
 /* rad/s per unit of speed: a smaller rotation is rounding error */

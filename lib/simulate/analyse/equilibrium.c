@@ -17,6 +17,7 @@
 #include "simulate/equations/failure_diagnosis.h"
 #include "simulate/equations/rows.h"
 #include "simulate/run/begin.h"
+#include "simulate/run/sliding.h"
 
 #include <math.h>
 #include <string.h>
@@ -359,11 +360,29 @@ static void remark_freedom(const Quest *e, ActiveRun *r)
 
 /* --- the result --- */
 
-static Status solve(Quest *e, Diag *diag)
+/* the efforts that keep unilateral surfaces where they are met, from an equilibrium in which they
+ * give a little */
+static Status find_efforts(Quest *e, bool *found)
 {
-    bool found = seek(e);
+    int rounds = 0;
     Status status = OK;
 
+    while (*found && equilibrium_renew_efforts(e->equations) && rounds++ < EFFORT_ROUNDS) {
+        CHECK(monitor_poll(e->watch));
+        *found = seek(e);
+    }
+    *found = *found && rounds <= EFFORT_ROUNDS;
+done:
+    return status;
+}
+
+static Status solve(Quest *e, Diag *diag)
+{
+    bool found;
+    Status status = OK;
+
+    equilibrium_begin_efforts(e->equations);
+    found = seek(e);
     CHECK(monitor_poll(e->watch));
     for (int i = 0; i < COUNT(paths) && !found; i++)
         CHECK(follow(e, &paths[i], &found));
@@ -372,6 +391,7 @@ static Status solve(Quest *e, Diag *diag)
         CHECK(refuse_singular(e, diag));
         CHECK(creep(e, &found));
     }
+    CHECK(find_efforts(e, &found));
     if (!found)
         CHECK(report_failure(e, diag));
 done:
@@ -484,6 +504,7 @@ Status run_equilibrium(System *system, const SimulationInput *setting, Result **
     remark_freedom(&e, r);
     if (!setting->keeps_rates && vector_largest(r->begin + l->n, l->nu) > 0)
         remarks_add(&r->result->remarks, (Remark){.kind = REMARK_REST_DRIVEN});
+    CHECK(slide_begin(r, setting, setting->at, r->begin, diag));
     active_run_add_row(r, setting->at, r->begin);
     motion_residuals(r->phase->motion, setting->at, r->begin, &position, &velocity);
     r->result->monitor_report.position_residual = position;

@@ -5,7 +5,9 @@
 #include "algebra/linear.h"
 #include "algebra/pattern.h"
 #include "base/memory.h"
+#include "base/text.h"
 #include "compile/jacobian.h"
+#include "simulate/analyse/analyse_limits.h"
 #include "simulate/equations/rows.h"
 
 #include <math.h>
@@ -26,12 +28,23 @@ typedef struct EquilibriumResidualPart {
     int *place; /* positions in the whole Jacobian */
 } EquilibriumResidualPart;
 
+/* A unilateral surface h <= 0. Its effort is max(0, known + stiffness h), and `known` becomes that
+ * until h = 0 or the effort is 0 (augmented Lagrangian: Bertsekas, Constrained Optimization and
+ * Lagrange Multiplier Methods, 1982). */
+typedef struct UnilateralEffort {
+    Expr guard, symbol; /* h, and of `known` */
+    double known;
+} UnilateralEffort;
+
 struct EquilibriumResidual {
     System *system;
     VariableIndex *l;
     ActiveRun *start; /* of the user's system */
     Parameters parameters;
     Expr load, gmin;
+    LIST(UnilateralEffort) efforts;
+    Expr stiffness; /* of all of them */
+    double stiffness_value, last_change;
     double at;                      /* s */
     double *speeds, *accelerations; /* of what is driven; NULL: everything is at rest */
     int n, length;
@@ -69,6 +82,11 @@ static double parameter(void *context, Expr symbol)
 {
     EquilibriumResidual *s = context;
 
+    for (int i = 0; i < s->efforts.count; i++)
+        if (symbol == s->efforts.at[i].symbol)
+            return s->efforts.at[i].known;
+    if (symbol == s->stiffness)
+        return s->stiffness_value;
     return symbol == s->load   ? 1
            : symbol == s->gmin ? 0
                                : parameters_value(&s->start->phases->parameters, symbol);
@@ -224,8 +242,41 @@ static Status hold_samples(const EquilibriumResidual *s, Expr *rows, Diag *diag)
     return OK;
 }
 
-/* the rows, then multi-turn angles */
-static Status push_roots(const EquilibriumResidual *s, EquilibriumResidualRoots *roots, Diag *diag)
+/* a call of unilateral() with its effort in its place */
+static Expr put_effort(Arena *arena, Expr e, void *context)
+{
+    EquilibriumResidual *s = context;
+    int i = 0;
+
+    if (expr_kind(e) != EXPR_CALL || expr_op(e) != OP_UNILATERAL)
+        return e;
+    while (i < s->efforts.count && s->efforts.at[i].guard != expr_arg(e, 0))
+        i++;
+    if (i == s->efforts.count) {
+        Text name = {0};
+
+        text_addf(&name, "#effort %d", i + 1);
+        LIST_PUSH(s->efforts,
+                  ((UnilateralEffort){.guard = expr_arg(e, 0),
+                                      .symbol = expr_symbol(arena, name.at, SYMBOL_PARAMETER)}));
+        text_free(&name);
+    }
+    return expr_call1(
+        arena, OP_RAMP,
+        expr_add(arena, s->efforts.at[i].symbol, expr_mul(arena, s->stiffness, expr_arg(e, 0))));
+}
+
+static void put_efforts(EquilibriumResidual *s, EquilibriumResidualRoots *roots)
+{
+    Arena *arena = system_arena(s->system);
+
+    s->stiffness = expr_symbol(arena, "#stiffness", SYMBOL_PARAMETER);
+    for (int i = 0; i < roots->count; i++)
+        roots->at[i] = expr_change(arena, roots->at[i], put_effort, s);
+}
+
+/* the rows, then multi-turn angles, then the guards of efforts */
+static Status push_roots(EquilibriumResidual *s, EquilibriumResidualRoots *roots, Diag *diag)
 {
     const VariableIndex *l = s->l;
 
@@ -237,8 +288,11 @@ static Status push_roots(const EquilibriumResidual *s, EquilibriumResidualRoots 
     for (int i = 0; i < l->nx + l->nz; i++)
         LIST_PUSH(*roots, row_network(l, i));
     TRY(hold_samples(s, roots->at + l->nu + l->m, diag));
+    put_efforts(s, roots);
     for (int k = 0; k < l->multi_turns; k++)
         LIST_PUSH(*roots, system_multi_turn(s->system, k)->angle);
+    for (int i = 0; i < s->efforts.count; i++)
+        LIST_PUSH(*roots, s->efforts.at[i].guard);
     return OK;
 }
 
@@ -504,6 +558,7 @@ void equilibrium_free(EquilibriumResidual *s)
     free_part(&s->inertia);
     pattern_free(&s->pattern);
     MEM_FREE(s->by, s->jacobian, s->v, s->w, s->place, s->speeds, s->accelerations);
+    LIST_FREE(s->efforts);
     variable_index_free(s->l);
     system_free(s->system);
     mem_free(s);
@@ -544,6 +599,52 @@ bool equilibrium_step_gmin(EquilibriumResidual *s, double gmin)
 {
     s->values = NULL;
     return probe_turn(s->probe, s->gmin, gmin);
+}
+
+static void set_stiffness(EquilibriumResidual *s, double stiffness)
+{
+    s->stiffness_value = stiffness;
+    (void)probe_turn(s->probe, s->stiffness, stiffness);
+}
+
+void equilibrium_begin_efforts(EquilibriumResidual *s)
+{
+    double *w = NEW_ARRAY(double, s->n), largest = 0;
+    const double *missed;
+
+    if (s->efforts.count > 0) {
+        equilibrium_begin(s, w);
+        missed = equilibrium_residual(s, w);
+        for (int j = 0; j < s->l->nu; j++)
+            largest = isfinite(missed[j]) ? fmax(largest, fabs(missed[j])) : largest;
+        set_stiffness(s, largest > 0 ? EFFORT_STIFFNESS * largest : EFFORT_STIFFNESS);
+        s->values = NULL;
+    }
+    mem_free(w);
+}
+
+bool equilibrium_renew_efforts(EquilibriumResidual *s)
+{
+    double *w = NEW_ARRAY(double, s->n), largest = 0, change = 0;
+    const double *guards;
+
+    equilibrium_begin(s, w);
+    guards = equilibrium_residual(s, w) + s->n + s->l->multi_turns;
+    for (int i = 0; i < s->efforts.count; i++) {
+        UnilateralEffort *effort = &s->efforts.at[i];
+        const double next = fmax(0, effort->known + s->stiffness_value * guards[i]);
+
+        change = fmax(change, fabs(next - effort->known));
+        largest = fmax(largest, next);
+        effort->known = next;
+        (void)probe_turn(s->probe, effort->symbol, next);
+    }
+    if (change > EFFORT_SLOW * s->last_change && s->last_change > 0)
+        set_stiffness(s, EFFORT_STIFFER * s->stiffness_value);
+    s->last_change = change;
+    s->values = NULL;
+    mem_free(w);
+    return change > EFFORT_CHANGE * largest;
 }
 
 /* --- base and states --- */

@@ -41,6 +41,11 @@ bool equilibrium_is_network(const EquilibriumResidual *equilibrium); /* there is
 bool equilibrium_step_sources(EquilibriumResidual *equilibrium, double load);
 bool equilibrium_step_gmin(EquilibriumResidual *equilibrium, double gmin);
 
+/* The efforts of unilateral surfaces: of which size they may be, by what is missed at the base.
+ * Then, where the others are in equilibrium, what they become; true: they have changed. */
+void equilibrium_begin_efforts(EquilibriumResidual *equilibrium);
+bool equilibrium_renew_efforts(EquilibriumResidual *equilibrium);
+
 /* --- base and states --- */
 
 double *

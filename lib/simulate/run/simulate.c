@@ -11,6 +11,7 @@
 #include "simulate/run/inverse.h"
 #include "simulate/run/pace.h"
 #include "simulate/run/run_limits.h"
+#include "simulate/run/sliding.h"
 
 #include <math.h>
 #include <string.h>
@@ -265,6 +266,7 @@ Status run_assemble(System *system, const SimulationInput *setting, Result **out
 
     CHECK(run_open(RUN_START, system, setting, &r, diag));
     monitor_report = &r->result->monitor_report;
+    CHECK(slide_begin(r, setting, 0, r->begin, diag));
     active_run_add_row(r, 0, r->begin);
     motion_residuals(r->phase->motion, 0, r->begin, &monitor_report->position_residual,
                      &monitor_report->velocity_residual);

@@ -10,9 +10,10 @@
 #include <math.h>
 #include <string.h>
 
-#define AHEAD 1e-7 /* of the run: so soon */
-#define STILL 1e-8 /* of the state: a vector that is at rest */
-#define FROM  2    /* times the norm that counts as 0: a vector begins there */
+#define AHEAD 1e-7  /* of the run: so soon */
+#define STILL 1e-8  /* of the state: a vector that is at rest */
+#define MET   1e-10 /* of the state: a start is on a surface */
+#define FROM  2     /* times the norm that counts as 0: a vector begins there */
 
 typedef struct Slides {
     int count;       /* of signs: */
@@ -326,6 +327,65 @@ done:
     slides_free(&s);
     mem_free(all);
     mem_free(near);
+    return status;
+}
+
+/* The surfaces of the phase at (t, y), as find_meetings() of a run finds them. Returns their
+ * number; *any: one is met. */
+static int meet_at_start(const Phase *phase, double t, const double *y, Meeting *at, bool *any)
+{
+    const Equations *eq = compiled_equations(phase->numbers);
+    const double size = fmax(1, vector_largest(y, phase->length - 1));
+    double *h = NEW_ARRAY(double, eq->switch_count);
+    int count = 0;
+
+    *any = false;
+    if (eq->switch_count > 0)
+        motion_switches(phase->motion, t, y, h);
+    for (int i = 0; i < eq->switch_count; i++) {
+        const Guard guard = equations_guard(eq, i);
+        bool is_met;
+
+        if (guard.surface < 0 || guard.is_idle || guard.end != 0)
+            continue;
+        is_met = !guard.is_of_event &&
+                 (guard.solved || (guard.is_unilateral ? -h[i] : fabs(h[i])) <= MET * size);
+        at[count++] = (Meeting){guard.surface, .far = !is_met,
+                                .side = is_met                           ? 0
+                                        : h[i] > 0 && !guard.is_of_event ? 1
+                                                                         : -1,
+                                .rest = guard.is_norm ? MET * size : 0};
+        *any = *any || is_met;
+    }
+    mem_free(h);
+    return count;
+}
+
+Status slide_begin(ActiveRun *run, const SimulationInput *setting, double t, const double *y,
+                   Diag *diag)
+{
+    Phase *phase = run->phase;
+    const int conditions = compiled_equations(phase->numbers)->switch_count;
+    ModeSwitching c = {.run = run, .setting = setting, .control = {.span = 1}};
+    Meeting *at = NEW_ARRAY(Meeting, conditions);
+    double *moved = NEW_ARRAY(double, phase->length);
+    Segment segment = phases_segment(phase, NULL);
+    SurfaceChoice chosen = {0};
+    Status status = OK;
+    bool any;
+    const int count = meet_at_start(phase, t, y, at, &any);
+
+    memcpy(moved, y, (size_t)phase->length * sizeof(double));
+    if (any)
+        status =
+            slide_choose(&c, t, -INFINITY, INFINITY, moved, at, count, &segment, &chosen, diag);
+    if (status == OK && !chosen.jumps && !chosen.moved)
+        run->phase = run->phases->at[segment.phase];
+    if (status == E_SOLVER) /* no motion leads on from there */
+        status = OK;
+    phase_enter(run->phase);
+    mode_switching_free(&c);
+    MEM_FREE(at, moved);
     return status;
 }
 

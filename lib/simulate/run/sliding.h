@@ -12,6 +12,11 @@
 MUST_USE Status slide_choose(void *context, double t, double low, double high, double *y,
                              const Meeting *at, int count, Segment *segment, SurfaceChoice *chosen,
                              Diag *diag);
+/* Enter the phase in which a start at t, not yet of a motion, goes on from what it stands on: what
+ * rests on a surface is held there or leaves it. Where that asks for an impact, or no side is
+ * found, the phase is as it was, and a run says why. y is unchanged. */
+MUST_USE Status slide_begin(ActiveRun *run, const SimulationInput *setting, double t,
+                            const double *y, Diag *diag);
 /* what a condition of a segment is about: "s' (actuator f)"; `context` is a ModeSwitching */
 void sliding_report(void *context, const Segment *segment, int condition, Text *out);
 
