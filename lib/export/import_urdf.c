@@ -351,6 +351,34 @@ static void write_friction(Urdf *u, const Joint *joint, int line, double frictio
                    bound, import_number(u->import, damping));
 }
 
+/* A range of the coordinate is a rigid stop. What else is limited stands in a comment. */
+static Status write_limits(Urdf *u, const Joint *joint, const Element *limit)
+{
+    const char *type = xml_attribute(joint->element, "type");
+    const bool is_endless = type != NULL && strcmp(type, "continuous") == 0;
+    const bool may_stop = !is_endless && (joint->kind == REVOLUTE || joint->kind == PRISMATIC);
+    double low = 0, high = 0;
+    Text text = {0};
+    bool stops;
+
+    TRY(read_numbers(u, limit, "lower", 1, &low));
+    TRY(read_numbers(u, limit, "upper", 1, &high));
+    stops = may_stop && low < high;
+    for (const Attribute *a = limit->attributes; a->name != NULL; a++)
+        if (!stops || (strcmp(a->name, "lower") != 0 && strcmp(a->name, "upper") != 0))
+            text_addf(&text, " %s=%s", a->name, a->value);
+    if (text.length > 0) {
+        import_comment(u->import, limit->line, "limits of %s:%s", joint->name, text.at);
+        u->limits++;
+    }
+    if (stops)
+        import_add(u->import, limit->line, "stop %s %s low=%s high=%s",
+                   own_name(u, joint->name, "stop"), joint->name, import_number(u->import, low),
+                   import_number(u->import, high));
+    text_free(&text);
+    return OK;
+}
+
 /* properties of a joint other than its freedom */
 static Status write_extras(Urdf *u, const Joint *joint)
 {
@@ -360,16 +388,8 @@ static Status write_extras(Urdf *u, const Joint *joint)
 
     TRY(read_numbers(u, dynamics, "damping", 1, &damping));
     TRY(read_numbers(u, dynamics, "friction", 1, &friction));
-    if (limit != NULL && joint->kind != FIXED) {
-        Text text = {0};
-
-        for (const Attribute *a = limit->attributes; a->name != NULL; a++)
-            text_addf(&text, " %s=%s", a->name, a->value);
-        import_comment(u->import, limit->line, "limits of %s:%s", joint->name,
-                       text.at != NULL ? text.at : "");
-        text_free(&text);
-        u->limits++;
-    }
+    if (limit != NULL && joint->kind != FIXED)
+        TRY(write_limits(u, joint, limit));
     if (friction != 0 && (joint->kind == REVOLUTE || joint->kind == PRISMATIC))
         write_friction(u, joint, dynamics->line, friction, damping);
     else if (damping != 0 && (joint->kind == REVOLUTE || joint->kind == PRISMATIC))
@@ -498,7 +518,7 @@ static void write_others(Urdf *u)
             import_text(u->import, "'%s' (%d of them)", names_get(u->others, i), u->counts.at[i]),
             "it is no part of the motion");
     if (u->limits > 0)
-        import_remark(u->import, 0, "nothing holds to limits of joints, which stand in comments");
+        import_remark(u->import, 0, "nothing holds to the limits of joints that stand in comments");
     import_remark(u->import, 0, "URDF has no gravity: gravity [0, 0, -9.81] adds it");
 }
 

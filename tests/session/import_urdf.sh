@@ -27,6 +27,10 @@ cat >arm.urdf <<END
 END
 cotree -e 'import urdf "arm.urdf" > "arm.ct"' -e 'source "arm.ct"' -e 'check' 2>&1
 cat arm.ct
+echo '--- a limit holds'
+cotree -q -e 'import urdf "arm.urdf"' -e "init upper_arm_2 = 0, upper_arm_2' = 30" -e 'simulate 0.2' \
+    -e 'expect max(upper_arm_2) < 1 + 1e-9; expect max(upper_arm_2) > 1 - 1e-3' \
+    -e 'expect min(upper_arm_2) > -1 - 1e-9' 2>&1
 echo '--- the follower follows'
 cotree -q -e 'import urdf "arm.urdf"' \
     -e 'driver D1 slide = 0.2*sin(2*t); driver D2 upper_arm_2 = 0' -e 'simulate 3' \

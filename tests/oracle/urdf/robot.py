@@ -152,7 +152,8 @@ def main():
     script = subprocess.run([cotree, "-q", "-e", 'import urdf "%s" > "/dev/fd/1"' % path],
                             capture_output=True, text=True, check=True).stdout
     frames, joints = names_here(robot, script)
-    lines = re.sub(r"(?m)^init .*$", "", script).split("\n")
+    # places are drawn anywhere, also beyond the ranges of joints
+    lines = re.sub(r"(?m)^(init|stop) .*$", "", script).split("\n")
     lines = [line for line in lines if "_mimic" not in line]
     lines += ["gravity [%r, %r, %r]" % tuple(float(g) for g in GRAVITY)]
     wanted = []
