@@ -120,7 +120,7 @@ MUST_USE Status model_extract(const Model *model, const Extract *part, Model **o
 /* New: an instance of a subsystem by itself, or of a definition one that is called
  * EXTRACT_INSTANCE. Instead of the frames that `use` binds it has massless bodies, as ends->frames,
  * and all terminals have sources. Bodies and terminals are named as the ports: "leg1.A". `name` is
- * of an instance or a definition; fails with E_MODEL for an instance inside another. */
+ * of a definition, or of an instance that is not inside another one. */
 MUST_USE Status model_isolate(const Model *model, const char *name, Model **out,
                               ExtractedEnds *ends, Diag *diag);
 /* An expression of such a part with variables, such as "leg1.e.v'", in place of the parameters of

@@ -505,21 +505,6 @@ static Status choose_ports(State *state, const ExtractedEnds *ends, Diag *diag)
     return complete_trees(state, diag);
 }
 
-static Status check_outermost(const State *old, const char *name, Diag *diag)
-{
-    int around = state_use_around(old, name);
-
-    if (around < 0)
-        return OK;
-    while (old->uses.at[around].outer >= 0)
-        around = old->uses.at[around].outer;
-    (void)diag_set(diag, E_MODEL, "'%s' is inside %s, whose ports are all that the outside reaches",
-                   name, old->uses.at[around].name);
-    diag_hint(diag, "'show %s' shows the whole, 'show %s' the definition of this part",
-              old->uses.at[around].name, state_use(old, name)->subsystem->name);
-    return E_MODEL;
-}
-
 Status state_isolate(const State *old, const char *name, State **out, ExtractedEnds *ends,
                      Diag *diag)
 {
@@ -534,7 +519,6 @@ Status state_isolate(const State *old, const char *name, State **out, ExtractedE
     Status status = OK;
 
     extraction_alloc(&x);
-    CHECK(use != NULL ? check_outermost(old, name, diag) : OK);
     find_makers(&x);
     for (int i = 0; i < count; i++)
         CHECK(apply_line(&x, &state, &old->lines.at[order[i]], diag));

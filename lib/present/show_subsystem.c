@@ -32,7 +32,9 @@ typedef LIST(const char *) Words;
 typedef struct PortedSubsystem {
     const View *view;
     const Subsystem *subsystem;
-    const Use *use;     /* NULL: of the definition */
+    const Use *use; /* NULL: of the definition */
+    bool
+        is_definition; /* the part is made of the definition: also for an instance inside another */
     const char *prefix; /* of names in the part */
     Pool *pool;
     Model *part;
@@ -44,7 +46,7 @@ typedef struct PortedSubsystem {
     PortEquations *port;
 } PortedSubsystem;
 
-static const char *joined(PortedSubsystem *b, const char *frame, const char *member)
+static const char *joined(const PortedSubsystem *b, const char *frame, const char *member)
 {
     Text text = {0};
     const char *out;
@@ -62,14 +64,15 @@ static const char *port_name(PortedSubsystem *b, int port)
 
 /* --- what is shown in place of the part's symbols --- */
 
-/* the name without the prefix that a definition's part has */
+/* the name without the prefix that a definition's part has; of an instance inside another its name
+ * in the model */
 static const char *plain_name(const PortedSubsystem *b, const char *name)
 {
     const size_t length = strlen(b->prefix);
 
-    return b->use == NULL && strncmp(name, b->prefix, length) == 0 && name[length] == '.'
-               ? name + length + 1
-               : name;
+    if (!b->is_definition || strncmp(name, b->prefix, length) != 0 || name[length] != '.')
+        return name;
+    return b->use == NULL ? name + length + 1 : joined(b, b->use->name, name + length + 1);
 }
 
 /* The member of a port that `use` binds, with its primes: "x'" of "leg1.A.x'"; NULL: it is none. */
@@ -168,7 +171,7 @@ static Expr outer_multiplier(const PortedSubsystem *b, Expr symbol)
         if (strcmp(system_constraint(outer, i)->direction,
                    system_constraint(b->system, k)->direction) == 0 &&
             strcmp(constraint_name(outer, b->view->model, i),
-                   constraint_name(b->system, b->part, k)) == 0)
+                   plain_name(b, constraint_name(b->system, b->part, k))) == 0)
             return system_multiplier(outer, i);
     return NULL;
 }
@@ -242,15 +245,18 @@ static char *lead_of(PortedSubsystem *b, const char *name)
     return text_done(&lead);
 }
 
-/* whether the edge or instance is a massless body in the place of a bound frame */
-static bool is_bound_frame(const PortedSubsystem *b, const Variable *v)
+/* whether an instance is a massless body in the place of a bound frame */
+static bool is_massless(const PortedSubsystem *b, const char *name)
 {
-    const char *name = system_instance_name(b->system, v->instance);
-
     for (int i = 0; i < b->ends.frames.count; i++)
         if (strcmp(b->ends.frames.at[i], name) == 0)
             return true;
     return false;
+}
+
+static bool is_bound_frame(const PortedSubsystem *b, const Variable *v)
+{
+    return is_massless(b, system_instance_name(b->system, v->instance));
 }
 
 static bool is_through(const PortedSubsystem *b, int component)
@@ -451,12 +457,64 @@ static void add_components(PortedSubsystem *b)
         }
 }
 
+/* an expression of the part with the model's names */
+static Expr in_model(const PortedSubsystem *b, Expr e)
+{
+    Arena *arena = model_arena(b->view->model);
+    Expr *symbols = NULL, *values;
+    const int count = expr_symbols(&e, 1, &symbols);
+
+    values = NEW_ARRAY(Expr, count + 1);
+    for (int i = 0; i < count; i++)
+        values[i] =
+            expr_symbol(arena, plain_name(b, expr_name(symbols[i])), expr_symbol_kind(symbols[i]));
+    e = expr_substitute(arena, e, symbols, values, count);
+    MEM_FREE(symbols, values);
+    return e;
+}
+
+static bool same_numbers(const PortedSubsystem *b, const Instance *part, const Instance *own)
+{
+    if (part->row != own->row)
+        return false;
+    for (int k = 0; k < part->row->param_count; k++) {
+        if (part->values[k].count != own->values[k].count)
+            return false;
+        for (int c = 0; c < part->values[k].count; c++)
+            if (in_model(b, part->values[k].at[c]) != own->values[k].at[c])
+                return false;
+    }
+    return true;
+}
+
+/* An instance inside another is shown by its definition, unless a number of its parts was set. */
+static Status check_set_numbers(const PortedSubsystem *b, Diag *diag)
+{
+    for (int i = 0; b->use != NULL && b->is_definition && i < model_count(b->part); i++) {
+        const Instance *part = model_instance(b->part, i), *own;
+        const char *name = plain_name(b, part->name);
+
+        if (name == part->name || is_massless(b, part->name)) /* a source or a body at a port */
+            continue;
+        own = model_find(b->view->model, name);
+        if (own != NULL && same_numbers(b, part, own))
+            continue;
+        (void)diag_set(diag, E_MODEL, "%s isn't as the definition has it: numbers of it were set",
+                       name);
+        diag_hint(diag, "'show %s' shows the definition", b->subsystem->name);
+        return E_MODEL;
+    }
+    return OK;
+}
+
 static Status make_part(PortedSubsystem *b, const char *name, Diag *diag)
 {
     SystemOptions options = {.watch = b->view->watch};
     PortOptions ports = {.keeps_networks = true, .watch = b->view->watch};
 
-    TRY(model_isolate(b->view->model, name, &b->part, &b->ends, diag));
+    TRY(model_isolate(b->view->model, b->is_definition ? b->subsystem->name : name, &b->part,
+                      &b->ends, diag));
+    TRY(check_set_numbers(b, diag));
     options.form = (NetworkForm)model_setting_value(b->part, SETTING_NETWORK);
     TRY(model_scene(b->part, &b->scene, diag));
     TRY(system_new_view(&b->scene, &options, &b->system, diag));
@@ -566,7 +624,8 @@ Status show_subsystem(const View *view, const Selection *selection, Text *out, D
 
     if (b.use != NULL)
         b.subsystem = b.use->subsystem;
-    else
+    b.is_definition = b.use == NULL || b.use->outer >= 0;
+    if (b.is_definition)
         b.prefix = EXTRACT_INSTANCE;
     CHECK(make_part(&b, name, diag));
     CHECK(push_internal(&b, &internal, diag));
