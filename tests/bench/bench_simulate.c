@@ -84,6 +84,33 @@ static void bench_clutches(const char *name, bool regularised)
     text_free(&text);
 }
 
+/* a ball that comes to rest on a floor, in some 300 impacts */
+static void bench_ball(const char *name)
+{
+    bench_text(name,
+               "scene planar\ngravity [0, -9.81]\nbody m mass=1\nprismatic s ground m axis=y\n"
+               "init s = 1\nstop floor s low=0 e=0.95\nsimulate 20\n",
+               (Changes){0});
+}
+
+/* 10 blocks in a row, with gaps between them: the first is thrown at the others, and a wall at the
+ * end sends them back */
+static void bench_blocks(const char *name)
+{
+    Text text = {0};
+
+    text_add(&text, "scene planar\n");
+    for (int i = 1; i <= 10; i++) {
+        text_addf(&text, "body m%d mass=%g\nprismatic s%d ground m%d axis=x\n", i,
+                  1 + 0.3 * (i % 3), i, i);
+        if (i > 1)
+            text_addf(&text, "backlash g%d s%d s%d gap=%g e=0.8\n", i, i, i - 1, 0.2 + 0.01 * i);
+    }
+    text_add(&text, "stop w s10 high=0.5 low=-0.5 e=0.7\ninit s1' = 3\nsimulate 3\n");
+    bench_text(name, text.at, (Changes){0});
+    text_free(&text);
+}
+
 int main(void)
 {
     static const struct {
@@ -126,5 +153,7 @@ int main(void)
     bench_stiff_chain("stiff_chain_40_bdf", "bdf");
     bench_clutches("clutches_20", false);
     bench_clutches("clutches_20_tanh", true);
+    bench_ball("ball_stop");
+    bench_blocks("blocks_10_gaps");
     return test_faults > 0 ? 1 : 0;
 }
