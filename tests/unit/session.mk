@@ -87,6 +87,10 @@ test_bushing_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_constvel
 test_constvel_SOURCES = tests/unit/test_constvel.c tests/unit/session_kit.h tests/unit/test.h
 test_constvel_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_rattleback
+test_rattleback_SOURCES = tests/unit/test_rattleback.c tests/unit/session_kit.h tests/unit/test.h \
+	tests/family/vectors.h
+test_rattleback_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_rolling
 test_rolling_SOURCES = tests/unit/test_rolling.c tests/unit/session_kit.h tests/unit/test.h
 test_rolling_LDADD = $(unit_ldadd)
