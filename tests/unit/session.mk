@@ -91,6 +91,10 @@ UNIT_TESTS += test_rattleback
 test_rattleback_SOURCES = tests/unit/test_rattleback.c tests/unit/session_kit.h tests/unit/test.h \
 	tests/family/vectors.h
 test_rattleback_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_suspension
+test_suspension_SOURCES = tests/unit/test_suspension.c tests/unit/session_kit.h tests/unit/test.h \
+	tests/family/free_bodies.h tests/family/vectors.h
+test_suspension_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_rolling
 test_rolling_SOURCES = tests/unit/test_rolling.c tests/unit/session_kit.h tests/unit/test.h
 test_rolling_LDADD = $(unit_ldadd)
