@@ -45,6 +45,8 @@ EXTRA_DIST += scripts/tours/bouncing-ball.ct scripts/tours/first-hour.ct \
 # machines with motors, coils and controllers, and the motions that they are held to
 EXTRA_DIST += \
 	scripts/machines/bent-crank.ct \
+	scripts/machines/bicycle.ct \
+	scripts/machines/car.ct \
 	scripts/machines/crane.ct \
 	scripts/machines/loudspeaker.ct \
 	scripts/machines/maglev.ct \
