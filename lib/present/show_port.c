@@ -589,37 +589,40 @@ static bool source_parameter(const char *name, int *terminal, int *rate)
     return true;
 }
 
-static Status read_value(const PortRequest *r, const Selection *selection, Expr symbol, double *out,
-                         Diag *diag)
+/* a variable of the model at the instant */
+static Status read_variable(const PortRequest *r, const char *name, double *out, Diag *diag)
 {
-    const ViewValues *values = &r->view->values;
+    const ViewInstant *instant = r->view->instant;
+    const Expr item = expr_symbol(model_arena(r->view->model), name, SYMBOL_VARIABLE);
+
+    return instant->read(instant->context, &item, 1, out, diag);
+}
+
+static Status read_value(const PortRequest *r, Expr symbol, double *out, Diag *diag)
+{
     const char *name = expr_name(symbol);
-    const size_t length = strcspn(name, "'");
-    char *bare;
     int terminal, rate;
-    Status status;
 
     if (source_parameter(name, &terminal, &rate)) {
         const ExtractedTerminal *t = &r->ends.terminals.at[terminal];
         Text text = {0};
+        Status status;
 
         /* its rates are needed only where a capacitor is parallel to it */
-        text_addf(&text, "%s.%s", t->node, domain_across(t->domain));
-        status = values->read(values->context, text.at, rate, selection->at, out, diag);
+        text_addf(&text, "%s.%s%.*s", t->node, domain_across(t->domain), rate, "''");
+        status = read_variable(r, text.at, out, diag);
         text_free(&text);
         return status;
     }
-    if (expr_symbol_kind(symbol) == SYMBOL_TIME || strcmp(name, EXTRACT_TIME) == 0)
-        return values->read(values->context, "t", 0, selection->at, out, diag);
+    if (expr_symbol_kind(symbol) == SYMBOL_TIME || strcmp(name, EXTRACT_TIME) == 0) {
+        *out = r->view->instant->time;
+        return OK;
+    }
     if (expr_symbol_kind(symbol) == SYMBOL_PARAMETER) {
         *out = model_parameter_value(r->view->model, symbol);
         return OK;
     }
-    bare = mem_text(name, length);
-    status =
-        values->read(values->context, bare, (int)strlen(name + length), selection->at, out, diag);
-    mem_free(bare);
-    return status;
+    return read_variable(r, name, out, diag);
 }
 
 static Expr number_shown(const PortRequest *r, double value)
@@ -644,8 +647,7 @@ static double cleaned(double value, double most, bool is_constant)
     return fabs(value) <= roundings * (is_constant ? fmax(most, 1) : most) ? 0 : value;
 }
 
-static Status print_numbers(PortRequest *r, const Selection *selection, PortEquations *port,
-                            Text *out, Diag *diag)
+static Status print_numbers(PortRequest *r, PortEquations *port, Text *out, Diag *diag)
 {
     const int count = r->accelerations.count, all = count + count * count;
     double *numbers = NEW_ARRAY(double, all);
@@ -658,7 +660,7 @@ static Status print_numbers(PortRequest *r, const Selection *selection, PortEqua
     known.count = port_symbols_of(port, &known.symbols);
     known.values = NEW_ARRAY(double, known.count + 1);
     for (int i = 0; i < known.count; i++)
-        CHECK(read_value(r, selection, known.symbols[i], &known.values[i], diag));
+        CHECK(read_value(r, known.symbols[i], &known.values[i], diag));
     status = port_numbers(port, known_value, &known, numbers, numbers + count, &fault);
     if (status == E_VALUE)
         (void)diag_set(diag, E_VALUE, "the equations of the part have no finite numbers there");
@@ -725,7 +727,7 @@ Status show_port(const View *view, const Selection *selection, bool is_norton, T
                             .keeps_networks = selection->networks == NETWORKS_KEPT,
                             .watch = view->watch};
     CHECK(port_new(r.system, &options, &port, diag));
-    status = selection->at != NULL ? print_numbers(&r, selection, port, out, diag)
+    status = selection->at != NULL ? print_numbers(&r, port, out, diag)
                                    : print_symbols(&r, selection, port, out, diag);
 done:
     port_free(port);

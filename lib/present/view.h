@@ -26,13 +26,6 @@ typedef struct ViewInstant {
     double time; /* s */
 } ViewInstant;
 
-/* Reads a variable of the model at an instant (NULL: at the end of the last run, or the start). */
-typedef struct ViewValues {
-    Status (*read)(void *context, const char *name, int primes, const Syntax *at, double *out,
-                   Diag *diag);
-    void *context;
-} ViewValues;
-
 typedef struct View {
     const Model *model;
     System *system;       /* of the model as it is; NULL unless equations are needed */
@@ -43,7 +36,6 @@ typedef struct View {
     Status (*integrals)(const void *session, const Expr *items, int count, double *out, Diag *diag);
     const void *session;
     int run_count;
-    ViewValues values;             /* `read` NULL: there are none */
     const Linear *linear;          /* the last linearisation; NULL */
     const SweepTable *sweep;       /* the last sweep; NULL */
     const FitResult *fit;          /* the last fit; NULL */

@@ -78,20 +78,6 @@ static Status instant_read(const void *context, const Expr *items, int count, do
     return OK;
 }
 
-/* a variable of the model as it is, for numbers of what is shown */
-static Status read_variable(void *context, const char *name, int primes, const Syntax *at,
-                            double *out, Diag *diag)
-{
-    ct_session *session = context;
-    Syntax variable = {
-        .kind = SYNTAX_VARIABLE, .text = name, .primes = primes, .unit_text = "", .height = 1};
-    double instant;
-
-    variable.place = at->place;
-    TRY(session_instant(session, at, &instant, diag));
-    return session_value_at(session, &variable, &instant, out, diag);
-}
-
 static Status instant_shares(const void *context, const char *const *parts, int count, bool *out,
                              Diag *diag)
 {
@@ -115,10 +101,9 @@ ct_status ct_show(ct_session *session, const ct_statement *statement, char **tex
     Need need;
 
     session_begin(session);
-    view.values = (ViewValues){read_variable, session};
     CHECK(check_no_units(s, &diag));
     CHECK(show_need(&view, s, &need, &diag));
-    if (need == NEED_INSTANT) {
+    if (need == NEED_INSTANT || s->at != NULL) {
         CHECK(instant_reader_find(session, s->at, &reader, &diag));
         instant = (ViewInstant){instant_read, instant_shares, &reader, reader.time};
         view.instant = &instant;
