@@ -124,6 +124,10 @@ family_hanging_SOURCES = tests/family/family_hanging.c tests/family/family.h tes
 	tests/unit/session_kit.h tests/unit/test.h tests/random.h
 family_hanging_LDADD = libcotree.la $(unit_ldadd)
 
+FAMILIES += family_sensitivities
+family_sensitivities_SOURCES = tests/family/family_sensitivities.c tests/family/family.h tests/family/script.h
+family_sensitivities_LDADD = libcotree.la $(unit_ldadd)
+
 FAMILIES += family_falls
 family_falls_SOURCES = tests/family/family_falls.c tests/family/family.h tests/family/script.h
 family_falls_LDADD = libcotree.la $(unit_ldadd)
