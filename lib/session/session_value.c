@@ -340,11 +340,64 @@ static Status leaf_along(ct_session *session, const Leaf *leaf, Run *run, const 
     return status;
 }
 
+/* the place of an expression in a list, which it joins */
+static int place_among(Expr *list, int *count, Expr e)
+{
+    for (int i = 0; i < *count; i++)
+        if (list[i] == e)
+            return i;
+    list[*count] = e;
+    return (*count)++;
+}
+
+/* columns of the sensitivities of one run: all items by all parameters, in one pass */
+static Status sensitivity_rows(ct_session *session, const Formula *formulas, int count, Run *run,
+                               Run *source, const double *times, double **columns, int rows,
+                               Diag *diag)
+{
+    LIST(int) places = {0};
+    LIST(int) pairs = {0}; /* number of the item, then of the parameter */
+    Expr *items, *parameters;
+    double *snapped = NEW_ARRAY(double, rows), *values = NULL;
+    int leaves = 0, item_count = 0, parameter_count = 0, place = 0;
+    Status status = OK;
+
+    for (int f = 0; f < count; f++)
+        leaves += formulas[f].leaves.count;
+    items = NEW_ARRAY(Expr, leaves);
+    parameters = NEW_ARRAY(Expr, leaves);
+    for (int f = 0; f < count; f++)
+        for (int i = 0; i < formulas[f].leaves.count; i++, place++) {
+            const Leaf *leaf = formulas[f].leaves.at + i;
+
+            if (leaf->kind != LEAF_SENSITIVITY || leaf_run(session, leaf, source) != run)
+                continue;
+            LIST_PUSH(places, place);
+            LIST_PUSH(pairs, place_among(items, &item_count, leaf->expr));
+            LIST_PUSH(pairs, place_among(parameters, &parameter_count, leaf->by));
+        }
+    for (int r = 0; r < rows; r++)
+        snapped[r] = session_row_time(run->result, times[r]);
+    values = mem_array((size_t)rows * (size_t)item_count * (size_t)parameter_count, sizeof *values);
+    CHECK(session_sensitivities(session, run, items, item_count, parameters, parameter_count,
+                                snapped, rows, values, diag));
+    for (int k = 0; k < places.count; k++)
+        for (int r = 0; r < rows; r++)
+            columns[places.at[k]][r] =
+                values[((ptrdiff_t)r * item_count + pairs.at[2 * k]) * parameter_count +
+                       pairs.at[2 * k + 1]];
+done:
+    LIST_FREE(places);
+    LIST_FREE(pairs);
+    MEM_FREE(items, parameters, snapped, values);
+    return status;
+}
+
 /* columns of the other leaves, at given times */
 static Status other_rows(ct_session *session, const Formula *formulas, int count, const Run *own,
                          Run *source, const double *times, double **columns, int rows, Diag *diag)
 {
-    const Run *prepared = NULL;
+    const Run *prepared = NULL, *differentiated = NULL;
     int place = 0;
 
     for (int f = 0; f < count; f++)
@@ -354,7 +407,14 @@ static Status other_rows(ct_session *session, const Formula *formulas, int count
 
             if (leaf->kind == LEAF_VARIABLE && run == own)
                 continue;
-            if (leaf->kind == LEAF_INTEGRAL || leaf->kind == LEAF_SENSITIVITY) {
+            if (leaf->kind == LEAF_SENSITIVITY) {
+                if (run != differentiated)
+                    TRY(sensitivity_rows(session, formulas, count, run, source, times, columns,
+                                         rows, diag));
+                differentiated = run;
+                continue;
+            }
+            if (leaf->kind == LEAF_INTEGRAL) {
                 TRY(leaf_along(session, leaf, run, times, rows, columns[place], diag));
                 prepared = NULL; /* its own instants were prepared */
                 continue;

@@ -226,6 +226,55 @@ static void bench_rows(void)
     bench_line("rows.1001_over_2", many / few, "times");
 }
 
+/* a run of three rods, with 13 parameters; derivatives of a coordinate by `count` of them */
+static double sensitivities_time(Kit *kit, int count)
+{
+    Text text = {0};
+    double seconds;
+    bool done = true;
+
+    text_add(&text, "export csv");
+    for (int i = 0; i < count; i++)
+        text_addf(&text, " d(h3)/d(%c%d)", "LmcA"[i / 3], i % 3 + 1);
+    BENCH_LEAST(5, seconds, done = done && kit_do(kit, text.at) == CT_OK);
+    text_free(&text);
+    return done ? seconds : -1;
+}
+
+/* d(h)/d(p) beside the run, and beside two runs for each parameter */
+static void bench_sensitivities(void)
+{
+    Kit kit = kit_new();
+    Text text = {0};
+    double run, one, all;
+    bool done;
+
+    text_add(&text, "scene planar\ngravity [0, -9.81]\n");
+    for (int i = 1; i <= 3; i++) {
+        text_addf(&text, "L%d = 1; m%d = 1; c%d = 0.1; A%d = 0.3\nbody b%d mass=m%d inertia=0.1\n",
+                  i, i, i, i, i, i);
+        text_addf(&text, "arm p%d b%d [-L%d/2, 0]; arm r%d b%d [L%d/2, 0]\n", i, i, i, i, i, i);
+        text_addf(&text, i > 1 ? "revolute h%d r%d p%d\n" : "revolute h%d ground p1\n", i, i - 1,
+                  i);
+        text_addf(&text, "damper D%d h%d d=c%d\n", i, i, i);
+        text_addf(&text, "init h%d = A%d\n", i, i);
+    }
+    done = kit_do(&kit, text.at) == CT_OK;
+    BENCH_LEAST(5, run, done = done && kit_do(&kit, "simulate 10 rtol=1e-8 every=0.1") == CT_OK);
+    one = sensitivities_time(&kit, 1);
+    all = sensitivities_time(&kit, 12);
+    text_free(&text);
+    kit_free(&kit);
+    if (!done || one < 0 || all < 0) {
+        printf("# sensitivities: a run of three rods failed\n");
+        return;
+    }
+    bench_line("sensitivities.run", run * 1e3, "ms");
+    bench_line("sensitivities.by_1", one * 1e3, "ms");
+    bench_line("sensitivities.by_12", all * 1e3, "ms");
+    bench_line("sensitivities.by_12_over_24_runs", all / (24 * run), "times");
+}
+
 int main(int argc, char **argv)
 {
     static const char *const folders[] = {"paper", "reference"};
@@ -238,6 +287,7 @@ int main(int argc, char **argv)
     bench_line("apply.500_links", apply(500) * 1e3, "ms");
     bench_line("apply.4000_links", apply(4000) * 1e3, "ms");
     bench_rows();
+    bench_sensitivities();
     for (int i = 0; i < COUNT(folders); i++) {
         Text folder = {0};
 

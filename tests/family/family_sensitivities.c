@@ -219,6 +219,7 @@ static Verdict sensitivities_are_differences(Member *member)
         if (isnan(got)) {
             tell(member, "%s: %s\n", text, kit.error.message);
             verdict = REFUSED;
+            break;
         }
         if (!(open[i] <= 0.1 * bound * size))
             continue;
