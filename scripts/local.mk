@@ -39,7 +39,8 @@ EXTRA_DIST += \
 EXTRA_DIST += scripts/tours/bouncing-ball.ct scripts/tours/first-hour.ct \
 	scripts/tours/converter.ct scripts/tours/hydraulic-lift.ct \
 	scripts/tours/robot-torques.ct scripts/tours/things-that-rub.ct \
-	scripts/tours/things-that-stop.ct scripts/tours/wheels.ct \
+	scripts/tours/things-that-stop.ct scripts/tours/things-that-touch.ct \
+	scripts/tours/wheels.ct \
 	scripts/tours/what-if.ct
 
 # machines with motors, coils and controllers, and the motions that they are held to

@@ -15,13 +15,14 @@
 typedef struct Search {
     SurfaceSide *at;
     int n;
-    SurfaceSlip slip_of;
+    SurfaceSlip at_signs;
     void *context;
     bool insists;
     double size, largest; /* of the state; of a and B */
-    double *a, *b, *slip, *other, *signs, *matrix, *q, *low, *high, *z, *earlier, *room;
-    int *place, *side, *before, *rows, *slips;
-    bool has_cones;
+    double *a, *b, *slip, *other, *signs, *matrix, *q, *low, *high, *z, *earlier, *share, *way,
+        *room;
+    int *place, *side, *before, *rows, *slips, *load, *integers;
+    bool has_cones, has_loads;
 } Search;
 
 static double largest_of(const double *v, int n)
@@ -35,7 +36,7 @@ static double largest_of(const double *v, int n)
 
 static bool slip_at(const Search *s, double *out)
 {
-    if (!s->slip_of(s->context, s->signs, out))
+    if (!s->at_signs(s->context, s->signs, out))
         return false;
     for (int i = 0; i < s->n; i++)
         if (!isfinite(out[i]))
@@ -53,10 +54,14 @@ static double high_of(const SurfaceSide *at)
     return at->is_unilateral ? INFINITY : at->bound;
 }
 
-/* the sign where the surface is left to its side */
-static double left_sign(const SurfaceSide *at)
+/* the sign where the surface is left to its side, with a load that of the other signs */
+static double left_sign(const Search *s, int i)
 {
-    return at->is_unilateral ? 0 : at->side;
+    const SurfaceSide *at = &s->at[i];
+
+    if (at->is_unilateral)
+        return 0;
+    return at->load >= 0 ? at->side * at->left * s->signs[at->load] : at->side * at->left;
 }
 
 /* column k of B from slip at two values of its sign; a where there is no other */
@@ -120,7 +125,7 @@ static void begin_surface(Search *s, int i)
         at->side = s->a[i] < 0 ? -1 : 1;
 }
 
-/* signs of a cone that is left along v */
+/* `way` of a cone that is left along v, which its signs are where it has no load */
 static void point_along(Search *s, int first, const double *v)
 {
     const int count = s->at[first].cone;
@@ -128,8 +133,11 @@ static void point_along(Search *s, int first, const double *v)
 
     for (int i = first; i < first + count; i++)
         norm = hypot(norm, v[i]);
-    for (int i = first; i < first + count; i++)
-        s->signs[i] = norm > 0 ? v[i] / norm : i == first;
+    for (int i = first; i < first + count; i++) {
+        s->way[i] = norm > 0 ? v[i] / norm : i == first;
+        if (s->at[first].load < 0)
+            s->signs[i] = s->way[i];
+    }
 }
 
 /* The same of a cone: its side is known with a direction, or is 1 with one that is to be found. */
@@ -183,16 +191,54 @@ static int place_free(Search *s)
     for (int i = 0; i < s->n; i++) {
         if (!s->at[i].is_fixed)
             s->place[count++] = i;
-        else if (s->at[i].cone == 0)
-            s->signs[i] = left_sign(&s->at[i]);
+        else if (s->at[i].cone == 0 && s->at[i].load < 0)
+            s->signs[i] = left_sign(s, i);
     }
     return count;
+}
+
+/* where among those that aren't fixed surface k is; -1: it is */
+static int place_of(const Search *s, int count, int k)
+{
+    for (int i = 0; i < count; i++)
+        if (s->place[i] == k)
+            return i;
+    return -1;
+}
+
+/* the share of surface k's load that its sign is, where it is fixed and that follows the load */
+static double following_share(const Search *s, int k)
+{
+    const SurfaceSide *at = &s->at[k];
+
+    if (!at->is_fixed || at->load < 0)
+        return 0;
+    return at->cone == 0 ? at->side * at->left : s->way[k] * at->left;
+}
+
+/* what fixed signs add to row i of the problem of `count`, whose own row of B is `row` */
+static void add_fixed(Search *s, int i, int count, const double *row)
+{
+    for (int k = 0; k < s->n; k++) {
+        const int load = s->at[k].load;
+
+        if (!s->at[k].is_fixed)
+            continue;
+        if (load < 0)
+            s->q[i] -= row[k] * s->signs[k];
+        else if (!s->at[load].is_fixed)
+            s->matrix[i * count + place_of(s, count, load)] -= row[k] * following_share(s, k);
+    }
 }
 
 /* With bounds on norms: the signs as they are are first guesses. */
 static bool solve_cones(Search *s, const Complementarity *box)
 {
-    const NormComplementarity problem = {.box = *box, .rows = s->rows, .slips = s->slips};
+    const NormComplementarity problem = {.box = *box,
+                                         .rows = s->rows,
+                                         .load = s->load,
+                                         .share = s->share,
+                                         .slips = s->slips};
 
     for (int i = 0; i < box->n; i++) {
         const SurfaceSide *at = &s->at[s->place[i]];
@@ -200,10 +246,20 @@ static bool solve_cones(Search *s, const Complementarity *box)
         s->rows[i] = at->cone == 0 ? 1 : at->cone > 0 ? at->cone : 0;
         s->slips[i] = at->is_left;
         if (at->is_left)
-            s->high[i] = 1;
+            s->high[i] = s->share[i] = at->left;
         s->z[i] = s->signs[s->place[i]];
     }
     return norm_complementarity_solve(&problem, s->side, s->z, s->room);
+}
+
+static bool solve_in(Search *s, const Complementarity *box)
+{
+    const LoadComplementarity loaded = {*box, s->load, s->share};
+
+    if (s->has_cones)
+        return solve_cones(s, box);
+    return s->has_loads ? load_complementarity_solve(&loaded, s->side, s->z, s->room, s->integers)
+                        : complementarity_solve(box, s->side, s->z, s->room);
 }
 
 /* the sides and signs of those that aren't fixed, with the others as they are; false: none */
@@ -220,19 +276,44 @@ static bool solve_sides(Search *s)
         s->high[i] = high_of(at);
         s->low[i] = low_of(at);
         s->side[i] = at->side;
+        s->load[i] = at->load >= 0 ? place_of(s, problem.n, at->load) : -1;
+        s->share[i] = at->bound;
+        if (at->load >= 0 && s->load[i] < 0) /* the load's surface is left: there is none */
+            s->low[i] = s->high[i] = 0;
         s->q[i] = -s->a[s->place[i]];
-        for (int k = 0; k < n; k++)
-            s->q[i] -= s->at[k].is_fixed ? row[k] * s->signs[k] : 0;
         for (int k = 0; k < problem.n; k++)
             s->matrix[i * problem.n + k] = -row[s->place[k]];
+        add_fixed(s, i, problem.n, row);
     }
-    if (!(s->has_cones ? solve_cones(s, &problem)
-                       : complementarity_solve(&problem, s->side, s->z, s->room)))
+    if (!solve_in(s, &problem))
         return false;
     for (int i = 0; i < problem.n; i++) {
         s->at[s->place[i]].side = s->side[i];
         s->signs[s->place[i]] = s->z[i];
     }
+    for (int k = 0; k < n; k++)
+        if (s->at[k].is_fixed && s->at[k].load >= 0)
+            s->signs[k] = following_share(s, k) * s->signs[s->at[k].load];
+    return true;
+}
+
+static double slip_of(const Search *s, int i)
+{
+    double slip = s->a[i];
+
+    for (int k = 0; k < s->n; k++)
+        slip += s->b[i * s->n + k] * s->signs[k];
+    return slip;
+}
+
+/* Whether what is at its bound isn't left: others hold it, and its bound is that at rest. */
+static bool is_kept(const Search *s, int first)
+{
+    const int count = s->at[first].cone > 0 ? s->at[first].cone : 1;
+
+    for (int i = first; i < first + count; i++)
+        if (fabs(slip_of(s, i)) > WRONG * s->largest)
+            return false;
     return true;
 }
 
@@ -244,14 +325,14 @@ static bool leave(Search *s)
     for (int i = 0; i < s->n; i++) {
         SurfaceSide *at = &s->at[i];
 
-        if (at->is_fixed || at->side == 0 || at->cone < 0)
+        if (at->is_fixed || at->side == 0 || at->cone < 0 || is_kept(s, i))
             continue;
         if (at->cone > 0) { /* its direction is solved for again */
-            any = any || (!at->is_left && at->bound != 1);
+            any = any || (!at->is_left && at->bound != at->left);
             at->is_left = true;
-        } else if (s->signs[i] != left_sign(at)) {
+        } else if (at->load >= 0 ? at->bound != at->left : s->signs[i] != left_sign(s, i)) {
             at->is_fixed = any = true;
-            s->signs[i] = left_sign(at);
+            s->signs[i] = left_sign(s, i);
         }
     }
     return any;
@@ -265,11 +346,8 @@ static bool reopen(Search *s)
 
     for (int i = 0; i < s->n; i++) {
         SurfaceSide *at = &s->at[i];
-        double slip = s->a[i];
 
-        for (int k = 0; k < s->n; k++)
-            slip += s->b[i * s->n + k] * s->signs[k];
-        if (!at->is_fixed || at->is_known || at->side * slip >= -WRONG * s->largest)
+        if (!at->is_fixed || at->is_known || at->side * slip_of(s, i) >= -WRONG * s->largest)
             continue;
         at->is_fixed = false;
         at->side = 0;
@@ -366,12 +444,16 @@ static Search search_in(int n, double *room, int *integers)
     s.high = take(&room, n);
     s.z = take(&room, n);
     s.earlier = take(&room, n);
+    s.share = take(&room, n);
+    s.way = take(&room, n);
     s.room = room;
     s.place = integers;
     s.side = integers + n;
     s.before = integers + 2 * n;
     s.rows = integers + 3 * n;
     s.slips = integers + 4 * n;
+    s.load = integers + 5 * n;
+    s.integers = integers + 6 * n;
     return s;
 }
 
@@ -382,13 +464,14 @@ bool surface_sides_find(SurfaceSide *at, int n, SurfaceSlip slip, void *context,
     bool is_same = false;
 
     s.at = at;
-    s.slip_of = slip;
+    s.at_signs = slip;
     s.context = context;
     s.insists = insists;
     s.size = size;
     for (int i = 0; i < n; i++) {
         s.signs[i] = 0;
         s.has_cones = s.has_cones || at[i].cone > 0;
+        s.has_loads = s.has_loads || at[i].load >= 0;
     }
     /* the linear problem is formed anew around the signs, until the sides stay */
     for (int turn = 0; turn < REFINED && !is_same; turn++) {
@@ -405,11 +488,15 @@ bool surface_sides_find(SurfaceSide *at, int n, SurfaceSlip slip, void *context,
             return false;
         for (int i = 0; i < n; i++)
             is_same = is_same && s.before[i] == at[i].side &&
-                      (at[i].cone == 0 || fabs(s.earlier[i] - s.signs[i]) <= SAME);
+                      (at[i].cone == 0 ||
+                       fabs(s.earlier[i] - s.signs[i]) <= SAME * fmax(1, fabs(s.signs[i])));
         is_same = is_same || n == 1;
     }
     for (int i = 0; i < n; i++)
-        at[i].sign = s.signs[i];
+        if (at[i].cone > 0 && at[i].load >= 0 && at[i].side != 0 && !at[i].is_known)
+            point_along(&s, i, s.signs);
+    for (int i = 0; i < n; i++)
+        at[i].sign = at[i].cone != 0 && at[i].load >= 0 && at[i].side != 0 ? s.way[i] : s.signs[i];
     find_held(&s);
     return is_same;
 }

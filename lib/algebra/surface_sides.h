@@ -13,6 +13,10 @@
  * At most as many rounds as surfaces. Where a surface is unilateral s is the effort that keeps h
  * from being positive: 0 where it is left to h < 0.
  *
+ * A surface may have a load, the effort of a unilateral one: then s is an effort too, of size up to
+ * r times the load while the motion slides along it, and the kinetic share of the load where it is
+ * left.
+ *
  * Surfaces in a row may be a cone, as friction in a plane is: r bounds the norm of their signs, and
  * they are all slid along or all left, with slip = c s, c >= 0, |s| = r. The side of what is left
  * is 1, and s the direction (norm_complementarity.h).
@@ -28,6 +32,8 @@
 /* a surface that the motion stands on */
 typedef struct SurfaceSide {
     double bound; /* r; of what is unilateral no number */
+    double left;  /* the size of s where it is left: 1; with a load its kinetic share */
+    int load;     /* the surface whose effort is the load; -1: none */
     bool is_unilateral;
     int cone;   /* at the first surface of a cone how many it has; -1: at its others; 0: of none */
     double off; /* h where slip is h', or h' where it is h'': 0 if the motion stands on it */
@@ -39,15 +45,15 @@ typedef struct SurfaceSide {
     bool held; /* found: on a side, while those that are slid along keep it on its surface */
     bool is_unaffected; /* found: no sign changes how it is left: its side is left to the equations
                          */
-    double sign;        /* found */
+    double sign;        /* found; of a cone with a load that is left its direction, of norm 1 */
 } SurfaceSide;
 
 /* slip of all surfaces with these signs; false: it can't be evaluated there */
 typedef bool (*SurfaceSlip)(void *context, const double *signs, double *slip);
 
 /* room in numbers and in integers for n surfaces */
-#define SURFACE_SIDES_ROOM(n)     (COMPLEMENTARITY_ROOM(n) + 2 * (n) * (n) + 9 * (n))
-#define SURFACE_SIDES_INTEGERS(n) (5 * (n))
+#define SURFACE_SIDES_ROOM(n)     (LOAD_COMPLEMENTARITY_ROOM(n) + 2 * (n) * (n) + 11 * (n))
+#define SURFACE_SIDES_INTEGERS(n) (6 * (n) + LOAD_COMPLEMENTARITY_INTEGERS(n))
 
 /* Finds sides, signs, and what is held or loose. insists: a sign that has reached its bound leaves
  * there, whatever the problem's solution is; size: of the state, by which `off` is judged. False:

@@ -502,6 +502,14 @@ static const Member *scalar_members(const Component *row, int *count)
 
 static const Member *family_members(const Component *row, bool planar, int *count)
 {
+    if (row->turns) {
+        *count = COUNT(coupling_spatial);
+        return coupling_spatial;
+    }
+    if (row->contact != NULL) {
+        *count = planar ? COUNT(contact_planar) : COUNT(contact_spatial);
+        return planar ? contact_planar : contact_spatial;
+    }
     switch (row->family) {
     case FAMILY_BODY:
     case FAMILY_ARM:
@@ -513,18 +521,12 @@ static const Member *family_members(const Component *row, bool planar, int *coun
     case FAMILY_SCALAR:
     case FAMILY_TRANSDUCER:
         return scalar_members(row, count);
-    case FAMILY_CONTACT:
-        if (row->turns) {
-            *count = COUNT(coupling_spatial);
-            return coupling_spatial;
-        }
-        *count = planar ? COUNT(contact_planar) : COUNT(contact_spatial);
-        return planar ? contact_planar : contact_spatial;
     case FAMILY_FORCE:
         if (row->restore == NULL)
             break;
         *count = planar ? JOINT_LOADS_PLANAR : JOINT_LOADS;
         return planar ? joint_planar : joint_spatial;
+    case FAMILY_CONTACT:
     case FAMILY_DRIVER:
     case FAMILY_COUPLER:
         break;

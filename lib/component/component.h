@@ -371,7 +371,8 @@ struct Component {
     /* PLACES_ON: force and torque on the head, in ground axes or, with *in_body, in the head's */
     void (*wrench)(const Instance *instance, Arena *arena, bool planar, Expr force[3],
                    Expr torque[3], bool *in_body);
-    /* FAMILY_CONTACT: its rows, and the point at which their forces act */
+    /* FAMILY_CONTACT and what has `press`: its rows, the first along the normal, and the point at
+     * which their forces act */
     void (*contact)(const Instance *instance, Arena *arena, bool planar, const FramesApart *apart,
                     Contact *out);
     bool turns; /* its rows are of turns: it acts with a moment, and at no point */
@@ -386,16 +387,19 @@ struct Component {
     Expr (*effort)(const Instance *instance, Arena *arena, const Motion1 *motion);
     /* of friction between two frames or in a joint of several coordinates: the force or torque on
      * the head against one component of their motion, whose norm is `speed`; NULL: there is but
-     * that one */
-    Expr (*rub)(const Instance *instance, Arena *arena, Expr rate, Expr speed);
+     * that one. load: of a contact that opens its normal force, otherwise NULL */
+    Expr (*rub)(const Instance *instance, Arena *arena, Expr rate, Expr speed, Expr load);
+    /* of a contact that opens: the normal force on the head, never negative, by its gap and the
+     * rate of that; `contact` gives both. NULL: it is none, or what it has are rows */
+    Expr (*press)(const Instance *instance, Arena *arena, Expr gap, Expr rate);
     /* Of a part that resists every motion of its frames: efforts on the head along `count`
      * coordinates x of it in axes of the tail, 6 in space (position, rotation vector) and 3 in the
      * plane, and the share of them that is lost. Returns the energy that it stores, J. */
     Expr (*restore)(const Instance *instance, Arena *arena, int count, const Expr *x,
                     const Expr *rate, Expr *effort, Expr *lost);
     /* of a part that sticks: the most that its dry friction is at this rate, or at rest the most
-     * that it holds */
-    Expr (*bound)(const Instance *instance, Arena *arena, Expr rate, bool at_rest);
+     * that it holds; load as above */
+    Expr (*bound)(const Instance *instance, Arena *arena, Expr rate, Expr load, bool at_rest);
     /* whether it holds without a bound, on one side; NULL: never */
     bool (*is_rigid)(const Instance *instance);
     Expr (*potential)(const Instance *instance, Arena *arena,

@@ -16,20 +16,11 @@
  * A rod of length L holds |c| = L, a point in the plane z.c = 0, one on a line n1.c = n2.c = 0.
  *
  * theory 14; P. Meijaard et al., Proc. R. Soc. A 463 (2007), 1955, have wheels with round rims. */
+#include "component/contacts.h"
+
 #include "component/component_rows.h"
 
 /* clang-format off */
-static const Param roll_params[] = {
-    {"radius",   PARAM_SCALAR, "m", "0", "of the wheel, to the middle of a round rim, or of the ball", 0},
-    {"axle",     PARAM_AXIS,   "1", "z", "of a wheel, in the axes of the tip; without it a ball rolls", 0},
-    {"normal",   PARAM_AXIS,   "1", "z", "of the plane that it rolls on, in the axes of the tail; planar: y", 0},
-    {"rim",      PARAM_SCALAR, "m", "0", "radius of a wheel's round rim", 0},
-    {"semiaxes", PARAM_LIST,   "m", "",  "[a, b, c] of an ellipsoid along the axes of the tip", 0},
-    {"bowl",     PARAM_SCALAR, "m", "0", "radius of a bowl about the tail's origin, in which a ball rolls", 0},
-    {"dome",     PARAM_SCALAR, "m", "0", "radius of a dome about the tail's origin, on which a ball rolls", 0},
-    {"offset",   PARAM_SCALAR, "m", "0", "planar: of the way along the line where the wheel's angle is 0", 0},
-};
-
 static const Param knife_params[] = {
     {"along",  PARAM_AXIS, "1", "x", "the direction in which the blade goes, in the axes of the tip", 0},
     {"normal", PARAM_AXIS, "1", "z", "of the plane that it goes on, in the axes of the tail", 0},
@@ -57,11 +48,6 @@ static const Member plane_members[] = {
 
 static const Member line_members[] = {
     {"fn", "N", "force on the tip across the line; in space along the first of two normals", 0},
-};
-
-static const Member roll_members[] = {
-    {"fn", "N", "force on the tip along the normal", 0},
-    {"ft", "N", "magnitude of the force along the plane", 0},
 };
 
 static const Member knife_members[] = {
@@ -105,9 +91,9 @@ static Expr held_length(Arena *arena, const Expr a[3])
     return expr_name_temporary(arena, expr_sqrt(arena, dot(arena, a, a)));
 }
 
-static bool is_given(const Instance *instance, const char *name)
+bool contact_has(const Instance *instance, const char *name)
 {
-    return instance_value(instance, name)->given;
+    return component_param(instance->row, name) >= 0 && instance_value(instance, name)->given;
 }
 
 /* --- rows --- */
@@ -134,7 +120,7 @@ static void push_tangents(Arena *arena, const Expr normal[3], Contact *out)
 static Expr round_gap(const Instance *instance, Arena *arena, const FramesApart *apart,
                       Expr normal[3])
 {
-    const bool is_bowl = is_given(instance, "bowl");
+    const bool is_bowl = contact_has(instance, "bowl");
     const Expr far = held_length(arena, apart->way), r = instance_scalar(instance, "radius");
     const Expr sign = expr_int(arena, is_bowl ? -1 : 1);
 
@@ -184,8 +170,8 @@ static void plane_normal(const Instance *instance, Arena *arena, bool planar, Ex
         out[i] = is_default ? expr_int(arena, i == 1) : normal->at[i];
 }
 
-static void roll_contact(const Instance *instance, Arena *arena, bool planar,
-                         const FramesApart *apart, Contact *out)
+void roll_contact(const Instance *instance, Arena *arena, bool planar, const FramesApart *apart,
+                  Contact *out)
 {
     const Expr r = instance_scalar(instance, "radius");
     const Expr out_of_plane[3] = {expr_int(arena, 0), expr_int(arena, 0), expr_int(arena, 1)};
@@ -193,7 +179,7 @@ static void roll_contact(const Instance *instance, Arena *arena, bool planar,
 
     *out = (Contact){0};
     plane_normal(instance, arena, planar, z);
-    if (is_given(instance, "bowl") || is_given(instance, "dome")) {
+    if (contact_has(instance, "bowl") || contact_has(instance, "dome")) {
         gap = round_gap(instance, arena, apart, out->normal);
         scale(arena, expr_neg(arena, r), out->normal, out->point);
         push(out, "normal", out->normal, gap);
@@ -208,9 +194,9 @@ static void roll_contact(const Instance *instance, Arena *arena, bool planar,
     }
     for (int i = 0; i < 3; i++)
         out->normal[i] = z[i];
-    if (is_given(instance, "semiaxes")) {
+    if (contact_has(instance, "semiaxes")) {
         gap = ellipsoid_gap(instance, arena, apart, z, out->point);
-    } else if (!planar && is_given(instance, "axle")) {
+    } else if (!planar && contact_has(instance, "axle")) {
         gap = wheel_gap(instance, arena, apart, z, out->point);
     } else {
         scale(arena, expr_neg(arena, r), z, out->point);
@@ -223,16 +209,17 @@ static void roll_contact(const Instance *instance, Arena *arena, bool planar,
     }
     axis_cross(arena, z, out_of_plane, along);
     travel = expr_add(arena, dot(arena, along, apart->way), expr_mul(arena, r, apart->angle));
-    push(out, "t", along, expr_sub(arena, travel, instance_scalar(instance, "offset")));
+    if (component_param(instance->row, "offset") >= 0)
+        travel = expr_sub(arena, travel, instance_scalar(instance, "offset"));
+    push(out, "t", along, travel);
 }
 
 /* a wheel's rim, or the sections of a ball or an ellipsoid along its axes */
-static int roll_rings(const Instance *instance, Arena *arena, bool planar,
-                      ContactRing out[MOST_RINGS])
+int roll_rings(const Instance *instance, Arena *arena, bool planar, ContactRing out[MOST_RINGS])
 {
     const Value *semiaxes = instance_value(instance, "semiaxes");
     const Expr zero = expr_int(arena, 0), r = instance_scalar(instance, "radius");
-    const bool is_wheel = planar || is_given(instance, "axle");
+    const bool is_wheel = planar || contact_has(instance, "axle");
     const Expr out_of_plane[3] = {zero, zero, expr_int(arena, 1)};
 
     if (is_wheel) {
@@ -308,7 +295,7 @@ static void line_contact(const Instance *instance, Arena *arena, bool planar,
 
 /* --- checks --- */
 
-static Status refuse(Diag *diag, const char *about, const char *message, const char *hint)
+Status contact_refuse(Diag *diag, const char *about, const char *message, const char *hint)
 {
     const Status status = diag_set(diag, E_VALUE, "%s", message);
 
@@ -327,9 +314,10 @@ static Status check_direction(const Instance *instance, const char *name, bool t
 
     if (!planar || !value->given || (turns ? is_out_of_it : is_in_plane))
         return OK;
-    return refuse(diag, name, turns ? "it turns about z in a planar scene" : "it leaves the plane",
-                  turns ? "the scene is planar: z, or nothing"
-                        : "the scene is planar: x, y, or a vector [a, b]");
+    return contact_refuse(diag, name,
+                          turns ? "it turns about z in a planar scene" : "it leaves the plane",
+                          turns ? "the scene is planar: z, or nothing"
+                                : "the scene is planar: x, y, or a vector [a, b]");
 }
 
 /* refuses a key that has no effect together with another */
@@ -339,7 +327,7 @@ static Status check_alone(const Instance *instance, const char *with, const char
     for (; *keys != NULL; keys++) {
         Status status;
 
-        if (!is_given(instance, *keys))
+        if (!contact_has(instance, *keys))
             continue;
         status = diag_set(diag, E_VALUE, "%s= and %s= exclude each other", with, *keys);
         diag_hint(diag, "one shape rolls: a wheel or a ball with radius=, an ellipsoid with "
@@ -356,14 +344,14 @@ static Status check_ellipsoid(const Instance *instance, bool planar, Diag *diag)
     const Value *axes = instance_value(instance, "semiaxes");
 
     if (planar)
-        return refuse(diag, "semiaxes", "an ellipsoid rolls in a spatial scene",
-                      "in the plane a circle rolls: radius=");
+        return contact_refuse(diag, "semiaxes", "an ellipsoid rolls in a spatial scene",
+                              "in the plane a circle rolls: radius=");
     if (axes->count != 3)
-        return refuse(diag, "semiaxes", "an ellipsoid has three semiaxes",
-                      "they are written [a, b, c], along the axes of the tip");
+        return contact_refuse(diag, "semiaxes", "an ellipsoid has three semiaxes",
+                              "they are written [a, b, c], along the axes of the tip");
     for (int i = 0; i < 3; i++)
         if (expr_is_number(axes->at[i]) && !(expr_value(axes->at[i]) > 0))
-            return refuse(diag, "semiaxes", "a semiaxis must be above 0", "in m");
+            return contact_refuse(diag, "semiaxes", "a semiaxis must be above 0", "in m");
     return check_alone(instance, "semiaxes", others, diag);
 }
 
@@ -371,40 +359,43 @@ static Status check_ellipsoid(const Instance *instance, bool planar, Diag *diag)
 static Status check_round(const Instance *instance, Diag *diag)
 {
     static const char *const others[] = {"dome", "offset", NULL};
-    const bool is_bowl = is_given(instance, "bowl");
+    const bool is_bowl = contact_has(instance, "bowl");
     const char *name = is_bowl ? "bowl" : "dome";
     const Expr R = instance_scalar(instance, name), r = instance_scalar(instance, "radius");
 
-    if (is_given(instance, "axle"))
-        return refuse(diag, name, "in a bowl or on a dome only a ball rolls",
-                      "wheels and ellipsoids roll on planes");
+    if (contact_has(instance, "axle"))
+        return contact_refuse(diag, name, "in a bowl or on a dome only a ball rolls",
+                              "wheels and ellipsoids roll on planes");
     TRY(check_alone(instance, name, is_bowl ? others : others + 1, diag));
     TRY(check_positive(instance, name, diag));
     if (is_bowl && expr_is_number(R) && expr_is_number(r) && expr_value(R) <= expr_value(r))
-        return refuse(diag, "bowl", "the ball does not fit into the bowl",
-                      "bowl= must be above radius=");
+        return contact_refuse(diag, "bowl", "the ball does not fit into the bowl",
+                              "bowl= must be above radius=");
     return OK;
 }
 
-static Status roll_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
+Status check_shape(const Instance *instance, bool planar, bool may_be_point, Diag *diag)
 {
-    (void)arena;
-    if (is_given(instance, "semiaxes"))
+    const bool is_round = contact_has(instance, "bowl") || contact_has(instance, "dome");
+    const bool is_point = may_be_point && !contact_has(instance, "radius");
+
+    if (contact_has(instance, "semiaxes"))
         return check_ellipsoid(instance, planar, diag);
-    if (!is_given(instance, "radius"))
-        return refuse(diag, "radius", "a wheel or a ball needs its radius",
-                      "radius=0.3 m; an ellipsoid has semiaxes=[a, b, c]");
-    TRY(check_positive(instance, "radius", diag));
+    if (!contact_has(instance, "radius") && !may_be_point)
+        return contact_refuse(diag, "radius", "a wheel or a ball needs its radius",
+                              "radius=0.3 m; an ellipsoid has semiaxes=[a, b, c]");
+    if (is_point && contact_has(instance, "axle"))
+        return contact_refuse(diag, "axle", "axle= has no effect without radius=",
+                              "a point touches; radius= and axle= make it a wheel");
+    if (!is_point)
+        TRY(check_positive(instance, "radius", diag));
     TRY(check_direction(instance, "axle", true, planar, diag));
     TRY(check_direction(instance, "normal", false, planar, diag));
-    if (is_given(instance, "bowl") || is_given(instance, "dome"))
+    if (is_round)
         TRY(check_round(instance, diag));
     TRY(check_not_negative(instance, "rim", diag));
-    if (is_given(instance, "rim") && (planar || !is_given(instance, "axle")))
-        return refuse(diag, "rim", "only a wheel has a rim", "axle= makes it a wheel");
-    if (is_given(instance, "offset") && !planar)
-        return refuse(diag, "offset", "offset= belongs to rolling in a planar scene",
-                      "in space an initial position may be any: init");
+    if (contact_has(instance, "rim") && (planar || !contact_has(instance, "axle")))
+        return contact_refuse(diag, "rim", "only a wheel has a rim", "axle= makes it a wheel");
     return OK;
 }
 
@@ -435,38 +426,6 @@ static Status link_check(const Instance *instance, Arena *arena, bool planar, Di
 }
 
 /* --- table --- */
-
-const Component component_roll = {
-    .name = "roll",
-    .family = FAMILY_CONTACT,
-    .domain = DOMAIN_MECHANICAL,
-    .places = PLACES_FRAMES,
-    .brief = "a wheel, ball or ellipsoid that rolls on a plane, or a ball in a bowl",
-    .params = roll_params,
-    .param_count = COUNT(roll_params),
-    .translation = BRANCH_NEVER,
-    .rotation = BRANCH_NEVER,
-    .preference = 95,
-    .contact = roll_contact,
-    .rings = roll_rings,
-    .members = roll_members,
-    .member_count = COUNT(roll_members),
-    .check = roll_check,
-    .help =
-        "The tip rolls on the tail without slipping and without leaving it. The plane goes through "
-        "the tail's origin. A wheel turns about axle=, its contact point is the lowest of its rim; "
-        "without axle= a ball rolls, with semiaxes= an ellipsoid. bowl= and dome= make the tail a "
-        "sphere. In space the velocity along the surface is 0, which takes freedoms of motion but "
-        "not of place. In a planar scene the way is tied to the angle: t.c + radius*theta = "
-        "offset.",
-    .example = "gravity [0, 0, -9.81]\n"
-               "body coin mass=0.02 inertia=[1.25e-6, 1.25e-6, 2.5e-6] euler=zxz\n"
-               "roll r1 ground coin axle=z radius=16 mm\n"
-               "init coin.x = 0, coin.y = 0, coin.a1 = 0, coin.a2 = 60 deg, coin.a3 = 0\n"
-               "init coin.a1' = 0, coin.a2' = 0, coin.a3' = 20\n"
-               "simulate 1\nprint coin.x, coin.y, r1.fn",
-    .see = "knife coupler contact",
-};
 
 const Component component_knife = {
     .name = "knife",

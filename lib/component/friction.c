@@ -120,10 +120,12 @@ static Expr stribeck_curve(const Instance *instance, Arena *arena, Expr v)
     return expr_add(arena, one, expr_mul(arena, expr_sub(arena, ratio, one), fall));
 }
 
-static Expr friction_bound(const Instance *instance, Arena *arena, Expr rate, bool at_rest)
+static Expr friction_bound(const Instance *instance, Arena *arena, Expr rate, Expr load,
+                           bool at_rest)
 {
     const Expr bound = bound_of(instance, arena);
 
+    (void)load;
     if (at_rest)
         return has_param(instance, "static")
                    ? expr_mul(arena, bound, instance_scalar(instance, "static"))
@@ -164,8 +166,9 @@ static Expr friction_effort(const Instance *instance, Arena *arena, const Motion
     return expr_neg(arena, resistance(instance, arena, motion->rate, NULL));
 }
 
-static Expr friction_rub(const Instance *instance, Arena *arena, Expr rate, Expr speed)
+static Expr friction_rub(const Instance *instance, Arena *arena, Expr rate, Expr speed, Expr load)
 {
+    (void)load;
     return expr_neg(arena, resistance(instance, arena, rate, speed));
 }
 

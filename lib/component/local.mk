@@ -9,7 +9,7 @@ libcore_la_SOURCES += \
 	lib/component/electrical.c lib/component/forces.c lib/component/friction.c lib/component/equation_block.c \
 	lib/component/equation_block.h lib/component/hydraulic.c \
 	lib/component/joints.c lib/component/joints_round.c lib/component/pid.c \
-  lib/component/contacts.c lib/component/stops.c \
+  lib/component/contacts.c lib/component/contacts.h lib/component/stops.c lib/component/touching.c \
 	lib/component/scalar.c lib/component/screw.c lib/component/shaft.c lib/component/slide.c \
 	lib/component/switching.c lib/component/thermal.c lib/component/transducers.c \
 	lib/component/twoports.c

@@ -54,7 +54,7 @@ static void add_side(Code *code, Expr condition, Expr call, bool is_jump)
     if (expr_is_number(condition) || (expr_kinds(condition) & unknown) != 0)
         return;
     side.surface.condition = side.surface.measure = surface_of(code->arena, condition, &way);
-    side.surface.ratio = switch_jumps(call) ? surface_ratio(call) : NULL;
+    side.surface.law = switch_jumps(call) ? surface_law(code->arena, call) : (SurfaceLaw){0};
     side.is_floor = (expr_kinds(condition) & ~of_time) == 0 && expr_op(call) == OP_FLOOR;
     side.is_timed = (expr_kinds(condition) & ~of_time) == 0 &&
                     is_even(code, side.is_floor ? expr_arg(call, 0) : side.surface.condition);
@@ -64,7 +64,7 @@ static void add_side(Code *code, Expr condition, Expr call, bool is_jump)
         CodeSide *known = &code->live.sides.at[i];
 
         if (known->surface.condition == side.surface.condition &&
-            known->surface.ratio == side.surface.ratio) {
+            surface_law_is(&known->surface.law, &side.surface.law)) {
             known->is_jump = known->is_jump || side.is_jump;
             return;
         }
@@ -141,7 +141,7 @@ static void add_slides(Code *code)
     for (int k = 0; k < live->slides.count; k++)
         LIST_PUSH(entries, live->sides.at[live->slides.at[k]].off);
     for (int k = 0; k < live->slides.count; k++) {
-        const Expr ratio = live->sides.at[live->slides.at[k]].surface.ratio;
+        const Expr ratio = live->sides.at[live->slides.at[k]].surface.law.ratio;
 
         LIST_PUSH(entries, ratio != NULL ? ratio : expr_int(code->arena, 1));
     }

@@ -305,10 +305,10 @@ static Status check_limits(System *system, Diag *diag)
     for (int i = 0; system_surface(system, i, &surface); i++) {
         const char *part;
 
-        if (!surface.is_unilateral && surface.part_count == 0)
+        if (!surface.law.is_unilateral && !surface.law.is_norm)
             continue;
         part = system_jumping_part(system, surface.condition);
-        if (surface.part_count > 0) {
+        if (surface.law.is_norm) {
             (void)diag_set(diag, E_MODEL,
                            "%s sticks in %d directions with one bound, which an FMU lacks",
                            part != NULL ? part : "direction()", surface.part_count);

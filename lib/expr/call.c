@@ -39,6 +39,7 @@ static double v_sign(const double *x)  { return (x[0] > 0) - (x[0] < 0); }
 /* beyond 0, by more than rounding, it has no value */
 static double v_hypot(const double *x) { return hypot(x[0], x[1]); }
 static double v_direction(const double *x) { return x[1] > 0 ? x[0] / x[1] : 0; }
+static double v_coulomb(const double *x) { return x[1] != 0 ? x[2] * x[0] / fabs(x[1]) : 0; }
 static double v_unilateral(const double *x) { return x[0] > UNILATERAL_CLOSED ? (double)NAN : 0; }
 static double v_min(const double *x)   { return x[1] < x[0] ? x[1] : x[0]; }
 static double v_max(const double *x)   { return x[1] > x[0] ? x[1] : x[0]; }
@@ -244,6 +245,11 @@ static Expr exact_stick(Arena *arena, const Expr *args)
                : NULL;
 }
 
+static Expr exact_coulomb(Arena *arena, const Expr *args)
+{
+    return expr_is_zero(args[2]) || expr_is_zero(args[0]) ? expr_int(arena, 0) : NULL;
+}
+
 static Expr exact_unilateral(Arena *arena, const Expr *args)
 {
     return is_number(args[0]) && expr_value(args[0]) < 0 ? expr_int(arena, 0) : NULL;
@@ -274,6 +280,7 @@ static const Exact exact[OP_COUNT] = {
     [OP_ABS] = {.parity = EVEN, .picks = true, .rule = exact_abs},
     [OP_SIGN] = {.parity = ODD, .picks = true},
     [OP_STICK] = {.rule = exact_stick},
+    [OP_COULOMB] = {.rule = exact_coulomb},
     [OP_UNILATERAL] = {.rule = exact_unilateral},
     [OP_MIN] = {.commutes = true, .picks = true, .rule = exact_pick},
     [OP_MAX] = {.commutes = true, .picks = true, .rule = exact_pick},

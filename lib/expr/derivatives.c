@@ -64,6 +64,20 @@ static Expr d_direction(Arena *arena, Expr e, const Expr *rates)
     return expr_div(arena, expr_sub(arena, rates[0], expr_mul(arena, e, rates[1])), arg(e, 1));
 }
 
+/* b v/|n|; of v/|v| no derivative but where it jumps */
+static Expr d_coulomb(Arena *arena, Expr e, const Expr *rates)
+{
+    const Expr v = arg(e, 0), n = arg(e, 1);
+    const Expr along = expr_call(arena, OP_COULOMB, (Expr[]){v, n, expr_int(arena, 1)});
+    const Expr by_bound = expr_mul(arena, along, rates[2]);
+    Expr turn;
+
+    if (v == n)
+        return by_bound;
+    turn = expr_div(arena, expr_sub(arena, rates[0], expr_mul(arena, along, rates[1])), n);
+    return expr_add(arena, by_bound, expr_mul(arena, arg(e, 2), turn));
+}
+
 /* the same data, one order higher */
 static Expr d_table(Arena *arena, Expr e, const Expr *rates)
 {

@@ -42,6 +42,7 @@ Expr switch_condition(Arena *arena, Expr e)
     case OP_ABS:
         return expr_arg(e, 0);
     case OP_DIRECTION:
+    case OP_COULOMB:
         return expr_arg(e, 1);
     case OP_FLOOR: /* at whole numbers */
         return expr_sin(arena, expr_mul(arena, expr_pi(arena, 1), expr_arg(e, 0)));

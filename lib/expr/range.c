@@ -226,6 +226,8 @@ static Range call(const RangeNode *node, const Range *all, const int *operands)
         return (Range){0, hypot(fmax(fabs(a.low), fabs(a.high)), fmax(fabs(b.low), fabs(b.high)))};
     case OP_DIRECTION:
         return (Range){-1, 1};
+    case OP_COULOMB:
+        return (Range){-INFINITY, INFINITY};
     case OP_UNILATERAL:
         return (Range){0, a.high < 0 ? 0 : INFINITY};
     case OP_MIN:

@@ -332,8 +332,8 @@ static bool is_of_terminals(const ModelRenameRenaming *r, const Component *row, 
 {
     const char *name = syntax_name(value);
 
-    return row->variants != NULL && row->places != PLACES_COORDINATE && i > 0 &&
-           i <= component_terminals(row) && name != NULL &&
+    return row->variants != NULL && row->places != PLACES_COORDINATE &&
+           row->places != PLACES_FRAMES && i > 0 && i <= component_terminals(row) && name != NULL &&
            !state_names_joint(r->state, own_name(r, name));
 }
 

@@ -522,7 +522,8 @@ static const Component *row_that_rubs(const State *state, const Statement *state
                                                                                          : NULL;
 }
 
-/* A prime asks for a row of rates. mu= of friction asks for a row by the joint's load. The first
+/* A prime asks for a row of rates. mu= of friction asks for a row by the joint's load,
+ * that of what rolls for one that slips. The first
  * place tells: a joint, or a terminal that has a domain already; a new terminal is of a slide where
  * a force is given, otherwise of a shaft. */
 const Component *row_at_places(const State *state, const Statement *statement, const Component *row)
@@ -537,6 +538,8 @@ const Component *row_at_places(const State *state, const Statement *statement, c
                    : row;
     if (row->variants == NULL || statement->operands.count < 2)
         return row;
+    if (row->places == PLACES_FRAMES)
+        return has_pair(statement, "mu") ? row->variants[0] : row;
     rubs = row_that_rubs(state, statement, row);
     by_load = has_pair(statement, "mu") ? variant_find(row, DOMAIN_LOAD) : NULL;
     for (int i = 1; i < 3 && i < statement->operands.count; i++) {

@@ -9,10 +9,18 @@
 
 enum { REPORTED_PARTS = 8 }; /* in the report of a run */
 
+/* a contact without friction, or a limit: it has no bound */
+static bool is_without_bound(const Instance *part)
+{
+    return part->row->press != NULL ? !instance_value(part, "mu")->given : instance_is_rigid(part);
+}
+
 static const char *side_name(const Instance *part, const StickRecord *record)
 {
-    if (instance_is_rigid(part))
-        return record->sticks ? "holds" : "free";
+    if (part->row->press != NULL && record->is_open)
+        return "open";
+    if (is_without_bound(part))
+        return record->sticks ? part->row->press != NULL ? "touches" : "holds" : "free";
     return record->is_held ? "held at its bound" : record->sticks ? "sticks" : "slips";
 }
 
@@ -36,7 +44,7 @@ static Status read_lost(const View *view, RubbingParts *parts, Diag *diag)
         Text name = {0};
 
         text_addf(&name, "%s.loss", parts->at[i].part->name);
-        items[i] = instance_is_rigid(parts->at[i].part)
+        items[i] = is_without_bound(parts->at[i].part)
                        ? expr_int(model_arena(view->model), 0)
                        : expr_symbol(model_arena(view->model), name.at, SYMBOL_VARIABLE);
         text_free(&name);
@@ -59,7 +67,7 @@ static Status find_rubbing(const View *view, bool with_rigid, RubbingParts *out,
     for (int i = 0; i < model_count(view->model); i++) {
         Rubbing rubbing = {.part = model_instance(view->model, i)};
 
-        if (instance_sticks(rubbing.part) && (with_rigid || !instance_is_rigid(rubbing.part)) &&
+        if (instance_sticks(rubbing.part) && (with_rigid || !is_without_bound(rubbing.part)) &&
             result_rows(view->result) > 0 &&
             result_stick(view->result, rubbing.part->name, &rubbing.record))
             LIST_PUSH(*out, rubbing);
@@ -183,8 +191,11 @@ static Status read_side(const View *view, const Instance *part, ShownSide *side,
 {
     const bool has_effort =
         component_find_member(part->row, model_is_planar(view->model), "effort") != NULL;
-    const char *members[SHOWN] = {[EFFORT] =
-                                      has_effort ? "effort" : domain_through(part->row->domain),
+    const char *members[SHOWN] = {[EFFORT] = part->row->press == NULL
+                                                 ? has_effort ? "effort"
+                                                              : domain_through(part->row->domain)
+                                             : is_without_bound(part) ? "fn"
+                                                                      : "ft",
                                   [BOUND] = "bound",
                                   [HOLD] = "hold"};
     Expr items[SHOWN];
@@ -196,7 +207,7 @@ static Status read_side(const View *view, const Instance *part, ShownSide *side,
         side->names[i] = text_done(&name);
         items[i] = expr_symbol(model_arena(view->model), side->names[i], SYMBOL_VARIABLE);
     }
-    return view->instant->read(view->instant->context, items, instance_is_rigid(part) ? 1 : SHOWN,
+    return view->instant->read(view->instant->context, items, is_without_bound(part) ? 1 : SHOWN,
                                side->values, diag);
 }
 
@@ -219,9 +230,11 @@ static void add_row(const View *view, Table *table, const Instance *part, const 
     const bool is_at_rest = record->sticks || record->is_held;
 
     table_cell(table, part->name);
-    table_cell(table, !is_at_rest && effort == 0 ? "free" : side_name(part, record));
+    table_cell(table, !is_at_rest && effort == 0 && part->row->press == NULL
+                          ? "free"
+                          : side_name(part, record));
     add_value(view, table, side, EFFORT);
-    if (instance_is_rigid(part)) {
+    if (is_without_bound(part)) {
         table_cell(table, "none");
         table_cell(table, "");
         return;

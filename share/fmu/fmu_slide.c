@@ -428,6 +428,8 @@ FmuStatus fmu_slide_sides(Fmu *fmu, const double *at, const double *rate, double
         side->bound = now->bound[k];
         side->is_unilateral = false; /* what is rigid is refused by the export, */
         side->cone = 0;              /* and what has several directions */
+        side->left = 1;
+        side->load = -1;
         side->off = slides[FMU_SLIDES + k];
         if (stands(fmu, k, at[i], rate[i], close, side, &stirs, changes))
             c.who[c.n++] = k;

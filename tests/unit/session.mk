@@ -98,6 +98,10 @@ test_suspension_LDADD = $(unit_ldadd)
 UNIT_TESTS += test_rolling
 test_rolling_SOURCES = tests/unit/test_rolling.c tests/unit/session_kit.h tests/unit/test.h
 test_rolling_LDADD = $(unit_ldadd)
+UNIT_TESTS += test_contact
+test_contact_SOURCES = tests/unit/test_contact.c tests/unit/session_kit.h tests/unit/test.h
+test_contact_LDADD = $(unit_ldadd)
+
 UNIT_TESTS += test_stops
 test_stops_SOURCES = tests/unit/test_stops.c tests/unit/session_kit.h tests/unit/test.h
 test_stops_LDADD = $(unit_ldadd)

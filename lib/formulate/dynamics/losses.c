@@ -30,8 +30,9 @@ static LossMember find_member(const Instance *part, const char *name)
     return which;
 }
 
-/* the rate of slip, and the power that is lost */
-static Status find_slip(System *system, const Instance *part, Expr *rate, Expr *power, Diag *diag)
+/* the rate of slip, of a contact its normal force, and the power that is lost */
+static Status find_slip(System *system, const Instance *part, Expr *rate, Expr *load, Expr *power,
+                        Diag *diag)
 {
     Arena *arena = system->arena;
     Branchlike *branch;
@@ -48,7 +49,8 @@ static Status find_slip(System *system, const Instance *part, Expr *rate, Expr *
     if (part->row->rub != NULL) {
         TRY(rubbing_of(system, part, TAKE_ALL, &rubbing, diag));
         *rate = rubbing.speed;
-        *power = expr_neg(arena, rubbing.power);
+        *load = rubbing.first > 0 ? rubbing.effort[0] : NULL;
+        *power = rubbing.lost;
         return OK;
     }
     branch = scalar_branch(system, part, 0);
@@ -71,7 +73,7 @@ Status loss_variable(System *system, const Instance *part, const char *member, b
 {
     const LossMember which = find_member(part, member);
     Text name = {0};
-    Expr rate;
+    Expr rate, load = NULL;
 
     *found = which != LOSS_NONE;
     if (which == LOSS_ENERGY) {
@@ -83,15 +85,16 @@ Status loss_variable(System *system, const Instance *part, const char *member, b
         return status;
     }
     if (*found)
-        TRY(find_slip(system, part, &rate, out, diag));
-    if ((which == LOSS_BOUND || which == LOSS_HOLD) && instance_is_rigid(part)) {
+        TRY(find_slip(system, part, &rate, &load, out, diag));
+    if ((which == LOSS_BOUND || which == LOSS_HOLD) && part->row->press == NULL &&
+        instance_is_rigid(part)) {
         (void)diag_set(diag, E_MISSING, "%s has no bound: it is rigid", part->name);
         diag_hint(diag, "torque= or force= bounds it");
         return E_MISSING;
     }
     return which == LOSS_BOUND || which == LOSS_HOLD
                ? law_read(system, part,
-                          part->row->bound(part, system->arena, rate, which == LOSS_HOLD), out,
-                          diag)
+                          part->row->bound(part, system->arena, rate, load, which == LOSS_HOLD),
+                          out, diag)
                : OK;
 }

@@ -7,6 +7,7 @@
 #include "formulate/dynamics/efforts.h"
 #include "formulate/dynamics/laws.h"
 #include "formulate/dynamics/loads.h"
+#include "formulate/dynamics/rubbing.h"
 #include "formulate/kinematics/contact_rows.h"
 #include "formulate/kinematics/coordinate.h"
 #include "formulate/kinematics/frames.h"
@@ -334,19 +335,13 @@ Status joint_load(System *system, const Instance *part, bool moment, Expr *out, 
 
 /* --- contacts --- */
 
-Status contact_variable(System *system, const Instance *part, const char *member, Expr *out,
-                        Diag *diag)
+/* of rows, by their multipliers; in the axes of the tail's chain */
+static Status rows_force(System *system, const Instance *part, const char *member, Vec *out,
+                         Diag *diag)
 {
     Arena *arena = system->arena;
-    const int tail = system->kinematics->frames[part->tail].chain;
-    Vec force = vec_zero(arena), normal;
-    Expr along;
-    Contact contact;
 
-    if (strlen(member) == 1 && member[0] >= 'x' && member[0] <= 'z') {
-        *out = contact_point(system, part).at[member[0] - 'x'];
-        return OK;
-    }
+    *out = vec_zero(arena);
     if (system_wait_for_motion(system, diag) != OK)
         return E_MISSING;
     for (int k = 0; k < system->constraints->redundant_rows.count; k++)
@@ -362,11 +357,54 @@ Status contact_variable(System *system, const Instance *part, const char *member
         const Row *row = &system->constraints->rows.at[k];
 
         if (row->reported.instance == part->number)
-            force = vec_sub(arena, force,
-                            vec_scale(arena, system->constraints->multipliers[k], row->n));
+            *out =
+                vec_sub(arena, *out, vec_scale(arena, system->constraints->multipliers[k], row->n));
     }
+    return OK;
+}
+
+/* likewise of a contact that opens */
+static Status law_force(System *system, const Instance *part, const FrictionLoad *touch, Vec *out)
+{
+    Arena *arena = system->arena;
+
+    *out = vec_zero(arena);
+    for (int k = 0; k < touch->count; k++)
+        *out = vec_add(
+            arena, *out,
+            vec_scale(arena, touch->effort[k], frame_vector(system, part->tail, touch->axis[k])));
+    return OK;
+}
+
+Status contact_variable(System *system, const Instance *part, const char *member, Expr *out,
+                        Diag *diag)
+{
+    Arena *arena = system->arena;
+    const int tail = system->kinematics->frames[part->tail].chain;
+    const bool opens = part->row->press != NULL;
+    FrictionLoad touch;
+    Vec force, normal;
+    Expr along;
+    Contact contact;
+
+    if (strlen(member) == 1 && member[0] >= 'x' && member[0] <= 'z') {
+        *out = contact_point(system, part).at[member[0] - 'x'];
+        return OK;
+    }
+    if (opens)
+        TRY(rubbing_of(system, part, TAKE_ALL, &touch, diag));
+    if (opens && (strcmp(member, "gap") == 0 || strcmp(member, "slip") == 0)) {
+        *out = member[0] == 'g' ? touch.gap : touch.count == 2 ? touch.rate[1] : touch.speed;
+        return OK;
+    }
+    TRY(opens ? law_force(system, part, &touch, &force)
+              : rows_force(system, part, member, &force, diag));
     if (member[1] >= 'x') {
         *out = vec_express(system, force, tail, 0).at[member[1] - 'x'];
+        return OK;
+    }
+    if (opens) {
+        *out = member[1] == 'n' ? touch.effort[0] : touch.count == 2 ? touch.effort[1] : touch.norm;
         return OK;
     }
     contact_of(system, part, &contact);

@@ -1,11 +1,14 @@
-/* rubbing.c: dry friction in two or three directions
+/* rubbing.c: dry friction in two or three directions, and contacts that open
  *
  * Sliding along the axes n_k of a plane of the tail: rates n_k.(v_head - v_tail - w_tail x d) with
  * d from tail to head, or of a joint the rates of its shifts. Turning: the components of w_head -
- * w_tail, in the axes of the head, where those of a joint that is a branch are its speeds. */
+ * w_tail, in the axes of the head, where those of a joint that is a branch are its speeds. At a
+ * contact the rates are the components of its point's velocity, along the normal and the tangents:
+ * normal force P, friction with a bound of mu P. */
 #include "formulate/dynamics/rubbing.h"
 
 #include "formulate/dynamics/laws.h"
+#include "formulate/kinematics/contact_rows.h"
 #include "formulate/kinematics/coordinate.h"
 #include "formulate/kinematics/frames.h"
 #include "formulate/kinematics/recursive.h"
@@ -90,6 +93,33 @@ static Status find_joint(System *system, const Instance *instance, FrictionLoad 
     return OK;
 }
 
+/* the normal and, where there is friction, the tangents */
+static Status find_contact(System *system, const Instance *instance, FrictionLoad *r, Diag *diag)
+{
+    Arena *arena = system->arena;
+    const int chain = system->kinematics->frames[instance->tail].chain;
+    Contact contact;
+    Vec slip;
+
+    contact_of(system, instance, &contact);
+    r->gap = contact.row[0].gap;
+    r->point = vec_hold(
+        arena, frame_vector(system, instance->tail,
+                            (Vec){{contact.point[0], contact.point[1], contact.point[2]}}));
+    TRY(contact_slip(system, instance, vec_express(system, r->point, chain, 0), &slip, diag));
+    r->first = 1;
+    r->count = instance_value(instance, "mu")->given ? contact.count : 1;
+    for (int k = 0; k < r->count; k++) {
+        const Expr *along = contact.row[k].along;
+        Vec seen;
+
+        r->axis[k] = (Vec){{along[0], along[1], along[2]}};
+        seen = vec_express(system, frame_vector(system, instance->tail, r->axis[k]), chain, 0);
+        r->rate[k] = expr_name_temporary(arena, vec_dot(arena, seen, slip));
+    }
+    return OK;
+}
+
 /* Squares of differences would be multiplied out, and lose what is left of them near 0. */
 static Expr norm_of(Arena *arena, const Expr *v, int count)
 {
@@ -102,25 +132,61 @@ static Expr norm_of(Arena *arena, const Expr *v, int count)
     return norm;
 }
 
+static Status find_effort(System *system, const Instance *instance, int take, FrictionLoad *r,
+                          int k, Diag *diag)
+{
+    Arena *arena = system->arena;
+    const Component *row = instance->row;
+    const Expr speed = r->count - r->first > 1 ? r->speed : NULL;
+    const Expr load = r->first > 0 && k > 0 ? r->effort[0] : NULL;
+    Expr effort;
+
+    effort = row->press != NULL && k == 0 ? row->press(instance, arena, r->gap, r->rate[0])
+                                          : row->rub(instance, arena, r->rate[k], speed, load);
+    TRY(law_read(system, instance, effort, &r->effort[k], diag));
+    return law_add(system, instance, take, &r->effort[k], diag);
+}
+
 Status rubbing_of(System *system, const Instance *instance, int take, FrictionLoad *out, Diag *diag)
 {
     Arena *arena = system->arena;
-    FrictionLoad r = {.power = expr_int(arena, 0)};
+    FrictionLoad r = {.power = expr_int(arena, 0), .lost = expr_int(arena, 0)};
 
-    if (instance->rubbed >= 0)
+    if (instance->row->press != NULL)
+        TRY(find_contact(system, instance, &r, diag));
+    else if (instance->rubbed >= 0)
         TRY(find_joint(system, instance, &r, diag));
     else
         find_slides(system, instance, instance_value(instance, "normal")->at, &r);
-    r.speed = norm_of(arena, r.rate, r.count);
+    r.speed = norm_of(arena, r.rate + r.first, r.count - r.first);
     for (int k = 0; k < r.count; k++) {
-        r.effort[k] = instance->row->rub(instance, arena, r.rate[k], r.count > 1 ? r.speed : NULL);
-        TRY(law_read(system, instance, r.effort[k], &r.effort[k], diag));
-        TRY(law_add(system, instance, take, &r.effort[k], diag));
-        r.power = expr_add(arena, r.power, expr_mul(arena, r.effort[k], r.rate[k]));
+        Expr power;
+
+        TRY(find_effort(system, instance, take, &r, k, diag));
+        power = expr_mul(arena, r.effort[k], r.rate[k]);
+        r.power = expr_add(arena, r.power, power);
+        if (k >= r.first)
+            r.lost = expr_sub(arena, r.lost, power);
     }
-    r.norm = norm_of(arena, r.effort, r.count);
+    r.norm = norm_of(arena, r.effort + r.first, r.count - r.first);
     *out = r;
     return OK;
+}
+
+/* the moments of a contact's force about both origins, where its point isn't the head's */
+static void add_moments(System *system, const Instance *instance, const FrictionLoad *r,
+                        Loads *loads)
+{
+    Arena *arena = system->arena;
+    const int chain = system->kinematics->frames[instance->tail].chain;
+    Vec force = vec_zero(arena), moment;
+
+    for (int k = 0; k < r->count; k++)
+        force = vec_add(arena, force, vec_scale(arena, r->effort[k], r->axis[k]));
+    moment =
+        vec_hold(arena, vec_cross(arena, r->point, frame_vector(system, instance->tail, force)));
+    loads_add_torque(system, loads, instance->head, moment, chain);
+    loads_add_torque(system, loads, instance->tail, vec_neg(arena, moment), chain);
 }
 
 Status rubbing_add(System *system, const Instance *instance, Loads *loads, int take, Diag *diag)
@@ -139,6 +205,8 @@ Status rubbing_add(System *system, const Instance *instance, Loads *loads, int t
         else
             loads_add_shift(system, loads, instance, &along, r.effort[k]);
     }
+    if (r.gap != NULL)
+        add_moments(system, instance, &r, loads);
     if (r.turns) {
         loads_add_torque(system, loads, instance->head, torque, own);
         loads_add_torque(system, loads, instance->tail, vec_neg(arena, torque), own);

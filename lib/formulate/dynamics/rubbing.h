@@ -1,7 +1,8 @@
-/* rubbing.h: dry friction in two or three directions with one bound on the norm of its force
+/* rubbing.h: dry friction in two or three directions with one bound on the norm of its force, and
+ * contacts that open
  *
- * It acts against the sliding of one frame along a plane of another, or against every turn of one
- * against the other. */
+ * Friction acts against the sliding of one frame along a plane of another, or against every turn of
+ * one against the other. A contact pushes along its normal besides, at its point. */
 #ifndef COTREE_FORMULATE_DYNAMICS_RUBBING_H
 #define COTREE_FORMULATE_DYNAMICS_RUBBING_H
 
@@ -9,12 +10,16 @@
 
 typedef struct FrictionLoad {
     int count; /* directions in which there is a motion, at most 3; each with */
+    int first; /* the first of those against which friction acts; before it is a contact's normal */
     Expr rate[3], effort[3];
     Vec axis[3]; /* in the axes of the tail; of turns in those of the head's orientation class */
     bool turns;
-    Expr speed; /* the norm of the rates, */
-    Expr norm;  /* of the efforts, */
-    Expr power; /* and what they do, W: never positive */
+    Expr speed; /* the norm of the rates, from `first` on, */
+    Expr norm;  /* of the efforts, likewise, */
+    Expr power; /* and what all efforts do, W */
+    Expr lost;  /* and what friction takes, W: never negative */
+    Expr gap;   /* of a contact (m); otherwise NULL */
+    Vec point;  /* of a contact, from the head's origin, in the axes of the tail's chain */
 } FrictionLoad;
 
 /* of a part whose row has `rub` */

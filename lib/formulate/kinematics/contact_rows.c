@@ -78,6 +78,19 @@ void contact_of(System *system, const Instance *part, Contact *out)
     part->row->contact(part, system->arena, system->origin->planar, &apart, out);
 }
 
+/* whether only constant shifts and turns are between two frames */
+static bool is_fixed_to(const System *system, int a, int b)
+{
+    const Frame *frames = system->kinematics->frames;
+    int ends[2] = {a, b};
+
+    for (int i = 0; i < 2; i++)
+        while (frames[ends[i]].parent >= 0 && frames[ends[i]].slide_count == 0 &&
+               frames[ends[i]].step_chain == frames[a].chain)
+            ends[i] = frames[ends[i]].parent;
+    return frames[a].chain == frames[b].chain && ends[0] == ends[1];
+}
+
 /* The velocity of the head's point against the tail's, all in ground axes. It begins with the rate
  * of d: velocities of the recursive form would be turned to and fro. */
 static Status slip_of(System *system, const Instance *part, Vec point, Vec *out, Diag *diag)
@@ -95,6 +108,18 @@ static Status slip_of(System *system, const Instance *part, Vec point, Vec *out,
     return OK;
 }
 
+Status contact_slip(System *system, const Instance *part, Vec point, Vec *out, Diag *diag)
+{
+    if (is_fixed_to(system, part->tail, part->head)) {
+        (void)diag_set(diag, E_MODEL, "the frames of %s, %s and %s, do not move against each other",
+                       part->name, graph_node(system->origin->graph, part->tail)->name,
+                       graph_node(system->origin->graph, part->head)->name);
+        diag_hint(diag, "the tail belongs to what is rolled on, as ground, the tip to what rolls");
+        return E_MODEL;
+    }
+    return slip_of(system, part, point, out, diag);
+}
+
 Status frames_rate(System *system, const Instance *part, Vec *rate, Vec *turn_rate, Diag *diag)
 {
     Arena *arena = system->arena;
@@ -108,19 +133,6 @@ Status frames_rate(System *system, const Instance *part, Vec *rate, Vec *turn_ra
     return OK;
 }
 
-/* whether only constant shifts and turns are between two frames */
-static bool is_fixed_to(const System *system, int a, int b)
-{
-    const Frame *frames = system->kinematics->frames;
-    int ends[2] = {a, b};
-
-    for (int i = 0; i < 2; i++)
-        while (frames[ends[i]].parent >= 0 && frames[ends[i]].slide_count == 0 &&
-               frames[ends[i]].step_chain == frames[a].chain)
-            ends[i] = frames[ends[i]].parent;
-    return frames[a].chain == frames[b].chain && ends[0] == ends[1];
-}
-
 Status contact_rows_push(System *system, const Instance *part, Diag *diag)
 {
     Arena *arena = system->arena;
@@ -128,18 +140,11 @@ Status contact_rows_push(System *system, const Instance *part, Diag *diag)
     Contact contact;
     Vec point, slip, turning;
 
-    if (is_fixed_to(system, part->tail, part->head)) {
-        (void)diag_set(diag, E_MODEL, "the frames of %s, %s and %s, do not move against each other",
-                       part->name, graph_node(system->origin->graph, part->tail)->name,
-                       graph_node(system->origin->graph, part->head)->name);
-        diag_hint(diag, "the tail belongs to what is rolled on, as ground, the tip to what rolls");
-        return E_MODEL;
-    }
     contact_of(system, part, &contact);
     point = vec_hold(arena,
                      frame_vector(system, part->tail,
                                   (Vec){{contact.point[0], contact.point[1], contact.point[2]}}));
-    TRY(slip_of(system, part, vec_express(system, point, tail, 0), &slip, diag));
+    TRY(contact_slip(system, part, vec_express(system, point, tail, 0), &slip, diag));
     turning = vec_sub(arena, node_turn_rate(system, part->head, 0),
                       node_turn_rate(system, part->tail, 0));
     for (int i = 0; i < contact.count; i++) {

@@ -12,6 +12,9 @@ MUST_USE Status frames_rate(System *system, const Instance *part, Vec *rate, Vec
                             Diag *diag);
 /* The part's rows and its point of contact, over q, in axes of the tail's frame. */
 void contact_of(System *system, const Instance *part, Contact *out);
+/* Of a point, rho in ground axes from the head's origin, its velocity against the tail's (m/s), in
+ * ground axes. E_MODEL: the part's frames are fixed to each other. */
+MUST_USE Status contact_slip(System *system, const Instance *part, Vec point, Vec *out, Diag *diag);
 /* Adds the part's rows: phi, rate, n and point of each. E_MODEL: its frames are fixed to each
  * other. */
 MUST_USE Status contact_rows_push(System *system, const Instance *part, Diag *diag);

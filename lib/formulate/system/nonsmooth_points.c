@@ -62,26 +62,57 @@ bool surface_is_same(Expr surface, Expr condition, int *way)
     return true;
 }
 
-Expr surface_ratio(Expr call)
+static Expr take_branch(Arena *arena, Expr e, void *context)
 {
-    if (expr_op(call) == OP_DIRECTION)
-        return expr_arg(call, 2);
-    return expr_op(call) == OP_STICK || expr_op(call) == OP_UNILATERAL ? expr_arg(call, 1) : NULL;
+    const bool *at_rest = context;
+    Expr condition;
+
+    (void)arena;
+    if (expr_kind(e) != EXPR_CALL || expr_op(e) != OP_IF)
+        return e;
+    condition = expr_arg(e, 0);
+    if (expr_kind(condition) != EXPR_CALL || expr_op(condition) != OP_EQ)
+        return e;
+    return expr_arg(e, *at_rest ? 1 : 2);
+}
+
+static Expr bound_of_call(Arena *arena, Expr call, bool at_rest)
+{
+    return expr_open(arena, expr_change(arena, expr_arg(call, 2), take_branch, &at_rest));
+}
+
+SurfaceLaw surface_law(Arena *arena, Expr call)
+{
+    switch (expr_op(call)) {
+    case OP_DIRECTION:
+        return (SurfaceLaw){.ratio = expr_arg(call, 2), .is_norm = true};
+    case OP_COULOMB:
+        return (SurfaceLaw){.bound = bound_of_call(arena, call, false),
+                            .hold = bound_of_call(arena, call, true),
+                            .is_norm = expr_arg(call, 0) != expr_arg(call, 1)};
+    case OP_STICK:
+        return (SurfaceLaw){.ratio = expr_arg(call, 1)};
+    case OP_UNILATERAL:
+        return (SurfaceLaw){.ratio = expr_arg(call, 1), .is_unilateral = true};
+    default:
+        return (SurfaceLaw){0};
+    }
+}
+
+bool surface_law_is(const SurfaceLaw *law, const SurfaceLaw *other)
+{
+    return law->ratio == other->ratio && law->bound == other->bound && law->hold == other->hold &&
+           law->is_unilateral == other->is_unilateral && law->is_norm == other->is_norm;
 }
 
 Expr surface_part(Expr call)
 {
-    return expr_op(call) == OP_DIRECTION ? expr_arg(call, 0) : NULL;
+    return expr_op(call) == OP_DIRECTION || expr_op(call) == OP_COULOMB ? expr_arg(call, 0) : NULL;
 }
 
 bool surface_rests(Expr ratio)
 {
     return ratio != NULL && expr_is_number(ratio) && expr_value(ratio) < 0;
-}
-
-bool surface_is_unilateral(Expr call)
-{
-    return expr_op(call) == OP_UNILATERAL;
 }
 
 Expr surface_of_call(Arena *arena, Expr call, int *way)
@@ -92,10 +123,10 @@ Expr surface_of_call(Arena *arena, Expr call, int *way)
     if (condition == NULL || expr_is_number(condition))
         return NULL;
     *way = 1;
-    if (expr_op(call) == OP_DIRECTION)
+    if (surface_law(arena, call).is_norm)
         return condition;
     surface = surface_of(arena, condition, way);
-    if (!surface_is_unilateral(call) || *way > 0)
+    if (!surface_law(arena, call).is_unilateral || *way > 0)
         return surface;
     *way = 1;
     return expr_neg(arena, surface);
@@ -106,7 +137,7 @@ bool switch_jumps(Expr e)
     return expr_kind(e) == EXPR_CALL &&
            (expr_op(e) == OP_LT || expr_op(e) == OP_LE || expr_op(e) == OP_STEP ||
             expr_op(e) == OP_SIGN || expr_op(e) == OP_STICK || expr_op(e) == OP_UNILATERAL ||
-            expr_op(e) == OP_DIRECTION || expr_op(e) == OP_FLOOR);
+            expr_op(e) == OP_DIRECTION || expr_op(e) == OP_COULOMB || expr_op(e) == OP_FLOOR);
 }
 
 typedef struct Over {

@@ -10,6 +10,10 @@
  * component has a sign, with r a bound on the norm of theirs. Sign 1 of the surface itself is off
  * it, 0 on it.
  *
+ * Of coulomb(v, n, b) it is an effort, or the components of one, of size up to b: on a side of the
+ * surface n = 0 the equations have b with that sign. b may contain the effort of a unilateral
+ * surface, the load: friction of a contact, which is idle while the contact is open.
+ *
  * Of unilateral(h, e) it is the effort itself, 0 where h < 0 and 0 or more where h = 0, such that
  * h is never positive. What meets h = 0 with h' > 0 has an impact there: h' after it is -e times
  * what it was. */
@@ -21,17 +25,30 @@
 
 enum { SURFACE_PARTS = 3 }; /* components of a vector */
 
+/* what tells surfaces with one condition apart */
+typedef struct SurfaceLaw {
+    Expr ratio;         /* r; NULL: 1; of unilateral() its coefficient of restitution */
+    Expr bound, hold;   /* b of coulomb() where it slips, and at rest; NULL: there is none */
+    bool is_unilateral; /* h is never positive */
+    bool is_norm;       /* h is the norm of a vector */
+} SurfaceLaw;
+
 typedef struct Surface {
     int number;     /* of system_surface(); -1: of none */
     Expr condition; /* h, as system_surface() returns it */
-    Expr ratio;     /* r; NULL: 1; of unilateral() its coefficient of restitution */
-    bool is_unilateral;
-    bool may_slide; /* the sign may be between -1 and 1 */
-    Expr sign;      /* symbol of the sign of h */
-    Expr measure;   /* h, with the surfaces' signs substituted */
-    int part_count; /* of direction(): components of its vector; 0: it is of no vector */
+    SurfaceLaw law;
+    bool may_slide;   /* the sign may be between -1 and 1 */
+    Expr sign;        /* symbol of the sign of h */
+    Expr measure;     /* h, with the surfaces' signs substituted */
+    Expr bound, hold; /* those of the law, likewise */
+    int load;         /* index of the unilateral surface whose effort is in b; -1: none */
+    int part_count;   /* of direction() and coulomb(): components, each with a symbol; 0: none */
     Expr part[SURFACE_PARTS], part_sign[SURFACE_PARTS];
 } Surface;
+
+/* The law of a call that jumps. Where b contains if(n == 0, x, y) its value at rest has x. */
+SurfaceLaw surface_law(Arena *arena, Expr call);
+bool surface_law_is(const SurfaceLaw *law, const SurfaceLaw *other);
 
 /* h of a condition, whatever its scale; *way -1: with the opposite sign */
 Expr surface_of(Arena *arena, Expr condition, int *way);
@@ -39,12 +56,9 @@ Expr surface_of(Arena *arena, Expr condition, int *way);
  * points, where their terms are written differently, as a velocity in other axes. *way as above.
  * O(nodes). */
 bool surface_is_same(Expr surface, Expr condition, int *way);
-/* r of a call that jumps; NULL: 1; of unilateral() its coefficient of restitution */
-Expr surface_ratio(Expr call);
-bool surface_is_unilateral(Expr call);
 /* whether a coefficient of restitution is the one of a surface whose impacts an event has */
 bool surface_rests(Expr ratio);
-/* the component of a vector that direction() has; NULL: it is another call */
+/* the component that direction() and coulomb() have; NULL: it is another call */
 Expr surface_part(Expr call);
 /* h of a call that jumps, as surface_of(); of unilateral() with its own sign: *way is 1. NULL: it
  * is a number. */

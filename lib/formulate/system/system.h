@@ -15,6 +15,7 @@
 #define COTREE_FORMULATE_SYSTEM_SYSTEM_H
 
 #include "base/call_monitor.h"
+#include "formulate/system/surfaces.h"
 #include "model/scene.h"
 
 typedef struct System System;
@@ -355,12 +356,12 @@ typedef struct Switch {
 /* All of them, time-only ones first, and the number of those in *time_only. In a mode, time-only
  * are those that depend on t alone in the hybrid system. */
 int system_switches(System *system, const Switch **switches, int *time_only);
-/* A surface: the expression that is 0 on it, whatever its scale and sign, and the static ratio of
- * stick(), in parameters; NULL: 1. Each pair is there once. */
+/* A surface: the expression that is 0 on it, whatever its scale and sign, and its law. Each pair is
+ * there once. */
 typedef struct SystemSurface {
-    Expr condition, ratio;
-    bool is_unilateral; /* the ratio is its coefficient of restitution */
-    int part_count;     /* components of the vector whose norm the condition is; 0: it is none */
+    Expr condition;
+    SurfaceLaw law;
+    int part_count; /* components of the vector, or the one of coulomb(); 0: there are none */
     Expr part[3];
 } SystemSurface;
 bool system_surface(System *system, int i, SystemSurface *out); /* false at the end */

@@ -39,21 +39,35 @@ static bool may_be_between(const Putting *put, Expr e)
     return false;
 }
 
-/* whether a call may jump on a surface with such a law, of a vector or not */
-static bool is_of_law(Expr ratio, bool is_unilateral, bool is_norm, Expr call)
+/* whether a call may jump on it; the call's bound may contain signs of other surfaces by now */
+static bool is_of_surface(Arena *arena, const Surface *surface, Expr call)
 {
-    return ratio == surface_ratio(call) && is_unilateral == surface_is_unilateral(call) &&
-           is_norm == (surface_part(call) != NULL);
+    const SurfaceLaw law = surface_law(arena, call);
+    SurfaceLaw with_signs = surface->law;
+
+    with_signs.bound = surface->bound;
+    with_signs.hold = surface->hold;
+    return surface_law_is(&surface->law, &law) || surface_law_is(&with_signs, &law);
 }
 
-static bool is_of_surface(const Surface *surface, Expr call)
+/* the bound with the sign of the surface, which is 0 where the part's own symbol is what acts */
+static Expr bounded_on(Arena *arena, const Surface *surface, Expr call)
 {
-    return is_of_law(surface->ratio, surface->is_unilateral, surface->part_count > 0, call);
+    return expr_add(arena, expr_mul(arena, surface->sign, surface_law(arena, call).bound),
+                    surface->part_sign[0]);
 }
 
-/* v/n off the surface of a vector, the sign of its component on it; NULL: none of its components is
- * that of the call */
-static Expr direction_on(Arena *arena, const Surface *surface, Expr call)
+/* What is not 0 where a vector has a direction: off its surface and, since without a load it may
+ * rest there, with a bound. */
+static Expr is_off(Arena *arena, const Surface *surface, Expr call)
+{
+    return surface->law.bound == NULL ? surface->sign
+                                      : expr_mul(arena, surface->sign, expr_arg(call, 2));
+}
+
+/* Of a vector the call itself off its surface, and on it the sign of its component; NULL: none of
+ * its components is that of the call. */
+static Expr component_on(Arena *arena, const Surface *surface, Expr call)
 {
     const Expr part = surface_part(call);
     int way = 1, found = -1;
@@ -66,7 +80,7 @@ static Expr direction_on(Arena *arena, const Surface *surface, Expr call)
             found = k;
     if (found < 0)
         return NULL;
-    return expr_if(arena, surface->sign, call,
+    return expr_if(arena, is_off(arena, surface, call), call,
                    way > 0 ? surface->part_sign[found]
                            : expr_neg(arena, surface->part_sign[found]));
 }
@@ -74,9 +88,12 @@ static Expr direction_on(Arena *arena, const Surface *surface, Expr call)
 /* what replaces a call on its surface, whose condition is `way` times that of the call */
 static Expr put_sign(Arena *arena, const Surface *surface, Expr call, int way)
 {
-    if (surface->part_count > 0)
-        return direction_on(arena, surface, call);
-    return way > 0 ? surface->sign : expr_neg(arena, surface->sign);
+    Expr own;
+
+    if (surface->law.is_norm)
+        return component_on(arena, surface, call);
+    own = surface->law.bound != NULL ? bounded_on(arena, surface, call) : surface->sign;
+    return way > 0 ? own : expr_neg(arena, own);
 }
 
 /* the replacement for the sign of the condition of a call that jumps; NULL: it is not replaced */
@@ -88,15 +105,15 @@ static Expr sign_on(Arena *arena, const Putting *put, Expr call)
     if (condition == NULL)
         return NULL;
     for (int i = 0; i < put->count; i++)
-        if (is_of_surface(&put->surfaces[i], call) &&
+        if (is_of_surface(arena, &put->surfaces[i], call) &&
             (put->surfaces[i].condition == condition || put->surfaces[i].measure == condition))
             return put_sign(arena, &put->surfaces[i], call, way);
     for (int i = 0; i < put->count; i++) {
         int other;
 
-        if (!is_of_surface(&put->surfaces[i], call) ||
+        if (!is_of_surface(arena, &put->surfaces[i], call) ||
             !surface_is_same(put->surfaces[i].condition, condition, &other) ||
-            (other < 0 && surface_is_unilateral(call)))
+            (other < 0 && surface_law(arena, call).is_unilateral))
             continue;
         return put_sign(arena, &put->surfaces[i], call, way * other);
     }
@@ -130,7 +147,7 @@ static Expr put_jump(Arena *arena, const Putting *put, Expr e)
     if (sign == NULL)
         return e;
     if (expr_op(e) == OP_SIGN || expr_op(e) == OP_STICK || expr_op(e) == OP_UNILATERAL ||
-        expr_op(e) == OP_DIRECTION)
+        expr_op(e) == OP_DIRECTION || expr_op(e) == OP_COULOMB)
         return sign;
     if (expr_op(e) == OP_FLOOR)
         return put_floor(arena, expr_arg(e, 0), sign);
@@ -331,9 +348,11 @@ static bool is_of_time(System *system, Expr condition)
     return false;
 }
 
-/* a component of a vector whose norm is 0 on the surface, each once */
+/* a component of a vector whose norm is 0 on the surface, each once; or h itself */
 static void add_part(SystemSurface *surface, Expr part)
 {
+    if (!surface->law.is_norm)
+        part = surface->law.bound != NULL ? surface->condition : NULL;
     for (int k = 0; k < surface->part_count; k++)
         if (surface->part[k] == part)
             return;
@@ -341,24 +360,25 @@ static void add_part(SystemSurface *surface, Expr part)
         surface->part[surface->part_count++] = part;
 }
 
-static bool is_surface(const SystemSurface *surface, Expr condition, Expr call)
+static bool is_surface(Arena *arena, const SystemSurface *surface, Expr condition, Expr call)
 {
-    return surface->condition == condition &&
-           is_of_law(surface->ratio, surface->is_unilateral, surface->part_count > 0, call);
+    const SurfaceLaw law = surface_law(arena, call);
+
+    return surface->condition == condition && surface_law_is(&surface->law, &law);
 }
 
 /* finds the surface on which the equations jump, among those in the state, each once */
 static void find_surface(System *system, Switch *entry)
 {
-    SystemSurface surface = {.ratio = surface_ratio(entry->call),
-                             .is_unilateral = surface_is_unilateral(entry->call)};
+    SystemSurface surface = {.law = surface_law(system->arena, entry->call)};
     int way;
 
     if (is_of_time(system, entry->condition))
         return;
     surface.condition = surface_of_call(system->arena, entry->call, &way);
     for (int i = 0; i < system->shown->surfaces.count && entry->surface < 0; i++)
-        if (is_surface(&system->shown->surfaces.at[i], surface.condition, entry->call))
+        if (is_surface(system->arena, &system->shown->surfaces.at[i], surface.condition,
+                       entry->call))
             entry->surface = i;
     if (entry->surface < 0) {
         entry->surface = system->shown->surfaces.count;
@@ -467,7 +487,8 @@ static bool part_switches_on(System *system, const Instance *instance, Expr surf
         int way;
 
         found = condition != NULL && !expr_is_number(condition) &&
-                surface_of(system->arena, condition, &way) == surface;
+                (surface_of(system->arena, condition, &way) == surface ||
+                 surface_is_same(surface, condition, &way));
         for (int i = 0; i < expr_arg_count(e); i++)
             LIST_PUSH(stack, expr_arg(e, i));
     }
@@ -507,19 +528,54 @@ bool system_hint_locking(System *system, Diag *diag)
     return found;
 }
 
+static int number_of_surface(System *system, Expr call);
+
+/* a bound in which each effort of a unilateral surface is a symbol of that surface */
+static Expr name_load(Arena *arena, Expr e, void *context)
+{
+    int number;
+    Text name = {0};
+
+    if (expr_kind(e) != EXPR_CALL || expr_op(e) != OP_UNILATERAL)
+        return e;
+    number = number_of_surface(context, e);
+    if (number < 0)
+        return e;
+    text_addf(&name, "#load %d", number);
+    e = expr_symbol(arena, name.at, SYMBOL_STATE);
+    text_free(&name);
+    return e;
+}
+
+/* the same law but for how the bound's load is written */
+static bool is_law_of(System *system, const SurfaceLaw *law, const SurfaceLaw *other)
+{
+    SurfaceLaw named = *law, other_named = *other;
+
+    if (law->bound == NULL || other->bound == NULL)
+        return surface_law_is(law, other);
+    named.bound = expr_change(system->arena, law->bound, name_load, system);
+    named.hold = expr_change(system->arena, law->hold, name_load, system);
+    other_named.bound = expr_change(system->arena, other->bound, name_load, system);
+    other_named.hold = expr_change(system->arena, other->hold, name_load, system);
+    return surface_law_is(&named, &other_named);
+}
+
 /* a call of a part's law that jumps on a surface of the equations; -1: none */
 static int number_of_surface(System *system, Expr call)
 {
     int way;
     const Expr condition = switch_jumps(call) ? surface_of_call(system->arena, call, &way) : NULL;
 
-    for (int i = 0; i < system->shown->surfaces.count && condition != NULL; i++)
-        if (is_of_law(system->shown->surfaces.at[i].ratio,
-                      system->shown->surfaces.at[i].is_unilateral,
-                      system->shown->surfaces.at[i].part_count > 0, call) &&
-            (system->shown->surfaces.at[i].condition == condition ||
-             surface_is_same(system->shown->surfaces.at[i].condition, condition, &way)))
+    for (int i = 0; i < system->shown->surfaces.count && condition != NULL; i++) {
+        const SystemSurface *surface = &system->shown->surfaces.at[i];
+        const SurfaceLaw law = surface_law(system->arena, call);
+
+        if (is_law_of(system, &surface->law, &law) &&
+            (surface->condition == condition ||
+             surface_is_same(surface->condition, condition, &way)))
             return i;
+    }
     return -1;
 }
 
@@ -532,7 +588,8 @@ int system_rest_surface(System *system, Expr guard)
     for (int i = 0; i < count; i++) {
         int way;
 
-        if (switches[i].surface < 0 || !surface_rests(surface_ratio(switches[i].call)))
+        if (switches[i].surface < 0 ||
+            !surface_rests(surface_law(system->arena, switches[i].call).ratio))
             continue;
         if (expr_arg(switches[i].call, 0) == guard ||
             (surface_is_same(expr_arg(switches[i].call, 0), guard, &way) && way > 0))

@@ -665,6 +665,8 @@ static Status member_variable(System *system, const char *path, Expr *out, Diag 
         return OK;
     if (instance->row->deforming != NULL && strchr(member, '(') != NULL)
         return deflection_variable(system, instance, member, out, diag);
+    if (instance->row->contact != NULL)
+        return contact_variable(system, instance, member, out, diag);
     switch (instance->row->family) {
     case FAMILY_BODY:
     case FAMILY_ARM:
@@ -674,7 +676,7 @@ static Status member_variable(System *system, const char *path, Expr *out, Diag 
     case FAMILY_DRIVER:
         return driver_variable(system, instance, member, out, diag);
     case FAMILY_CONTACT:
-        return contact_variable(system, instance, member, out, diag);
+        break;
     case FAMILY_COUPLER:
         return coupler_variable(system, instance, member, out, diag);
     case FAMILY_FORCE:

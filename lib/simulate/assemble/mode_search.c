@@ -262,7 +262,7 @@ static VariableIndex *open_unilateral(System *system)
     VariableIndex *out;
 
     for (int i = 0; system_surface(system, i, &surface); i++)
-        if (surface.is_unilateral)
+        if (surface.law.is_unilateral)
             LIST_PUSH(on, (OnSurface){.surface = i, .side = -1});
     out = variable_index_new_on(system, on.at, on.count);
     LIST_FREE(on);

@@ -17,7 +17,7 @@ static void slide(void *context, const double *signs)
 }
 
 static void slip(void *context, double t, const double *y, const Solved *solved, double *slip,
-                 double *off)
+                 double *off, double *bounds)
 {
     const CompiledEquations *nb = context;
     const VariableIndex *l = nb->layout;
@@ -27,6 +27,8 @@ static void slip(void *context, double t, const double *y, const Solved *solved,
     for (int k = 0; k < l->slides; k++) {
         slip[k] = values[l->slid[k]];
         off[k] = values[l->sign_count + l->slid[k]];
+        bounds[2 * k] = values[2 * l->sign_count + l->slid[k]];
+        bounds[2 * k + 1] = values[3 * l->sign_count + l->slid[k]];
     }
 }
 
@@ -37,6 +39,31 @@ static double norm_of(const double *v, int count)
     for (int i = 0; i < count; i++)
         norm = hypot(norm, v[i]);
     return norm;
+}
+
+/* 1 - s/b in parts of b + s; 1 where there is no effort at all */
+static double share_left(double bound, double effort, double size)
+{
+    const double sum = fabs(bound) + size;
+
+    return sum > 0 ? (bound - effort) / sum : 1;
+}
+
+/* how far efforts are from a bound that is an expression, b at rest */
+static void put_bounded(const VariableIndex *l, const SignRange *range, int k, double b,
+                        double *both)
+{
+    const double *effort = l->sign_values + l->slid[k];
+
+    if (range->cone == 0) {
+        both[0] = share_left(b, *effort, fabs(*effort));
+        both[1] = share_left(b, -*effort, fabs(*effort));
+    } else if (range->cone > 0) {
+        const double size = norm_of(effort, range->cone);
+
+        both[0] = share_left(b, size, size);
+        both[1] = 1;
+    }
 }
 
 /* how far the signs of surfaces that the motion slides along are from their bounds */
@@ -50,7 +77,9 @@ static void put_sign_conditions(const CompiledEquations *nb, double *out)
         const SignRange *range = &nb->sign_ranges[k];
         double *both = out + nb->of_surface[i].first;
 
-        if (range->cone == 0) {
+        if (range->has_bound)
+            put_bounded(l, range, k, both[1], both);
+        else if (range->cone == 0) {
             both[0] = isfinite(range->high) ? range->high - sign : 1;
             both[1] = sign - range->low;
         } else if (range->cone > 0)
@@ -145,12 +174,15 @@ static void push_surface(CompiledEquations *nb, Conditions *c, int i)
 {
     const Surface *surface = &nb->layout->surfaces[i];
     const SurfaceGuards own = {.first = c->roots.count, .stage = stage_of(surface->measure)};
-    const Expr one = expr_int(system_arena(nb->layout->system), 1);
+    Arena *arena = system_arena(nb->layout->system);
+    const Expr one = expr_int(arena, 1);
 
     nb->guards_read_network = nb->guards_read_network || own.stage == STAGE_NETWORK;
     nb->of_surface[i] = own;
     for (int k = 0; k < 2; k++) {
-        LIST_PUSH(c->roots, k == 0 && is_measured(own) ? surface->measure : one);
+        LIST_PUSH(c->roots, k == 0 && is_measured(own)        ? surface->measure
+                            : k == 1 && surface->hold != NULL ? surface->hold
+                                                              : one);
         LIST_PUSH(c->shown_guards, surface->condition);
         LIST_PUSH(c->guards, (Guard){.surface = surface->number});
     }
@@ -178,6 +210,44 @@ static bool is_watched(const Conditions *c, int surface)
     return false;
 }
 
+static bool is_unilateral(Expr e, void *context)
+{
+    (void)context;
+    return expr_kind(e) == EXPR_CALL && expr_op(e) == OP_UNILATERAL;
+}
+
+/* the unilateral surface whose effort is in a bound; -1: none */
+static int load_of(System *system, Expr bound)
+{
+    Expr *calls;
+    int found = -1, way;
+    const int count = bound != NULL ? expr_find(&bound, 1, is_unilateral, NULL, &calls) : 0;
+    SystemSurface surface;
+
+    for (int i = 0; found < 0 && count > 0 && system_surface(system, i, &surface); i++)
+        if (surface.law.is_unilateral &&
+            surface.condition == surface_of_call(system_arena(system), calls[0], &way))
+            found = i;
+    if (bound != NULL)
+        mem_free(calls);
+    return found;
+}
+
+/* of a surface whose sign is no input: none is slid along, and what has a load has none */
+static Guard guard_of(System *system, int number, const SystemSurface *surface)
+{
+    const int load = load_of(system, surface->law.bound);
+    const bool waits = load >= 0;
+
+    return (Guard){.surface = number,
+                   .is_unilateral = surface->law.is_unilateral,
+                   .is_of_event = surface_rests(surface->law.ratio),
+                   .is_norm = surface->law.is_norm,
+                   .is_idle = waits,
+                   .waits = waits,
+                   .load = load + 1};
+}
+
 /* conditions that can be evaluated before the accelerations are known */
 static void push_conditions(CompiledEquations *nb, Conditions *c)
 {
@@ -198,10 +268,7 @@ static void push_conditions(CompiledEquations *nb, Conditions *c)
             push_surface(nb, c, on);
         else if (number >= 0 && system_surface(l->system, number, &surface))
             push_condition(nb, c, variable_index_on_surfaces(l, surface.condition),
-                           (Guard){.surface = number,
-                                   .is_unilateral = surface.is_unilateral,
-                                   .is_of_event = surface_rests(surface.ratio),
-                                   .is_norm = surface.part_count > 0});
+                           guard_of(l->system, number, &surface));
         else if (on < 0) /* else a surface monitors its kink */
             push_condition(nb, c, variable_index_on_surfaces(l, switches[i].condition),
                            (Guard){.surface = -1});
@@ -271,9 +338,9 @@ static int measures_of(const VariableIndex *l, int i, Expr out[SURFACE_PARTS])
     const Surface *surface = &l->surfaces[i];
 
     out[0] = surface->measure;
-    for (int k = 0; k < surface->part_count; k++)
+    for (int k = 0; k < surface->part_count && surface->law.is_norm; k++)
         out[k] = variable_index_on_surfaces(l, surface->part[k]);
-    return surface->part_count > 0 ? surface->part_count : 1;
+    return surface->law.is_norm ? surface->part_count : 1;
 }
 
 Status compiled_slip(const VariableIndex *l, int k, Expr *out, Diag *diag)
@@ -291,11 +358,12 @@ Expr compiled_bound(const VariableIndex *l, int k, int end)
     Arena *arena = system_arena(l->system);
     const Surface *surface = &l->surfaces[l->slid_surface[k]];
     const Expr sign = l->symbols[l->signs + l->slid[k]];
-    const Expr bound = surface->ratio != NULL ? surface->ratio : expr_int(arena, 1);
+    const Expr ratio = surface->law.ratio != NULL ? surface->law.ratio : expr_int(arena, 1);
+    const Expr bound = surface->hold != NULL ? surface->hold : ratio;
 
-    if (surface->part_count > 0 || (surface->is_unilateral && end > 0))
+    if (surface->law.is_norm || (surface->law.is_unilateral && end > 0))
         return NULL;
-    if (surface->is_unilateral)
+    if (surface->law.is_unilateral)
         return sign;
     return end > 0 ? expr_sub(arena, bound, sign) : expr_add(arena, bound, sign);
 }
@@ -314,7 +382,32 @@ static Status push_slip(const VariableIndex *l, Expr measure, CompiledRoots *sli
     return OK;
 }
 
-/* slip at each sign, then `off` at each; 0 where slip can't be determined */
+/* the bound of what is slid along, per unit of its load where it has one; 0: it has none */
+static Expr share_of(const VariableIndex *l, int i, bool at_rest)
+{
+    const Surface *surface = &l->surfaces[i];
+    const Expr bound = at_rest ? surface->hold : surface->bound;
+    const Expr one = expr_int(system_arena(l->system), 1);
+
+    if (bound == NULL)
+        return expr_int(system_arena(l->system), 0);
+    return surface->load < 0 ? bound
+                             : expr_substitute(system_arena(l->system), bound,
+                                               &l->surfaces[surface->load].sign, &one, 1);
+}
+
+/* pushes a share for each sign, those of components after all others */
+static void push_shares(const VariableIndex *l, bool at_rest, CompiledRoots *out)
+{
+    for (int i = 0; i < l->surface_count; i++)
+        LIST_PUSH(*out, share_of(l, i, at_rest));
+    for (int i = 0; i < l->surface_count; i++)
+        for (int k = 0; k < l->surfaces[i].part_count; k++)
+            LIST_PUSH(*out, share_of(l, i, at_rest));
+}
+
+/* slip at each sign, then `off` at each, 0 where slip can't be determined; then the kinetic share
+ * of each and that at rest */
 static Status compile_slip(CompiledEquations *nb, Diag *diag)
 {
     const VariableIndex *l = nb->layout;
@@ -335,6 +428,8 @@ static Status compile_slip(CompiledEquations *nb, Diag *diag)
     }
     for (int i = 0; i < off.count; i++)
         LIST_PUSH(roots, off.at[i]);
+    push_shares(l, false, &roots);
+    push_shares(l, true, &roots);
     CHECK(probe_new(l, nb->parameters, roots.at, roots.count, &nb->slip, diag));
 done:
     LIST_FREE(roots);
@@ -368,25 +463,38 @@ Status compiled_slide(CompiledEquations *nb, const OnSurface *on, Diag *diag)
 }
 
 /* the two conditions of a surface that is on that side, or slid along */
-static void set_guards(Guard *both, const OnSurface *on, SurfaceGuards own, const Surface *surface)
+static void set_guards(Guard *both, const VariableIndex *l, int i, SurfaceGuards own)
 {
+    const OnSurface *on = &l->on[i];
+    const Surface *surface = &l->surfaces[i];
     const Guard none = {.surface = on->surface, .is_idle = true};
-    const bool is_norm = surface->part_count > 0;
+    const bool is_norm = surface->law.is_norm;
+    const bool has_load = surface->load >= 0;
 
+    both[0] = both[1] = none;
+    if (has_load && l->on[surface->load].side != 0) {
+        both[0].waits = true;
+        both[0].is_norm = is_norm;
+        both[0].load = l->surfaces[surface->load].number + 1;
+        return;
+    }
     if (on->side == 0) {
         both[0] = (Guard){.surface = on->surface, .end = 1, .is_norm = is_norm};
-        both[1] = is_norm ? none : (Guard){.surface = on->surface, .end = -1};
+        if (!is_norm)
+            both[1] = (Guard){.surface = on->surface, .end = -1};
         return;
     }
     both[0] = is_measured(own) ? (Guard){.surface = on->surface,
                                          .side = on->side,
                                          .held = on->held,
                                          .solved = own.stage == STAGE_NETWORK,
-                                         .is_unilateral = surface->is_unilateral,
-                                         .is_of_event = surface_rests(surface->ratio),
+                                         .is_unilateral = surface->law.is_unilateral,
+                                         .is_of_event = surface_rests(surface->law.ratio),
                                          .is_norm = is_norm}
                                : none;
     both[1] = none;
+    if (has_load)
+        both[0].load = l->surfaces[surface->load].number + 1;
 }
 
 /* Sign: -1 to 1. Stick: -r to r, with 1 where it slips. Unilateral: 0 and above. Of a vector the
@@ -395,19 +503,24 @@ static SignRange range_of(const CompiledEquations *nb, int slid)
 {
     const int i = nb->layout->slid_surface[slid];
     const Surface *surface = &nb->layout->surfaces[i];
-    const double ratio = surface->ratio != NULL
-                             ? expr_evaluate(surface->ratio, parameters_value_in, nb->parameters)
-                             : 1;
+    const double ratio =
+        surface->law.ratio != NULL
+            ? expr_evaluate(surface->law.ratio, parameters_value_in, nb->parameters)
+            : 1;
+    SignRange range = {.low = -INFINITY, .high = INFINITY, .load = -1, .norm = ratio};
 
-    if (surface->is_unilateral)
-        return (SignRange){.high = INFINITY, .is_unilateral = true, .restitution = ratio};
-    if (surface->part_count > 0)
+    if (surface->law.is_unilateral)
         return (SignRange){
-            .low = -INFINITY,
-            .high = INFINITY,
-            .cone = nb->layout->slid[slid] == nb->layout->first_part[i] ? surface->part_count : -1,
-            .norm = ratio};
-    return (SignRange){.low = -ratio, .high = ratio, .below = -1, .above = 1};
+            .high = INFINITY, .is_unilateral = true, .restitution = ratio, .load = -1};
+    range.has_bound = surface->bound != NULL;
+    if (!range.has_bound && !surface->law.is_norm)
+        return (SignRange){.low = -ratio, .high = ratio, .below = -1, .above = 1, .load = -1};
+    for (int k = 0; k < nb->layout->slides && range.has_bound; k++)
+        if (nb->layout->slid_surface[k] == surface->load)
+            range.load = k;
+    if (surface->law.is_norm)
+        range.cone = nb->layout->slid[slid] == nb->layout->first_part[i] ? surface->part_count : -1;
+    return range;
 }
 
 void compiled_enter_mode(CompiledEquations *nb)
@@ -424,8 +537,7 @@ void compiled_enter_mode(CompiledEquations *nb)
     for (int k = 0; k < l->slides; k++)
         nb->sign_ranges[k] = range_of(nb, k);
     for (int i = 0; i < l->surface_count && nb->guards != NULL; i++)
-        set_guards(nb->guards + nb->of_surface[i].first, &l->on[i], nb->of_surface[i],
-                   &l->surfaces[i]);
+        set_guards(nb->guards + nb->of_surface[i].first, l, i, nb->of_surface[i]);
     nb->eq.switches_read_network = nb->guards_read_network || slides;
     nb->eq.switches_follow_time =
         nb->guards_follow_time || (slides && variable_index_signs_follow_time(l));

@@ -343,7 +343,8 @@ bool failure_beyond(const VariableIndex *l, Parameters *parameters, double t, co
         const char *part;
         double beyond;
 
-        if (!surface.is_unilateral || !value_at(l, parameters, surface.condition, t, y, &beyond) ||
+        if (!surface.law.is_unilateral ||
+            !value_at(l, parameters, surface.condition, t, y, &beyond) ||
             !(beyond > FAILURE_SAME_POINT))
             continue;
         part = system_jumping_part(l->system, surface.condition);

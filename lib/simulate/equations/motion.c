@@ -156,10 +156,10 @@ void motion_free(Motion *mo)
     netsolve_free(mo->network);
     anderson_free(mo->together);
     signs_free(mo->signs);
-    MEM_FREE(mo->slip, mo->off, mo->way, mo->solved_before, mo->solved_size, mo->turn_size, mo->q,
-             mo->references, mo->error_floor, mo->top, mo->bottom, mo->du, mo->kept, mo->lambda,
-             mo->nearest, mo->lambda_all, mo->row_size, mo->row_part, mo->dae_weight, mo->is_tested,
-             mo->slopes, mo);
+    MEM_FREE(mo->slip, mo->off, mo->way, mo->bounds, mo->solved_before, mo->solved_size,
+             mo->turn_size, mo->q, mo->references, mo->error_floor, mo->top, mo->bottom, mo->du,
+             mo->kept, mo->lambda, mo->nearest, mo->lambda_all, mo->row_size, mo->row_part,
+             mo->dae_weight, mo->is_tested, mo->slopes, mo);
 }
 
 const Ode *motion_ode(const Motion *mo)

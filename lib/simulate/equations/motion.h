@@ -33,6 +33,8 @@ typedef struct Guard {
     bool held;    /* on a side, and other parts keep it on its surface: its sign tells nothing */
     bool solved;  /* its measure is solved for with the jump: always on one side */
     bool is_idle; /* it tells nothing in the current mode */
+    bool waits;   /* for its load, which is none in the current mode: idle besides */
+    int load;     /* 1 + the surface whose effort is in its bound; 0: none */
     bool is_unilateral; /* what meets its surface has an impact */
     bool is_of_event;   /* of an event, which says when its surface is met */
     bool is_norm;       /* its condition is the norm of a vector, or of the vector's signs: never
@@ -142,9 +144,10 @@ typedef struct Equations {
     const SignRange *sign_ranges;                      /* slide_count */
     void (*slide)(void *context, const double *signs); /* before velocity() */
     /* at a solved state: slip of each, and its distance `off` from the surface (slide_count
-     * each) */
+     * each); and where its bound is an expression the kinetic one and that at rest, per unit of its
+     * load (2 slide_count) */
     void (*slip)(void *context, double t, const double *y, const Solved *solved, double *slip,
-                 double *off);
+                 double *off, double *bounds);
 } Equations;
 
 static inline Guard equations_guard(const Equations *eq, int condition)
@@ -214,6 +217,9 @@ void motion_enter_mode(Motion *motion);
 /* Slip for given signs (slide_count each). */
 bool motion_drift(Motion *motion, double t, const double *y, const double *signs, double *slip,
                   double *off);
+/* Of each sign the kinetic bound and that at rest, as of the last drift; per unit of the load where
+ * it has one, 0 where its bound is no expression. Borrowed. */
+const double *motion_bounds(const Motion *motion);
 /* Move y along the effect of signs on the rates, until its distance from each surface is `off`
  * (slide_count). */
 bool motion_leave_surfaces(Motion *motion, double t, double *y, const double *off);

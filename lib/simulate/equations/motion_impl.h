@@ -41,7 +41,7 @@ struct Motion {
     double *full_mass, *full_phi_u; /* full M and Phi_u for the embedded form */
     NetSolve *network;
     Signs *signs; /* of surfaces that it slides along; NULL: it never does */
-    double *slip, *off, *way;
+    double *slip, *off, *way, *bounds;
     bool is_evaluated, is_factored, is_embedded_factored; /* valid at t, q */
     bool is_alone;                                        /* closed-form factors are valid there */
     double t, *q, *references;                            /* references of angles */

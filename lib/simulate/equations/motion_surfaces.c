@@ -19,6 +19,7 @@ void motion_open_surfaces(Motion *mo)
     mo->signs = signs_new(count);
     mo->slip = NEW_ARRAY(double, count);
     mo->off = NEW_ARRAY(double, count);
+    mo->bounds = NEW_ARRAY(double, 2 * count);
     mo->way = NEW_ARRAY(double, (count + 1) * motion_length(mo));
 }
 
@@ -39,7 +40,8 @@ static bool try_signs(void *context, const double *signs, double *slip)
     mo->eq->slide(mo->eq->context, signs);
     if (!motion_evaluate(mo, at->t, at->y) || !motion_solve_rates(mo))
         return false;
-    mo->eq->slip(mo->eq->context, motion_clock(mo, at->t), at->y, &solved, slip, mo->off);
+    mo->eq->slip(mo->eq->context, motion_clock(mo, at->t), at->y, &solved, slip, mo->off,
+                 mo->bounds);
     return vector_is_finite(slip, mo->eq->slide_count);
 }
 
@@ -52,6 +54,11 @@ bool motion_drift(Motion *mo, double t, const double *y, const double *signs, do
         return false;
     memcpy(off, mo->off, (size_t)mo->eq->slide_count * sizeof(double));
     return true;
+}
+
+const double *motion_bounds(const Motion *mo)
+{
+    return mo->bounds;
 }
 
 bool motion_find_signs(Motion *mo, double t, const double *y)

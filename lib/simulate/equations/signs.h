@@ -14,6 +14,8 @@ typedef struct SignRange {
     double below, above; /* its value where h < 0 and where h > 0 */
     bool is_unilateral;  /* h > 0 can't be: there is an impact on h = 0, with this coefficient: */
     double restitution;
+    bool has_bound; /* its bound is another expression, which may contain efforts */
+    int load;       /* the sign that is the effort in it; -1: none */
     int cone;    /* at the first sign of a vector's components their number; -1: at its others; 0 */
     double norm; /* of a vector: the bound on the norm of their signs */
 } SignRange;

@@ -16,8 +16,8 @@ static bool may_jump(Expr e, void *context)
 
     (void)context;
     return op == OP_SIGN || op == OP_STICK || op == OP_UNILATERAL || op == OP_DIRECTION ||
-           op == OP_STEP || op == OP_FLOOR || op == OP_IF || op == OP_TABLE || op == OP_ATAN2 ||
-           op == OP_UNWRAP || (op >= OP_LT && op <= OP_NOT);
+           op == OP_COULOMB || op == OP_STEP || op == OP_FLOOR || op == OP_IF || op == OP_TABLE ||
+           op == OP_ATAN2 || op == OP_UNWRAP || (op >= OP_LT && op <= OP_NOT);
 }
 
 int stiff_elements_add_corners(StiffElementRoots *corners, Expr e)

@@ -46,7 +46,7 @@ static void find_measures(VariableIndex *l)
             int way;
             Expr measure;
 
-            if (!is_nested(l->system, surface->condition) || surface->part_count > 0)
+            if (!is_nested(l->system, surface->condition) || surface->law.is_norm)
                 continue;
             measure = surface_of(
                 arena,
@@ -55,6 +55,30 @@ static void find_measures(VariableIndex *l)
             changed = changed || measure != surface->measure;
             surface->measure = measure;
         }
+    }
+}
+
+static Expr with_signs(const VariableIndex *l, Expr e)
+{
+    Arena *arena = system_arena(l->system);
+
+    return expr_open(arena, surfaces_substitute(arena, e, l->surfaces, l->surface_count));
+}
+
+/* The bound of a surface with signs of others in it, and which of these is its load. */
+static void find_bounds(VariableIndex *l)
+{
+    for (int i = 0; i < l->surface_count; i++) {
+        Surface *surface = &l->surfaces[i];
+
+        if (surface->law.bound == NULL)
+            continue;
+        surface->bound = with_signs(l, surface->law.bound);
+        surface->hold = with_signs(l, surface->law.hold);
+        for (int k = 0; k < l->surface_count; k++)
+            if (l->surfaces[k].law.is_unilateral &&
+                expr_depends(surface->bound, l->surfaces[k].sign))
+                surface->load = k;
     }
 }
 
@@ -96,8 +120,10 @@ static void place_surfaces(VariableIndex *l, const OnSurface *on, int count)
         text_addf(&name, "#sign %d", on[i].surface + 1);
         *surface = (Surface){.number = on[i].surface,
                              .condition = known.condition,
-                             .ratio = known.ratio,
-                             .is_unilateral = known.is_unilateral,
+                             .law = known.law,
+                             .bound = known.law.bound,
+                             .hold = known.law.hold,
+                             .load = -1,
                              .may_slide = true,
                              .sign = expr_symbol(system_arena(l->system), name.at, SYMBOL_STATE),
                              .measure = known.condition};
@@ -106,6 +132,7 @@ static void place_surfaces(VariableIndex *l, const OnSurface *on, int count)
     }
     l->surface_count = count;
     find_measures(l);
+    find_bounds(l);
     variable_index_set_on(l, on);
 }
 
@@ -123,7 +150,7 @@ bool variable_index_is_on(const VariableIndex *l, const OnSurface *on)
     bool same = true;
 
     for (int i = 0; i < l->surface_count && same; i++)
-        same = l->on[i].side == on[i].side && l->on[i].held == on[i].held;
+        same = on_surface_is(&l->on[i], &on[i]);
     return same;
 }
 
@@ -144,9 +171,13 @@ static void slide_along(VariableIndex *l, int i)
 void variable_index_set_on(VariableIndex *l, const OnSurface *on)
 {
     l->slides = 0;
+    for (int i = l->surface_count; i < l->sign_count; i++)
+        l->sign_values[i] = 0; /* those of components act on their surface alone */
     for (int i = 0; i < l->surface_count; i++) {
         l->on[i] = on[i];
-        l->sign_values[i] = l->surfaces[i].is_unilateral ? 0 : on[i].side;
+        l->sign_values[i] = l->surfaces[i].law.is_unilateral ? 0
+                            : on[i].held                     ? on[i].side * on[i].most
+                                                             : on[i].side;
         if (on[i].side == 0)
             slide_along(l, i);
     }

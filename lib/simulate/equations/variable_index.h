@@ -13,7 +13,14 @@
 typedef struct OnSurface {
     int surface, side;
     bool held; /* on a side, but parts that stick keep it on the surface: its sign tells nothing */
+    double most; /* where it is held: its sign's size, the static over the kinetic bound */
 } OnSurface;
+
+static inline bool on_surface_is(const OnSurface *on, const OnSurface *other)
+{
+    return on->surface == other->surface && on->side == other->side && on->held == other->held &&
+           (!on->held || on->most == other->most);
+}
 
 typedef struct VariableIndex {
     System *system;

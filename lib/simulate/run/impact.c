@@ -9,6 +9,9 @@
  *     expansion      -h_+' = -h_c' + M E >= 0,  E >= e C,   likewise
  *     (u, x) += sum of w_i (C_i + E_i)
  *
+ * Friction with such an effort as its load takes part: in both phases |C_f| <= mu C_i, and its slip
+ * v ends as 0 or against an impulse of that size.
+ *
  * That is Poisson's hypothesis (Glocker and Pfeiffer, Nonlinear Dynamics 7 (1995)); of one surface
  * it is Newton's, h_+' = -e h'.
  *
@@ -19,6 +22,7 @@
 
 #include "algebra/complementarity.h"
 #include "algebra/linear.h"
+#include "algebra/norm_complementarity.h"
 #include "base/memory.h"
 #include "simulate/run/series.h"
 
@@ -39,12 +43,32 @@ typedef struct Impact {
     double *way, *effect; /* count x length, count x met */
     double *power;        /* of a unit of each effort */
     double *approach, *impulse, *matrix, *restitution;
+    int *load;     /* of what is bounded by another one of these: its place here; -1: none */
+    double *share; /* the kinetic bound, per unit of that */
+    int *rows;     /* at the first component of a vector their number, 0 at its others, 1 of none */
+    bool has_vectors;
 } Impact;
 
 static void impact_free(Impact *m)
 {
     MEM_FREE(m->place, m->signs, m->slip, m->off, m->way, m->effect, m->power, m->approach,
-             m->impulse, m->matrix, m->restitution);
+             m->impulse, m->matrix, m->restitution, m->load, m->share, m->rows);
+}
+
+/* where the sign with that number is among those that take part; -1: it isn't */
+static int place_among(const Impact *m, int sign)
+{
+    for (int k = 0; k < m->count; k++)
+        if (m->place[k] == sign)
+            return k;
+    return -1;
+}
+
+static void place_load(Impact *m, int k, const SignRange *range)
+{
+    m->load[k] = place_among(m, range->load);
+    m->rows[k] = range->cone == 0 ? 1 : range->cone > 0 ? range->cone : 0;
+    m->has_vectors = m->has_vectors || range->cone != 0;
 }
 
 static Impact impact_new(const ImpactAt *here)
@@ -54,7 +78,7 @@ static Impact impact_new(const ImpactAt *here)
     Impact m = {.here = here, .place = NEW_ARRAY(int, met)};
 
     for (int i = 0; i < met; i++)
-        if (eq->sign_ranges[i].is_unilateral)
+        if (eq->sign_ranges[i].is_unilateral || eq->sign_ranges[i].load >= 0)
             m.place[m.count++] = i;
     m.signs = NEW_ARRAY(double, met);
     m.slip = NEW_ARRAY(double, met);
@@ -69,6 +93,11 @@ static Impact impact_new(const ImpactAt *here)
     for (int k = 0; k < m.count; k++)
         m.restitution[k] =
             here->at[m.place[k]].settles ? 0 : eq->sign_ranges[m.place[k]].restitution;
+    m.load = NEW_ARRAY(int, m.count);
+    m.share = NEW_ARRAY(double, m.count);
+    m.rows = NEW_ARRAY(int, m.count);
+    for (int k = 0; k < m.count; k++)
+        place_load(&m, k, &eq->sign_ranges[m.place[k]]);
     return m;
 }
 
@@ -98,19 +127,36 @@ static bool find_effects(Impact *m, const double *y)
     return true;
 }
 
-/* x >= low and M x + q >= 0, one of the two 0 in each row */
+static bool solve_vectors(const Impact *m, const Complementarity *box, int *side, double *x)
+{
+    int *slips = NEW_ARRAY(int, box->n);
+    double *room = NEW_ARRAY(double, NORM_COMPLEMENTARITY_ROOM(box->n));
+    const NormComplementarity problem = {*box, m->rows, m->load, m->share, slips};
+    bool found;
+
+    memset(x, 0, (size_t)box->n * sizeof(double));
+    found = norm_complementarity_solve(&problem, side, x, room);
+    MEM_FREE(slips, room);
+    return found;
+}
+
+/* x >= low and M x + q >= 0, one of the two 0 in each row; what has a load is within its bound */
 static bool solve(const Impact *m, const double *q, const double *low, double *x)
 {
     const int n = m->count;
-    double *high = NEW_ARRAY(double, n), *room = NEW_ARRAY(double, COMPLEMENTARITY_ROOM(n));
-    int *side = NEW_ARRAY(int, n);
-    const Complementarity problem = {.n = n, .matrix = m->matrix, .q = q, .low = low, .high = high};
+    double *high = NEW_ARRAY(double, n), *room = NEW_ARRAY(double, LOAD_COMPLEMENTARITY_ROOM(n));
+    int *side = NEW_ARRAY(int, n), *integers = NEW_ARRAY(int, LOAD_COMPLEMENTARITY_INTEGERS(n));
+    const LoadComplementarity problem = {
+        .box = {.n = n, .matrix = m->matrix, .q = q, .low = low, .high = high},
+        .load = m->load,
+        .share = m->share};
     bool found;
 
     for (int k = 0; k < n; k++)
         high[k] = INFINITY;
-    found = complementarity_solve(&problem, side, x, room);
-    MEM_FREE(high, room, side);
+    found = m->has_vectors ? solve_vectors(m, &problem.box, side, x)
+                           : load_complementarity_solve(&problem, side, x, room, integers);
+    MEM_FREE(high, room, side, integers);
     return found;
 }
 
@@ -150,7 +196,7 @@ static bool find_impulses(Impact *m)
     if (found) {
         departures(m, m->approach, compression, q);
         for (int k = 0; k < n; k++)
-            low[k] = m->restitution[k] * compression[k];
+            low[k] = m->load[k] < 0 ? m->restitution[k] * compression[k] : 0;
         found = solve(m, q, low, m->impulse);
     }
     for (int k = 0; k < n && found; k++)
@@ -228,14 +274,19 @@ static bool is_of_event(const Impact *m, int k)
     return compiled_equations(numbers)->sign_ranges[m->place[k]].restitution < 0;
 }
 
+static bool is_struck(const Impact *m, int k)
+{
+    return m->load[k] < 0 && m->impulse[k] > 0;
+}
+
 static void count_impact(const Impact *m, double lost, ImpactTallies *tallies)
 {
     int taking_part = 0;
 
     for (int k = 0; k < m->count; k++)
-        taking_part += m->impulse[k] > 0;
+        taking_part += is_struck(m, k);
     for (int k = 0; k < m->count; k++)
-        if (m->impulse[k] > 0 && !is_of_event(m, k)) {
+        if (is_struck(m, k) && !is_of_event(m, k)) {
             ImpactTally *tally = tally_of(tallies, m->here, m->place[k]);
 
             tally->count++;
@@ -267,13 +318,16 @@ static Status no_impulse(const ImpactAt *here, const Impact *m, Diag *diag)
 
 static bool is_met(const Impact *m, double size)
 {
+    const double *bounds = motion_bounds(m->here->phase->motion);
     bool met = false;
 
     for (int k = 0; k < m->count; k++) {
         const double approach = m->approach[k] = m->off[m->place[k]];
 
-        met = met || approach > STILL * size ||
-              (m->here->at[m->place[k]].settles && approach < -STILL * size);
+        m->share[k] = bounds[2 * m->place[k]];
+        met = met ||
+              (m->load[k] < 0 && (approach > STILL * size ||
+                                  (m->here->at[m->place[k]].settles && approach < -STILL * size)));
     }
     return met;
 }
@@ -314,7 +368,7 @@ Status impact_take(const ImpactAt *here, double *y, ImpactTallies *tallies, bool
     for (int k = 0; k < m.count; k++) {
         double rest;
 
-        if (m.impulse[k] > 0 && is_next_to_nothing(&m, k, size, &rest)) {
+        if (is_struck(&m, k) && is_next_to_nothing(&m, k, size, &rest)) {
             tally_of(tallies, here, m.place[k])->rests = here->t + rest;
             m.restitution[k] = 0;
             *any = true;

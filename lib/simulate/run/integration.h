@@ -55,6 +55,7 @@ typedef struct Meeting {
     bool ends;    /* its sign has reached its bound on `side` */
     bool settles; /* it crosses so often that it counts as at rest on it */
     double rest;  /* of a vector: its norm where it counts as 0 */
+    int load;     /* 1 + the surface whose effort bounds what acts on it; 0: none */
 } Meeting;
 
 /* what was chosen */

@@ -175,11 +175,28 @@ static void meet_surface(Integration *m, int i, Meeting *out)
     near = guard.is_of_event
                ? settles
                : i == m->root || guard.solved || guard.held || distance_from(m, i) <= 0;
-    *out = (Meeting){guard.surface, .far = !near,
+    *out = (Meeting){guard.surface, .far = !near, .load = guard.load,
                      .settles = settles || (i == m->root && m->chatters[guard.surface].settles),
                      .rest = guard.is_norm ? integration_rest(m, i) : 0};
     if (!near)
         out->side = guard.is_norm || (m->conditions[i] > 0 && !guard.is_of_event) ? 1 : -1;
+}
+
+/* What has a load takes part with the surface of that, whatever its own rate is, which an impact
+ * changes: its side follows from that rate. Without a load either side is the same. */
+static void join_loads(Meeting *at, int count)
+{
+    for (int i = 0; i < count; i++) {
+        bool is_loaded = false;
+
+        if (at[i].load == 0)
+            continue;
+        for (int k = 0; k < count; k++)
+            is_loaded = is_loaded || (at[k].surface == at[i].load - 1 && !at[k].far);
+        if (at[i].far || !is_loaded)
+            at[i].side = !is_loaded;
+        at[i].far = !is_loaded;
+    }
 }
 
 /* The surfaces that the run is on, and all others, so that no step evaluates the other side of one.
@@ -193,6 +210,9 @@ static int find_meetings(Integration *m, Meeting *at, bool *on)
     for (int i = 0; i < m->eq->switch_count; i++) {
         const Guard guard = equations_guard(m->eq, i);
 
+        if (guard.waits)
+            at[count++] = (Meeting){guard.surface, 1, .far = true, .load = guard.load,
+                                    .rest = guard.is_norm ? integration_rest(m, i) : 0};
         if (guard.surface < 0 || guard.is_idle)
             continue;
         *on = *on || guard.side != 0 || guard.end != 0;
@@ -206,6 +226,7 @@ static int find_meetings(Integration *m, Meeting *at, bool *on)
             meet_surface(m, i, &at[count++]);
         }
     }
+    join_loads(at, count);
     return count;
 }
 

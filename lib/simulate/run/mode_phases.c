@@ -106,7 +106,7 @@ static bool is_closed(const ActiveRun *r, const Phase *phase, const bool *closed
 static bool is_on(const Phase *phase, const OnSurface *on)
 {
     for (int i = 0; i < phase->on_count; i++)
-        if (phase->on[i].side != on[i].side || phase->on[i].held != on[i].held)
+        if (!on_surface_is(&phase->on[i], &on[i]))
             return false;
     return true;
 }

@@ -59,6 +59,7 @@ typedef struct EventRecord {
 typedef struct StickRecord {
     bool sticks;     /* at the end, or then */
     bool is_held;    /* then at its bound, while other parts hold it */
+    bool is_open;    /* then beyond its limit, or out of contact: nothing acts */
     double stuck;    /* s: all in all, */
     int spans;       /* in so many spans of time, */
     double from, to; /* s: of which the last begins and ends then */
@@ -81,7 +82,7 @@ int result_event_count(const Result *result);
 EventRecord result_event(const Result *result, int i);
 /* False: the part rests on no surface of this run. O(corners). */
 bool result_stick(const Result *result, const char *part, StickRecord *out);
-/* The same at an instant, just after it: sticks and is_held alone. */
+/* The same at an instant, just after it: what holds then alone. */
 bool result_stick_at(const Result *result, const char *part, double t, StickRecord *out);
 int result_rows(const Result *result);
 const double *result_times(const Result *result);

@@ -12,8 +12,8 @@
 #include <string.h>
 
 typedef struct SharedLoads {
-    int n;       /* surfaces that the motion stands on */
-    int *place;  /* of these in the phase's */
+    int n;       /* signs of surfaces that the motion stands on */
+    int *place;  /* of each the surface, among the phase's */
     double *b;   /* n x n; after elimination the null space in its last `open` columns */
     double *p;   /* n x n: projector on the null space */
     int *column; /* order of columns */
@@ -41,6 +41,27 @@ static Status slide_along_all(Phase *phase, Phase **out, Diag *diag)
 done:
     mem_free(on);
     return status;
+}
+
+/* surfaces that the motion stands on */
+static int count_rests(const Phase *phase)
+{
+    int rests = 0;
+
+    for (int i = 0; i < phase->on_count; i++)
+        rests += phase->on[i].side == 0 || phase->on[i].held;
+    return rests;
+}
+
+/* a place for each sign, those of a vector on one surface */
+static void place_signs(SharedLoads *s, const VariableIndex *l)
+{
+    s->n = l->slides;
+    s->place = NEW_ARRAY(int, s->n);
+    memcpy(s->place, l->slid_surface, (size_t)s->n * sizeof(int));
+    s->b = NEW_ARRAY(double, s->n * s->n);
+    s->p = NEW_ARRAY(double, s->n * s->n);
+    s->column = NEW_ARRAY(int, s->n);
 }
 
 static bool find_effects(SharedLoads *s, Phase *along, double t, const double *y)
@@ -169,18 +190,12 @@ Status result_reader_shares(ResultReader *reader, double t, const char *const *p
 
     memset(shares, 0, (size_t)count * (size_t)count * sizeof(bool));
     CHECK(result_reader_at(reader, t, &phase, &y, &driven, diag));
-    s.place = NEW_ARRAY(int, phase->on_count);
-    for (int i = 0; i < phase->on_count; i++)
-        if (phase->on[i].side == 0 || phase->on[i].held)
-            s.place[s.n++] = i;
-    s.b = NEW_ARRAY(double, s.n *s.n);
-    s.p = NEW_ARRAY(double, s.n *s.n);
-    s.column = NEW_ARRAY(int, s.n);
-    if (s.n > 1) {
+    if (count_rests(phase) > 0) {
         CHECK(slide_along_all(phase, &along, diag));
         phase_enter(along);
+        place_signs(&s, along->layout);
         motion_partition(along->motion, t, y);
-        if (find_effects(&s, along, t, y)) {
+        if (s.n > 1 && find_effects(&s, along, t, y)) {
             eliminate(&s);
             find_projector(&s);
         }
@@ -191,7 +206,7 @@ Status result_reader_shares(ResultReader *reader, double t, const char *const *p
     for (int i = 0; i < count; i++)
         for (int k = 0; k < count; k++)
             shares[i * count + k] =
-                i != k && at[i] >= 0 && at[k] >= 0 &&
+                i != k && at[i] >= 0 && at[k] >= 0 && s.p != NULL &&
                 (at[i] == at[k] || fabs(s.p[at[i] * s.n + at[k]]) > SHARES_DEPENDENT);
 done:
     phase_free(along);

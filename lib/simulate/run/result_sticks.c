@@ -3,23 +3,39 @@
 
 enum { LIMITS = 2 }; /* surfaces of a part */
 
-/* Whether a part is held on a surface in a phase; *held: it is at its bound there. *any: it has
- * one. */
-static bool is_stuck(const PhaseKey *key, const char *part, bool *held, bool *any)
+/* the state of a part on a surface of its own in a phase */
+static void read_surface(const PhaseKey *key, const OnSurface *on, StickRecord *out)
+{
+    SystemSurface surface = {0};
+
+    (void)system_surface(key->system, on->surface, &surface);
+    out->is_open = out->is_open || (surface.law.is_unilateral && on->side != 0 && !on->held);
+    out->is_held = out->is_held || on->held;
+}
+
+/* What a part does in a phase; *any: it has a surface. Friction with a load sticks where its own
+ * surface does, whether or not it is in contact. */
+static void read_phase(const PhaseKey *key, const char *part, StickRecord *out, bool *any)
 {
     int surfaces[LIMITS];
     const int count = system_surfaces_of_part(key->system, part, surfaces, LIMITS);
-    bool sticks = false;
+    bool sticks[2] = {false, false}, has_load = false;
 
-    *held = false;
+    out->is_held = out->is_open = false;
     *any = count > 0;
     for (int i = 0; i < key->on_count; i++)
-        for (int k = 0; k < count; k++)
-            if (key->on[i].surface == surfaces[k]) {
-                *held = *held || key->on[i].held;
-                sticks = sticks || key->on[i].side == 0 || key->on[i].held;
-            }
-    return sticks;
+        for (int k = 0; k < count; k++) {
+            const OnSurface *on = &key->on[i];
+            SystemSurface surface = {0};
+
+            if (on->surface != surfaces[k])
+                continue;
+            (void)system_surface(key->system, on->surface, &surface);
+            read_surface(key, on, out);
+            has_load = has_load || surface.law.bound != NULL;
+            sticks[surface.law.bound != NULL] |= on->side == 0 || on->held;
+        }
+    out->sticks = sticks[has_load] && !(has_load && out->is_open);
 }
 
 bool result_stick(const Result *result, const char *part, StickRecord *out)
@@ -37,12 +53,12 @@ bool result_stick(const Result *result, const char *part, StickRecord *out)
                              : grid->count > 0  ? grid->times[grid->count - 1]
                                                 : since;
 
-        out->sticks = is_stuck(key, part, &out->is_held, &any);
+        read_phase(key, part, out, &any);
         found = found || any;
         if (until > since) {
             out->stuck += out->sticks ? until - since : 0;
-            out->slips += !out->sticks && !slipped;
-            slipped = !out->sticks;
+            out->slips += !out->sticks && !out->is_open && !slipped;
+            slipped = !out->sticks && !out->is_open;
             if (out->sticks && !stuck) {
                 out->spans++;
                 out->from = since;
@@ -66,6 +82,6 @@ bool result_stick_at(const Result *result, const char *part, double t, StickReco
     for (int k = 0; k < corners->count && corners->times[k] <= t; k++)
         phase = corners->phase[k];
     *out = (StickRecord){0};
-    out->sticks = is_stuck(&result->phases.at[phase], part, &out->is_held, &any);
+    read_phase(&result->phases.at[phase], part, out, &any);
     return any;
 }

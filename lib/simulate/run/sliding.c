@@ -65,18 +65,25 @@ static bool slip_at(void *context, const double *signs, double *out)
 static bool find_sides(Slides *s)
 {
     const SignRange *ranges = compiled_equations(s->phase->numbers)->sign_ranges;
+    const double *bounds = motion_bounds(s->phase->motion);
     const double size = fmax(1, vector_largest(s->y, s->phase->length - 1));
 
     memset(s->room, 0, (size_t)s->count * sizeof(double)); /* signs of 0 */
     (void)motion_drift(s->phase->motion, s->t, s->y, s->room, s->slip, s->off);
-    for (int i = 0; i < s->count; i++)
-        s->side[i] = (SurfaceSide){.bound = ranges[i].cone != 0 ? ranges[i].norm : ranges[i].high,
+    for (int i = 0; i < s->count; i++) {
+        const bool has_bound = ranges[i].has_bound;
+        const double bound = ranges[i].cone != 0 ? ranges[i].norm : ranges[i].high;
+
+        s->side[i] = (SurfaceSide){.bound = has_bound ? bounds[2 * i + 1] : bound,
+                                   .left = has_bound ? bounds[2 * i] : 1,
+                                   .load = ranges[i].load,
                                    .is_unilateral = ranges[i].is_unilateral,
                                    .cone = ranges[i].cone,
                                    .off = s->off[i],
                                    .side = s->at[i].side,
                                    .ends = s->at[i].ends,
                                    .settles = s->at[i].settles};
+    }
     return surface_sides_find(s->side, s->count, slip_at, s, s->insists, size, s->room,
                               s->integers);
 }
@@ -86,6 +93,7 @@ static bool find_sides(Slides *s)
 static Status no_side(const Phase *now, double t, const Meeting *at, int count, Diag *diag)
 {
     Text what = {0};
+    bool any_load = false;
 
     for (int i = 0; i < count; i++) {
         SystemSurface surface = {0};
@@ -95,6 +103,7 @@ static Status no_side(const Phase *now, double t, const Meeting *at, int count, 
 
         if (i > 0 && at[i].surface == at[i - 1].surface)
             continue;
+        any_load = any_load || at[i].load > 0;
         h = expr_text(system_plain(now->system, surface.condition));
         text_addf(&what, "%s%s", i > 0 ? ", " : "", h);
         if (part != NULL)
@@ -104,8 +113,13 @@ static Status no_side(const Phase *now, double t, const Meeting *at, int count, 
     (void)diag_set(diag, E_SOLVER,
                    "at t = %.9g s: no motion leads on from where %s %s 0: neither to a side nor "
                    "between",
-                   t, what.at, count > 1 ? "are" : "is");
-    if (!system_hint_locking(now->system, diag))
+                   t, what.at != NULL ? what.at : "a condition", count > 1 ? "are" : "is");
+    if (any_load)
+        diag_hint(diag,
+                  "with its friction a contact may jam, where no normal force keeps it on its "
+                  "surface (Painleve); a smaller mu=, or k= of a compliant contact, has a "
+                  "motion there");
+    else if (!system_hint_locking(now->system, diag))
         diag_hint(diag, "a steep but continuous law, such as tanh(x/0.001) in the place of "
                         "sign(x), has a motion there");
     text_free(&what);
@@ -134,6 +148,16 @@ static int first_sign(const Slides *s, int surface)
     return k;
 }
 
+static OnSurface on_side(int surface, const SurfaceSide *side)
+{
+    const bool is_static = side->held && side->cone == 0 && !side->is_unilateral && side->left > 0;
+
+    return (OnSurface){.surface = surface,
+                       .side = side->side,
+                       .held = side->held,
+                       .most = is_static ? side->bound / side->left : 1};
+}
+
 /* The phase on the sides of the surfaces that are met (s->side; NULL: it slides along all) and on
  * the far sides of the others. */
 static Status phase_on(const ModeSwitching *c, const Phase *now, const Meeting *all, int count,
@@ -147,11 +171,11 @@ static Status phase_on(const ModeSwitching *c, const Phase *now, const Meeting *
         const int k = all[i].far ? -1 : s == NULL ? 0 : first_sign(s, all[i].surface);
 
         if (k < 0)
-            on[length++] = (OnSurface){all[i].surface, all[i].side, false};
+            on[length++] = (OnSurface){.surface = all[i].surface, .side = all[i].side};
         else if (s == NULL)
-            on[length++] = (OnSurface){all[i].surface, 0, false};
+            on[length++] = (OnSurface){.surface = all[i].surface};
         else if (!s->side[k].is_unaffected)
-            on[length++] = (OnSurface){all[i].surface, s->side[k].side, s->side[k].held};
+            on[length++] = on_side(all[i].surface, &s->side[k]);
     }
     status =
         mode_phases_get_on(c->run, c->setting, now->system, now->closed, on, length, out, diag);
