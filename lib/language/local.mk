@@ -20,7 +20,6 @@ libcore_la_SOURCES += \
   lib/language/verbs.h \
   lib/language/verbs.def \
   lib/language/verbs_build.def \
-  lib/language/verbs_later.def \
   lib/language/verbs_look.def \
   lib/language/verbs_run.def \
   lib/language/verbs_session.def

@@ -21,7 +21,7 @@ static Status ambiguous_verb(const Parser *parser, const Token *token)
     Verb verb;
 
     for (int i = 0; verb_at(i, &verb); i++)
-        if (strncmp(verb.name, token->text, length) == 0 && verb.room != ROOM_LATER)
+        if (strncmp(verb.name, token->text, length) == 0)
             text_addf(&list, "%s%s", list.length > 0 ? ", " : "", verb.name);
     (void)diag_at(parser->diag, E_NAME, token->place, "'%s' is ambiguous: %s", token->text,
                   list.at);
@@ -37,7 +37,7 @@ static int find_shortened(const char *word, Verb *verb)
     Verb row;
 
     for (int i = 0; verb_any(i, &row); i++)
-        if (row.room != ROOM_LATER && strncmp(row.name, word, strlen(word)) == 0) {
+        if (strncmp(row.name, word, strlen(word)) == 0) {
             *verb = row;
             count++;
         }
@@ -119,9 +119,7 @@ static Status parse_verb(Parser *parser, Statement *statement)
         }
         TRY(find_verb(parser, token, &statement->row));
         parser->at++;
-        if (statement->row.room != ROOM_LATER &&
-            (statement->row.component == NULL ||
-             statement->row.component->family != FAMILY_JOINT)) {
+        if (statement->row.component == NULL || statement->row.component->family != FAMILY_JOINT) {
             (void)diag_at(parser->diag, E_SYNTAX, token->place, "'%s' can't be virtual",
                           token->text);
             diag_hint(parser->diag, "only joints can, as in: virtual revolute vh16 m1 m3");
@@ -545,19 +543,4 @@ void statement_free(Statement *statement)
     }
     mem_free(statement);
     pool_free(pool);
-}
-
-Status statement_check_version(const Statement *statement, Diag *diag)
-{
-    for (const Statement *s = statement; s != NULL; s = s->rest) {
-        if (s->kind != STATEMENT_VERB)
-            continue;
-        if (s->row.room == ROOM_LATER) {
-            (void)diag_at(diag, E_MISSING, s->verb_place, "'%s' comes with a later version",
-                          s->verb);
-            diag_hint(diag, "until then %s", s->row.help);
-            return E_MISSING;
-        }
-    }
-    return OK;
 }

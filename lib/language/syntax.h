@@ -62,8 +62,7 @@ typedef enum Room {
     ROOM_LANGUAGE, /* the parser: precedes another verb, and is read with it */
     ROOM_MODEL,    /* changes the model */
     ROOM_SESSION,  /* runs it */
-    ROOM_CALLER,   /* whoever calls the library: the shell */
-    ROOM_LATER     /* none: planned for a later version */
+    ROOM_CALLER    /* whoever calls the library: the shell */
 } Room;
 
 /* of what there was before */
@@ -250,8 +249,5 @@ void verb_usage(Text *text, const Verb *verb);          /* one line */
 bool word_is_reserved(const char *word, size_t length); /* energy of energy.total ... */
 bool name_is_reserved(const char *name);                /* or run1 ...: can't be redefined */
 const char *group_title(VerbGroup group);               /* "Mechanical components" ... */
-
-/* OK, or E_MISSING at the verb or key of a statement that is planned for a later version. */
-MUST_USE Status statement_check_version(const Statement *statement, Diag *diag);
 
 #endif

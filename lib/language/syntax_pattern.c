@@ -473,8 +473,6 @@ static Status check_key(const Parser *parser, const Verb *verb)
     Suggest suggest = suggest_for(token->text);
     Text list = {0};
 
-    if (verb->room == ROOM_LATER && verb->keys == NULL)
-        return OK;
     for (int i = 0; verb_key(verb, i) != NULL; i++) {
         if (strcmp(verb_key(verb, i), token->text) == 0) {
             text_free(&list);

@@ -13,8 +13,7 @@ void offer_verbs(TypedLine *line)
     Verb verb;
 
     for (int i = 0; verb_at(i, &verb); i++)
-        if (verb.room != ROOM_LATER)
-            offer(line, verb.name);
+        offer(line, verb.name);
 }
 
 void offer_joint_types(TypedLine *line)

@@ -128,13 +128,6 @@ static void add_verb(Text *out, const Verb *verb)
     Text line = {0};
 
     text_addf(out, "%s - %s\n", verb->name, verb->brief);
-    if (verb->room == ROOM_LATER) {
-        text_addf(&line, "It comes with a later version. Until then %s", verb->help);
-        text_char(out, '\n');
-        add_paragraphs(out, line.at);
-        text_free(&line);
-        return;
-    }
     verb_usage(&line, verb);
     text_char(out, '\n');
     layout_words(out, HELP_WIDTH, "  usage: ", line.at != NULL ? line.at : verb->name);
@@ -214,7 +207,7 @@ static bool add_key(Text *out, const char *word)
             has = pattern_word(*letter) != NULL && strcmp(pattern_word(*letter), word) == 0;
         for (int k = 0; !has && verb_key(&verb, k) != NULL; k++)
             has = strcmp(verb_key(&verb, k), word) == 0;
-        if (has && verb.room != ROOM_LATER)
+        if (has)
             text_addf(&verbs, "%s%s", verbs.length > 0 ? " " : "", verb.name);
     }
     if (verbs.length == 0)
@@ -266,8 +259,7 @@ static void add_overview(Text *out)
         if (!more)
             break;
         group = verb.group;
-        if (verb.room != ROOM_LATER)
-            text_addf(&names, "%s%s", names.length > 0 ? " " : "", verb.name);
+        text_addf(&names, "%s%s", names.length > 0 ? " " : "", verb.name);
     }
     for (int i = 0; help_topic_at(i) != NULL; i++)
         text_addf(&names, "%s%s", i > 0 ? " " : "", help_topic_at(i)->name);
@@ -322,9 +314,8 @@ bool help_word(int i, const char **word)
     Verb verb;
     int topics = 0;
 
-    /* existing features; pages of planned ones are found by name only */
     for (int v = 0; verb_at(v, &verb); v++)
-        if (verb.room != ROOM_LATER && i-- == 0) {
+        if (i-- == 0) {
             *word = verb.name;
             return true;
         }
@@ -371,8 +362,7 @@ void help_apropos(Text *out, const char *word)
     Verb verb;
 
     for (int i = 0; verb_at(i, &verb); i++)
-        if (verb.room != ROOM_LATER && (mentions(verb.name, word) || mentions(verb.brief, word) ||
-                                        mentions(verb.help, word))) {
+        if (mentions(verb.name, word) || mentions(verb.brief, word) || mentions(verb.help, word)) {
             table_cells(&table, "%s\t%s", verb.name, verb.brief);
         }
     for (int i = 0; topic_at(i) != NULL; i++)

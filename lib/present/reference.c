@@ -113,12 +113,6 @@ static void add_texinfo_verb(Text *out, const Verb *verb)
     text_add(out, "}\n");
     add_texinfo(out, verb->brief);
     text_add(out, ".\n");
-    if (verb->room == ROOM_LATER) {
-        text_add(out, "It comes with a later version. Until then ");
-        add_texinfo(out, verb->help);
-        text_char(out, '\n');
-        return;
-    }
     verb_usage(&usage, verb);
     add_texinfo_example(out, usage.at != NULL ? usage.at : verb->name);
     text_free(&usage);
@@ -205,8 +199,6 @@ void reference_man(Text *out)
     for (int i = 0; verb_at(i, &verb); i++) {
         Text usage = {0};
 
-        if (verb.room == ROOM_LATER)
-            continue;
         if ((int)verb.group != group)
             text_addf(out, ".SS %s\n", group_title(verb.group));
         group = (int)verb.group;

@@ -15,8 +15,6 @@ ct_status ct_parse(ct_cursor *cursor, bool shortened, ct_statement **out, ct_err
     Status status =
         statement_read(&inner, (SyntaxOptions){.shortened = shortened}, &statement, &diag);
 
-    if (status == OK)
-        status = statement_check_version(statement, &diag);
     if (status == OK) {
         mem_keep_foreign(cursor, sizeof *cursor);
         cursor->next = inner.next;

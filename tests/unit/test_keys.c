@@ -116,9 +116,7 @@ static void every_key_is_read(void)
 
     /* what the shell carries out (save) is tried by its sessions */
     for (int i = 0; verb_at(i, &verb); i++)
-        for (int k = 0;
-             verb.room != ROOM_LATER && verb.group != GROUP_SESSION && verb_key(&verb, k) != NULL;
-             k++)
+        for (int k = 0; verb.group != GROUP_SESSION && verb_key(&verb, k) != NULL; k++)
             try_key(&verb, verb_key(&verb, k));
 }
 
@@ -131,8 +129,7 @@ static void no_other_key_passes(void)
         Kit kit = kit_new();
         Spoiled spoiled = {0};
 
-        if (verb.room != ROOM_LATER && strchr(verb.pattern, 'k') != NULL &&
-            find(&verb, "nokey", &spoiled)) {
+        if (strchr(verb.pattern, 'k') != NULL && find(&verb, "nokey", &spoiled)) {
             EXPECT(kit_do(&kit, spoiled.before.at != NULL ? spoiled.before.at : "") == CT_OK);
             EXPECT_FAILS(&kit, spoiled.line.at, "has no key 'nokey'");
         }
@@ -161,91 +158,10 @@ static void keys_without_anything_to_act_on_are_refused(void)
         }
 }
 
-/* --- what is offered --- */
-
-static bool comes_later(const char *text)
-{
-    Statement *s = NULL;
-    Diag diag = {0};
-    size_t next = 0;
-    bool later = statement_parse(text, 1, (SyntaxOptions){false}, &next, &s, &diag) == OK &&
-                 statement_check_version(s, &diag) == E_MISSING;
-
-    statement_free(s);
-    return later;
-}
-
-/* words of the language that this version doesn't act on say so, however they are used */
-static void later_words_say_that_they_are(void)
-{
-    static const char *const lines[] = {"bushing B a b"};
-
-    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
-        Kit kit = kit_new();
-
-        EXPECT_DONE(&kit, PENDULUM);
-        EXPECT_FAILS(&kit, lines[i], "comes with a later version");
-        EXPECT(kit.error.column == 1);
-        kit_free(&kit);
-    }
-}
-
-static void help_and_hints_offer_what_is_there(void)
-{
-    static const char *const foreign_syntax[] = {"for", "while", "run", "joint",
-                                                 "bye", "list",  "echo"};
-    char *overview = ct_help("");
-    Kit kit = kit_new();
-    Verb verb;
-
-    for (size_t i = 0; i < sizeof foreign_syntax / sizeof foreign_syntax[0]; i++) {
-        EXPECT(kit_do(&kit, foreign_syntax[i]) == CT_FAILED);
-        for (int v = 0; verb_at(v, &verb); v++) {
-            char quoted[40];
-
-            (void)snprintf(quoted, sizeof quoted, "'%s'", verb.name);
-            if (verb.room == ROOM_LATER)
-                EXPECT_LACKS(kit.error.hint, quoted);
-        }
-    }
-    ct_free(overview);
-    kit_free(&kit);
-}
-
-/* every word that is offered behind `export`, `show`, `help` and `simulate 1 method=` is taken */
-static void completion_offers_what_is_there(void)
-{
-    static const char *const lines[] = {"export ", "show ", "help ", "simulate 1 "};
-    Kit kit = kit_new();
-
-    EXPECT_DONE(&kit, PENDULUM);
-    for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
-        size_t start;
-        char **words = ct_complete(kit.session, lines[i], strlen(lines[i]), &start);
-        int count = 0;
-
-        for (; words != NULL && words[count] != NULL; count++) {
-            char line[120];
-            Verb verb;
-
-            (void)snprintf(line, sizeof line, "%s%s", lines[i], words[count]);
-            EXPECT(!comes_later(line));
-            EXPECT(strncmp(lines[i], "help", 4) != 0 || !verb_find(words[count], &verb) ||
-                   verb.room != ROOM_LATER);
-        }
-        EXPECT(count > 3);
-        ct_words_free(words);
-    }
-    kit_free(&kit);
-}
-
 int main(void)
 {
     RUN(every_key_is_read);
     RUN(no_other_key_passes);
     RUN(keys_without_anything_to_act_on_are_refused);
-    RUN(later_words_say_that_they_are);
-    RUN(help_and_hints_offer_what_is_there);
-    RUN(completion_offers_what_is_there);
     return test_end();
 }

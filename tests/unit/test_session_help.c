@@ -12,10 +12,8 @@ static void every_verb_has_a_page(void)
         char *page = ct_help(verb);
 
         EXPECT_HOLDS(page, verb);
-        if (page != NULL && strstr(page, "later version") == NULL) {
-            EXPECT_HOLDS(page, "usage: ");
-            EXPECT_HOLDS(page, "Example:");
-        }
+        EXPECT_HOLDS(page, "usage: ");
+        EXPECT_HOLDS(page, "Example:");
         ct_free(page);
     }
     EXPECT(count > 60);
@@ -68,13 +66,8 @@ static void the_overview_names_every_verb_that_is_there(void)
     const char *verb;
 
     EXPECT_TEXT(same, overview);
-    for (int i = 0; (verb = ct_verb_name(i)) != NULL; i++) {
-        char *page = ct_help(verb);
-
-        if (page != NULL && strstr(page, "later version") == NULL)
-            EXPECT_HOLDS(overview, verb);
-        ct_free(page);
-    }
+    for (int i = 0; (verb = ct_verb_name(i)) != NULL; i++)
+        EXPECT_HOLDS(overview, verb);
     ct_free(overview);
     ct_free(same);
 }
@@ -187,13 +180,8 @@ static void the_reference_holds_every_verb(void)
         char *text = ct_reference(formats[f]);
 
         EXPECT(text != NULL && strlen(text) > 500);
-        for (int i = 0; (verb = ct_verb_name(i)) != NULL; i++) {
-            char *page = ct_help(verb);
-
-            if (page != NULL && (f == 0 || strstr(page, "later version") == NULL))
-                EXPECT_HOLDS(text, verb);
-            ct_free(page);
-        }
+        for (int i = 0; (verb = ct_verb_name(i)) != NULL; i++)
+            EXPECT_HOLDS(text, verb);
         if (f == 0)
             check_texinfo(text);
         ct_free(text);

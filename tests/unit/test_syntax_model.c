@@ -15,8 +15,6 @@ static Status apply(Model *model, const char *text, Diag *diag)
         Statement *statement = NULL;
 
         status = statement_parse(text, 1, (SyntaxOptions){false}, &next, &statement, diag);
-        if (status == OK)
-            status = statement_check_version(statement, diag);
         if (status == OK && statement->kind != STATEMENT_EMPTY)
             status = strcmp(statement->text, "undo") == 0   ? model_undo(model, diag)
                      : strcmp(statement->text, "redo") == 0 ? model_redo(model, diag)

@@ -41,7 +41,7 @@ static void every_component_has_a_verb(void)
     Verb verb;
 
     for (int i = 0; (row = component_at(i)) != NULL; i++)
-        EXPECT(verb_find(row->name, &verb) && verb.component == row && verb.room != ROOM_LATER);
+        EXPECT(verb_find(row->name, &verb) && verb.component == row);
 }
 
 static void every_row_has_its_texts(void)
@@ -50,8 +50,7 @@ static void every_row_has_its_texts(void)
 
     for (int i = 0; verb_at(i, &verb); i++) {
         bool whole = !is_empty(verb.brief) && verb.brief[strlen(verb.brief) - 1] != '.' &&
-                     (verb.room == ROOM_LATER ||
-                      (!is_empty(verb.help) && !is_empty(verb.example) && !is_empty(verb.see)));
+                     !is_empty(verb.help) && !is_empty(verb.example) && !is_empty(verb.see);
         Text usage = {0};
 
         verb_usage(&usage, &verb);
@@ -90,15 +89,14 @@ static void every_example_reads(void)
 
     for (int i = 0; verb_at(i, &verb); i++) {
         const char *text = verb.example != NULL ? verb.example : "";
-        bool itself = verb.room == ROOM_LATER;
+        bool itself = false;
         size_t next = 0;
 
         while (next < strlen(text)) {
             Statement *s = NULL;
             Diag diag;
 
-            if (statement_parse(text, 1, (SyntaxOptions){false}, &next, &s, &diag) != OK ||
-                statement_check_version(s, &diag) != OK) {
+            if (statement_parse(text, 1, (SyntaxOptions){false}, &next, &s, &diag) != OK) {
                 printf("%s:%d:%d: %s\n", verb.name, diag.place.line, diag.place.column,
                        diag.message);
                 test_faults++;
@@ -134,26 +132,6 @@ static void keys_of_a_component_are_its_params(void)
     EXPECT(verb_key(&verb, COUNT(wanted)) == NULL);
 }
 
-static void what_comes_later_says_so(void)
-{
-    static const struct {
-        const char *text;
-        int column;
-    } lines[] = {{"bushing B a b", 1}, {"time bushing B a b", 6}};
-
-    for (int i = 0; i < COUNT(lines); i++) {
-        Statement *s = NULL;
-        size_t next = 0;
-        Diag diag;
-
-        EXPECT(statement_parse(lines[i].text, 1, (SyntaxOptions){false}, &next, &s, &diag) == OK);
-        EXPECT(s != NULL && statement_check_version(s, &diag) == E_MISSING);
-        EXPECT(diag.place.column == lines[i].column);
-        EXPECT(strstr(diag.message, "later version") != NULL);
-        statement_free(s);
-    }
-}
-
 int main(void)
 {
     RUN(rows_are_found_by_their_names);
@@ -164,6 +142,5 @@ int main(void)
     RUN(every_example_reads);
     RUN(every_letter_of_a_shape_is_known);
     RUN(keys_of_a_component_are_its_params);
-    RUN(what_comes_later_says_so);
     return test_end();
 }
