@@ -234,11 +234,8 @@ static void add_fixed(Search *s, int i, int count, const double *row)
 /* With bounds on norms: the signs as they are are first guesses. */
 static bool solve_cones(Search *s, const Complementarity *box)
 {
-    const NormComplementarity problem = {.box = *box,
-                                         .rows = s->rows,
-                                         .load = s->load,
-                                         .share = s->share,
-                                         .slips = s->slips};
+    const NormComplementarity problem = {
+        .box = *box, .rows = s->rows, .load = s->load, .share = s->share, .slips = s->slips};
 
     for (int i = 0; i < box->n; i++) {
         const SurfaceSide *at = &s->at[s->place[i]];

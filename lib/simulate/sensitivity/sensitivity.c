@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -207,7 +208,8 @@ static Status place_driven(SensitivityPass *pass, double t, Diag *diag)
     int n;
 
     TRY(result_reader_at(pass->reader, t, &phase, &y, &driven, diag));
-    if (phase != pass->phase)
+    assert(phase != NULL);
+    if (phase != pass->phase || pass->unknowns == NULL)
         TRY(sensitivity_open(pass, phase->number, diag));
     n = variational_states(pass->variational);
     memset(pass->unknowns, 0, (size_t)variational_ode(pass->variational)->n * sizeof(double));
@@ -255,9 +257,11 @@ static Status check_times(const Result *result, const double *times, int count, 
     return OK;
 }
 
+/* NOLINTBEGIN(readability-non-const-parameter): out is written to in each pass */
 Status sensitivity_find(ResultReader *reader, const SensitivityOrder *order, const Expr *items,
                         int item_count, const double *times, int time_count, double *out,
                         Diag *diag)
+/* NOLINTEND(readability-non-const-parameter) */
 {
     const Result *result = reader->result;
     SensitivityPass pass = {.reader = reader,
