@@ -345,6 +345,10 @@ FAMILIES += family_rubbing
 family_rubbing_SOURCES = tests/family/family_rubbing.c tests/family/family.h \
 	tests/random.h tests/unit/session_kit.h tests/unit/test.h
 family_rubbing_LDADD = libcotree.la $(unit_ldadd)
+FAMILIES += family_contacts
+family_contacts_SOURCES = tests/family/family_contacts.c tests/family/family.h \
+	tests/random.h tests/unit/session_kit.h tests/unit/test.h
+family_contacts_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_impacts
 family_impacts_SOURCES = tests/family/family_impacts.c tests/family/family.h \
 	tests/random.h tests/unit/session_kit.h tests/unit/test.h
