@@ -109,15 +109,6 @@ static void apply_leaves_looking_and_running_to_the_caller(void)
     kit_free(&kit);
 }
 
-static void a_verb_of_a_later_version_says_so(void)
-{
-    Kit kit = kit_new();
-
-    EXPECT(kit_do(&kit, "bushing B a b") == CT_FAILED);
-    EXPECT_HOLDS(kit.error.message, "later");
-    kit_free(&kit);
-}
-
 static void a_statement_that_fails_changes_nothing(void)
 {
     Kit kit = kit_new();
@@ -462,7 +453,6 @@ int main(void)
     RUN(a_bad_line_is_refused_at_its_place);
     RUN(an_empty_line_is_an_empty_statement);
     RUN(apply_leaves_looking_and_running_to_the_caller);
-    RUN(a_verb_of_a_later_version_says_so);
     RUN(a_statement_that_fails_changes_nothing);
     RUN(save_rebuilds_the_model);
     RUN(undo_and_redo_name_what_they_move_over);

@@ -3,7 +3,8 @@
  * Where rows are close, and no corner is between them, the course between two rows is that of the
  * polynomial of degree 5 through the nearest six, if the polynomial of degree 3 gives nearly the
  * same. The rest is cut into pieces that end at rows and corners and are no longer than half the
- * mean step. Gauss and Legendre's points are all inside, so that each piece has one mode. Pieces
+ * mean step. All items are energies: differences next to nothing beside those of the run are
+ * rounding. Gauss and Legendre's points are all inside, so that each piece has one mode. Pieces
  * are halved until their halves give the same. */
 #include "simulate/run/result_reader_impl.h"
 
@@ -42,6 +43,7 @@ typedef struct Integral {
     LIST(double) ends; /* of intervals, ascending; the first is the start of the run */
     double *sums;      /* ends x count: over the interval up to each */
     double *size;      /* of each item */
+    double rounding;   /* of the integral over a piece, J */
     bool *done;        /* an interval is integrated from rows: by its end */
 } Integral;
 
@@ -131,7 +133,7 @@ static void add_between_rows(Integral *g, const double *values, int row, int fir
             integrate_polynomial(times + wide, of + (ptrdiff_t)wide * g->count, g->count, 6, a, b);
         if (!(fabs(sums[k] - integrate_polynomial(times + near, of + (ptrdiff_t)near * g->count,
                                                   g->count, 4, a, b)) <=
-              INTEGRAL_SMOOTH * g->size[k]))
+              INTEGRAL_SMOOTH * g->size[k] + g->rounding))
             g->done[end] = false;
     }
     for (int k = 0; k < g->count && !g->done[end]; k++)
@@ -232,7 +234,7 @@ static bool agrees(const Integral *g, const double *whole, const double *halves)
         fmax(INTEGRAL_AGREES, INTEGRAL_TOLERANCE * g->reader->result->monitor_report.rtol);
 
     for (int k = 0; k < g->count; k++)
-        if (fabs(halves[k] + halves[g->count + k] - whole[k]) > within * g->size[k])
+        if (fabs(halves[k] + halves[g->count + k] - whole[k]) > within * g->size[k] + g->rounding)
             return false;
     return true;
 }
@@ -331,6 +333,8 @@ Status result_reader_integrals(ResultReader *reader, const Expr *items, int coun
     assert(reader != NULL);
     TRY(check_inside(reader, times, time_count, diag));
     find_ends(&g, times, time_count);
+    if (isfinite(reader->result->monitor_report.energy_scale))
+        g.rounding = INTEGRAL_ROUNDING * reader->result->monitor_report.energy_scale;
     g.sums = NEW_ARRAY(double, g.ends.count *count);
     g.size = NEW_ARRAY(double, count);
     g.done = NEW_ARRAY(bool, g.ends.count);

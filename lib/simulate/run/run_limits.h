@@ -149,6 +149,8 @@
 /* of an integral over the run: what polynomials of degree 3 and 5 may differ by between two rows;
  * the latter is off by far less */
 #define INTEGRAL_SMOOTH 1e-9
+/* of the run's energy: a difference that is rounding, as of the loss of what sticks */
+#define INTEGRAL_ROUNDING 1e-14
 
 /* of a matrix with unit diagonal: what is left of rows that depend on others */
 #define SHARES_DEPENDENT 1e-9
