@@ -211,7 +211,7 @@ static double following_share(const Search *s, int k)
 {
     const SurfaceSide *at = &s->at[k];
 
-    if (!at->is_fixed || at->load < 0)
+    if (!at->is_fixed || at->load < 0 || at->rests)
         return 0;
     return at->cone == 0 ? at->side * at->left : s->way[k] * at->left;
 }
@@ -418,6 +418,40 @@ static void find_held(const Search *s)
     }
 }
 
+/* whether the others are as before, but for what is held as well */
+static bool is_as_before(const Search *s, int but)
+{
+    for (int i = 0; i < s->n; i++)
+        if (i != but && s->at[i].side != s->before[i] && !(s->at[i].held && is_kept(s, i)))
+            return false;
+    return is_kept(s, but);
+}
+
+/* Of several parts that may hold a body those have no effort that aren't needed: what rests on its
+ * corners isn't braced between them. */
+static void ease(Search *s)
+{
+    for (int i = 0; i < s->n; i++) {
+        SurfaceSide *at = &s->at[i];
+
+        if (!at->held || at->load < 0 || at->cone != 0 || at->is_fixed)
+            continue;
+        for (int k = 0; k < s->n; k++) {
+            s->before[k] = s->at[k].side;
+            s->earlier[k] = s->signs[k];
+        }
+        at->rests = at->is_fixed = true;
+        s->signs[i] = 0;
+        if (solve_sides(s) && is_as_before(s, i))
+            continue;
+        at->rests = at->is_fixed = false;
+        for (int k = 0; k < s->n; k++) {
+            s->at[k].side = s->before[k];
+            s->signs[k] = s->earlier[k];
+        }
+    }
+}
+
 static double *take(double **room, int count)
 {
     double *out = *room;
@@ -467,6 +501,7 @@ bool surface_sides_find(SurfaceSide *at, int n, SurfaceSlip slip, void *context,
     s.size = size;
     for (int i = 0; i < n; i++) {
         s.signs[i] = 0;
+        at[i].rests = false;
         s.has_cones = s.has_cones || at[i].cone > 0;
         s.has_loads = s.has_loads || at[i].load >= 0;
     }
@@ -489,11 +524,13 @@ bool surface_sides_find(SurfaceSide *at, int n, SurfaceSlip slip, void *context,
                        fabs(s.earlier[i] - s.signs[i]) <= SAME * fmax(1, fabs(s.signs[i])));
         is_same = is_same || n == 1;
     }
+    find_held(&s);
+    if (is_same && s.has_loads)
+        ease(&s);
     for (int i = 0; i < n; i++)
         if (at[i].cone > 0 && at[i].load >= 0 && at[i].side != 0 && !at[i].is_known)
             point_along(&s, i, s.signs);
     for (int i = 0; i < n; i++)
         at[i].sign = at[i].cone != 0 && at[i].load >= 0 && at[i].side != 0 ? s.way[i] : s.signs[i];
-    find_held(&s);
     return is_same;
 }

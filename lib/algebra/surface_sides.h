@@ -42,7 +42,8 @@ typedef struct SurfaceSide {
     bool settles;            /* given: the motion counts as at rest on it, however far it is off */
     bool is_known, is_fixed; /* within the search: its side is, beforehand or by now; */
     bool leaves, is_left;    /* and a cone is left in a direction that is to be found, likewise */
-    bool held; /* found: on a side, while those that are slid along keep it on its surface */
+    bool held;  /* found: on a side, while those that are slid along keep it on its surface */
+    bool rests; /* found, with a load: held, and others hold it without its effort: its sign is 0 */
     bool is_unaffected; /* found: no sign changes how it is left: its side is left to the equations
                          */
     double sign;        /* found; of a cone with a load that is left its direction, of norm 1 */

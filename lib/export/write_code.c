@@ -16,9 +16,12 @@ static Status check_friction(const Exported *what, const char *language, Diag *d
         (void)diag_set(diag, E_MODEL,
                        "%s %s sticks at rest, which a step of exported %s doesn't do",
                        part->row->name, part->name, language);
-        diag_hint(diag,
-                  "export fmu does; or an actuator or a source with a steep but continuous law, "
-                  "such as -2*tanh(h1'/0.001), creeps instead");
+        diag_hint(diag, "%s",
+                  instance_is_rigid(part)
+                      ? "in simulate alone there are impacts; k= makes it compliant, and an FMU "
+                        "then follows it"
+                      : "export fmu does; or an actuator or a source with a steep but continuous "
+                        "law, such as -2*tanh(h1'/0.001), creeps instead");
         return E_MODEL;
     }
     return OK;

@@ -318,8 +318,9 @@ static Status check_limits(System *system, Diag *diag)
         }
         (void)diag_set(diag, E_MODEL, "%s is rigid, and an FMU has no impacts",
                        part != NULL ? part : "unilateral()");
-        diag_hint(diag, "k= makes a stop or a backlash compliant, torque= or force= bounds a "
-                        "one-way clutch");
+        diag_hint(diag,
+                  "k= makes a contact, stop or backlash compliant, torque= or force= bounds a "
+                  "one-way clutch");
         return E_MODEL;
     }
     return OK;

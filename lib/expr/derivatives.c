@@ -64,7 +64,7 @@ static Expr d_direction(Arena *arena, Expr e, const Expr *rates)
     return expr_div(arena, expr_sub(arena, rates[0], expr_mul(arena, e, rates[1])), arg(e, 1));
 }
 
-/* b v/|n|; of v/|v| no derivative but where it jumps */
+/* b v/|n|: b' v/|n| + b (v' - v n'/n)/|n|, which is 0 beside b' where n is v, and at n = 0 */
 static Expr d_coulomb(Arena *arena, Expr e, const Expr *rates)
 {
     const Expr v = arg(e, 0), n = arg(e, 1);
@@ -74,8 +74,11 @@ static Expr d_coulomb(Arena *arena, Expr e, const Expr *rates)
 
     if (v == n)
         return by_bound;
-    turn = expr_div(arena, expr_sub(arena, rates[0], expr_mul(arena, along, rates[1])), n);
-    return expr_add(arena, by_bound, expr_mul(arena, arg(e, 2), turn));
+    turn = expr_sub(arena, rates[0], expr_div(arena, expr_mul(arena, v, rates[1]), n));
+    turn = expr_div(arena, expr_mul(arena, arg(e, 2), turn), expr_call1(arena, OP_ABS, n));
+    return expr_add(
+        arena, by_bound,
+        expr_if(arena, expr_call2(arena, OP_EQ, n, expr_int(arena, 0)), expr_int(arena, 0), turn));
 }
 
 /* the same data, one order higher */

@@ -87,6 +87,24 @@ static void a_block_on_a_slope(void)
     }
 }
 
+/* what stands on two corners isn't braced between them, and is held as long as both together can */
+static void a_block_stands_on_two_corners(void)
+{
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, WIDE "contact c1 ground p mu=0.3\ncontact c2 ground q mu=0.3\n"
+                           "force F block [t, 0]\ninit block.x = 0, block.y = 0.1, "
+                           "block.theta = 0\ninit block.x' = 0, block.y' = 0, block.theta' = 0\n"
+                           "simulate 7\n");
+    EXPECT(fabs(kit_value(&kit, "c1.ft at 0")) < 1e-12);
+    EXPECT(fabs(kit_value(&kit, "c2.ft at 0")) < 1e-12);
+    EXPECT(is_near(kit_value(&kit, "c1.ft + c2.ft at 3"), -3, 1e-12));
+    /* slides from 0.3*2 g = 5.886 N on */
+    EXPECT(is_near(kit_value(&kit, "block.x at 5.8"), 0, 1e-12));
+    EXPECT(is_near(kit_value(&kit, "block.x"), pow(7 - 0.6 * G, 3) / 6 / 2, 1e-8));
+    kit_free(&kit);
+}
+
 /* One impact: of a disc of m r^2/2 the slip s changes by 3 p/m where the friction's impulse is p.
  * It is that which stops s, or mu times the normal one, (1 + e) m v. */
 static void friction_takes_part_in_an_impact(void)
@@ -381,6 +399,7 @@ int main(void)
 {
     RUN(a_disc_slides_and_then_rolls);
     RUN(a_block_on_a_slope);
+    RUN(a_block_stands_on_two_corners);
     RUN(friction_takes_part_in_an_impact);
     RUN(a_ball_in_a_corner);
     RUN(a_ball_comes_to_rest);

@@ -252,8 +252,11 @@ static Status find_jumps(const Work *w, Linear *linear, Diag *diag)
     Text names = {0};
     Status status = OK;
 
+    /* friction of a contact is named with the contact, or idle */
     for (int i = 0; system_surface(system, i, &surface); i++)
-        LIST_PUSH(conditions, surface.condition);
+        if (surface.law.bound == NULL ||
+            !switch_jumps_over(system_arena(system), surface.law.bound, ~0U))
+            LIST_PUSH(conditions, surface.condition);
     if (conditions.count == 0)
         goto done;
     CHECK(probe_new(w->phase->layout, &w->order->about->phases->parameters, conditions.at,

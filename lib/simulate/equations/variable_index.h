@@ -13,7 +13,7 @@
 typedef struct OnSurface {
     int surface, side;
     bool held; /* on a side, but parts that stick keep it on the surface: its sign tells nothing */
-    double most; /* where it is held: its sign's size, the static over the kinetic bound */
+    double most; /* where it is held: its sign's size, the static over the kinetic bound or 0 */
 } OnSurface;
 
 static inline bool on_surface_is(const OnSurface *on, const OnSurface *other)

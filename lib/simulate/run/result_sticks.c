@@ -10,7 +10,7 @@ static void read_surface(const PhaseKey *key, const OnSurface *on, StickRecord *
 
     (void)system_surface(key->system, on->surface, &surface);
     out->is_open = out->is_open || (surface.law.is_unilateral && on->side != 0 && !on->held);
-    out->is_held = out->is_held || on->held;
+    out->is_held = out->is_held || (on->held && on->most > 0);
 }
 
 /* What a part does in a phase; *any: it has a surface. Friction with a load sticks where its own

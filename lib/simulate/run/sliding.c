@@ -155,7 +155,9 @@ static OnSurface on_side(int surface, const SurfaceSide *side)
     return (OnSurface){.surface = surface,
                        .side = side->side,
                        .held = side->held,
-                       .most = is_static ? side->bound / side->left : 1};
+                       .most = side->rests ? 0
+                               : is_static ? side->bound / side->left
+                                           : 1};
 }
 
 /* The phase on the sides of the surfaces that are met (s->side; NULL: it slides along all) and on
