@@ -46,7 +46,7 @@ static void small_motions_have_the_matrices(void)
 {
     static const char *const forms[] = {"tree absolute\n", "virtual free v ground b\ntree v\n"};
     const double mass[6] = {2, 2, 2, 0.3, 0.4, 0.5};
-    char text[2000], name[32];
+    char text[2000], name[48];
 
     for (int form = 0; form < 2; form++) {
         Kit kit = kit_new();
