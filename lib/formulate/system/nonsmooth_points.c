@@ -62,23 +62,29 @@ bool surface_is_same(Expr surface, Expr condition, int *way)
     return true;
 }
 
-static Expr take_branch(Arena *arena, Expr e, void *context)
+/* whether a condition is n == 0 */
+static bool is_rest_of(Expr condition, Expr n)
 {
-    const bool *at_rest = context;
-    Expr condition;
+    int way;
 
-    (void)arena;
-    if (expr_kind(e) != EXPR_CALL || expr_op(e) != OP_IF)
-        return e;
-    condition = expr_arg(e, 0);
     if (expr_kind(condition) != EXPR_CALL || expr_op(condition) != OP_EQ)
-        return e;
-    return expr_arg(e, *at_rest ? 1 : 2);
+        return false;
+    for (int i = 0; i < 2; i++)
+        if (expr_is_zero(expr_arg(condition, i)) &&
+            (expr_arg(condition, 1 - i) == n ||
+             surface_is_same(n, expr_arg(condition, 1 - i), &way)))
+            return true;
+    return false;
 }
 
+/* b of coulomb(v, n, b), and where that is if(n == 0, x, y) one of the two */
 static Expr bound_of_call(Arena *arena, Expr call, bool at_rest)
 {
-    return expr_open(arena, expr_change(arena, expr_arg(call, 2), take_branch, &at_rest));
+    const Expr bound = expr_open(arena, expr_arg(call, 2));
+    const Expr n = expr_open(arena, expr_arg(call, 1));
+    const bool is_if = expr_kind(bound) == EXPR_CALL && expr_op(bound) == OP_IF;
+
+    return is_if && is_rest_of(expr_arg(bound, 0), n) ? expr_arg(bound, at_rest ? 1 : 2) : bound;
 }
 
 SurfaceLaw surface_law(Arena *arena, Expr call)

@@ -46,7 +46,7 @@ typedef struct Surface {
     Expr part[SURFACE_PARTS], part_sign[SURFACE_PARTS];
 } Surface;
 
-/* The law of a call that jumps. Where b contains if(n == 0, x, y) its value at rest has x. */
+/* The law of a call that jumps. Where b is if(n == 0, x, y), x holds at rest. */
 SurfaceLaw surface_law(Arena *arena, Expr call);
 bool surface_law_is(const SurfaceLaw *law, const SurfaceLaw *other);
 
