@@ -117,6 +117,11 @@ const Value *instance_value(const Instance *instance, const char *name)
     return &instance->values[i];
 }
 
+bool instance_has(const Instance *instance, const char *name)
+{
+    return component_param(instance->row, name) >= 0 && instance_value(instance, name)->given;
+}
+
 Expr instance_scalar(const Instance *instance, const char *name)
 {
     const Value *value = instance_value(instance, name);

@@ -497,7 +497,9 @@ int component_source(const Component *row); /* the param that makes it a source;
 /* the one of its params that is an input from outside, a single number; -1: none */
 int instance_input(const Instance *instance);
 const Value *instance_value(const Instance *instance,
-                            const char *name);                    /* assert that the row has it */
+                            const char *name); /* assert that the row has it */
+/* whether the user gave a key; false also where the row has none of that name */
+bool instance_has(const Instance *instance, const char *name);
 Expr instance_scalar(const Instance *instance, const char *name); /* its only entry; NULL: none */
 /* A copy of values and of all they own. */
 Value *values_copy(Pool *pool, const Value *values, int count);

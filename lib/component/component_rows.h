@@ -14,6 +14,14 @@
 MUST_USE Status check_positive(const Instance *instance, const char *param, Diag *diag);
 MUST_USE Status check_not_negative(const Instance *instance, const char *param, Diag *diag);
 
+/* stops.c: e= of what is rigid or k= of what is compliant; of_k: the keys that belong to k=, first
+ * that of its damping, NULL at the end */
+MUST_USE Status check_limit_law(const Instance *instance, const char *const *of_k, Diag *diag);
+/* friction.c: static= is 1 or more; what: "bound" */
+MUST_USE Status check_static_ratio(const Instance *instance, const char *what, Diag *diag);
+/* friction.c: a bound, 0 where its law falls below 0: friction drives nothing */
+Expr friction_positive(Arena *arena, Expr bound);
+
 Expr axis_dot(Arena *arena, const Expr a[3], const Expr b[3]);
 void axis_cross(Arena *arena, const Expr a[3], const Expr b[3], Expr out[3]); /* a x b */
 

@@ -91,11 +91,6 @@ static Expr held_length(Arena *arena, const Expr a[3])
     return expr_name_temporary(arena, expr_sqrt(arena, dot(arena, a, a)));
 }
 
-bool contact_has(const Instance *instance, const char *name)
-{
-    return component_param(instance->row, name) >= 0 && instance_value(instance, name)->given;
-}
-
 /* --- rows --- */
 
 static void push(Contact *out, const char *direction, const Expr along[3], Expr gap)
@@ -120,7 +115,7 @@ static void push_tangents(Arena *arena, const Expr normal[3], Contact *out)
 static Expr round_gap(const Instance *instance, Arena *arena, const FramesApart *apart,
                       Expr normal[3])
 {
-    const bool is_bowl = contact_has(instance, "bowl");
+    const bool is_bowl = instance_has(instance, "bowl");
     const Expr far = held_length(arena, apart->way), r = instance_scalar(instance, "radius");
     const Expr sign = expr_int(arena, is_bowl ? -1 : 1);
 
@@ -179,7 +174,7 @@ void roll_contact(const Instance *instance, Arena *arena, bool planar, const Fra
 
     *out = (Contact){0};
     plane_normal(instance, arena, planar, z);
-    if (contact_has(instance, "bowl") || contact_has(instance, "dome")) {
+    if (instance_has(instance, "bowl") || instance_has(instance, "dome")) {
         gap = round_gap(instance, arena, apart, out->normal);
         scale(arena, expr_neg(arena, r), out->normal, out->point);
         push(out, "normal", out->normal, gap);
@@ -194,9 +189,9 @@ void roll_contact(const Instance *instance, Arena *arena, bool planar, const Fra
     }
     for (int i = 0; i < 3; i++)
         out->normal[i] = z[i];
-    if (contact_has(instance, "semiaxes")) {
+    if (instance_has(instance, "semiaxes")) {
         gap = ellipsoid_gap(instance, arena, apart, z, out->point);
-    } else if (!planar && contact_has(instance, "axle")) {
+    } else if (!planar && instance_has(instance, "axle")) {
         gap = wheel_gap(instance, arena, apart, z, out->point);
     } else {
         scale(arena, expr_neg(arena, r), z, out->point);
@@ -219,7 +214,7 @@ int roll_rings(const Instance *instance, Arena *arena, bool planar, ContactRing 
 {
     const Value *semiaxes = instance_value(instance, "semiaxes");
     const Expr zero = expr_int(arena, 0), r = instance_scalar(instance, "radius");
-    const bool is_wheel = planar || contact_has(instance, "axle");
+    const bool is_wheel = planar || instance_has(instance, "axle");
     const Expr out_of_plane[3] = {zero, zero, expr_int(arena, 1)};
 
     if (is_wheel) {
@@ -327,7 +322,7 @@ static Status check_alone(const Instance *instance, const char *with, const char
     for (; *keys != NULL; keys++) {
         Status status;
 
-        if (!contact_has(instance, *keys))
+        if (!instance_has(instance, *keys))
             continue;
         status = diag_set(diag, E_VALUE, "%s= and %s= exclude each other", with, *keys);
         diag_hint(diag, "one shape rolls: a wheel or a ball with radius=, an ellipsoid with "
@@ -359,11 +354,11 @@ static Status check_ellipsoid(const Instance *instance, bool planar, Diag *diag)
 static Status check_round(const Instance *instance, Diag *diag)
 {
     static const char *const others[] = {"dome", "offset", NULL};
-    const bool is_bowl = contact_has(instance, "bowl");
+    const bool is_bowl = instance_has(instance, "bowl");
     const char *name = is_bowl ? "bowl" : "dome";
     const Expr R = instance_scalar(instance, name), r = instance_scalar(instance, "radius");
 
-    if (contact_has(instance, "axle"))
+    if (instance_has(instance, "axle"))
         return contact_refuse(diag, name, "in a bowl or on a dome only a ball rolls",
                               "wheels and ellipsoids roll on planes");
     TRY(check_alone(instance, name, is_bowl ? others : others + 1, diag));
@@ -376,15 +371,15 @@ static Status check_round(const Instance *instance, Diag *diag)
 
 Status check_shape(const Instance *instance, bool planar, bool may_be_point, Diag *diag)
 {
-    const bool is_round = contact_has(instance, "bowl") || contact_has(instance, "dome");
-    const bool is_point = may_be_point && !contact_has(instance, "radius");
+    const bool is_round = instance_has(instance, "bowl") || instance_has(instance, "dome");
+    const bool is_point = may_be_point && !instance_has(instance, "radius");
 
-    if (contact_has(instance, "semiaxes"))
+    if (instance_has(instance, "semiaxes"))
         return check_ellipsoid(instance, planar, diag);
-    if (!contact_has(instance, "radius") && !may_be_point)
+    if (!instance_has(instance, "radius") && !may_be_point)
         return contact_refuse(diag, "radius", "a wheel or a ball needs its radius",
                               "radius=0.3 m; an ellipsoid has semiaxes=[a, b, c]");
-    if (is_point && contact_has(instance, "axle"))
+    if (is_point && instance_has(instance, "axle"))
         return contact_refuse(diag, "axle", "axle= has no effect without radius=",
                               "a point touches; radius= and axle= make it a wheel");
     if (!is_point)
@@ -394,7 +389,7 @@ Status check_shape(const Instance *instance, bool planar, bool may_be_point, Dia
     if (is_round)
         TRY(check_round(instance, diag));
     TRY(check_not_negative(instance, "rim", diag));
-    if (contact_has(instance, "rim") && (planar || !contact_has(instance, "axle")))
+    if (instance_has(instance, "rim") && (planar || !instance_has(instance, "axle")))
         return contact_refuse(diag, "rim", "only a wheel has a rim", "axle= makes it a wheel");
     return OK;
 }

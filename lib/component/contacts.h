@@ -26,8 +26,6 @@ void roll_contact(const Instance *instance, Arena *arena, bool planar, const Fra
                   Contact *out);
 /* a wheel's rim, or the sections of a ball or an ellipsoid along its axes */
 int roll_rings(const Instance *instance, Arena *arena, bool planar, ContactRing out[MOST_RINGS]);
-/* whether a key is given; false also where the row has none of that name */
-bool contact_has(const Instance *instance, const char *name);
 /* Refuses the value `about`. */
 MUST_USE Status contact_refuse(Diag *diag, const char *about, const char *message,
                                const char *hint);

@@ -91,7 +91,12 @@ static bool is_never_negative(Expr e)
     return true;
 }
 
-/* A brake whose law falls below 0 is open: friction drives nothing. */
+/* A brake whose law falls below 0 is open. */
+Expr friction_positive(Arena *arena, Expr bound)
+{
+    return is_never_negative(bound) ? bound : expr_call1(arena, OP_RAMP, bound);
+}
+
 static Expr bound_of(const Instance *instance, Arena *arena)
 {
     Expr bound = instance_scalar(instance, is_by_load(instance) ? "mu" : bound_name(instance));
@@ -99,10 +104,10 @@ static Expr bound_of(const Instance *instance, Arena *arena)
     if (is_by_load(instance)) {
         if (instance->on_angle)
             bound = expr_mul(arena, bound, instance_scalar(instance, "radius"));
-        return expr_mul(arena, is_never_negative(bound) ? bound : expr_call1(arena, OP_RAMP, bound),
+        return expr_mul(arena, friction_positive(arena, bound),
                         instance_across(instance, arena, 0));
     }
-    return is_never_negative(bound) ? bound : expr_call1(arena, OP_RAMP, bound);
+    return friction_positive(arena, bound);
 }
 
 static bool has_stribeck(const Instance *instance)
@@ -309,15 +314,15 @@ static Status check_load(const Instance *instance, Diag *diag)
     return instance_value(instance, "span")->given ? check_positive(instance, "span", diag) : OK;
 }
 
-static Status check_ratio(const Instance *instance, Diag *diag)
+Status check_static_ratio(const Instance *instance, const char *what, Diag *diag)
 {
     const Expr ratio = instance_scalar(instance, "static");
     Status status;
 
     if (!expr_is_number(ratio) || expr_value(ratio) >= 1)
         return OK;
-    status = diag_set(diag, E_VALUE, "static=%.6g: the static bound is not below the kinetic one",
-                      expr_value(ratio));
+    status = diag_set(diag, E_VALUE, "static=%.6g: the static %s is not below the kinetic one",
+                      expr_value(ratio), what);
     diag_hint(diag, "static= is their ratio, 1 or more");
     diag_about(diag, "static");
     return status;
@@ -343,7 +348,7 @@ static Status friction_check(const Instance *instance, Arena *arena, bool planar
         TRY(check_load(instance, diag));
     if (!is_by_load(instance))
         TRY(check_bound(instance, diag));
-    TRY(check_ratio(instance, diag));
+    TRY(check_static_ratio(instance, "bound", diag));
     if (!has_param(instance, "stribeck"))
         return OK;
     TRY(check_not_negative(instance, "stribeck", diag));

@@ -32,14 +32,9 @@ static const Member effort_members[] = {
     {"effort", NULL, "force or torque on the tip, or on the first of two joints", 0},
 };
 
-static bool is_given(const Instance *instance, const char *name)
-{
-    return instance_value(instance, name)->given;
-}
-
 static bool is_rigid(const Instance *instance)
 {
-    return !is_given(instance, "k");
+    return !instance_has(instance, "k");
 }
 
 /* the effort against g > 0; rate: g' */
@@ -51,7 +46,7 @@ static Expr limit_effort(const Instance *instance, Arena *arena, Expr g, Expr ra
     if (is_rigid(instance))
         return expr_call2(arena, OP_UNILATERAL, g, instance_scalar(instance, "e"));
     push = expr_mul(arena, instance_scalar(instance, "k"), g);
-    if (!is_given(instance, "d"))
+    if (!instance_has(instance, "d"))
         return expr_call1(arena, OP_RAMP, push);
     push = expr_add(arena, push, expr_mul(arena, instance_scalar(instance, "d"), rate));
     return expr_if(arena, expr_call2(arena, OP_LT, zero, g), expr_call1(arena, OP_RAMP, push),
@@ -73,10 +68,10 @@ static Expr stop_effort(const Instance *instance, Arena *arena, const Motion1 *m
 {
     Expr effort = expr_int(arena, 0);
 
-    if (is_given(instance, "high"))
+    if (instance_has(instance, "high"))
         effort = expr_sub(arena, effort,
                           above(instance, arena, motion, instance_scalar(instance, "high")));
-    if (is_given(instance, "low"))
+    if (instance_has(instance, "low"))
         effort = expr_add(arena, effort,
                           below(instance, arena, motion, instance_scalar(instance, "low")));
     return effort;
@@ -92,27 +87,28 @@ static Expr backlash_effort(const Instance *instance, Arena *arena, const Motion
 
 /* --- checks --- */
 
-static Status check_law(const Instance *instance, Diag *diag)
+Status check_limit_law(const Instance *instance, const char *const *of_k, Diag *diag)
 {
     const Expr e = instance_scalar(instance, "e");
     const bool is_compliant = !is_rigid(instance);
     Status status;
 
-    if (is_compliant && is_given(instance, "e")) {
+    if (is_compliant && instance_has(instance, "e")) {
         status = diag_set(diag, E_VALUE, "%s takes e= or k=, not both", instance->name);
-        diag_hint(diag, "e= belongs to a rigid limit; d= damps a compliant one");
+        diag_hint(diag, "e= belongs to a rigid limit; %s= damps a compliant one", of_k[0]);
         diag_about(diag, "e");
         return status;
     }
-    if (!is_compliant && is_given(instance, "d")) {
-        status = diag_set(diag, E_VALUE, "d= has no effect without k=");
-        diag_hint(diag, "a rigid limit takes e=, the coefficient of restitution");
-        diag_about(diag, "d");
-        return status;
-    }
+    for (int i = 0; of_k[i] != NULL; i++)
+        if (!is_compliant && instance_has(instance, of_k[i])) {
+            status = diag_set(diag, E_VALUE, "%s= has no effect without k=", of_k[i]);
+            diag_hint(diag, "a rigid limit takes e=, the coefficient of restitution");
+            diag_about(diag, "%s", of_k[i]);
+            return status;
+        }
     if (is_compliant) {
         TRY(check_positive(instance, "k", diag));
-        return check_not_negative(instance, "d", diag);
+        return check_not_negative(instance, of_k[0], diag);
     }
     if (!expr_is_number(e) || (expr_value(e) >= 0 && expr_value(e) <= 1))
         return OK;
@@ -122,6 +118,8 @@ static Status check_law(const Instance *instance, Diag *diag)
     return status;
 }
 
+static const char *const of_k[] = {"d", NULL};
+
 static Status stop_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
     const Expr low = instance_scalar(instance, "low"), high = instance_scalar(instance, "high");
@@ -129,13 +127,13 @@ static Status stop_check(const Instance *instance, Arena *arena, bool planar, Di
 
     (void)arena;
     (void)planar;
-    TRY(check_law(instance, diag));
-    if (!is_given(instance, "low") && !is_given(instance, "high")) {
+    TRY(check_limit_law(instance, of_k, diag));
+    if (!instance_has(instance, "low") && !instance_has(instance, "high")) {
         status = diag_set(diag, E_VALUE, "%s has no limit", instance->name);
         diag_hint(diag, "low=, high= or both");
         return status;
     }
-    if (!is_given(instance, "low") || !is_given(instance, "high") || !expr_is_number(low) ||
+    if (!instance_has(instance, "low") || !instance_has(instance, "high") || !expr_is_number(low) ||
         !expr_is_number(high) || expr_value(low) < expr_value(high))
         return OK;
     status = diag_set(diag, E_VALUE, "low= is not below high=");
@@ -149,7 +147,7 @@ static Status backlash_check(const Instance *instance, Arena *arena, bool planar
     (void)arena;
     (void)planar;
     TRY(check_positive(instance, "gap", diag));
-    return check_law(instance, diag);
+    return check_limit_law(instance, of_k, diag);
 }
 
 /* --- rows --- */

@@ -46,7 +46,7 @@ static const Member touch_members[] = {
 
 static bool is_compliant(const Instance *instance)
 {
-    return contact_has(instance, "k");
+    return instance_has(instance, "k");
 }
 
 static bool touch_is_rigid(const Instance *instance)
@@ -65,7 +65,7 @@ static Expr touch_press(const Instance *instance, Arena *arena, Expr gap, Expr r
                                                                    : expr_int(arena, 0));
     way = expr_pow(arena, expr_call1(arena, OP_RAMP, h), instance_scalar(instance, "exponent"));
     way = expr_mul(arena, instance_scalar(instance, "k"), way);
-    if (!contact_has(instance, "damping"))
+    if (!instance_has(instance, "damping"))
         return way;
     damping = expr_mul(arena, instance_scalar(instance, "damping"), rate);
     return expr_mul(arena, way, expr_call1(arena, OP_RAMP, expr_sub(arena, one, damping)));
@@ -73,7 +73,7 @@ static Expr touch_press(const Instance *instance, Arena *arena, Expr gap, Expr r
 
 static Expr kinetic_bound(const Instance *instance, Arena *arena, Expr load)
 {
-    return expr_mul(arena, instance_scalar(instance, "mu"), load);
+    return expr_mul(arena, friction_positive(arena, instance_scalar(instance, "mu")), load);
 }
 
 static Expr touch_bound(const Instance *instance, Arena *arena, Expr rate, Expr load, bool at_rest)
@@ -105,25 +105,20 @@ static Expr touch_rub(const Instance *instance, Arena *arena, Expr rate, Expr sp
 
 static Status check_coefficients(const Instance *instance, Diag *diag)
 {
-    const Expr ratio = instance_scalar(instance, "static");
-
     TRY(check_not_negative(instance, "mu", diag));
-    if (contact_has(instance, "static") && !contact_has(instance, "mu"))
+    if (instance_has(instance, "static") && !instance_has(instance, "mu"))
         return contact_refuse(diag, "static", "static= has no effect without mu=",
                               "mu= is the coefficient of friction");
-    if (expr_is_number(ratio) && expr_value(ratio) < 1)
-        return contact_refuse(diag, "static", "the static coefficient is not below the kinetic one",
-                              "static= is their ratio, 1 or more");
-    return OK;
+    return check_static_ratio(instance, "coefficient", diag);
 }
 
 /* a bowl's tangents are not those of its rows */
 static Status check_tangents(const Instance *instance, bool planar, Diag *diag)
 {
-    const char *name = contact_has(instance, "bowl") ? "bowl" : "dome";
+    const char *name = instance_has(instance, "bowl") ? "bowl" : "dome";
 
-    if (planar || !contact_has(instance, "mu") ||
-        (!contact_has(instance, "bowl") && !contact_has(instance, "dome")))
+    if (planar || !instance_has(instance, "mu") ||
+        (!instance_has(instance, "bowl") && !instance_has(instance, "dome")))
         return OK;
     return contact_refuse(diag, name, "mu= is of planes in a spatial scene",
                           "in a bowl or on a dome a ball rolls without slipping: roll without mu=");
@@ -133,10 +128,10 @@ static Status roll_check(const Instance *instance, Arena *arena, bool planar, Di
 {
     (void)arena;
     TRY(check_shape(instance, planar, false, diag));
-    if (contact_has(instance, "static"))
+    if (instance_has(instance, "static"))
         return contact_refuse(diag, "static", "static= has no effect without mu=",
                               "mu= lets it slip; without it nothing bounds the friction");
-    if (contact_has(instance, "offset") && !planar)
+    if (instance_has(instance, "offset") && !planar)
         return contact_refuse(diag, "offset", "offset= belongs to rolling in a planar scene",
                               "in space an initial position may be any: init");
     return OK;
@@ -148,45 +143,22 @@ static Status roll_slip_check(const Instance *instance, Arena *arena, bool plana
     TRY(check_shape(instance, planar, false, diag));
     TRY(check_coefficients(instance, diag));
     TRY(check_tangents(instance, planar, diag));
-    if (contact_has(instance, "offset"))
+    if (instance_has(instance, "offset"))
         return contact_refuse(diag, "offset", "offset= and mu= exclude each other",
                               "what may slip isn't tied to its angle");
     return OK;
 }
 
-static Status check_compliance(const Instance *instance, Diag *diag)
-{
-    static const char *const of_k[] = {"exponent", "damping"};
-    const Expr e = instance_scalar(instance, "e");
-
-    if (is_compliant(instance) && contact_has(instance, "e"))
-        return contact_refuse(diag, "e", "a contact takes e= or k=, not both",
-                              "e= belongs to a rigid contact; damping= to a compliant one");
-    for (int i = 0; i < COUNT(of_k); i++)
-        if (!is_compliant(instance) && contact_has(instance, of_k[i])) {
-            (void)diag_set(diag, E_VALUE, "%s= has no effect without k=", of_k[i]);
-            diag_hint(diag, "a rigid contact takes e=, the coefficient of restitution");
-            diag_about(diag, "%s", of_k[i]);
-            return E_VALUE;
-        }
-    if (is_compliant(instance)) {
-        TRY(check_positive(instance, "k", diag));
-        TRY(check_positive(instance, "exponent", diag));
-        return check_not_negative(instance, "damping", diag);
-    }
-    if (expr_is_number(e) && !(expr_value(e) >= 0 && expr_value(e) <= 1))
-        return contact_refuse(diag, "e", "e= is not between 0 and 1",
-                              "0: it stays; 1: it bounces without a loss");
-    return OK;
-}
-
 static Status contact_check(const Instance *instance, Arena *arena, bool planar, Diag *diag)
 {
+    static const char *const of_k[] = {"damping", "exponent", NULL};
+
     (void)arena;
     TRY(check_shape(instance, planar, true, diag));
     TRY(check_coefficients(instance, diag));
     TRY(check_tangents(instance, planar, diag));
-    return check_compliance(instance, diag);
+    TRY(check_limit_law(instance, of_k, diag));
+    return is_compliant(instance) ? check_positive(instance, "exponent", diag) : OK;
 }
 
 /* --- rows --- */

@@ -87,6 +87,34 @@ static void a_block_on_a_slope(void)
     }
 }
 
+/* a coefficient that is a law: with a condition of its own, and below 0, where nothing rubs */
+static void a_coefficient_is_a_law(void)
+{
+    static const struct {
+        const char *mu;
+        double speed;
+    } laws[] = {{"if(p0 == 1, 0.2, 0.4)", 3 - 0.2 * G},
+                {"if(p0 == 2, 0.2, 0.1)", 3 - 0.1 * G},
+                {"0.3 - t", 3 - 0.3 * 0.3 * G / 2},
+                {"0.2*t", 3 - 0.1 * G}};
+
+    for (int i = 0; i < 2 * COUNT(laws); i++) {
+        Kit kit = kit_new();
+        char text[400];
+
+        (void)snprintf(
+            text, sizeof text,
+            "p0 = 1\nscene planar; gravity [0, -9.81]\nbody m mass=2 inertia=0.1\n"
+            "planarjoint j ground m\ncontact c ground m mu=%s%s\ninit j.s1 = 0, j.s2 = 0, "
+            "j.theta = 0, j.s1' = -3, j.s2' = 0, j.theta' = 0\nsimulate 1 rtol=1e-11\n",
+            laws[i / 2].mu, i % 2 == 0 ? "" : " static=1.3");
+        EXPECT_DONE(&kit, text);
+        EXPECT(is_near(kit_value(&kit, "j.s1'"), -laws[i / 2].speed, 1e-9));
+        EXPECT(kit_value(&kit, "c.lost") > 0);
+        kit_free(&kit);
+    }
+}
+
 /* what stands on two corners isn't braced between them, and is held as long as both together can */
 static void a_block_stands_on_two_corners(void)
 {
@@ -366,7 +394,7 @@ static void what_contact_refuses(void)
     } wrong[] = {
         {"contact c ground m axle=z\n", "axle= has no effect without radius="},
         {"contact c ground m radius=-1\n", "radius"},
-        {"contact c ground m e=1.5\n", "e= is not between 0 and 1"},
+        {"contact c ground m e=1.5\n", "e=1.5 is not between 0 and 1"},
         {"contact c ground m e=0.5 k=1e4\n", "takes e= or k=, not both"},
         {"contact c ground m damping=1\n", "damping= has no effect without k="},
         {"contact c ground m exponent=1.5\n", "exponent= has no effect without k="},
@@ -399,6 +427,7 @@ int main(void)
 {
     RUN(a_disc_slides_and_then_rolls);
     RUN(a_block_on_a_slope);
+    RUN(a_coefficient_is_a_law);
     RUN(a_block_stands_on_two_corners);
     RUN(friction_takes_part_in_an_impact);
     RUN(a_ball_in_a_corner);
