@@ -370,7 +370,7 @@ static bool is_surface(Arena *arena, const SystemSurface *surface, Expr conditio
 /* finds the surface on which the equations jump, among those in the state, each once */
 static void find_surface(System *system, Switch *entry)
 {
-    SystemSurface surface = {.law = surface_law(system->arena, entry->call)};
+    SystemSurface surface = {.law = surface_law(system->arena, entry->call), .load = -1};
     int way;
 
     if (is_of_time(system, entry->condition))
@@ -387,6 +387,28 @@ static void find_surface(System *system, Switch *entry)
     add_part(&system->shown->surfaces.at[entry->surface], surface_part(entry->call));
 }
 
+static int number_of_surface(System *system, Expr call);
+
+static bool is_effort(Expr e, void *context)
+{
+    (void)context;
+    return expr_kind(e) == EXPR_CALL && expr_op(e) == OP_UNILATERAL;
+}
+
+static void find_loads(System *system)
+{
+    for (int i = 0; i < system->shown->surfaces.count; i++) {
+        SystemSurface *surface = &system->shown->surfaces.at[i];
+        Expr *calls;
+
+        if (surface->law.bound == NULL)
+            continue;
+        if (expr_find(&surface->law.bound, 1, is_effort, NULL, &calls) > 0)
+            surface->load = number_of_surface(system, calls[0]);
+        mem_free(calls);
+    }
+}
+
 static void gather_all(System *system)
 {
     Gathering g = {.system = system};
@@ -398,6 +420,7 @@ static void gather_all(System *system)
     for (int i = 0; i < system->shown->switches.count; i++)
         if ((*mark_of(&g, system->shown->switches.at[i].call) & 2) != 0)
             find_surface(system, &system->shown->switches.at[i]);
+    find_loads(system);
     for (int i = 0; i < system->network->ideals.count; i++) {
         IdealSwitch ideal;
 
@@ -528,15 +551,13 @@ bool system_hint_locking(System *system, Diag *diag)
     return found;
 }
 
-static int number_of_surface(System *system, Expr call);
-
 /* a bound in which each effort of a unilateral surface is a symbol of that surface */
 static Expr name_load(Arena *arena, Expr e, void *context)
 {
     int number;
     Text name = {0};
 
-    if (expr_kind(e) != EXPR_CALL || expr_op(e) != OP_UNILATERAL)
+    if (!is_effort(e, NULL))
         return e;
     number = number_of_surface(context, e);
     if (number < 0)

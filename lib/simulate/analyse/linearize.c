@@ -254,8 +254,7 @@ static Status find_jumps(const Work *w, Linear *linear, Diag *diag)
 
     /* friction of a contact is named with the contact, or idle */
     for (int i = 0; system_surface(system, i, &surface); i++)
-        if (surface.law.bound == NULL ||
-            !switch_jumps_over(system_arena(system), surface.law.bound, ~0U))
+        if (surface.load < 0)
             LIST_PUSH(conditions, surface.condition);
     if (conditions.count == 0)
         goto done;

@@ -210,34 +210,10 @@ static bool is_watched(const Conditions *c, int surface)
     return false;
 }
 
-static bool is_unilateral(Expr e, void *context)
-{
-    (void)context;
-    return expr_kind(e) == EXPR_CALL && expr_op(e) == OP_UNILATERAL;
-}
-
-/* the unilateral surface whose effort is in a bound; -1: none */
-static int load_of(System *system, Expr bound)
-{
-    Expr *calls;
-    int found = -1, way;
-    const int count = bound != NULL ? expr_find(&bound, 1, is_unilateral, NULL, &calls) : 0;
-    SystemSurface surface;
-
-    for (int i = 0; found < 0 && count > 0 && system_surface(system, i, &surface); i++)
-        if (surface.law.is_unilateral &&
-            surface.condition == surface_of_call(system_arena(system), calls[0], &way))
-            found = i;
-    if (bound != NULL)
-        mem_free(calls);
-    return found;
-}
-
 /* of a surface whose sign is no input: none is slid along, and what has a load has none */
-static Guard guard_of(System *system, int number, const SystemSurface *surface)
+static Guard guard_of(int number, const SystemSurface *surface)
 {
-    const int load = load_of(system, surface->law.bound);
-    const bool waits = load >= 0;
+    const bool waits = surface->load >= 0;
 
     return (Guard){.surface = number,
                    .is_unilateral = surface->law.is_unilateral,
@@ -245,7 +221,7 @@ static Guard guard_of(System *system, int number, const SystemSurface *surface)
                    .is_norm = surface->law.is_norm,
                    .is_idle = waits,
                    .waits = waits,
-                   .load = load + 1};
+                   .load = surface->load + 1};
 }
 
 /* conditions that can be evaluated before the accelerations are known */
@@ -268,7 +244,7 @@ static void push_conditions(CompiledEquations *nb, Conditions *c)
             push_surface(nb, c, on);
         else if (number >= 0 && system_surface(l->system, number, &surface))
             push_condition(nb, c, variable_index_on_surfaces(l, surface.condition),
-                           guard_of(l->system, number, &surface));
+                           guard_of(number, &surface));
         else if (on < 0) /* else a surface monitors its kink */
             push_condition(nb, c, variable_index_on_surfaces(l, switches[i].condition),
                            (Guard){.surface = -1});

@@ -70,14 +70,15 @@ static void find_bounds(VariableIndex *l)
 {
     for (int i = 0; i < l->surface_count; i++) {
         Surface *surface = &l->surfaces[i];
+        SystemSurface known = {.load = -1};
 
         if (surface->law.bound == NULL)
             continue;
         surface->bound = with_signs(l, surface->law.bound);
         surface->hold = with_signs(l, surface->law.hold);
+        (void)system_surface(l->system, surface->number, &known);
         for (int k = 0; k < l->surface_count; k++)
-            if (l->surfaces[k].law.is_unilateral &&
-                expr_depends(surface->bound, l->surfaces[k].sign))
+            if (l->surfaces[k].number == known.load)
                 surface->load = k;
     }
 }

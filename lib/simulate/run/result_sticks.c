@@ -32,8 +32,8 @@ static void read_phase(const PhaseKey *key, const char *part, StickRecord *out, 
                 continue;
             (void)system_surface(key->system, on->surface, &surface);
             read_surface(key, on, out);
-            has_load = has_load || surface.law.bound != NULL;
-            sticks[surface.law.bound != NULL] |= on->side == 0 || on->held;
+            has_load = has_load || surface.load >= 0;
+            sticks[surface.load >= 0] |= on->side == 0 || on->held;
         }
     out->sticks = sticks[has_load] && !(has_load && out->is_open);
 }
