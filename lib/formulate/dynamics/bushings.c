@@ -95,21 +95,12 @@ Status bushing_of(System *system, const Instance *part, BushingLoad *out, Diag *
 Status bushing_add(System *system, const Instance *part, Loads *loads, Diag *diag)
 {
     Arena *arena = system->arena;
-    const int chain = system->kinematics->frames[part->tail].chain;
-    const Vec way = node_way(system, part->tail, part->head);
     BushingLoad b;
-    Vec force, torque;
 
     TRY(bushing_of(system, part, &b, diag));
-    force = vec_hold(arena, frame_vector(system, part->tail, b.force));
-    torque = vec_hold(arena, frame_vector(system, part->tail, b.torque));
-    loads_add_force(system, loads, part->head, force, chain);
-    loads_add_force(system, loads, part->tail, vec_neg(arena, force), chain);
-    loads_add_torque(system, loads, part->head, torque, chain);
-    loads_add_torque(system, loads, part->tail, vec_neg(arena, torque), chain);
-    /* the force on the tail acts at the head's position */
-    force = vec_express(system, force, chain, 0);
-    loads_add_torque(system, loads, part->tail, vec_neg(arena, vec_cross(arena, way, force)), 0);
+    loads_add_between(system, loads, part,
+                      vec_hold(arena, frame_vector(system, part->tail, b.force)),
+                      vec_hold(arena, frame_vector(system, part->tail, b.torque)));
     return OK;
 }
 

@@ -300,19 +300,29 @@ Sums *loads_sum(const System *system, const Loads *loads, SumsFor whom)
     return sums;
 }
 
-void loads_add_shift(System *system, Loads *loads, const Instance *owner, const Step *shift,
-                     Expr effort)
+void loads_add_between(System *system, Loads *loads, const Instance *owner, Vec force, Vec torque)
 {
     Arena *arena = system->arena;
     const int chain = system->kinematics->frames[owner->tail].chain;
-    Vec force = {{shift->axis[0], shift->axis[1], shift->axis[2]}};
-    const Vec way =
-        vec_sub(arena, node_position(system, owner->head), node_position(system, owner->tail));
+    const Vec way = node_way(system, owner->tail, owner->head);
 
-    force = vec_scale(arena, effort, frame_vector(system, owner->tail, force));
     loads_add_force(system, loads, owner->head, force, chain);
     loads_add_force(system, loads, owner->tail, vec_neg(arena, force), chain);
+    if (!vec_is_zero(torque)) {
+        loads_add_torque(system, loads, owner->head, torque, chain);
+        loads_add_torque(system, loads, owner->tail, vec_neg(arena, torque), chain);
+    }
     /* the force on the tail acts at the head's position */
     force = vec_express(system, force, chain, 0);
     loads_add_torque(system, loads, owner->tail, vec_neg(arena, vec_cross(arena, way, force)), 0);
+}
+
+void loads_add_shift(System *system, Loads *loads, const Instance *owner, const Step *shift,
+                     Expr effort)
+{
+    const Vec along = {{shift->axis[0], shift->axis[1], shift->axis[2]}};
+
+    loads_add_between(system, loads, owner,
+                      vec_scale(system->arena, effort, frame_vector(system, owner->tail, along)),
+                      vec_zero(system->arena));
 }

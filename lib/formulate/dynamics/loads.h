@@ -41,6 +41,9 @@ void loads_add_mass(const System *system, Loads *loads, const struct Mass *mass,
                     const Vec *a);
 void loads_add_force(const System *system, Loads *loads, int node, Vec force, int chain);
 void loads_add_torque(const System *system, Loads *loads, int node, Vec torque, int chain);
+/* Adds a force and a torque on a part's head, in the axes of its tail's chain, and both reversed on
+ * its tail, the force at the head's origin. */
+void loads_add_between(System *system, Loads *loads, const Instance *owner, Vec force, Vec torque);
 /* Adds a force along an axis of a part's tail, on its head, and reversed on its tail at that point.
  */
 void loads_add_shift(System *system, Loads *loads, const Instance *owner, const Step *shift,

@@ -173,20 +173,18 @@ Status rubbing_of(System *system, const Instance *instance, int take, FrictionLo
     return OK;
 }
 
-/* the moments of a contact's force about both origins, where its point isn't the head's */
-static void add_moments(System *system, const Instance *instance, const FrictionLoad *r,
+/* a contact's force acts at its point */
+static void add_contact(System *system, const Instance *instance, const FrictionLoad *r,
                         Loads *loads)
 {
     Arena *arena = system->arena;
-    const int chain = system->kinematics->frames[instance->tail].chain;
-    Vec force = vec_zero(arena), moment;
+    Vec force = vec_zero(arena);
 
     for (int k = 0; k < r->count; k++)
         force = vec_add(arena, force, vec_scale(arena, r->effort[k], r->axis[k]));
-    moment =
-        vec_hold(arena, vec_cross(arena, r->point, frame_vector(system, instance->tail, force)));
-    loads_add_torque(system, loads, instance->head, moment, chain);
-    loads_add_torque(system, loads, instance->tail, vec_neg(arena, moment), chain);
+    force = vec_hold(arena, frame_vector(system, instance->tail, force));
+    loads_add_between(system, loads, instance, force,
+                      vec_hold(arena, vec_cross(arena, r->point, force)));
 }
 
 Status rubbing_add(System *system, const Instance *instance, Loads *loads, int take, Diag *diag)
@@ -197,6 +195,10 @@ Status rubbing_add(System *system, const Instance *instance, Loads *loads, int t
     FrictionLoad r;
 
     TRY(rubbing_of(system, instance, take, &r, diag));
+    if (r.gap != NULL) {
+        add_contact(system, instance, &r, loads);
+        return OK;
+    }
     for (int k = 0; k < r.count; k++) {
         const Step along = {.axis = {r.axis[k].at[0], r.axis[k].at[1], r.axis[k].at[2]}};
 
@@ -205,8 +207,6 @@ Status rubbing_add(System *system, const Instance *instance, Loads *loads, int t
         else
             loads_add_shift(system, loads, instance, &along, r.effort[k]);
     }
-    if (r.gap != NULL)
-        add_moments(system, instance, &r, loads);
     if (r.turns) {
         loads_add_torque(system, loads, instance->head, torque, own);
         loads_add_torque(system, loads, instance->tail, vec_neg(arena, torque), own);

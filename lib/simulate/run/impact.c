@@ -127,7 +127,8 @@ static bool find_effects(Impact *m, const double *y)
     return true;
 }
 
-static bool solve_vectors(const Impact *m, const Complementarity *box, int *side, double *x)
+/* block by block and by Newton's method */
+static bool solve_by_sweeps(const Impact *m, const Complementarity *box, int *side, double *x)
 {
     int *slips = NEW_ARRAY(int, box->n);
     double *room = NEW_ARRAY(double, NORM_COMPLEMENTARITY_ROOM(box->n));
@@ -154,8 +155,9 @@ static bool solve(const Impact *m, const double *q, const double *low, double *x
 
     for (int k = 0; k < n; k++)
         high[k] = INFINITY;
-    found = m->has_vectors ? solve_vectors(m, &problem.box, side, x)
-                           : load_complementarity_solve(&problem, side, x, room, integers);
+    /* with friction Lemke's method may end in a ray where there is a solution */
+    found = (!m->has_vectors && load_complementarity_solve(&problem, side, x, room, integers)) ||
+            solve_by_sweeps(m, &problem.box, side, x);
     MEM_FREE(high, room, side, integers);
     return found;
 }
