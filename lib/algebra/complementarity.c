@@ -13,7 +13,7 @@
 #define ROUNDS    10    /* exchanges of blocks without progress */
 #define EXCHANGES 50    /* and with it, and 20 an unknown */
 #define PIVOTS    50    /* of Lemke's method, an unknown */
-#define FEW       6     /* unknowns whose sides are all tried */
+#define FEW       9     /* unknowns whose sides are all tried: three contacts with friction */
 
 typedef struct Scaled {
     int n;
@@ -468,13 +468,15 @@ bool complementarity_solve(const Complementarity *problem, int *side, double *z,
  *     w+      = M z + q + w-     y  >= 0, w+ >= 0, one of them 0
  *     c z_k - z = 2 c z_k - y    w- >= 0, and that >= 0, one of them 0
  *
- * w- is scaled by the root of M_ii as w is. */
+ * where z and w have the sign with M_ki <= 0: so the diagonal of the load, M_kk - c M_ki, doesn't
+ * become negative. w- is scaled by the root of M_ii as w is. */
 typedef struct Loaded {
     const LoadComplementarity *p;
     int n, size; /* of the problem with the doubled rows */
     int *extra;  /* n: the row of w- of each; -1: it has no load */
     int *side;   /* size */
     double *matrix, *q, *low, *high, *z;
+    double *sign; /* n: that of z and w, 1 without a load */
 } Loaded;
 
 static double own_root(const Loaded *l, int i)
@@ -491,19 +493,31 @@ static void place_extra(Loaded *l)
         l->extra[i] = l->p->load[i] >= 0 ? l->size++ : -1;
 }
 
+static void choose_signs(const Loaded *l)
+{
+    for (int i = 0; i < l->n; i++)
+        l->sign[i] = l->extra[i] >= 0 && l->p->box.matrix[l->p->load[i] * l->n + i] > 0 ? -1 : 1;
+}
+
+/* of the problem in these signs */
+static double entry_of(const Loaded *l, int i, int k)
+{
+    return l->sign[i] * l->sign[k] * l->p->box.matrix[i * l->n + k];
+}
+
 static void fill_row(const Loaded *l, int i)
 {
     const LoadComplementarity *p = l->p;
     double *row = l->matrix + (ptrdiff_t)i * l->size;
 
-    l->q[i] = p->box.q[i];
+    l->q[i] = l->sign[i] * p->box.q[i];
     l->low[i] = l->extra[i] >= 0 ? 0 : p->box.low[i];
     l->high[i] = l->extra[i] >= 0 ? INFINITY : p->box.high[i];
     for (int k = 0; k < l->n; k++)
-        row[k] = p->box.matrix[i * l->n + k];
+        row[k] = entry_of(l, i, k);
     for (int k = 0; k < l->n; k++)
         if (l->extra[k] >= 0)
-            row[p->load[k]] -= p->share[k] * p->box.matrix[i * l->n + k];
+            row[p->load[k]] -= p->share[k] * entry_of(l, i, k);
 }
 
 static void fill_extra(const Loaded *l, int i)
@@ -524,9 +538,11 @@ static void fill_extra(const Loaded *l, int i)
 static void guess_sides(const Loaded *l, const int *side)
 {
     for (int i = 0; i < l->n; i++) {
-        l->side[i] = l->extra[i] >= 0 && side[i] == AT_HIGH ? BETWEEN : side[i];
+        const int own = l->sign[i] > 0 ? side[i] : -side[i];
+
+        l->side[i] = l->extra[i] >= 0 && own == AT_HIGH ? BETWEEN : own;
         if (l->extra[i] >= 0)
-            l->side[l->extra[i]] = side[i] == AT_HIGH ? BETWEEN : AT_LOW;
+            l->side[l->extra[i]] = own == AT_HIGH ? BETWEEN : AT_LOW;
     }
 }
 
@@ -538,8 +554,9 @@ static void read_loaded(const Loaded *l, int *side, double *z)
         z[i] = l->z[i];
         side[i] = l->side[i];
         if (extra >= 0) {
-            z[i] -= l->p->share[i] * l->z[l->p->load[i]];
+            z[i] = l->sign[i] * (z[i] - l->p->share[i] * l->z[l->p->load[i]]);
             side[i] = l->side[i] == AT_LOW ? AT_LOW : l->side[extra] == AT_LOW ? BETWEEN : AT_HIGH;
+            side[i] = l->sign[i] > 0 ? side[i] : -side[i];
         }
     }
 }
@@ -557,8 +574,10 @@ bool load_complementarity_solve(const LoadComplementarity *problem, int *side, d
     l.low = take(&room, (size_t)l.size);
     l.high = take(&room, (size_t)l.size);
     l.z = take(&room, (size_t)l.size);
+    l.sign = take(&room, (size_t)l.n);
     for (int i = 0; i < l.size * l.size; i++)
         l.matrix[i] = 0;
+    choose_signs(&l);
     for (int i = 0; i < l.n; i++)
         fill_row(&l, i);
     for (int i = 0; i < l.n; i++)

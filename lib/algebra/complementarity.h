@@ -38,7 +38,7 @@ bool complementarity_eliminate(double *a, int n, double *b, double regular, doub
  * regular, and no unknown
  * with w_i = 0 could be added to them. An unknown with M_ii < 0 is never BETWEEN: it would not
  * remain there. Tries the exchange of blocks from the first guesses, then Lemke's method, then for
- * n <= 6 all sides, those nearest to the guesses first. False: none was found; then `side` and z
+ * n <= 9 all sides, those nearest to the guesses first. False: none was found; then `side` and z
  * have no meaning. O(n^3) an exchange; mostly 2 to 7 of them, up to 2 n pivots of O(n^2) for
  * Lemke's method. */
 bool complementarity_solve(const Complementarity *problem, int *side, double *z, double *room);
@@ -52,7 +52,7 @@ typedef struct LoadComplementarity {
 } LoadComplementarity;
 
 /* numbers and integers of workspace for n unknowns */
-#define LOAD_COMPLEMENTARITY_ROOM(n)     (COMPLEMENTARITY_ROOM(2 * (n)) + 4 * (n) * (n) + 8 * (n))
+#define LOAD_COMPLEMENTARITY_ROOM(n)     (COMPLEMENTARITY_ROOM(2 * (n)) + 4 * (n) * (n) + 9 * (n))
 #define LOAD_COMPLEMENTARITY_INTEGERS(n) (4 * (n))
 
 /* Solves it by complementarity_solve() in z_i + c_i z_k >= 0 and the part of w_i that is below 0,

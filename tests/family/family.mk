@@ -349,6 +349,9 @@ FAMILIES += family_contacts
 family_contacts_SOURCES = tests/family/family_contacts.c tests/family/family.h \
 	tests/random.h tests/unit/session_kit.h tests/unit/test.h
 family_contacts_LDADD = libcotree.la $(unit_ldadd)
+FAMILIES += family_loads
+family_loads_SOURCES = tests/family/family_loads.c tests/family/family.h tests/random.h
+family_loads_LDADD = libcotree.la $(unit_ldadd)
 FAMILIES += family_impacts
 family_impacts_SOURCES = tests/family/family_impacts.c tests/family/family.h \
 	tests/random.h tests/unit/session_kit.h tests/unit/test.h

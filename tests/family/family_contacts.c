@@ -27,6 +27,7 @@ enum {
 enum { STICKS, RIGHT, LEFT, CLOSED, SIDES = 2 * CLOSED };
 
 #define STEP     1e-3
+#define TURN     3e-3 /* rad: of a step */
 #define TOUCHES  1e-9 /* m */
 #define STILL    1e-8 /* m/s */
 #define SOUND    1e-9 /* of forces and accelerations */
@@ -397,7 +398,7 @@ static bool still_holds(const Scene *s, const Course *c)
 static void follow(const Scene *s, Course *c, double end)
 {
     while (c->t < end && !c->ends) {
-        const double most = fmin(STEP, end - c->t);
+        const double most = fmin(fmin(STEP, TURN / fabs(c->v[2])), end - c->t);
         Course next, before = *c;
 
         if (!take_impact(s, c) || !choose(s, c) || !step(s, c, most, &next)) {
@@ -418,7 +419,7 @@ static void follow(const Scene *s, Course *c, double end)
             }
             (void)step(s, c, high, &next); /* just beyond */
         }
-        c->changes += next.t - c->t < most;
+        c->changes += next.t - c->t < 0.999 * most;
         next.changes = c->changes;
         *c = next;
         c->ends = c->changes > CHANGES;
