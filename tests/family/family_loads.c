@@ -25,8 +25,8 @@ typedef struct Problem {
 
 static void draw(Member *member, Problem *p)
 {
-    double rows[MOST][MOST], mass[MOST];
-    int order[MOST];
+    double rows[MOST][MOST] = {{0}}, mass[MOST] = {0};
+    int order[MOST] = {0};
 
     *p = (Problem){.contacts = 1 + member_one_of(member, CONTACTS)};
     p->n = 2 * p->contacts;

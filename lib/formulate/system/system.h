@@ -361,7 +361,7 @@ int system_switches(System *system, const Switch **switches, int *time_only);
 typedef struct SystemSurface {
     Expr condition;
     SurfaceLaw law;
-    int load; /* the unilateral surface whose effort is in the law's bound; -1: none */
+    int load;       /* the unilateral surface whose effort is in the law's bound; -1: none */
     int part_count; /* components of the vector, or the one of coulomb(); 0: there are none */
     Expr part[3];
 } SystemSurface;
