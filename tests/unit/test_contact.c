@@ -26,6 +26,39 @@ static bool is_near(double got, double expected, double within)
     return fabs(got - expected) <= within * (1 + fabs(expected));
 }
 
+/* the integral of f from 0 to 1, by Gauss's rule of five points in 40 parts */
+static double integrate(double (*f)(double s, const double *at), const double *at)
+{
+    static const double x[] = {-0.9061798459386640, -0.5384693101056831, 0, 0.5384693101056831,
+                               0.9061798459386640};
+    static const double weight[] = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889,
+                                    0.4786286704993665, 0.2369268850561891};
+    double sum = 0;
+
+    for (int i = 0; i < 40; i++)
+        for (int k = 0; k < 5; k++)
+            sum += weight[k] / 80 * f((i + (1 + x[k]) / 2) / 40, at);
+    return sum;
+}
+
+/* The block rocks about p: I w'' = -m g R sin(alpha - theta). With theta = a (1 - s^2) the time to
+ * theta = 0 is the integral of 2 a s/w over s. at: a, alpha, sqrt(m g R/I) */
+static double rocking(double s, const double *at)
+{
+    const double theta = at[0] * (1 - s * s);
+
+    return 2 * at[0] * s / (at[2] * sqrt(2 * (cos(at[1] - at[0]) - cos(at[1] - theta))));
+}
+
+/* A ladder of length 2: w^2 = 3/2 g (sin a - sin theta). With theta = a - (a - b) s^2 the time from
+ * a to b is the integral of 2 (a - b) s/w. at: a, b */
+static double sliding_down(double s, const double *at)
+{
+    const double way = at[0] - at[1], theta = at[0] - way * s * s;
+
+    return 2 * way * s / sqrt(1.5 * G * (sin(at[0]) - sin(theta)));
+}
+
 /* a disc of m r^2/2 slides with 3 m/s: it rolls after v/(3 mu g), with two thirds of v */
 static void a_disc_slides_and_then_rolls(void)
 {
@@ -133,6 +166,76 @@ static void a_block_stands_on_two_corners(void)
     kit_free(&kit);
 }
 
+/* a ladder without friction leaves the wall where its head is at 2/3 of its height */
+static void a_ladder_leaves_the_wall(void)
+{
+    static const char *const trees[] = {"", "tree absolute\n", "tree absolute\nform embedded\n"};
+    const double a = 70 * acos(-1.0) / 180, b = asin(2 * sin(a) / 3);
+    const double leaves = integrate(sliding_down, (double[]){a, b});
+
+    for (int i = 0; i < COUNT(trees); i++) {
+        Kit kit = kit_new();
+        char text[800];
+
+        (void)snprintf(text, sizeof text,
+                       "scene planar; gravity [0, -9.81]\nbody ladder mass=3 inertia=1\n"
+                       "arm foot ladder [1, 0]; arm head ladder [-1, 0]\n"
+                       "contact floor ground foot\ncontact wall ground head normal=x\n%s"
+                       "init ladder.theta = -70 deg, ladder.x = cos(70 deg), "
+                       "ladder.y = sin(70 deg)\n"
+                       "init ladder.x' = 0, ladder.y' = 0, ladder.theta' = 0\n"
+                       "simulate 0.9 rtol=1e-11\n",
+                       trees[i]);
+        EXPECT_DONE(&kit, text);
+        (void)snprintf(text, sizeof text, "ladder.theta at %.17g", leaves);
+        EXPECT(is_near(kit_value(&kit, text), -b, 1e-9));
+        (void)snprintf(text, sizeof text, "wall.fn at %.17g", leaves - 1e-6);
+        EXPECT(kit_value(&kit, text) > 0 && kit_value(&kit, text) < 1e-3);
+        (void)snprintf(text, sizeof text, "wall.gap at %.17g", leaves + 1e-3);
+        EXPECT(kit_value(&kit, text) > 0);
+        (void)snprintf(text, sizeof text, "wall.fn at %.17g", leaves + 1e-6);
+        EXPECT(kit_value(&kit, text) == 0);
+        kit_free(&kit);
+    }
+}
+
+/* a belt with 2 m/s takes a box along: friction loses as much as it gains */
+static void a_belt_takes_a_box_along(void)
+{
+    const double same = 2 / (0.3 * G);
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, WIDE "body belt mass=1 inertia=1\nprismatic s ground belt axis=x\n"
+                           "driver D s = 2*t\ncontact c1 belt p mu=0.3\ncontact c2 belt q mu=0.3\n"
+                           "init block.x = 0, block.y = 0.1, block.theta = 0\n"
+                           "init block.x' = 0, block.y' = 0, block.theta' = 0\nsimulate 2\n");
+    EXPECT(is_near(kit_value(&kit, "block.x'"), 2, 1e-12));
+    EXPECT(is_near(kit_value(&kit, "block.x"), 4 - same, 1e-9));
+    EXPECT(is_near(kit_value(&kit, "c1.lost + c2.lost"), 4, 1e-9));
+    kit_free(&kit);
+}
+
+/* a box slides on four corners in a direction of its own, and comes to rest as a block does */
+static void a_box_slides_on_four_corners(void)
+{
+    const double speed = hypot(1, 0.5), way = speed * speed / (2 * 0.3 * G);
+    Kit kit = kit_new();
+
+    EXPECT_DONE(&kit, "gravity [0, 0, -9.81]\nbody b mass=2 inertia=[0.05, 0.06, 0.07]\n"
+                      "arm a1 b [0.3, 0.2, -0.1]; arm a2 b [-0.3, 0.2, -0.1]\n"
+                      "arm a3 b [-0.3, -0.2, -0.1]; arm a4 b [0.3, -0.2, -0.1]\n"
+                      "contact c1 ground a1 mu=0.3\ncontact c2 ground a2 mu=0.3\n"
+                      "contact c3 ground a3 mu=0.3\ncontact c4 ground a4 mu=0.3\n"
+                      "init b.x = 0, b.y = 0, b.z = 0.1, b.q1 = 0, b.q2 = 0, b.q3 = 0\n"
+                      "init b.x' = 1, b.y' = 0.5, b.z' = 0, b.wx = 0, b.wy = 0, b.wz = 0\n"
+                      "simulate 1 rtol=1e-10\n");
+    EXPECT(is_near(kit_value(&kit, "b.x"), way / speed, 1e-8));
+    EXPECT(is_near(kit_value(&kit, "b.y"), 0.5 * way / speed, 1e-8));
+    EXPECT(is_near(kit_value(&kit, "c1.fn + c2.fn + c3.fn + c4.fn"), 2 * G, 1e-10));
+    EXPECT(is_near(kit_value(&kit, "c1.lost + c2.lost + c3.lost + c4.lost"), speed * speed, 1e-8));
+    kit_free(&kit);
+}
+
 /* One impact: of a disc of m r^2/2 the slip s changes by 3 p/m where the friction's impulse is p.
  * It is that which stops s, or mu times the normal one, (1 + e) m v. */
 static void friction_takes_part_in_an_impact(void)
@@ -201,32 +304,13 @@ static void a_ball_comes_to_rest(void)
     }
 }
 
-/* The block rocks about p: I w'' = -m g R sin(alpha - theta). With theta = a (1 - s^2) the time to
- * theta = 0 is the integral of 2 a s/w over s, by the midpoint rule of Gauss. */
-static double time_to_fall(double a, double alpha, double rate)
-{
-    static const double x[] = {-0.9061798459386640, -0.5384693101056831, 0, 0.5384693101056831,
-                               0.9061798459386640};
-    static const double weight[] = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889,
-                                    0.4786286704993665, 0.2369268850561891};
-    double sum = 0;
-
-    for (int i = 0; i < 40; i++)
-        for (int k = 0; k < 5; k++) {
-            const double s = (i + (1 + x[k]) / 2) / 40, theta = a * (1 - s * s);
-            const double w = rate * sqrt(2 * (cos(alpha - a) - cos(alpha - theta)));
-
-            sum += weight[k] / 80 * 2 * a * s / w;
-        }
-    return sum;
-}
-
 /* rocking: the instant of the impact, and Housner's ratio of rates at it, 1 - 3/2 sin^2 alpha */
 static void a_block_rocks(void)
 {
     const double R = sqrt(0.1 * 0.1 + 0.4 * 0.4), alpha = atan2(0.1, 0.4), a = 0.1;
     const double inertia = 2.0 / 12 * (0.2 * 0.2 + 0.8 * 0.8) + 2 * R * R;
-    const double rate = sqrt(2 * G * R / inertia), fall = time_to_fall(a, alpha, rate);
+    const double rate = sqrt(2 * G * R / inertia),
+                 fall = integrate(rocking, (double[]){a, alpha, rate});
     const double before = rate * sqrt(2 * (cos(alpha - a) - cos(alpha)));
     const double ratio = 1 - 1.5 * sin(alpha) * sin(alpha);
     Kit kit = kit_new();
@@ -429,6 +513,9 @@ int main(void)
     RUN(a_block_on_a_slope);
     RUN(a_coefficient_is_a_law);
     RUN(a_block_stands_on_two_corners);
+    RUN(a_ladder_leaves_the_wall);
+    RUN(a_belt_takes_a_box_along);
+    RUN(a_box_slides_on_four_corners);
     RUN(friction_takes_part_in_an_impact);
     RUN(a_ball_in_a_corner);
     RUN(a_ball_comes_to_rest);
