@@ -85,7 +85,7 @@ static Status check_symmetry(const char *param, int count, double m[MOST_RELATIV
     return OK;
 }
 
-/* Pivots of a symmetric elimination: none is below 0, and beside a 0 there are zeros. */
+/* Pivots of a symmetric elimination: none is below 0, and the row of a 0 has zeros alone. */
 static bool is_semidefinite(int count, double m[MOST_RELATIVE][MOST_RELATIVE])
 {
     const double rounding = 1e-12;
@@ -164,7 +164,7 @@ const Component component_bushing = {
         "coincide. The coordinates are the position of the tip in axes of the tail, and the "
         "rotation vector: the angle of the turn times its axis. The effort along each is -(k*x + "
         "d*x'), the energy stored k*x^2/2. The rotation vector is smooth below half a turn. There "
-        "it jumps to the opposite turn, and the moment with it: a run that comes near is told. "
+        "it jumps to the opposite turn, and the moment with it: a run that comes near is reported. "
         "In a planar scene the angle is any number of turns. A matrix, row by row, couples the "
         "directions; it is symmetric.",
     .example = "gravity [0, 0, -9.81]\nbody m1 mass=2 inertia=[0.01, 0.02, 0.02]\n"

@@ -64,7 +64,7 @@ static Expr d_direction(Arena *arena, Expr e, const Expr *rates)
     return expr_div(arena, expr_sub(arena, rates[0], expr_mul(arena, e, rates[1])), arg(e, 1));
 }
 
-/* b v/|n|: b' v/|n| + b (v' - v n'/n)/|n|, which is 0 beside b' where n is v, and at n = 0 */
+/* b v/|n|: b' v/|n| + b (v' - v n'/n)/|n|, whose second term is 0 where n is v, and at n = 0 */
 static Expr d_coulomb(Arena *arena, Expr e, const Expr *rates)
 {
     const Expr v = arg(e, 0), n = arg(e, 1);

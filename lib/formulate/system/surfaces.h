@@ -25,7 +25,7 @@
 
 enum { SURFACE_PARTS = 3 }; /* components of a vector */
 
-/* what tells surfaces with one condition apart */
+/* the law of a surface, by which surfaces with one condition differ */
 typedef struct SurfaceLaw {
     Expr ratio;         /* r; NULL: 1; of unilateral() its coefficient of restitution */
     Expr bound, hold;   /* b of coulomb() where it slips, and at rest; NULL: there is none */

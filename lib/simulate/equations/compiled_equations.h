@@ -15,7 +15,7 @@ const Equations *compiled_equations(const CompiledEquations *numbers);
 /* Prepare for modes that slide along the layout's surfaces where `on` does. E_MISSING: how one of
  * them is left can't be determined. */
 MUST_USE Status compiled_slide(CompiledEquations *numbers, const OnSurface *on, Diag *diag);
-/* The expression that stays 0 while the motion slides along a surface, which determines its k-th
+/* The expression that remains 0 while the motion slides along a surface, which determines its k-th
  * unknown sign, in the layout's mode; it is of the level of that sign: of u', x' or z. Fails as
  * system_rate() does. */
 MUST_USE Status compiled_slip(const VariableIndex *layout, int k, Expr *out, Diag *diag);

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#define AT_ZERO   1e-12 /* of the run: instants that are not told apart */
+#define AT_ZERO   1e-12 /* of the run: instants that count as one */
 #define AHEAD     1e-7  /* of the run: how far to look for the way a condition goes */
 #define NEAR_ZERO 1e-13 /* of a condition's largest size, where it was zero just before */
 #define ROUNDS    100   /* events that set each other off at one instant */

@@ -3,7 +3,7 @@
  * Where rows are close, and no corner is between them, the course between two rows is that of the
  * polynomial of degree 5 through the nearest six, if the polynomial of degree 3 gives nearly the
  * same. The rest is cut into pieces that end at rows and corners and are no longer than half the
- * mean step. All items are energies: differences next to nothing beside those of the run are
+ * mean step. All items are energies: differences that are small against those of the run are
  * rounding. Gauss and Legendre's points are all inside, so that each piece has one mode. Pieces
  * are halved until their halves give the same. */
 #include "simulate/run/result_reader_impl.h"

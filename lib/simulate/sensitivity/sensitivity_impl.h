@@ -37,7 +37,7 @@ typedef struct CrossingPoint {
  * parameters, column by column. `after` is that state in the run. E_MODEL where it has none. */
 MUST_USE Status sensitivity_new_values(SensitivityPass *pass, const CrossingPoint *at,
                                        const double *after, double *out, Diag *diag);
-/* Continue behind a crossing: S from before it, which the pass has reached. */
+/* Continue after a crossing: S from before it, which the pass has reached. */
 MUST_USE Status sensitivity_jump(SensitivityPass *pass, int crossing, Diag *diag);
 
 #endif
