@@ -124,15 +124,17 @@ bool surface_rests(Expr ratio)
 Expr surface_of_call(Arena *arena, Expr call, int *way)
 {
     const Expr condition = switch_condition(arena, call);
+    SurfaceLaw law;
     Expr surface;
 
     if (condition == NULL || expr_is_number(condition))
         return NULL;
     *way = 1;
-    if (surface_law(arena, call).is_norm)
+    law = surface_law(arena, call);
+    if (law.is_norm)
         return condition;
     surface = surface_of(arena, condition, way);
-    if (!surface_law(arena, call).is_unilateral || *way > 0)
+    if (!law.is_unilateral || *way > 0)
         return surface;
     *way = 1;
     return expr_neg(arena, surface);

@@ -39,15 +39,15 @@ static bool may_be_between(const Putting *put, Expr e)
     return false;
 }
 
-/* whether a call may jump on it; the call's bound may contain signs of other surfaces by now */
-static bool is_of_surface(Arena *arena, const Surface *surface, Expr call)
+/* whether a call of that law may jump on it; its bound may contain signs of other surfaces by now
+ */
+static bool is_of_surface(const Surface *surface, const SurfaceLaw *law)
 {
-    const SurfaceLaw law = surface_law(arena, call);
     SurfaceLaw with_signs = surface->law;
 
     with_signs.bound = surface->bound;
     with_signs.hold = surface->hold;
-    return surface_law_is(&surface->law, &law) || surface_law_is(&with_signs, &law);
+    return surface_law_is(&surface->law, law) || surface_law_is(&with_signs, law);
 }
 
 /* the bound with the sign of the surface, which is 0 where the part's own symbol is what acts */
@@ -101,19 +101,21 @@ static Expr sign_on(Arena *arena, const Putting *put, Expr call)
 {
     int way;
     const Expr condition = surface_of_call(arena, call, &way);
+    SurfaceLaw law;
 
     if (condition == NULL)
         return NULL;
+    law = surface_law(arena, call);
     for (int i = 0; i < put->count; i++)
-        if (is_of_surface(arena, &put->surfaces[i], call) &&
+        if (is_of_surface(&put->surfaces[i], &law) &&
             (put->surfaces[i].condition == condition || put->surfaces[i].measure == condition))
             return put_sign(arena, &put->surfaces[i], call, way);
     for (int i = 0; i < put->count; i++) {
         int other;
 
-        if (!is_of_surface(arena, &put->surfaces[i], call) ||
+        if (!is_of_surface(&put->surfaces[i], &law) ||
             !surface_is_same(put->surfaces[i].condition, condition, &other) ||
-            (other < 0 && surface_law(arena, call).is_unilateral))
+            (other < 0 && law.is_unilateral))
             continue;
         return put_sign(arena, &put->surfaces[i], call, way * other);
     }
@@ -587,10 +589,13 @@ static int number_of_surface(System *system, Expr call)
 {
     int way;
     const Expr condition = switch_jumps(call) ? surface_of_call(system->arena, call, &way) : NULL;
+    SurfaceLaw law;
 
-    for (int i = 0; i < system->shown->surfaces.count && condition != NULL; i++) {
+    if (condition == NULL)
+        return -1;
+    law = surface_law(system->arena, call);
+    for (int i = 0; i < system->shown->surfaces.count; i++) {
         const SystemSurface *surface = &system->shown->surfaces.at[i];
-        const SurfaceLaw law = surface_law(system->arena, call);
 
         if (is_law_of(system, &surface->law, &law) &&
             (surface->condition == condition ||
